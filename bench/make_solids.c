@@ -55,7 +55,7 @@ static void ring(void)
     turned(1);
 }
 
-/* A leaf at a place, with half sizes and a colour by chance. */
+/* A leaf at a position, with half sizes and a colour by chance. */
 static void leaf(void (*shape)(void), float x, float y, float z, const float half[3])
 {
     float r = 0.3f + 0.6f * next(), g = 0.3f + 0.6f * next(), b = 0.3f + 0.6f * next();

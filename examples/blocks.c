@@ -50,13 +50,13 @@ building building_of(int index)
 {
     int      row = index / (SIDES * LOTS), side = index / LOTS % SIDES, lot = index % LOTS;
     bool     front = lot < FRONT_LOTS, back = !front && lot < FRONT_LOTS + BACK_LOTS;
-    int      count = front ? FRONT_LOTS : BACK_LOTS, place_in = front  ? lot
-                                                                : back ? lot - FRONT_LOTS
-                                                                       : lot - FRONT_LOTS - BACK_LOTS;
+    int      count = front ? FRONT_LOTS : BACK_LOTS, position_in = front  ? lot
+                                                                   : back ? lot - FRONT_LOTS
+                                                                          : lot - FRONT_LOTS - BACK_LOTS;
     building b = {.seed = seed_of(index, 3)};
     double   start;
-    share_out(index / LOTS * 3 + (front ? 0 : back ? 1 : 2), place_in, count, &start, &b.width);
-    bool first = place_in == 0, last = place_in == count - 1;
+    share_out(index / LOTS * 3 + (front ? 0 : back ? 1 : 2), position_in, count, &start, &b.width);
+    bool first = position_in == 0, last = position_in == count - 1;
     b.depth = front ? 11.5 + 1.2 * chance(&b.seed) : 10.5 + chance(&b.seed);
     b.floors = 3 + (int)(3.4 * chance(&b.seed)) + (front && row == 2 ? 1 : 0);
     b.detail = !front || row > 1 || (row == 1 && lot > 1) ? 0 : row == 0 && lot < 2 ? 2 : 1;
@@ -218,7 +218,7 @@ static void all_facades(mesh *m, layer part, const building *b)
             building side = *b;
             side.detail = b->detail > 1 ? 1 : 0;
             facade(m, part, &side, b->depth, false);
-            place(m, kept, right ? 90 : -90, right ? b->width : 0, 0, right ? 0 : -b->depth);
+            position(m, kept, right ? 90 : -90, right ? b->width : 0, 0, right ? 0 : -b->depth);
         }
 }
 
@@ -343,7 +343,7 @@ void build_walls(mesh *m, int index)
             chimney(m, gabled ? b.width * 0.7 : b.width - 0.8, -b.depth * 0.62, foot, ridge + 1.1, b.detail);
         all_facades(m, STONEWORK, &b);
     }
-    place(m, 0, b.degrees, b.x, 0, b.z);
+    position(m, 0, b.degrees, b.x, 0, b.z);
 }
 
 void build_windows(mesh *m, int block)
@@ -355,7 +355,7 @@ void build_windows(mesh *m, int block)
         if (b.roof == ROOF_TOWER || unseen)
             continue;
         all_facades(m, PANES, &b);
-        place(m, kept, b.degrees, b.x, 0, b.z);
+        position(m, kept, b.degrees, b.x, 0, b.z);
     }
 }
 
@@ -435,6 +435,6 @@ void build_roofs(mesh *m, int block)
         } else if (b.roof == ROOF_GABLE || b.roof == ROOF_STEPPED) {
             gable_roof(m, &b);
         }
-        place(m, kept, b.degrees, b.x, 0, b.z);
+        position(m, kept, b.degrees, b.x, 0, b.z);
     }
 }

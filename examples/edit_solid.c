@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { PATH_ROOM = 1024 };
+enum { PATH_CAPACITY = 1024 };
 
 /* Axes of the bores; each matrix turns z to one of them, column after column. */
 static const double axes[3][16] = {
@@ -50,9 +50,9 @@ static lmn_status build(lmn_scene *scene, uint32_t *solid, uint32_t *moving, lmn
 }
 
 /* The upright bore goes along x, once there and back. */
-static lmn_status move(lmn_scene *scene, uint32_t solid, uint32_t bore, double share, lmn_error *error)
+static lmn_status move(lmn_scene *scene, uint32_t solid, uint32_t bore, double fraction, lmn_error *error)
 {
-    double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 26 * sin(6.283185307179586 * share), 0, 0, 1};
+    double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 26 * sin(6.283185307179586 * fraction), 0, 0, 1};
     return lmn_solid_set_matrix(scene, solid, bore, matrix, error);
 }
 
@@ -65,7 +65,7 @@ static lmn_status draw_frames(lmn_scene *scene, lmn_renderer *renderer, const lm
     desc.samples = 4;
     lmn_status status = build(scene, &solid, &bore, error);
     for (int i = 0; i < count && status == LMN_OK; i++) {
-        char         path[PATH_ROOM];
+        char         path[PATH_CAPACITY];
         lmn_drawing *drawing = NULL;
         snprintf(path, sizeof path, "%s%03d.png", prefix, i);
         status = move(scene, solid, bore, (double)i / count, error);

@@ -32,7 +32,7 @@ static const struct {
     [TOWER_ROOF] = {"tower roof", TILES},
     [GARDEN_WALL] = {"garden wall", STONE},
     [COPING] = {"coping", STONE},
-    [ROOM] = {"room", PAINT},
+    [CAPACITY] = {"room", PAINT},
     [FLOOR] = {"floor", WOOD},
     [JOISTS] = {"joists", WOOD},
     [HEARTH] = {"hearth", BRICK},
@@ -188,11 +188,11 @@ void box_at(house *h, int part, double left, double bottom, double back, double 
 
 /* --- tubes ---------------------------------------------------------------------------------------------- */
 
-static vertex on_tube(const double at[3], way along, double angle, double t, double radius, double lean)
+static vertex on_tube(const double at[3], direction along, double angle, double t, double radius, double lean)
 {
     double s = sin(angle), c = cos(angle), slope = sqrt(1 + lean * lean);
     vertex p = {0};
-    if (along == UP_WAY)
+    if (along == UP_DIRECTION)
         p = (vertex){.at = {at[0] + radius * s, at[1] + t, at[2] + radius * c},
                      .normal = {s / slope, lean / slope, c / slope}};
     else
@@ -201,7 +201,8 @@ static vertex on_tube(const double at[3], way along, double angle, double t, dou
     return p;
 }
 
-static void tube_end(house *h, int part, const double at[3], way along, double t, double radius, int segments, bool far)
+static void tube_end(house *h, int part, const double at[3], direction along, double t, double radius, int segments,
+                     bool far)
 {
     part_mesh *m = &h->parts[part];
     double     tile = metres_a_tile[part_facts[part].material];
@@ -211,7 +212,7 @@ static void tube_end(house *h, int part, const double at[3], way along, double t
         double angle = 2 * PI * i / segments;
         vertex p = on_tube(at, along, angle, t, radius, 0);
         double out[3] = {0};
-        out[along == UP_WAY ? 1 : 0] = far ? 1 : -1;
+        out[along == UP_DIRECTION ? 1 : 0] = far ? 1 : -1;
         memcpy(p.normal, out, sizeof out);
         p.chart = index;
         p.unique[0] = radius + radius * sin(angle);
@@ -227,7 +228,7 @@ static void tube_end(house *h, int part, const double at[3], way along, double t
     }
 }
 
-void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius,
+void tube(house *h, int part, const double at[3], direction along, double length, double from_radius, double to_radius,
           int segments)
 {
     enum { BANDS = 6 };
@@ -244,21 +245,21 @@ void tube(house *h, int part, const double at[3], way along, double length, doub
         uint32_t first = m->vertex_count;
         for (int i = 0; i <= segments; i++)
             for (int end = 0; end < 2; end++) {
-                double share = end ? high : low, angle = 2 * PI * i / segments;
-                vertex p =
-                    on_tube(at, along, angle, length * share, from_radius + (to_radius - from_radius) * share, lean);
+                double fraction = end ? high : low, angle = 2 * PI * i / segments;
+                vertex p = on_tube(at, along, angle, length * fraction,
+                                   from_radius + (to_radius - from_radius) * fraction, lean);
                 p.chart = index;
                 p.unique[0] = around * i / segments;
-                p.unique[1] = slant * share;
+                p.unique[1] = slant * fraction;
                 p.metres[0] = wraps * i / segments;
-                p.metres[1] = slant * share / tile;
+                p.metres[1] = slant * fraction / tile;
                 put_vertex(m, p);
             }
         for (uint32_t i = first; i < first + 2 * (uint32_t)segments; i += 2) {
             const uint32_t two[6] = {i, i + 2, i + 3, i, i + 3, i + 1};
             const uint32_t back[6] = {i, i + 3, i + 2, i, i + 1, i + 3};
             for (int k = 0; k < 6; k++)
-                put_index(m, along == UP_WAY ? two[k] : back[k]);
+                put_index(m, along == UP_DIRECTION ? two[k] : back[k]);
         }
     }
     tube_end(h, part, at, along, 0, from_radius, segments, false);

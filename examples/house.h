@@ -35,7 +35,7 @@ enum {
     TOWER_ROOF,
     GARDEN_WALL,
     COPING,
-    ROOM,
+    CAPACITY,
     FLOOR,
     JOISTS,
     HEARTH,
@@ -45,7 +45,7 @@ enum {
 };
 enum { BRICK, TILES, WOOD, STONE, GRASS, GLASS, PAINT, IRON, MATERIAL_COUNT };
 
-typedef enum way { RIGHT_WAY, UP_WAY } way;
+typedef enum direction { RIGHT_DIRECTION, UP_DIRECTION } direction;
 
 typedef struct vertex {
     double at[3], normal[3], metres[2], unique[2]; /* unique: metres in the chart */
@@ -92,8 +92,8 @@ void put_polygon(house *h, const face *f, const double (*points)[2], int count);
 void slanted_box(house *h, int part, const double at[3], const double u[3], const double v[3], const double w[3]);
 void box_at(house *h, int part, double left, double bottom, double back, double right, double top, double front);
 
-/* A tube or a cone that stands at a place; its ends are closed. */
-void tube(house *h, int part, const double at[3], way along, double length, double from_radius, double to_radius,
+/* A tube or a cone that stands at a position; its ends are closed. */
+void tube(house *h, int part, const double at[3], direction along, double length, double from_radius, double to_radius,
           int segments);
 
 bool house_write(house *h, const char *path, const char *folder);

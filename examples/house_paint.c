@@ -73,11 +73,11 @@ static void hatch(int layer, double together, double left, double bottom, double
     for (double d = -reach + distance * chance(); d < reach; d += distance * about(1, 0.2)) {
         double from = -9, to = 9;
         for (int k = 0; k < 2; k++) { /* clip the line at d to the box */
-            double way = k ? s : c, off = k ? d * c : -d * s, half = k ? half_y : half_x;
-            if (fabs(way) < 1e-9)
+            double direction = k ? s : c, off = k ? d * c : -d * s, half = k ? half_y : half_x;
+            if (fabs(direction) < 1e-9)
                 continue;
-            from = fmax(from, fmin((-half - off) / way, (half - off) / way));
-            to = fmin(to, fmax((-half - off) / way, (half - off) / way));
+            from = fmax(from, fmin((-half - off) / direction, (half - off) / direction));
+            to = fmin(to, fmax((-half - off) / direction, (half - off) / direction));
         }
         if (to - from < distance * 0.7)
             continue;

@@ -163,7 +163,7 @@ static void column_pair(mesh *m, double x)
     }
     kept = m->point_count;
     elevation(m, &impost, NULL, 0, -0.31, 0.31);
-    place(m, kept, 0, x, 0, -arcade);
+    position(m, kept, 0, x, 0, -arcade);
 }
 
 /* A flat respond at a pier. */
@@ -174,7 +174,7 @@ static void respond(mesh *m, double x)
     elevation(m, &impost, NULL, 0, -0.31, 0.31);
     box(m, -0.15, coping - 0.02, -0.3, 0.15, coping + 0.12, 0.3);
     box(m, -0.1, coping + 0.1, -0.24, 0.1, springing - 0.17, 0.24);
-    place(m, kept, 0, x, 0, -arcade);
+    position(m, kept, 0, x, 0, -arcade);
 }
 
 static void build_columns(mesh *m)
@@ -266,11 +266,11 @@ static outline gable_roof(double half, double height, double rise, int courses)
     outline      o = {0};
     const double thick = 0.2;
     for (int side = 1; side >= -1; side -= 2) {
-        outline way = {0};
-        add_courses(&way, side * half, height, 0, height + rise, courses);
-        for (int k = 0; k < way.count - 1; k++) {
-            int i = side > 0 ? k : way.count - 2 - k;
-            add_point(&o, way.at[i][0], way.at[i][1]);
+        outline direction = {0};
+        add_courses(&direction, side * half, height, 0, height + rise, courses);
+        for (int k = 0; k < direction.count - 1; k++) {
+            int i = side > 0 ? k : direction.count - 2 - k;
+            add_point(&o, direction.at[i][0], direction.at[i][1]);
         }
         if (side > 0)
             add_point(&o, 0, height + rise);
@@ -465,10 +465,10 @@ static void build_hedge(mesh *m)
 
 static void build_shrubs(mesh *m)
 {
-    static const double places[][3] = {{3.4, -3.9, 0.5}, {5.9, -3.3, 0.42}, {3.1, -6.1, 0.4}, {6.1, -6, 0.55}};
-    for (int k = 0; k < COUNT(places); k++) {
-        const double middle[3] = {places[k][0], places[k][2] * 0.8, places[k][1]};
-        foliage(m, middle, places[k][2], places[k][2], (uint32_t)k + 7);
+    static const double positions[][3] = {{3.4, -3.9, 0.5}, {5.9, -3.3, 0.42}, {3.1, -6.1, 0.4}, {6.1, -6, 0.55}};
+    for (int k = 0; k < COUNT(positions); k++) {
+        const double middle[3] = {positions[k][0], positions[k][2] * 0.8, positions[k][1]};
+        foliage(m, middle, positions[k][2], positions[k][2], (uint32_t)k + 7);
     }
 }
 
@@ -496,8 +496,8 @@ static void build_well_frame(mesh *m)
         box(m, 1.2 * side - 0.09, 0.28, -0.09, 1.2 * side + 0.09, 3.06, 0.09);
         box(m, 1.2 * side - 0.075, 3.0, -0.85, 1.2 * side + 0.075, 3.15, 0.85);
         bar(m, low, high, 0.07, 0.07, 4);
-        for (int way = -1; way <= 1; way += 2) {
-            const double foot[3] = {1.2 * side, 2.5, 0}, head[3] = {1.2 * side, 3.04, 0.6 * way};
+        for (int direction = -1; direction <= 1; direction += 2) {
+            const double foot[3] = {1.2 * side, 2.5, 0}, head[3] = {1.2 * side, 3.04, 0.6 * direction};
             bar(m, foot, head, 0.06, 0.06, 4);
         }
     }
@@ -540,7 +540,7 @@ static void build_nave(mesh *m)
     section(m, &gable, -outside - 0.02, -outside + 0.7);
     uint32_t kept = m->point_count;
     section(m, &copings, nave_east - 0.42, nave_east + 0.08);
-    place(m, kept, 0, 0, 0, -nave_axis);
+    position(m, kept, 0, 0, 0, -nave_axis);
     for (int k = 0; k < 6; k++) { /* pilaster strips between the windows over the walk's roof */
         double x = -10.4 + 4.2 * k;
         box(m, x - 0.25, roof_height(wall), -wall - 0.1, x + 0.25, nave_eave - 0.3, -wall + 0.12);
@@ -564,7 +564,7 @@ static void build_nave_roof(mesh *m)
     outline  o = gable_roof(4.98, nave_eave - 0.28, 5.55, 13);
     uint32_t kept = m->point_count;
     section(m, &o, -14.5, nave_east - 0.35);
-    place(m, kept, 0, 0, 0, -nave_axis);
+    position(m, kept, 0, 0, 0, -nave_axis);
 }
 
 /* The apse: a drum with pilaster strips and windows that are only drawn on it. */
@@ -581,7 +581,7 @@ static void build_apse(mesh *m)
         } else {
             box(m, -0.2, 0.5, 3, 0.2, 6.75, 3.3);
         }
-        place(m, kept, 90 + k * 30, nave_east - 0.4, 0, -nave_axis);
+        position(m, kept, 90 + k * 30, nave_east - 0.4, 0, -nave_axis);
     }
 }
 
@@ -617,7 +617,7 @@ static void build_range(mesh *m)
 {
     outline gable = {0}, holes[COUNT(range_gable_openings)];
     facade_wall(m, &range_west_wall);
-    place(m, 0, 90, 0, 0, 0);
+    position(m, 0, 90, 0, 0, 0);
     add_point(&gable, -4, -0.42);
     add_point(&gable, 4, -0.42);
     add_point(&gable, 4, range_eave);
@@ -630,7 +630,7 @@ static void build_range(mesh *m)
     uint32_t kept = m->point_count;
     elevation(m, &gable, holes, range_gable.count, range_gable.back, range_gable.front);
     elevation(m, &gable, NULL, 0, -15.3, -14.5);
-    place(m, kept, 0, -range_axis, 0, 0);
+    position(m, kept, 0, -range_axis, 0, 0);
 }
 
 typedef void facade_maker(mesh *m, const facade *f);
@@ -638,10 +638,10 @@ typedef void facade_maker(mesh *m, const facade *f);
 static void fill_range_openings(mesh *m, facade_maker *of_gable, facade_maker *of_wall)
 {
     of_gable(m, &range_gable);
-    place(m, 0, 0, -range_axis, 0, 0);
+    position(m, 0, 0, -range_axis, 0, 0);
     uint32_t kept = m->point_count;
     of_wall(m, &range_west_wall);
-    place(m, kept, 90, 0, 0, 0);
+    position(m, kept, 90, 0, 0, 0);
 }
 
 static void build_range_frames(mesh *m)
@@ -659,7 +659,7 @@ static void build_range_roof(mesh *m)
     outline  o = gable_roof(4.5, range_eave - 0.2, 4.75, 11);
     uint32_t kept = m->point_count;
     section(m, &o, -14.75, 15.0);
-    place(m, kept, 90, -range_axis, 0, 0);
+    position(m, kept, 90, -range_axis, 0, 0);
 }
 
 static const opening tower_openings[] = {{0, 5, 6, 0.16, OPEN},
@@ -686,7 +686,7 @@ static void build_tower(mesh *m)
             double x = -half + 0.3 + (2 * half - 0.6) * c / 8;
             box(m, x - 0.1, tower_top - 0.45, -half - 0.16, x + 0.1, tower_top - 0.1, -half + 0.1);
         }
-        place(m, kept, 90 * k, 0, 0, 0);
+        position(m, kept, 90 * k, 0, 0, 0);
     }
     static const double courses[][3] = {{0.5, 0.25, 0.3}, {12.2, 0.2, 0.2}, {15.6, 0.28, 0.24}, {20.45, 0.3, 0.34}};
     for (int k = 0; k < COUNT(courses); k++) {
@@ -696,7 +696,7 @@ static void build_tower(mesh *m)
         plan(m, &outer, &hole, 1, low, low + courses[k][1]);
     }
     box(m, -half + 0.4, 15.9, -half + 0.4, half - 0.4, 16.2, half - 0.4);
-    place(m, 0, 0, -tower_axis, 0, -nave_axis);
+    position(m, 0, 0, -tower_axis, 0, -nave_axis);
 }
 
 static void build_tower_roof(mesh *m)
@@ -794,14 +794,14 @@ static void build_church_stones(mesh *m)
 {
     const facade high = {nave_axis - 3.6, nave_axis + 3.6, 0, 0, 0, nave_east, NULL, 0};
     facade_stones(m, &high, true, 9.6, 12, 6, 9);
-    place(m, 0, 90, 0, 0, 0);
+    position(m, 0, 90, 0, 0, 0);
     quoins(m, nave_east, -wall, -1, -1, 0, nave_eave - 0.3);
 }
 
 static void build_range_stones(mesh *m)
 {
     facade_stones(m, &range_gable, true, 0.3, 8.4, 8, 21);
-    place(m, 0, 0, -range_axis, 0, 0);
+    position(m, 0, 0, -range_axis, 0, 0);
     quoins(m, -range_axis - 4, 14.42, 1, -1, 0, range_eave - 0.4);
     quoins(m, -range_axis + 4, 14.42, -1, -1, 0, range_eave - 0.4);
 }
@@ -812,9 +812,9 @@ static void build_tower_stones(mesh *m)
     for (int k = 0; k < 4; k++) {
         uint32_t kept = m->point_count;
         facade_stones(m, &face, true, 0.9, 15.4, 9, (uint32_t)k + 60);
-        place(m, kept, 90 * k, 0, 0, 0);
+        position(m, kept, 90 * k, 0, 0, 0);
     }
-    place(m, 0, 0, -tower_axis, 0, -nave_axis);
+    position(m, 0, 0, -tower_axis, 0, -nave_axis);
 }
 
 /* --- the assembly --------------------------------------------------------------------------------------- */

@@ -26,7 +26,7 @@ static const double bed_top = -112, bed_bottom = -128;
 static const double shaft_back = -2 * 96 - 15, shaft_front = 2 * 96 + 15; /* ends of the outer journals */
 static const double fit = 0.2;
 
-static double cylinder_place(int index)
+static double cylinder_position(int index)
 {
     return (index - (CYLINDERS - 1) / 2.0) * spacing;
 }
@@ -118,7 +118,7 @@ static void build_crankshaft(mesh *m)
 {
     const frame f = {.along = FRONT};
     for (int i = 0; i < CYLINDERS; i++) {
-        double middle = cylinder_place(i), angle = angle_of(i), half = journal_width / 2;
+        double middle = cylinder_position(i), angle = angle_of(i), half = journal_width / 2;
         journal(m, stroke * sin(angle * PI / 180), stroke * cos(angle * PI / 180), middle - half, middle + half,
                 pin_radius);
         web(m, angle, middle - half - web_thickness);
@@ -142,14 +142,15 @@ static void build_crankshaft(mesh *m)
 
 /* --- flywheel, timing gear, pulley ---------------------------------------------------------------------- */
 
-/* Straight-sided teeth; `share` is how much of a tooth's pitch its tip and its foot take. */
-static outline toothed(double root, double tip, int teeth, double tip_share, double foot_share)
+/* Straight-sided teeth; `fraction` is how much of a tooth's pitch its tip and its foot take. */
+static outline toothed(double root, double tip, int teeth, double tip_fraction, double foot_fraction)
 {
     outline o = {0};
     for (int i = 0; i < teeth; i++)
         for (int k = 0; k < 4; k++) {
-            double share = (k == 0 || k == 3 ? foot_share : tip_share) / 2, radius = k == 0 || k == 3 ? root : tip;
-            double angle = 2 * PI * (i + (k < 2 ? -share : share)) / teeth;
+            double fraction = (k == 0 || k == 3 ? foot_fraction : tip_fraction) / 2,
+                   radius = k == 0 || k == 3 ? root : tip;
+            double angle = 2 * PI * (i + (k < 2 ? -fraction : fraction)) / teeth;
             add_point(&o, radius * cos(angle), radius * sin(angle));
         }
     return o;
@@ -218,7 +219,7 @@ static void build_nose_bolt(mesh *m)
 
 /* --- bed and bearings ----------------------------------------------------------------------------------- */
 
-static const double bearing_width = 21, stud_place = 46;
+static const double bearing_width = 21, stud_position = 46;
 
 static void build_bed(mesh *m)
 {
@@ -280,7 +281,7 @@ static void build_bearing_cap(mesh *m)
     extrude(m, &o, NULL, 0, -bearing_width / 2 + 0.5, bearing_width / 2 - 0.5);
     LATHE(m, (&(frame){{0, 40, 0}, UP}), 24, NULL, NULL, {0, 0}, {0, 6}, {6, 6}, {7, 5}, {7, 3}, {9, 3}, {9, 0});
     for (int side = -1; side <= 1; side += 2)
-        hexagon_head(m, &(frame){{side * (stud_place + 2), 19, 0}, UP}, 13, 9);
+        hexagon_head(m, &(frame){{side * (stud_position + 2), 19, 0}, UP}, 13, 9);
 }
 
 /* --- connecting rods ------------------------------------------------------------------------------------ */
@@ -380,11 +381,11 @@ static void build_piston(mesh *m)
 
 static void build_piston_rings(mesh *m)
 {
-    static const double places[3][2] = {{-26.6, 3.2}, {-18.2, 2.4}, {-10.7, 2.4}};
+    static const double positions[3][2] = {{-26.6, 3.2}, {-18.2, 2.4}, {-10.7, 2.4}};
     for (int k = 0; k < 3; k++) {
-        double  low = piston_high + places[k][0];
+        double  low = piston_high + positions[k][0];
         outline whole = circle(0, 0, piston_radius + 0.5, ROUND), inside = circle(0, 0, piston_radius - 2.8, ROUND);
-        extrude_along(m, &(frame){.along = UP}, &whole, &inside, 1, low, low + places[k][1]);
+        extrude_along(m, &(frame){.along = UP}, &whole, &inside, 1, low, low + positions[k][1]);
     }
 }
 
@@ -446,7 +447,7 @@ static void list_parts(assembly *a)
     }
     for (int i = 0; i < CYLINDERS; i++) {
         bool   outer = angle_of(i) == crank_angle;
-        double z = cylinder_place(i), y = gudgeon_height(angle_of(i));
+        double z = cylinder_position(i), y = gudgeon_height(angle_of(i));
         add(a, "Connecting rod", i + 1, RODS, STEEL, outer ? build_outer_rod : build_inner_rod, 0, z);
         add(a, "Rod cap", i + 1, RODS, STEEL, outer ? build_outer_rod_cap : build_inner_rod_cap, 0, z);
         add(a, "Piston", i + 1, PISTONS, ALUMINIUM, build_piston, y, z);

@@ -104,7 +104,7 @@ static void panel(house *h, int part, const site *s, double width, double height
         }
 }
 
-static const double thick = 0.26, room_floor = 0.47, room_top = 3.2;
+static const double thick = 0.26, capacity_floor = 0.47, capacity_top = 3.2;
 
 /* The room's side of a wall; the upper windows are above its ceiling. */
 static void inner_wall(house *h, const site *s, double width, const hole *holes, int count)
@@ -112,16 +112,16 @@ static void inner_wall(house *h, const site *s, double width, const hole *holes,
     hole mirrored[8];
     int  kept = 0;
     site inside = {.right = {-s->right[0], -s->right[1]}};
-    out_of(s, width - thick, room_floor, -thick, inside.at);
+    out_of(s, width - thick, capacity_floor, -thick, inside.at);
     for (int i = 0; i < count; i++)
-        if (holes[i].top < room_top)
+        if (holes[i].top < capacity_top)
             mirrored[kept++] = (hole){width - holes[i].right - thick,
-                                      holes[i].bottom - room_floor + 1e-3,
+                                      holes[i].bottom - capacity_floor + 1e-3,
                                       width - holes[i].left - thick,
-                                      holes[i].top - room_floor,
+                                      holes[i].top - capacity_floor,
                                       false,
                                       false};
-    panel(h, ROOM, &inside, width - 2 * thick, room_top - room_floor, mirrored, kept);
+    panel(h, CAPACITY, &inside, width - 2 * thick, capacity_top - capacity_floor, mirrored, kept);
 }
 
 static void wall(house *h, const site *s, double width, double height, const hole *holes, int count)
@@ -210,7 +210,8 @@ static void build_roof(house *h)
         double gutter[3] = {-half_x - over, at[1] - 0.02, turn * (length * c + 0.02) - 0.06};
         box_at(h, BEAMS, gutter[0], gutter[1], gutter[2], half_x + over, gutter[1] + 0.12, gutter[2] + 0.12);
     }
-    tube(h, RIDGE, (const double[3]){-half_x - over - 0.02, ridge + 0.15, 0}, RIGHT_WAY, long_x + 0.04, 0.14, 0.14, 10);
+    tube(h, RIDGE, (const double[3]){-half_x - over - 0.02, ridge + 0.15, 0}, RIGHT_DIRECTION, long_x + 0.04, 0.14,
+         0.14, 10);
 }
 
 /* --- tower, chimney, steps, garden ---------------------------------------------------------------------- */
@@ -218,13 +219,13 @@ static void build_roof(house *h)
 static void build_tower(house *h)
 {
     const double at[3] = {tower_x, 0, tower_z};
-    tube(h, TOWER, at, UP_WAY, tower_top, tower_r, tower_r, 40);
-    tube(h, TOWER_STONES, at, UP_WAY, plinth + 0.1, tower_r + 0.09, tower_r + 0.09, 40);
+    tube(h, TOWER, at, UP_DIRECTION, tower_top, tower_r, tower_r, 40);
+    tube(h, TOWER_STONES, at, UP_DIRECTION, plinth + 0.1, tower_r + 0.09, tower_r + 0.09, 40);
     for (int k = 0; k < 2; k++)
-        tube(h, TOWER_STONES, (const double[3]){tower_x, k ? 5.75 : 3.25, tower_z}, UP_WAY, k ? 0.34 : 0.16,
+        tube(h, TOWER_STONES, (const double[3]){tower_x, k ? 5.75 : 3.25, tower_z}, UP_DIRECTION, k ? 0.34 : 0.16,
              tower_r + 0.08, tower_r + (k ? 0.24 : 0.08), 40);
-    tube(h, TOWER_ROOF, (const double[3]){tower_x, tower_top, tower_z}, UP_WAY, 3.5, tower_r + 0.4, 0.04, 40);
-    tube(h, IRON_PART, (const double[3]){tower_x, tower_top + 3.35, tower_z}, UP_WAY, 0.8, 0.045, 0.02, 8);
+    tube(h, TOWER_ROOF, (const double[3]){tower_x, tower_top, tower_z}, UP_DIRECTION, 3.5, tower_r + 0.4, 0.04, 40);
+    tube(h, IRON_PART, (const double[3]){tower_x, tower_top + 3.35, tower_z}, UP_DIRECTION, 0.8, 0.045, 0.02, 8);
     box_at(h, IRON_PART, tower_x, tower_top + 3.9, tower_z - 0.01, tower_x + 0.5, tower_top + 4.1, tower_z + 0.01);
     static const double windows[][2] = {{-20, 1.5}, {38, 3.9}, {-62, 3.9}, {-20, 3.9}};
     for (int k = 0; k < 4; k++) {
@@ -246,15 +247,15 @@ static void build_chimney(house *h)
     box_at(h, STONES, 1.25, 8.05, -0.65, 2.25, 8.2, 0.35);
     box_at(h, CHIMNEY, 1.3, 7.75, -0.6, 2.2, 7.87, 0.3);
     for (int k = 0; k < 2; k++)
-        tube(h, POTS, (const double[3]){1.57 + 0.36 * k, 8.18, -0.15}, UP_WAY, 0.5, 0.14, 0.11, 14);
+        tube(h, POTS, (const double[3]){1.57 + 0.36 * k, 8.18, -0.15}, UP_DIRECTION, 0.5, 0.14, 0.11, 14);
 }
 
 static void pier(house *h, double x, double z)
 {
     box_at(h, GARDEN_WALL, x - 0.28, 0, z - 0.28, x + 0.28, 1.35, z + 0.28);
     box_at(h, COPING, x - 0.35, 1.33, z - 0.35, x + 0.35, 1.47, z + 0.35);
-    tube(h, COPING, (const double[3]){x, 1.46, z}, UP_WAY, 0.16, 0.16, 0.22, 14);
-    tube(h, COPING, (const double[3]){x, 1.62, z}, UP_WAY, 0.2, 0.22, 0.02, 14);
+    tube(h, COPING, (const double[3]){x, 1.46, z}, UP_DIRECTION, 0.16, 0.16, 0.22, 14);
+    tube(h, COPING, (const double[3]){x, 1.62, z}, UP_DIRECTION, 0.2, 0.22, 0.02, 14);
 }
 
 static void build_garden(house *h)
@@ -282,30 +283,30 @@ static void build_garden(house *h)
 
 static void stool(house *h, double x, double z)
 {
-    box_at(h, FURNITURE, x - 0.2, room_floor + 0.42, z - 0.2, x + 0.2, room_floor + 0.47, z + 0.2);
+    box_at(h, FURNITURE, x - 0.2, capacity_floor + 0.42, z - 0.2, x + 0.2, capacity_floor + 0.47, z + 0.2);
     for (int k = 0; k < 4; k++) {
         double u = x + (k & 1 ? 0.14 : -0.14), v = z + (k & 2 ? 0.14 : -0.14);
-        box_at(h, FURNITURE, u - 0.03, room_floor, v - 0.03, u + 0.03, room_floor + 0.43, v + 0.03);
+        box_at(h, FURNITURE, u - 0.03, capacity_floor, v - 0.03, u + 0.03, capacity_floor + 0.43, v + 0.03);
     }
 }
 
-static void build_room(house *h)
+static void build_capacity(house *h)
 {
-    const double x = half_x - thick, z = half_z - thick, y = room_floor;
+    const double x = half_x - thick, z = half_z - thick, y = capacity_floor;
     box_at(h, FLOOR, -x, y - 0.2, -z, x, y, z);
-    box_at(h, ROOM, -x, room_top, -z, x, room_top + 0.1, z);
+    box_at(h, CAPACITY, -x, capacity_top, -z, x, capacity_top + 0.1, z);
     for (int k = -2; k <= 2; k++)
-        box_at(h, JOISTS, 1.15 * k - 0.1, room_top - 0.22, -z, 1.15 * k + 0.1, room_top + 0.01, z);
+        box_at(h, JOISTS, 1.15 * k - 0.1, capacity_top - 0.22, -z, 1.15 * k + 0.1, capacity_top + 0.01, z);
     /* The hearth: two cheeks, a beam over them, the breast up to the ceiling. */
     for (int side = -1; side <= 1; side += 2)
         box_at(h, HEARTH, -1 + side * 0.62 - 0.18, y, -z, -1 + side * 0.62 + 0.18, y + 1.15, -z + 0.55);
     box_at(h, JOISTS, -1.95, y + 1.15, -z, -0.05, y + 1.35, -z + 0.68);
-    box_at(h, HEARTH, -1.7, y + 1.35, -z, -0.3, room_top, -z + 0.45);
+    box_at(h, HEARTH, -1.7, y + 1.35, -z, -0.3, capacity_top, -z + 0.45);
     box_at(h, HEARTH, -1.5, y, -z, -0.5, y + 1.15, -z + 0.06);
     box_at(h, STONES, -2, y, -z, 0, y + 0.06, -z + 0.95);
-    tube(h, IRON_PART, (const double[3]){-1, y + 0.35, -z + 0.3}, UP_WAY, 0.25, 0.15, 0.2, 16);
-    tube(h, BEAMS, (const double[3]){-1.3, y + 0.12, -z + 0.22}, RIGHT_WAY, 0.6, 0.07, 0.06, 9);
-    tube(h, BEAMS, (const double[3]){-1.35, y + 0.13, -z + 0.4}, RIGHT_WAY, 0.7, 0.06, 0.07, 9);
+    tube(h, IRON_PART, (const double[3]){-1, y + 0.35, -z + 0.3}, UP_DIRECTION, 0.25, 0.15, 0.2, 16);
+    tube(h, BEAMS, (const double[3]){-1.3, y + 0.12, -z + 0.22}, RIGHT_DIRECTION, 0.6, 0.07, 0.06, 9);
+    tube(h, BEAMS, (const double[3]){-1.35, y + 0.13, -z + 0.4}, RIGHT_DIRECTION, 0.7, 0.06, 0.07, 9);
     /* A table and what stands on it. */
     box_at(h, FURNITURE, -0.4, y + 0.74, -0.65, 1.3, y + 0.8, 0.25);
     box_at(h, FURNITURE, -0.3, y + 0.62, -0.55, 1.2, y + 0.74, -0.5);
@@ -316,14 +317,14 @@ static void build_room(house *h)
     }
     stool(h, 0.1, 0.65);
     stool(h, -0.85, -0.15);
-    tube(h, CROCKERY, (const double[3]){0.2, y + 0.8, -0.25}, UP_WAY, 0.16, 0.07, 0.11, 16);
-    tube(h, CROCKERY, (const double[3]){0.2, y + 0.96, -0.25}, UP_WAY, 0.12, 0.11, 0.06, 16);
-    tube(h, CROCKERY, (const double[3]){0.75, y + 0.8, -0.1}, UP_WAY, 0.05, 0.08, 0.17, 20);
+    tube(h, CROCKERY, (const double[3]){0.2, y + 0.8, -0.25}, UP_DIRECTION, 0.16, 0.07, 0.11, 16);
+    tube(h, CROCKERY, (const double[3]){0.2, y + 0.96, -0.25}, UP_DIRECTION, 0.12, 0.11, 0.06, 16);
+    tube(h, CROCKERY, (const double[3]){0.75, y + 0.8, -0.1}, UP_DIRECTION, 0.05, 0.08, 0.17, 20);
     /* A shelf and a chest. */
     box_at(h, FURNITURE, -x, y + 1.5, 0, -x + 0.28, y + 1.55, 0.8);
     for (int k = 0; k < 3; k++)
-        tube(h, CROCKERY, (const double[3]){-x + 0.14, y + 1.55, 0.15 + 0.25 * k}, UP_WAY, 0.16 + 0.03 * (k & 1), 0.07,
-             0.09, 14);
+        tube(h, CROCKERY, (const double[3]){-x + 0.14, y + 1.55, 0.15 + 0.25 * k}, UP_DIRECTION, 0.16 + 0.03 * (k & 1),
+             0.07, 0.09, 14);
     box_at(h, FURNITURE, 1.7, y, -z + 0.02, 2.7, y + 0.5, -z + 0.55);
     box_at(h, FURNITURE, 1.67, y + 0.48, -z + 0.01, 2.73, y + 0.56, -z + 0.58);
 }
@@ -339,6 +340,6 @@ int main(int count, char **arguments)
     build_tower(&h);
     build_chimney(&h);
     build_garden(&h);
-    build_room(&h);
+    build_capacity(&h);
     return house_write(&h, arguments[1], arguments[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

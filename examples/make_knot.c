@@ -92,14 +92,14 @@ enum { VERTEX_SIZE = 8 + 8 + 4, BYTES = VERTICES * VERTEX_SIZE + 2 * INDICES };
  * of 0. */
 static void fill(char *bytes)
 {
-    char *positions = bytes, *normals = bytes + 8 * VERTICES, *places = bytes + 16 * VERTICES,
+    char *positions = bytes, *normals = bytes + 8 * VERTICES, *uvs = bytes + 16 * VERTICES,
          *indices = bytes + 20 * VERTICES;
     for (int i = 0; i <= ALONG; i++)
         for (int j = 0; j <= AROUND; j++) {
             double u = (double)(i % ALONG) / ALONG, v = (double)(j % AROUND) / AROUND;
             positions = put_triple(positions, surface_at(u, v), 32767 / extent);
             normals = put_triple(normals, normal_at(u, v), 32767);
-            places = put_short(put_short(places, lround(65535.0 * i / ALONG)), lround(65535.0 * j / AROUND));
+            uvs = put_short(put_short(uvs, lround(65535.0 * i / ALONG)), lround(65535.0 * j / AROUND));
         }
     for (int i = 0; i < ALONG; i++)
         for (int j = 0; j < AROUND; j++) {

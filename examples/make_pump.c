@@ -28,7 +28,7 @@ static const double valve_seat = 11; /* the seat is the cone r = x + valve_seat 
 static const double ball_radius = 4, plug_tip = 21.5;
 static const double fit = 0.03; /* clearance of parts that sit tight */
 
-static void bolt_place(int index, double at[2])
+static void bolt_position(int index, double at[2])
 {
     double angle = (30 + 60 * index) * PI / 180;
     at[0] = bolt_circle * cos(angle);
@@ -40,7 +40,7 @@ static double pocket_angle(double radius)
     return asin((axle - pocket) / radius) * 180 / PI;
 }
 
-static double ball_place(void)
+static double ball_position(void)
 {
     return -valve_seat + (ball_radius + fit) * sqrt(2);
 }
@@ -110,11 +110,11 @@ static void valve_bore(mesh *m, ring *base, ring mouths[2])
     const frame f = {{0, 0, valve_z}, RIGHT};
     outline     o = circle(0, 0, 5, SMALL_ROUND);
     *base = put_ring(m, &f, &o, body_radius);
-    ring room = branch(m, &f, base, 5, 15.5, 2.6, 2, 4, &mouths[0]);
+    ring capacity = branch(m, &f, base, 5, 15.5, 2.6, 2, 4, &mouths[0]);
     ring upper = put_ring(m, &f, &o, 5 - valve_seat);
     o = circle(0, 0, 2.6, SMALL_ROUND);
     ring lower = put_ring(m, &f, &o, 2.6 - valve_seat);
-    sew(m, &room, &upper);
+    sew(m, &capacity, &upper);
     sew(m, &upper, &lower);
     ring orifice = branch(m, &f, &lower, 2.6, -15.5, 2, 1.6, 5, &mouths[1]);
     ring end;
@@ -238,7 +238,7 @@ static void build_housing(mesh *m)
     chamber(m, mouths, drilled, &front[0]);
     for (int b = 0; b < 6; b++) {
         double at[2];
-        bolt_place(b, at);
+        bolt_position(b, at);
         const frame hole = {{at[0], at[1], 0}, FRONT};
         LATHE(m, &hole, SMALL_ROUND, &front[1 + b], NULL, {joint, 3.6}, {joint - 0.5, 3.06}, {25, 3.06}, {23.4, 0});
     }
@@ -254,7 +254,7 @@ static void build_gasket(mesh *m)
     holes[0] = double_round(axle, radius, pocket_angle(radius), CHAMBER_ARC);
     for (int b = 0; b < 6; b++) {
         double at[2];
-        bolt_place(b, at);
+        bolt_position(b, at);
         holes[1 + b] = circle(at[0], at[1], 3.5, SMALL_ROUND);
     }
     extrude(m, &outer, holes, 7, joint + fit, cover_back - fit);
@@ -278,7 +278,7 @@ static void build_cover(mesh *m)
     LATHE(m, &idler, ROUND, NULL, &back[1], {47.5, 0}, {47.5, 6}, {46, 7.5}, {46, 12}, {cover_back, 12});
     for (int b = 0; b < 6; b++) {
         double at[2];
-        bolt_place(b, at);
+        bolt_position(b, at);
         const frame hole = {{at[0], at[1], 0}, FRONT};
         LATHE(m, &hole, SMALL_ROUND, &front[2 + b], &back[2 + b], {cover_front, 6.4}, {bolt_seat, 6.4},
               {bolt_seat, 3.8}, {bolt_seat - 0.5, 3.3}, {cover_back, 3.3});
@@ -559,7 +559,7 @@ static const double coil = 3.2, wire = 0.6, turns = 8;
  * springs have it. */
 static double spring_rise(double turn)
 {
-    double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = plug_tip - ball_place() - wire - fit;
+    double from = sqrt(pow(ball_radius + wire + fit, 2) - coil * coil), to = plug_tip - ball_position() - wire - fit;
     double tight = 2 * wire + 0.1, rise = (to - from - 2 * tight) / (turns - 2);
     return from + (turn < 1           ? tight * turn
                    : turn > turns - 1 ? to - from - tight * (turns - turn)
@@ -643,12 +643,12 @@ static void list_parts(assembly *a)
         model_part *p = &a->parts[a->count++];
         snprintf(a->names[b], sizeof a->names[b], "Bolt %d", (b + 1) % 10);
         *p = (model_part){a->names[b], CASING, ZINC, build_bolt, {0, 0, bolt_seat + fit}};
-        bolt_place(b, p->at);
+        bolt_position(b, p->at);
     }
     for (size_t i = 0; i < sizeof rest / sizeof *rest; i++)
         a->parts[a->count++] = rest[i];
-    a->parts[a->count++] = (model_part){"Valve ball", VALVE, STEEL, build_ball, {ball_place(), 0, 0}};
-    a->parts[a->count++] = (model_part){"Valve spring", VALVE, STEEL, build_spring, {ball_place(), 0, 0}};
+    a->parts[a->count++] = (model_part){"Valve ball", VALVE, STEEL, build_ball, {ball_position(), 0, 0}};
+    a->parts[a->count++] = (model_part){"Valve spring", VALVE, STEEL, build_spring, {ball_position(), 0, 0}};
     a->parts[a->count++] = (model_part){"Valve plug", VALVE, ZINC, build_plug, {body_radius + fit, 0, 0}};
 }
 
@@ -660,14 +660,14 @@ static void animate(glb *g, FILE *json)
     static const float times[KEYS] = {0, (float)4 / 3, (float)8 / 3, 4};
     int                input = glb_put_floats(g, times, KEYS, 1, "SCALAR", 0);
     fprintf(json, "\"animations\":[{\"name\":\"Run\",\"samplers\":[");
-    for (int way = 1; way >= -1; way -= 2) {
+    for (int direction = 1; direction >= -1; direction -= 2) {
         float values[KEYS][4] = {0};
         for (int k = 0; k < KEYS; k++) {
-            values[k][2] = (float)(way * round(sin(PI * k / 3) * 1e6) / 1e6);
+            values[k][2] = (float)(direction * round(sin(PI * k / 3) * 1e6) / 1e6);
             values[k][3] = (float)(round(cos(PI * k / 3) * 1e6) / 1e6);
         }
         int output = glb_put_floats(g, values[0], KEYS, 4, "VEC4", 0);
-        fprintf(json, "%s{\"input\":%d,\"output\":%d}", way < 0 ? "," : "", input, output);
+        fprintf(json, "%s{\"input\":%d,\"output\":%d}", direction < 0 ? "," : "", input, output);
     }
     fprintf(json, "],\"channels\":[");
     for (int k = 0; k < 2; k++)

@@ -16,8 +16,8 @@
 enum { STOREYS = 4, ESCALATOR_STEPS = 21 };
 
 static const double left = -20, back = -13, corner_x = 8, corner_z = 5, corner_radius = 8;
-static const double way_begin = -27.8, way_end = 107.8; /* between the walls at the neighbours */
-static const double module = 1.5;                       /* from mullion to mullion; on the corner an eighth of it */
+static const double direction_begin = -27.8, direction_end = 107.8; /* between the walls at the neighbours */
+static const double module = 1.5; /* from mullion to mullion; on the corner an eighth of it */
 static const double levels[STOREYS + 1] = {0.16, 5.2, 9.4, 13.6, 17.8};
 static const double slab = 0.42, glass = 0.45, pavement = 0.12;
 static const double void_left = -6, void_right = 4, void_half = 4; /* the hall through which the escalators rise */
@@ -25,54 +25,54 @@ static const double pavilion = 5, pavilion_top = 21.5;
 
 /* --- along the fronts ----------------------------------------------------------------------------------- */
 
-static void add_way_point(outline *o, double way, double set_back)
+static void add_direction_point(outline *o, double direction, double set_back)
 {
-    if (way <= 0)
-        add_point(o, corner_x + way, corner_z + corner_radius - set_back);
-    else if (way < 90)
-        add_point(o, corner_x + (corner_radius - set_back) * sin(way * PI / 180),
-                  corner_z + (corner_radius - set_back) * cos(way * PI / 180));
+    if (direction <= 0)
+        add_point(o, corner_x + direction, corner_z + corner_radius - set_back);
+    else if (direction < 90)
+        add_point(o, corner_x + (corner_radius - set_back) * sin(direction * PI / 180),
+                  corner_z + (corner_radius - set_back) * cos(direction * PI / 180));
     else
-        add_point(o, corner_x + corner_radius - set_back, corner_z - (way - 90));
+        add_point(o, corner_x + corner_radius - set_back, corner_z - (direction - 90));
 }
 
-static void add_way(outline *o, double from, double to, double set_back, bool backwards)
+static void add_direction(outline *o, double from, double to, double set_back, bool backwards)
 {
     enum { ROUND = 24 };
-    double ways[ROUND + 3];
+    double directions[ROUND + 3];
     int    count = 0;
-    ways[count++] = from;
+    directions[count++] = from;
     for (int k = 0; k <= ROUND; k++)
         if (90.0 * k / ROUND > from && 90.0 * k / ROUND < to)
-            ways[count++] = 90.0 * k / ROUND;
-    ways[count++] = to;
+            directions[count++] = 90.0 * k / ROUND;
+    directions[count++] = to;
     for (int k = 0; k < count; k++)
-        add_way_point(o, ways[backwards ? count - 1 - k : k], set_back);
+        add_direction_point(o, directions[backwards ? count - 1 - k : k], set_back);
 }
 
 /* An upright band along the fronts. */
 static void strip(mesh *m, double from, double to, double outer, double inner, double low, double high)
 {
     outline o = {0};
-    add_way(&o, from, to, outer, false);
-    add_way(&o, from, to, inner, true);
+    add_direction(&o, from, to, outer, false);
+    add_direction(&o, from, to, inner, true);
     plan(m, &o, NULL, 0, low, high);
 }
 
-/* Puts what was made at the origin, looking to the front, to its place on the slabs' edges. */
-static void place_on_way(mesh *m, uint32_t kept, double way, double set_back)
+/* Puts what was made at the origin, looking to the front, to its position on the slabs' edges. */
+static void position_on_direction(mesh *m, uint32_t kept, double direction, double set_back)
 {
     outline at = {0};
-    add_way_point(&at, way, set_back);
-    place(m, kept, way <= 0 ? 0 : way >= 90 ? 90 : way, at.at[0][0], 0, at.at[0][1]);
+    add_direction_point(&at, direction, set_back);
+    position(m, kept, direction <= 0 ? 0 : direction >= 90 ? 90 : direction, at.at[0][0], 0, at.at[0][1]);
 }
 
 /* A post that reaches from `outer` to `inner` behind the slabs' edges. */
-static void post(mesh *m, double way, double width, double outer, double inner, double low, double high)
+static void post(mesh *m, double direction, double width, double outer, double inner, double low, double high)
 {
     uint32_t kept = m->point_count;
     box(m, -width / 2, low, -inner, width / 2, high, -outer);
-    place_on_way(m, kept, way, 0);
+    position_on_direction(m, kept, direction, 0);
 }
 
 /* The mullions' ways: from the left wall to the corner, along it, and on to the wall at the back. */
@@ -97,7 +97,7 @@ static outline footprint(double set_back, double from_left, double from_back)
 {
     outline o = {0};
     add_point(&o, left + from_left, back + from_back);
-    add_way(&o, left + from_left - corner_x, 90 + corner_z - back - from_back, set_back, false);
+    add_direction(&o, left + from_left - corner_x, 90 + corner_z - back - from_back, set_back, false);
     return o;
 }
 
@@ -161,14 +161,15 @@ static void build_lift_doors(mesh *m)
 
 static void build_glass_ground(mesh *m)
 {
-    strip(m, way_begin, 36.5, glass, glass + 0.04, levels[0] - 0.03, levels[1] - slab + 0.02);
-    strip(m, 53.5, way_end, glass, glass + 0.04, levels[0] - 0.03, levels[1] - slab + 0.02);
+    strip(m, direction_begin, 36.5, glass, glass + 0.04, levels[0] - 0.03, levels[1] - slab + 0.02);
+    strip(m, 53.5, direction_end, glass, glass + 0.04, levels[0] - 0.03, levels[1] - slab + 0.02);
     strip(m, 36.5, 53.5, glass, glass + 0.04, 3.1, levels[1] - slab + 0.02);
 }
 
 static void glass_of_storey(mesh *m, int storey)
 {
-    strip(m, way_begin, way_end, glass, glass + 0.04, levels[storey] - 0.02, levels[storey + 1] - slab + 0.02);
+    strip(m, direction_begin, direction_end, glass, glass + 0.04, levels[storey] - 0.02,
+          levels[storey + 1] - slab + 0.02);
 }
 
 static void build_glass_first(mesh *m)
@@ -195,12 +196,12 @@ static void build_mullions(mesh *m)
             if (storey > 0 || (k % 2 == 0 && k != FRONT_MODULES + CORNER_MODULES / 2))
                 post(m, station(k), 0.07, glass - 0.06, glass + 0.12, low, high);
         if (storey > 0) {
-            strip(m, way_begin + 0.03, way_end - 0.03, glass - 0.05, glass + 0.09, levels[storey] + 0.92,
+            strip(m, direction_begin + 0.03, direction_end - 0.03, glass - 0.05, glass + 0.09, levels[storey] + 0.92,
                   levels[storey] + 0.98);
             continue;
         }
         for (int side = 0; side < 2; side++) {
-            double from = side ? 53.4 : way_begin + 0.03, to = side ? way_end - 0.03 : 36.6;
+            double from = side ? 53.4 : direction_begin + 0.03, to = side ? direction_end - 0.03 : 36.6;
             strip(m, from, to, glass - 0.05, glass + 0.09, 3.2, 3.28);
             strip(m, from, to, glass - 0.09, glass + 0.13, levels[0] - 0.07, levels[0] + 0.22);
             post(m, side ? 53.5 : 36.5, 0.1, glass - 0.07, glass + 0.13, low, high);
@@ -236,7 +237,7 @@ static void build_canopy_columns(mesh *m)
 {
     for (int k = 0; k < 6; k++) {
         outline at = {0};
-        add_way_point(&at, k * 18, -2.6);
+        add_direction_point(&at, k * 18, -2.6);
         TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.12}, {0.17, 0.12}, {0.19, 0.065}, {3.88, 0.065},
                {3.88, 0});
     }
@@ -256,7 +257,7 @@ static void build_revolving_door(mesh *m)
         uint32_t kept = m->point_count;
         box(m, -0.02, low + 0.04, 0.03, 0.02, 2.52, 1.0);
         box(m, -0.035, 1.05, 0.03, 0.035, 1.12, 1.01);
-        place(m, kept, 120 * k + 25, 0, 0, 0);
+        position(m, kept, 120 * k + 25, 0, 0, 0);
     }
     for (int side = -1; side <= 1; side += 2) { /* the curved walls of the drum */
         outline o = {0};
@@ -264,7 +265,7 @@ static void build_revolving_door(mesh *m)
         add_arc(&o, 0, 0, 1.07, side < 0 ? 225 : 45, side < 0 ? 135 : -45, 10);
         plan(m, &o, NULL, 0, low, 2.55);
     }
-    place_on_way(m, 0, 45, glass + 0.02);
+    position_on_direction(m, 0, 45, glass + 0.02);
 }
 
 /* Letters of the height 1 as outlines; R has its eye as a second one. */
@@ -292,7 +293,7 @@ static void build_sign(mesh *m)
     box(m, -0.2, 6.3, 0.5, 0.2, 17.3, 2.3);
     for (int k = 2; k < STOREYS; k++)
         box(m, -0.1, levels[k] - 0.32, -0.2, 0.1, levels[k] - 0.1, 0.52);
-    place_on_way(m, 0, -2.25, 0);
+    position_on_direction(m, 0, -2.25, 0);
 }
 
 /* Top to bottom on both sides of the sign. */
@@ -308,9 +309,9 @@ static void build_letters(mesh *m)
             for (int i = 0; i < COUNT(letter_eye); i++)
                 add_point(&eye, (letter_eye[i][0] - 0.31) * height, letter_eye[i][1] * height);
             elevation(m, &o, &eye, letters[k].points == letter_r, 0.17, 0.26);
-            place(m, kept, side ? 90 : -90, 0, 15.55 - 1.76 * k, 1.4);
+            position(m, kept, side ? 90 : -90, 0, 15.55 - 1.76 * k, 1.4);
         }
-    place_on_way(m, 0, -2.25, 0);
+    position_on_direction(m, 0, -2.25, 0);
 }
 
 /* --- inside --------------------------------------------------------------------------------------------- */
@@ -354,7 +355,7 @@ static void build_escalators(mesh *m)
         for (int side = -1; side <= 1; side += 2) {
             uint32_t kept = m->point_count;
             escalator(m, levels[k], levels[k + 1]);
-            place(m, kept, 0, (void_left + void_right) / 2, 0, 1.05 * side);
+            position(m, kept, 0, (void_left + void_right) / 2, 0, 1.05 * side);
         }
 }
 
@@ -401,7 +402,7 @@ static void build_counters(mesh *m)
 
 static void build_parapet(mesh *m)
 {
-    strip(m, way_begin, way_end, 0.03, 0.3, levels[STOREYS] - 0.05, levels[STOREYS] + 0.3);
+    strip(m, direction_begin, direction_end, 0.03, 0.3, levels[STOREYS] - 0.05, levels[STOREYS] + 0.3);
 }
 
 static void build_railing(mesh *m)
@@ -409,10 +410,10 @@ static void build_railing(mesh *m)
     const double low = levels[STOREYS] + 0.25, high = levels[STOREYS] + 1.12;
     for (int k = 0; k < STATIONS; k++)
         post(m, station(k), 0.035, 0.14, 0.19, low, high - 0.01);
-    strip(m, way_begin, way_end, 0.13, 0.2, high - 0.03, high + 0.02);
+    strip(m, direction_begin, direction_end, 0.13, 0.2, high - 0.03, high + 0.02);
     for (int k = 1; k < 4; k++) {
         double y = low + (high - low) * k / 4;
-        strip(m, way_begin, way_end, 0.155, 0.175, y, y + 0.02);
+        strip(m, direction_begin, direction_end, 0.155, 0.175, y, y + 0.02);
     }
 }
 
@@ -442,11 +443,11 @@ static void build_pavilion_roof(mesh *m)
 {
     outline o = {0};
     add_point(&o, corner_x - 26, back + 1.5);
-    add_way(&o, -26, 90 + corner_z - back - 1.5, pavilion - 1.6, false);
+    add_direction(&o, -26, 90 + corner_z - back - 1.5, pavilion - 1.6, false);
     plan(m, &o, NULL, 0, pavilion_top - 0.3, pavilion_top);
 }
 
-static void build_plant_room(mesh *m)
+static void build_plant_capacity(mesh *m)
 {
     const double low = pavilion_top - 0.05;
     box(m, -15, low, -10.5, -6, low + 2.5, -2.5);
@@ -539,7 +540,7 @@ static void build_bollards(mesh *m)
 {
     for (int k = 0; k < 7; k++) {
         outline at = {0};
-        add_way_point(&at, 9 + 12 * k, -5.9);
+        add_direction_point(&at, 9 + 12 * k, -5.9);
         TURNED(m, at.at[0][0], 0, at.at[0][1], 12, {0.05, 0}, {0.05, 0.09}, {0.8, 0.09}, {0.84, 0.075}, {0.9, 0.075},
                {0.93, 0.05}, {0.93, 0});
     }
@@ -547,14 +548,14 @@ static void build_bollards(mesh *m)
 
 static void build_lamps(mesh *m)
 {
-    static const double ways[] = {-20.5, -4, 96};
-    for (int k = 0; k < COUNT(ways); k++) {
+    static const double directions[] = {-20.5, -4, 96};
+    for (int k = 0; k < COUNT(directions); k++) {
         uint32_t     kept = m->point_count;
         const double low[3] = {0, 0.05, 0}, high[3] = {0, 6.2, 0}, end[3] = {0, 6.35, 1.6};
         bar(m, low, high, 0.09, 0.05, 10);
         bar(m, high, end, 0.045, 0.035, 8);
         box(m, -0.13, 6.29, 1.3, 0.13, 6.38, 2.1);
-        place_on_way(m, kept, ways[k], -5.9);
+        position_on_direction(m, kept, directions[k], -5.9);
     }
 }
 
@@ -572,10 +573,11 @@ static void build_second_tree(mesh *m)
 
 static void build_tree_grates(mesh *m)
 {
-    static const double places[][2] = {{-14.6, 17.2}, {-2.6, 17.4}};
+    static const double positions[][2] = {{-14.6, 17.2}, {-2.6, 17.4}};
     for (int k = 0; k < 2; k++) {
-        outline outer = rectangle(places[k][0] - 0.9, places[k][1] - 0.9, places[k][0] + 0.9, places[k][1] + 0.9);
-        outline hole = circle(places[k][0], places[k][1], 0.42, 16);
+        outline outer =
+            rectangle(positions[k][0] - 0.9, positions[k][1] - 0.9, positions[k][0] + 0.9, positions[k][1] + 0.9);
+        outline hole = circle(positions[k][0], positions[k][1], 0.42, 16);
         plan(m, &outer, &hole, 1, -0.03, pavement + 0.02);
     }
 }
@@ -608,7 +610,7 @@ static void figure(mesh *m, bool walks, double size, double turn, double x, doub
         for (int k = 0; k < 2; k++)
             o.at[i][k] *= size;
     elevation(m, &o, NULL, 0, -0.05, 0.05);
-    place(m, kept, turn, x, y - 0.02, z);
+    position(m, kept, turn, x, y - 0.02, z);
 }
 
 static void build_people(mesh *m)
@@ -628,13 +630,13 @@ static void build_people(mesh *m)
 
 static void build_customers(mesh *m)
 {
-    static const double places[][3] = {{11.5, 8.6, 50}, {9, 10.2, 10},    {12.8, 4, 60},
-                                       {-9, 9.4, 0},    {-14.5, 8.8, 20}, {6.5, 2, 30}};
+    static const double positions[][3] = {{11.5, 8.6, 50}, {9, 10.2, 10},    {12.8, 4, 60},
+                                          {-9, 9.4, 0},    {-14.5, 8.8, 20}, {6.5, 2, 30}};
     for (int storey = 0; storey < STOREYS; storey++)
-        for (int k = 0; k < COUNT(places); k++)
+        for (int k = 0; k < COUNT(positions); k++)
             if ((k + storey) % 2 == 0)
-                figure(m, k % 3 == 1, 1 - 0.03 * k / 2, places[k][2] + 30 * storey, places[k][0] - 0.7 * storey,
-                       levels[storey], places[k][1] - 0.3 * storey);
+                figure(m, k % 3 == 1, 1 - 0.03 * k / 2, positions[k][2] + 30 * storey, positions[k][0] - 0.7 * storey,
+                       levels[storey], positions[k][1] - 0.3 * storey);
     figure(m, false, 1, 45, 12.4, levels[STOREYS], 10.1);
     figure(m, false, 0.95, 60, 13.1, levels[STOREYS], 9.5);
     figure(m, true, 1, 10, 3, levels[STOREYS], 12);
@@ -717,7 +719,7 @@ static const model_part parts[] = {
     {"pavilion mullions", ROOF, STEEL, build_pavilion_mullions, {0}},
     {"pavilion walls", ROOF, CONCRETE, build_pavilion_walls, {0}},
     {"pavilion roof", ROOF, WHITE, build_pavilion_roof, {0}},
-    {"plant room", ROOF, CONCRETE, build_plant_room, {0}},
+    {"plant room", ROOF, CONCRETE, build_plant_capacity, {0}},
     {"louvres", ROOF, STEEL, build_louvres, {0}},
     {"roof light", ROOF, GLASS, build_roof_light, {0}},
     {"tables", ROOF, WARM, build_tables, {0}},

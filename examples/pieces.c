@@ -176,31 +176,31 @@ void foliage(mesh *m, const double middle[3], double radius, double height, uint
 }
 
 /* A limb and what grows from it. It bends upwards, the more the higher its order is. */
-static void limb(mesh *m, const double from[3], const double way[3], double length, double radius, int order,
+static void limb(mesh *m, const double from[3], const double direction[3], double length, double radius, int order,
                  uint32_t *seed)
 {
     double to[3], p[3], q[3];
     for (int k = 0; k < 3; k++)
-        to[k] = from[k] + length * way[k];
+        to[k] = from[k] + length * direction[k];
     bar(m, from, to, radius, radius * (order ? 0.62 : 0.3), order > 1 ? 9 : order > 0 ? 6 : 4);
     if (order == 0)
         return;
-    across(way, p, q);
+    across(direction, p, q);
     int    twigs = order > 2 ? 5 : 3;
     double begin = 2 * PI * chance(seed);
     for (int i = 0; i < twigs; i++) {
         double angle = begin + 2.4 * i, spread = i == twigs - 1 ? 0.12 : 0.62 + 0.3 * chance(seed);
-        double share = i == twigs - 1 ? 1 : 0.5 + 0.5 * i / (twigs - 1), next[3], start[3], size = 0;
+        double fraction = i == twigs - 1 ? 1 : 0.5 + 0.5 * i / (twigs - 1), next[3], start[3], size = 0;
         for (int k = 0; k < 3; k++) {
-            next[k] =
-                way[k] * cos(spread) + (p[k] * cos(angle) + q[k] * sin(angle)) * sin(spread) + (k == 1 ? 0.18 : 0);
+            next[k] = direction[k] * cos(spread) + (p[k] * cos(angle) + q[k] * sin(angle)) * sin(spread) +
+                      (k == 1 ? 0.18 : 0);
             size += next[k] * next[k];
-            start[k] = from[k] + (share - 0.02) * length * way[k];
+            start[k] = from[k] + (fraction - 0.02) * length * direction[k];
         }
         for (int k = 0; k < 3; k++)
             next[k] /= sqrt(size);
         limb(m, start, next, length * (0.62 + 0.16 * chance(seed)),
-             radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * share), order - 1, seed);
+             radius * (i == twigs - 1 ? 0.61 : 0.72 - 0.29 * fraction), order - 1, seed);
     }
 }
 
@@ -210,7 +210,7 @@ void tree(mesh *m, const double foot[3], double height, uint32_t seed)
     limb(m, foot, up, height * 0.4, height * 0.028, 3, &seed);
 }
 
-void place(mesh *m, uint32_t kept, double degrees, double x, double y, double z)
+void position(mesh *m, uint32_t kept, double degrees, double x, double y, double z)
 {
     double c = cos(degrees * PI / 180), s = sin(degrees * PI / 180);
     for (uint32_t i = kept; i < m->point_count; i++) {

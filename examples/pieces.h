@@ -19,7 +19,7 @@ void plan(mesh *m, const outline *o, const outline *holes, int hole_count, doubl
 /* A section whose ends lie on the slanted planes x = end[0] + end[1] · z. */
 void mitred_section(mesh *m, const outline *o, const double from[2], const double to[2]);
 
-/* A solid of revolution that stands at a place; the profile's rows are {y, radius}. It ends at radius 0. */
+/* A solid of revolution that stands at a position; the profile's rows are {y, radius}. It ends at radius 0. */
 #define TURNED(mesh, x, y, z, segments, ...) LATHE(mesh, (&(frame){{x, y, z}, UP}), segments, NULL, NULL, __VA_ARGS__)
 
 /* A round bar with `sides` sides between two points, tapered. */
@@ -35,7 +35,7 @@ void foliage(mesh *m, const double middle[3], double radius, double height, uint
 void tree(mesh *m, const double foot[3], double height, uint32_t seed);
 
 /* Turns everything after the first `kept` points about y, counter-clockwise from above, then moves it. */
-void place(mesh *m, uint32_t kept, double degrees, double x, double y, double z);
+void position(mesh *m, uint32_t kept, double degrees, double x, double y, double z);
 
 /* Round-headed openings: a sill, jambs and an arch of some radius from the springing. */
 outline round_headed(double middle, double sill, double springing, double radius, int segments);

@@ -338,18 +338,18 @@ void extrude(mesh *m, const outline *outer, const outline *holes, int hole_count
 
 void drop_unused(mesh *m)
 {
-    uint32_t *places = calloc(m->point_count, sizeof *places), kept = 0;
-    if (!places)
+    uint32_t *positions = calloc(m->point_count, sizeof *positions), kept = 0;
+    if (!positions)
         give_up();
     for (uint32_t i = 0; i < m->index_count; i++)
-        places[m->indices[i]] = 1;
+        positions[m->indices[i]] = 1;
     for (uint32_t i = 0; i < m->point_count; i++)
-        if (places[i]) {
+        if (positions[i]) {
             m->points[kept] = m->points[i];
-            places[i] = kept++;
+            positions[i] = kept++;
         }
     for (uint32_t i = 0; i < m->index_count; i++)
-        m->indices[i] = places[m->indices[i]];
+        m->indices[i] = positions[m->indices[i]];
     m->point_count = kept;
-    free(places);
+    free(positions);
 }

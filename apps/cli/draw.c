@@ -60,7 +60,7 @@ static const option options[] = {
     {"camera", 0, OPTION_TEXT, AT(camera), "NAME", "A camera of the file."},
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
-    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Share of the frame that the model fills. Default: 0.9.", 0.01, 10},
+    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Fraction of the frame that the model fills. Default: 0.9.", 0.01, 10},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS",
      "Time of what changes by itself (perturb.boil, surface.change); animations are not posed yet. Default: 0.", -1e9,
      1e9},
@@ -181,7 +181,7 @@ static int check_format(const session *s)
 }
 
 /* Options for which the format has no room. */
-static int check_room(const session *s)
+static int check_capacity(const session *s)
 {
     const draw_values     *v = s->values;
     const lmn_format_info *f = &s->format;
@@ -238,7 +238,7 @@ static int check_vectors(const session *s)
                                  format_list(list, FORMATS_VECTORS, true));
     if (s->format.vectors && v->maps)
         return message_usage("draw a .png for them", "--aov goes with pictures");
-    int status = check_room(s);
+    int status = check_capacity(s);
     if (status == EXIT_DONE)
         status = check_effect(s);
     if (status != EXIT_DONE)
@@ -263,18 +263,18 @@ static int check_samples(const option_number *samples)
                          (int)samples->value);
 }
 
-/* {word} in a name is one of its places. */
-static int check_places(const char *option_name, const char *pattern)
+/* {word} in a name is one of its positions. */
+static int check_positions(const char *option_name, const char *pattern)
 {
     int         length;
-    const char *place = name_unknown_place(pattern, &length);
-    if (!place)
+    const char *position = name_unknown_placeholder(pattern, &length);
+    if (!position)
         return EXIT_DONE;
-    if (strncmp(place, "{view}", 6) == 0)
+    if (strncmp(position, "{view}", 6) == 0)
         return message_usage("draw one view at a time with --view, or a sheet with --views",
                              "--%s has {view}, but there is one picture for all views", option_name);
-    return message_usage("allowed are " NAME_PLACE " and " FRAME_PLACE, "--%s has %.*s, which stands for nothing",
-                         option_name, length < 60 ? length : 60, place);
+    return message_usage("allowed are " NAME_PLACEHOLDER " and " FRAME_PLACEHOLDER,
+                         "--%s has %.*s, which stands for nothing", option_name, length < 60 ? length : 60, position);
 }
 
 static bool is_same_file(const char *a, const char *b)
@@ -303,7 +303,7 @@ static int check_side_name(const session *s, const char *option_name, const char
 {
     if (!pattern || strcmp(pattern, "-") == 0)
         return EXIT_DONE;
-    int status = check_places(option_name, pattern);
+    int status = check_positions(option_name, pattern);
     if (status != EXIT_DONE)
         return status;
     if (name_has_frame(pattern) && !s->frames.given)
@@ -335,7 +335,7 @@ static int check_output(const session *s, const word_list *inputs)
     if (status == EXIT_DONE)
         status = check_vectors(s);
     if (status == EXIT_DONE)
-        status = check_places("output", v->output);
+        status = check_positions("output", v->output);
     if (status == EXIT_DONE)
         status = check_overwriting(v, inputs);
     if (status == EXIT_DONE)
@@ -647,7 +647,8 @@ static int run(const word_list *inputs, const void *values)
     if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))
         status = message_usage(NULL, "--samples goes with pictures; with this look there are lines alone");
     char standard[64];
-    snprintf(standard, sizeof standard, "%s%s", s.frames.given ? NAME_PLACE "-" FRAME_PLACE : NAME_PLACE, s.ending);
+    snprintf(standard, sizeof standard, "%s%s",
+             s.frames.given ? NAME_PLACEHOLDER "-" FRAME_PLACEHOLDER : NAME_PLACEHOLDER, s.ending);
     s.pattern = v->output ? v->output : standard;
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);

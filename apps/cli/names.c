@@ -6,20 +6,20 @@
 
 bool name_has_name(const char *pattern)
 {
-    return pattern && strstr(pattern, NAME_PLACE);
+    return pattern && strstr(pattern, NAME_PLACEHOLDER);
 }
 
 bool name_has_frame(const char *pattern)
 {
-    return pattern && strstr(pattern, FRAME_PLACE);
+    return pattern && strstr(pattern, FRAME_PLACEHOLDER);
 }
 
-const char *name_unknown_place(const char *pattern, int *length)
+const char *name_unknown_placeholder(const char *pattern, int *length)
 {
     for (const char *at = pattern ? strchr(pattern, '{') : NULL; at; at = strchr(at + 1, '{')) {
         size_t letters = strspn(at + 1, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
-        bool   known =
-            strncmp(at, NAME_PLACE, strlen(NAME_PLACE)) == 0 || strncmp(at, FRAME_PLACE, strlen(FRAME_PLACE)) == 0;
+        bool   known = strncmp(at, NAME_PLACEHOLDER, strlen(NAME_PLACEHOLDER)) == 0 ||
+                     strncmp(at, FRAME_PLACEHOLDER, strlen(FRAME_PLACEHOLDER)) == 0;
         *length = (int)letters + 2;
         if (letters > 0 && at[letters + 1] == '}' && !known)
             return at;
@@ -66,14 +66,14 @@ char *name_expand(const char *pattern, const char *input, long frame)
         size += 1 + (*at == '{' ? stem_length + number_length : 0);
     char *result = malloc(size), *to = result;
     for (const char *at = pattern; result && *at;) {
-        if (strncmp(at, NAME_PLACE, strlen(NAME_PLACE)) == 0) {
+        if (strncmp(at, NAME_PLACEHOLDER, strlen(NAME_PLACEHOLDER)) == 0) {
             memcpy(to, stem, stem_length);
             to += stem_length;
-            at += strlen(NAME_PLACE);
-        } else if (strncmp(at, FRAME_PLACE, strlen(FRAME_PLACE)) == 0) {
+            at += strlen(NAME_PLACEHOLDER);
+        } else if (strncmp(at, FRAME_PLACEHOLDER, strlen(FRAME_PLACEHOLDER)) == 0) {
             memcpy(to, number, number_length);
             to += number_length;
-            at += strlen(FRAME_PLACE);
+            at += strlen(FRAME_PLACEHOLDER);
         } else {
             *to++ = *at++;
         }

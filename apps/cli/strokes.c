@@ -12,14 +12,14 @@
 typedef struct strokes_values {
     const char   *output, *format;
     option_number count, length, uneven, seed, size, width, light, distance;
-    int           order, share, perspective;
+    int           order, fraction, perspective;
 } strokes_values;
 
 #define AT(field) offsetof(strokes_values, field)
 
 /* In the order of the library's names. */
 static const char *const order_choices[] = {"drawn", "shuffled", "even", NULL};
-static const char *const share_choices[] = {"count", "length", "area", NULL};
+static const char *const fraction_choices[] = {"count", "length", "area", NULL};
 static const char *const perspective_choices[] = {"tied", "random", "even", "layers", NULL};
 
 static const option options[] = {
@@ -35,10 +35,10 @@ static const option options[] = {
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "What chance begins with. Default: 0.", 0, 4294967295.0},
     {"order", 0, OPTION_CHOICE, AT(order), "drawn|shuffled|even",
      "Order of priorities within a layer. Default: even for patterns, drawn for files.", .choices = order_choices},
-    {"share", 0, OPTION_CHOICE, AT(share), "count|length|area",
+    {"fraction", 0, OPTION_CHOICE, AT(fraction), "count|length|area",
      "What a stroke's step in priority follows; area makes tone follow light on a straight line at --width. Default: "
      "length.",
-     .choices = share_choices},
+     .choices = fraction_choices},
     {"perspective", 0, OPTION_CHOICE, AT(perspective), "tied|random|even|layers",
      "Priorities for distance: as for light, by chance, evenly spread, or late layers go first. Default: even for "
      "patterns; files keep theirs.",
@@ -138,10 +138,10 @@ static lmn_status set_priorities(lmn_strokes *s, bool is_pattern, const strokes_
     lmn_status status = LMN_OK;
     uint32_t   seed = (uint32_t)given_or(&v->seed, 0);
     int        order = v->order >= 0 ? v->order : is_pattern ? LMN_ORDER_EVEN : LMN_ORDER_DRAWN;
-    int        share = v->share >= 0 ? v->share : LMN_SHARE_LENGTH;
-    if (v->order >= 0 || v->share >= 0)
-        status =
-            lmn_strokes_set_light(s, (lmn_stroke_order)order, (lmn_stroke_share)share, width_in_square(v), seed, error);
+    int        fraction = v->fraction >= 0 ? v->fraction : LMN_FRACTION_LENGTH;
+    if (v->order >= 0 || v->fraction >= 0)
+        status = lmn_strokes_set_light(s, (lmn_stroke_order)order, (lmn_stroke_fraction)fraction, width_in_square(v),
+                                       seed, error);
     if (status == LMN_OK && v->perspective >= 0)
         status = lmn_strokes_set_perspective(s, (lmn_stroke_perspective)v->perspective, seed, error);
     return status;
@@ -171,7 +171,7 @@ static int run(const word_list *inputs, const void *values)
     int status = check(v, pattern >= 0, format);
     if (status != EXIT_DONE)
         return status;
-    path = name_expand(v->output ? v->output : NAME_PLACE ".png", input, 0);
+    path = name_expand(v->output ? v->output : NAME_PLACEHOLDER ".png", input, 0);
     if (!path)
         return message_out_of_memory();
     if (make_strokes(&s, input, pattern, v, &error) != LMN_OK || set_priorities(s, pattern >= 0, v, &error) != LMN_OK ||

@@ -46,7 +46,7 @@ typedef struct lmn_draw_desc {
     const char     *camera; /* name of a camera of the scene, or NULL */
     bool            orthographic;
     double          fov_deg; /* vertical, 1 … 170 */
-    double          fit;     /* share of the frame that the projected bounds fill, 0.01 … 10 */
+    double          fit;     /* fraction of the frame that the projected bounds fill, 0.01 … 10 */
     double          time_s;  /* seconds on the scene's timeline */
     uint32_t        seed;
     int             samples;    /* supersamples a pixel, a square number 1 … 64 */

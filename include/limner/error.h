@@ -40,7 +40,7 @@ typedef struct lmn_error {
 /* The name of a status in words ("cannot be read"). Never NULL. Any thread. */
 LMN_API const char *lmn_status_text(lmn_status status);
 
-/* Called during long work with the share done (0..1) and the name of the stage (borrowed for the call).
+/* Called during long work with the fraction done (0..1) and the name of the stage (borrowed for the call).
  * Return false to cancel: the work stops soon and returns LMN_CANCELLED. */
 typedef bool (*lmn_progress_fn)(double fraction, const char *stage, void *user);
 

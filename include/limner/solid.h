@@ -207,7 +207,7 @@ LMN_API lmn_status lmn_solid_set_colour(lmn_scene *scene, uint32_t solid, uint32
 LMN_API lmn_status lmn_solid_set_operation(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_operation operation,
                                            lmn_error *error);
 
-/* Puts another shape in a shape's place; matrix, colour and name stay. Copies keep the shape they have. Errors:
+/* Puts another shape in a shape's position; matrix, colour and name stay. Copies keep the shape they have. Errors:
  * LMN_LIMIT. */
 LMN_API lmn_status lmn_solid_set_shape(lmn_scene *scene, uint32_t solid, uint32_t node, const lmn_shape *shape,
                                        lmn_error *error);

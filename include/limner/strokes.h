@@ -18,7 +18,7 @@ extern "C" {
 typedef struct lmn_strokes lmn_strokes;
 
 /* A straight stroke. The start lies in the square, 0 to 1, v upwards; the end may lie outside: the stroke goes on
- * at the opposite side. A dot has both ends at one place. A stroke in the layer of the one before, and beginning
+ * at the opposite side. A dot has both ends at one position. A stroke in the layer of the one before, and beginning
  * where that ends, goes on with its curve. */
 typedef struct lmn_stroke {
     float u0, v0, u1, v1; /* −16 … 16 */
@@ -59,7 +59,7 @@ typedef enum lmn_stroke_order { LMN_ORDER_DRAWN = 0, LMN_ORDER_SHUFFLED, LMN_ORD
 
 /* How much of 0 … 1 a stroke takes: the same for all, by its length, or by the area that it covers anew (then tone
  * follows light on a straight line). */
-typedef enum lmn_stroke_share { LMN_SHARE_COUNT = 0, LMN_SHARE_LENGTH, LMN_SHARE_AREA } lmn_stroke_share;
+typedef enum lmn_stroke_fraction { LMN_FRACTION_COUNT = 0, LMN_FRACTION_LENGTH, LMN_FRACTION_AREA } lmn_stroke_fraction;
 
 /* Priorities for distance: those for light, a random order, one that is always evenly spread, or late layers go
  * first. */
@@ -108,8 +108,8 @@ LMN_API lmn_status lmn_strokes_get(const lmn_strokes *strokes, size_t index, lmn
 LMN_API lmn_status lmn_strokes_set(lmn_strokes *strokes, size_t index, const lmn_stroke *stroke, lmn_error *error);
 
 /* Sets the priorities for light of all strokes: layer by layer, the first on top. `width` is that of strokes in the
- * square, for LMN_SHARE_AREA: above 0, at most 1. */
-LMN_API lmn_status lmn_strokes_set_light(lmn_strokes *strokes, lmn_stroke_order order, lmn_stroke_share share,
+ * square, for LMN_FRACTION_AREA: above 0, at most 1. */
+LMN_API lmn_status lmn_strokes_set_light(lmn_strokes *strokes, lmn_stroke_order order, lmn_stroke_fraction fraction,
                                          double width, uint32_t seed, lmn_error *error);
 
 /* Sets the priorities for distance of all strokes. */

@@ -27,7 +27,7 @@ static const solid *solid_of(const lmn_scene *scene, uint32_t id)
 
 static int32_t node_of(const solid *s, uint32_t id)
 {
-    return id == 0 || id > s->id_count ? NONE : s->places[id - 1];
+    return id == 0 || id > s->id_count ? NONE : s->positions[id - 1];
 }
 
 /* A node that a caller named. */

@@ -20,7 +20,8 @@ struct lmn_strokes {
 };
 
 _Static_assert((int)LMN_PATTERN_RANDOM == (int)PATTERN_RANDOM && (int)LMN_ORDER_EVEN == (int)ORDER_EVEN &&
-                   (int)LMN_SHARE_AREA == (int)SHARE_AREA && (int)LMN_PERSPECTIVE_LAYERS == (int)PERSPECTIVE_LAYERS,
+                   (int)LMN_FRACTION_AREA == (int)FRACTION_AREA &&
+                   (int)LMN_PERSPECTIVE_LAYERS == (int)PERSPECTIVE_LAYERS,
                "public and internal names follow each other in the same order");
 
 static lmn_status missing(const char *caller, const char *what, lmn_error *error)
@@ -143,11 +144,11 @@ lmn_status lmn_strokes_get(const lmn_strokes *s, size_t index, lmn_stroke *out, 
 
 static lmn_status check_stroke(const lmn_stroke *t, lmn_error *error)
 {
-    const float places[4] = {t->u0, t->v0, t->u1, t->v1};
+    const float positions[4] = {t->u0, t->v0, t->u1, t->v1};
     for (int i = 0; i < 4; i++)
-        if (!(fabsf(places[i]) <= LIMIT_STROKE_REACH))
+        if (!(fabsf(positions[i]) <= LIMIT_STROKE_REACH))
             return error_set(error, LMN_USAGE, "lmn_strokes_set: a place is %g; allowed is -16 to 16",
-                             (double)places[i]);
+                             (double)positions[i]);
     if (!isfinite(t->light) || !isfinite(t->perspective))
         return error_set(error, LMN_USAGE, "lmn_strokes_set: a priority is not finite");
     if (t->layer < 0 || t->layer >= LIMIT_STROKE_LAYERS)
@@ -177,17 +178,17 @@ lmn_status lmn_strokes_set(lmn_strokes *s, size_t index, const lmn_stroke *given
     return LMN_OK;
 }
 
-lmn_status lmn_strokes_set_light(lmn_strokes *s, lmn_stroke_order order, lmn_stroke_share share, double width,
+lmn_status lmn_strokes_set_light(lmn_strokes *s, lmn_stroke_order order, lmn_stroke_fraction fraction, double width,
                                  uint32_t seed, lmn_error *error)
 {
     if (!s)
         return missing("lmn_strokes_set_light", "strokes", error);
-    if ((int)order < 0 || order > LMN_ORDER_EVEN || (int)share < 0 || share > LMN_SHARE_AREA)
+    if ((int)order < 0 || order > LMN_ORDER_EVEN || (int)fraction < 0 || fraction > LMN_FRACTION_AREA)
         return error_set(error, LMN_USAGE, "lmn_strokes_set_light: there is no order %d or no share %d", (int)order,
-                         (int)share);
-    if (share == LMN_SHARE_AREA && !(width > 0 && width <= 1))
+                         (int)fraction);
+    if (fraction == LMN_FRACTION_AREA && !(width > 0 && width <= 1))
         return error_set(error, LMN_USAGE, "lmn_strokes_set_light: width is %g; allowed is above 0, at most 1", width);
-    return strokes_set_light(&s->list, (priority_order)order, (priority_share)share, width, seed, error);
+    return strokes_set_light(&s->list, (priority_order)order, (priority_fraction)fraction, width, seed, error);
 }
 
 lmn_status lmn_strokes_set_perspective(lmn_strokes *s, lmn_stroke_perspective perspective, uint32_t seed,

@@ -192,17 +192,17 @@ static int store_straight(const char *path, bool pipe, const void *data, size_t 
 /* --- under a name that it gets when it is whole --------------------------------------------------------- */
 
 typedef struct arrival {
-    int         folder, descriptor;          /* open */
-    const char *name;                        /* of the file in its folder */
-    char        beside[TEMPORARY_NAME_ROOM]; /* the name that it has until then; empty: none */
-    bool        replaces;                    /* something has the name already */
-    mode_t      mode;                        /* what that allows; else of new files, less the process's mask */
-    bool        lasting;                     /* on the disk before it gets its name */
+    int         folder, descriptor;              /* open */
+    const char *name;                            /* of the file in its folder */
+    char        beside[TEMPORARY_NAME_CAPACITY]; /* the name that it has until then; empty: none */
+    bool        replaces;                        /* something has the name already */
+    mode_t      mode;                            /* what that allows; else of new files, less the process's mask */
+    bool        lasting;                         /* on the disk before it gets its name */
 } arrival;
 
 static int open_beside(arrival *a)
 {
-    char stem[TEMPORARY_NAME_ROOM];
+    char stem[TEMPORARY_NAME_CAPACITY];
     snprintf(stem, sizeof stem, ".%.190s.", a->name);
     for (int i = 0; i < TRIES; i++) {
         temporary_name(a->beside, stem);
@@ -229,7 +229,7 @@ static int fill(const arrival *a, const void *data, size_t size)
 /* Gives a file without a name one beside its own. */
 static int link_beside(arrival *a, const char *unnamed)
 {
-    char stem[TEMPORARY_NAME_ROOM];
+    char stem[TEMPORARY_NAME_CAPACITY];
     snprintf(stem, sizeof stem, ".%.190s.", a->name);
     for (int i = 0; i < TRIES; i++) {
         temporary_name(a->beside, stem);

@@ -32,12 +32,12 @@ static uint32_t host_number(void)
     return hash;
 }
 
-void temporary_name(char out[TEMPORARY_NAME_ROOM], const char *stem)
+void temporary_name(char out[TEMPORARY_NAME_CAPACITY], const char *stem)
 {
     uint32_t number = 0;
     if (getrandom(&number, sizeof number, GRND_NONBLOCK) != (ssize_t)sizeof number)
         number = (uint32_t)(uintptr_t)out; /* names that are taken are tried again with another one */
-    snprintf(out, TEMPORARY_NAME_ROOM, "%.*s%s%08x-%ld-%08x", STEM_MOST, stem, mark, host_number(), (long)getpid(),
+    snprintf(out, TEMPORARY_NAME_CAPACITY, "%.*s%s%08x-%ld-%08x", STEM_MOST, stem, mark, host_number(), (long)getpid(),
              number);
 }
 
@@ -121,10 +121,10 @@ static void sweep_folders(int parent)
         closedir(list);
 }
 
-bool temporary_folder_make(char *out, size_t room)
+bool temporary_folder_make(char *out, size_t capacity)
 {
     const char *given = getenv("TMPDIR"), *where = given && *given == '/' ? given : "/tmp";
-    char        name[TEMPORARY_NAME_ROOM];
+    char        name[TEMPORARY_NAME_CAPACITY];
     int         parent = open(where, O_RDONLY | O_DIRECTORY | O_CLOEXEC), problem = errno;
     bool        made = false;
     out[0] = '\0';
@@ -137,7 +137,7 @@ bool temporary_folder_make(char *out, size_t room)
         if (!made && problem != EEXIST)
             break;
     }
-    if (made && (size_t)snprintf(out, room, "%s/%s", where, name) >= room) {
+    if (made && (size_t)snprintf(out, capacity, "%s/%s", where, name) >= capacity) {
         unlinkat(parent, name, AT_REMOVEDIR);
         made = false;
         problem = ENAMETOOLONG;

@@ -6,10 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { TEMPORARY_NAME_ROOM = 256 };
+enum { TEMPORARY_NAME_CAPACITY = 256 };
 
 /* "STEMlimner-HOST-PROCESS-RANDOM". The stem is cut where the name would be longer than file systems take. */
-void temporary_name(char out[TEMPORARY_NAME_ROOM], const char *stem);
+void temporary_name(char out[TEMPORARY_NAME_CAPACITY], const char *stem);
 
 /* Removes the files ".….limner-…" of an open folder whose process is gone: regular ones, of the same user, made on
  * the same host. */
@@ -17,7 +17,7 @@ void temporary_sweep(int folder);
 
 /* Makes an empty folder for this user alone in TMPDIR, else /tmp, and removes those that processes left there which
  * are gone. False when it cannot be made; errno says why. */
-bool temporary_folder_make(char *out, size_t room);
+bool temporary_folder_make(char *out, size_t capacity);
 /* Removes it with the files in it. */
 void temporary_folder_remove(const char *path);
 

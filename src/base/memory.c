@@ -39,20 +39,20 @@ static void *counted(void *block)
 
 void *mem_alloc(size_t size)
 {
-    return must_fail() || !work_has_room(size) ? NULL : counted(malloc(size ? size : 1));
+    return must_fail() || !work_has_memory(size) ? NULL : counted(malloc(size ? size : 1));
 }
 
 void *mem_calloc(size_t count, size_t size)
 {
     size_t bytes;
-    if (must_fail() || !size_mul(count, size, &bytes) || !work_has_room(bytes))
+    if (must_fail() || !size_mul(count, size, &bytes) || !work_has_memory(bytes))
         return NULL;
     return counted(calloc(count ? count : 1, size ? size : 1));
 }
 
 void *mem_realloc(void *block, size_t size)
 {
-    if (must_fail() || !work_has_room(size))
+    if (must_fail() || !work_has_memory(size))
         return NULL;
     long long before = block ? (long long)malloc_usable_size(block) : 0;
     void     *moved = realloc(block, size ? size : 1);

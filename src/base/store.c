@@ -16,7 +16,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-enum { VERSION = 2, SIDE_MOST = 4096, LAYERS_MOST = 256, HEX_DIGITS = 16, PATH_ROOM = 4096 };
+enum { VERSION = 2, SIDE_MOST = 4096, LAYERS_MOST = 256, HEX_DIGITS = 16, PATH_CAPACITY = 4096 };
 
 static const uint64_t KEPT_MOST = (uint64_t)256 << 20; /* bytes in the folder */
 static const char     ENDING[] = ".texture";
@@ -41,27 +41,27 @@ uint64_t store_hash(const void *bytes, size_t size)
     return hash;
 }
 
-/* --- places --------------------------------------------------------------------------------------------- */
+/* --- positions --------------------------------------------------------------------------------------------- */
 
 /* The folder; false when nothing is to be kept. */
-static bool find_folder(char *out, size_t room)
+static bool find_folder(char *out, size_t capacity)
 {
     const char *own = getenv("LIMNER_CACHE"), *shared = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     int         length = 0;
     if (own)
-        length = snprintf(out, room, "%s", own);
+        length = snprintf(out, capacity, "%s", own);
     else if (shared && shared[0] == '/') /* relative ones are to be ignored, says their specification */
-        length = snprintf(out, room, "%s/limner", shared);
+        length = snprintf(out, capacity, "%s/limner", shared);
     else if (home && home[0])
-        length = snprintf(out, room, "%s/.cache/limner", home);
-    return length > 0 && (size_t)length < room;
+        length = snprintf(out, capacity, "%s/.cache/limner", home);
+    return length > 0 && (size_t)length < capacity;
 }
 
-static bool find_path(char *out, size_t room, const char *folder, const char *description)
+static bool find_path(char *out, size_t capacity, const char *folder, const char *description)
 {
     unsigned long long hash = store_hash(description, strlen(description));
-    int                length = snprintf(out, room, "%s/%016llx%s", folder, hash, ENDING);
-    return length > 0 && (size_t)length < room;
+    int                length = snprintf(out, capacity, "%s/%016llx%s", folder, hash, ENDING);
+    return length > 0 && (size_t)length < capacity;
 }
 
 /* Is a file one of ours, or a half-written one that an earlier version left behind? Other files in the folder are
@@ -154,7 +154,7 @@ static unsigned char *read_own(const char *path, size_t *size)
 
 bool store_find(mip_chain *out, const char *description)
 {
-    char   folder[PATH_ROOM], path[PATH_ROOM];
+    char   folder[PATH_CAPACITY], path[PATH_CAPACITY];
     size_t size;
     memset(out, 0, sizeof *out);
     if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description))
@@ -190,7 +190,7 @@ static kept_file *list_files(const char *folder, size_t *count)
     DIR       *open = opendir(folder);
     *count = 0;
     for (struct dirent *entry; open && (entry = readdir(open)) != NULL;) {
-        char        path[PATH_ROOM];
+        char        path[PATH_CAPACITY];
         struct stat facts;
         kept_file   file;
         size_t      length = strlen(entry->d_name);
@@ -221,7 +221,7 @@ static void make_room(const char *folder)
     if (sum > KEPT_MOST)
         qsort(files, count, sizeof *files, by_age);
     for (size_t i = 0; i < count && sum > KEPT_MOST; i++) {
-        char path[PATH_ROOM];
+        char path[PATH_CAPACITY];
         if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, files[i].name) < sizeof path && unlink(path) == 0)
             sum -= files[i].size;
     }
@@ -253,7 +253,7 @@ static void write_chain(text *out, const mip_chain *chain, const char *descripti
 
 void store_keep(const mip_chain *chain, const char *description)
 {
-    char folder[PATH_ROOM], path[PATH_ROOM];
+    char folder[PATH_CAPACITY], path[PATH_CAPACITY];
     text bytes = {0};
     if (!find_folder(folder, sizeof folder) || !find_path(path, sizeof path, folder, description) ||
         file_make_folder(folder, NULL) != LMN_OK)

@@ -1,4 +1,4 @@
-/* A place on disk for textures that take long to make, by a hash of what they are made from. */
+/* A position on disk for textures that take long to make, by a hash of what they are made from. */
 #ifndef LIMNER_BASE_STORE_H
 #define LIMNER_BASE_STORE_H
 

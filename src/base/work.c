@@ -194,7 +194,7 @@ lmn_status work_exceeded(lmn_error *error, const char *name, const char *format,
     return LMN_LIMIT;
 }
 
-bool work_has_room(size_t bytes)
+bool work_has_memory(size_t bytes)
 {
     for (work *w = current; w; w = w->outer) {
         long long held = atomic_load_explicit(&w->held, memory_order_relaxed);

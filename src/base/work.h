@@ -70,7 +70,7 @@ lmn_status work_exceeded(lmn_error *error, const char *name, const char *format,
 
 /* --- for base/memory.c --- */
 /* May the current work hold so many bytes more? When not, it stops. */
-bool work_has_room(size_t bytes);
+bool work_has_memory(size_t bytes);
 /* Counts the bytes of a block that came, or went (negative). */
 void work_count(long long bytes);
 

@@ -13,7 +13,7 @@ static const param params[] = {
     LAYER_STYLE_ROWS,
     PARAM_COLOUR_ROW(blueprint, tint, .def_colour = {0.36f, 0.54f, 0.80f, 1},
                      .doc = "Colour that each layer adds; none adds none."),
-    PARAM_FLOAT_ROW(blueprint, tint_opacity, .def = 0.14, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(blueprint, tint_opacity, .def = 0.14, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_FRACTION,
                     .doc = "Opacity of one layer's tint: how quickly depth complexity darkens or lightens the ground."),
 };
 

@@ -1,6 +1,6 @@
 #include "compose/layered.glsl"
 
-vec4 layer_fill(vec2 place)
+vec4 layer_fill(vec2 position)
 {
     return vec4(u_tint.rgb, 1.0) * (u_tint.a * u_tint_opacity);
 }

@@ -31,13 +31,13 @@ typedef struct layer_style {
         PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,    \
                         .along = true, .cpu_only = true, .only_if = "hidden_dash",                                     \
                         .doc = "Length of the gaps between the dashes of hidden lines."),                              \
-        PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                 \
+        PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,              \
                         .doc = "Opacity of the lines of the first hidden layer."),                                     \
         PARAM_FLOAT_ROW(                                                                                               \
-            layer_style, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_SHARE,                                       \
-            .doc = "Every layer's lines have this share of the opacity of those in front; 1 keeps all alike."),        \
+            layer_style, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,                                    \
+            .doc = "Every layer's lines have this fraction of the opacity of those in front; 1 keeps all alike."),     \
         PARAM_FLOAT_ROW(                                                                                               \
-            layer_style, clutter, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,                                    \
+            layer_style, clutter, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,                                 \
             .doc = "How much what is behind fades by importance: creases before outlines, and more where many lines "  \
                    "are in front; nothing is cut off."),                                                               \
         PARAM_BOOL_ROW(layer_style, once, .def = 1, .variant = true,                                                   \
@@ -57,7 +57,7 @@ typedef struct layer_style {
 #define LAYER_TARGETS    .targets = &layer_nearer_row, .target_count = 1
 extern const target_row layer_nearer_row;
 
-/* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the place is. */
+/* What the layers behind must know of the lines in front: where they leave a gap, and how crowded the position is. */
 #define NEARER_LINES_PASSES(condition)                                                                                 \
     {.name = "nearer lines across",                                                                                    \
      .shader = "compose/nearer_row.frag",                                                                              \

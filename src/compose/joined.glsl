@@ -1,11 +1,11 @@
-/* What perturbations need that join the copies of a line: what is to be averaged at a copy's place, and the ink that an average stands for. */
+/* What perturbations need that join the copies of a line: what is to be averaged at a copy's position, and the ink that an average stands for. */
 #if defined(MEAN_OF_INK) || CONTRAST > 0 || defined(HAS_DASH)
-vec4 averaged_at(vec2 place, int i)
+vec4 averaged_at(vec2 position, int i)
 {
 #ifdef MEAN_OF_INK
-    return stacked_ink(place, i);
+    return stacked_ink(position, i);
 #else
-    return ink_at(place);
+    return ink_at(position);
 #endif
 }
 
@@ -20,9 +20,9 @@ bool is_outline(vec4 averaged)
 }
 #else
 /* What of the pixel profile, id and inner lines have, those before on top: means of it are means of ink, and cost less. */
-vec4 averaged_at(vec2 place, int i)
+vec4 averaged_at(vec2 position, int i)
 {
-    vec4 edge = edge_at(place);
+    vec4 edge = edge_at(position);
     vec3 ink = clamp((1.0 - edge.rag) * vec3(u_line_profile_weight, u_line_id_weight, u_line_inner_weight), 0.0, 1.0) *
                vec3(u_line_colour.a, u_line_id_colour.a, u_line_inner_colour.a);
     float id = ink.y * (1.0 - ink.x);
@@ -41,10 +41,10 @@ bool is_outline(vec4 averaged)
 }
 #endif
 
-/* The depth of ink at a place: that of the surface it is found on, or surrounds. */
-float depth_of_ink(vec2 place)
+/* The depth of ink at a position: that of the surface it is found on, or surrounds. */
+float depth_of_ink(vec2 position)
 {
-    ivec2 at = pixel_at(place);
+    ivec2 at = pixel_at(position);
     float depth = own_depth(at);
 #ifdef BROAD_COPIES
     int search = depth >= 1.0 ? 1 : 0;
@@ -65,7 +65,7 @@ vec4 ink_of_copies(inout float depth)
     float fill_depth = depth;
     int inked = 0;
     for (int i = 0; i < LINE_COPIES; i++) {
-        vec4 own = averaged_at(line_place(i), i);
+        vec4 own = averaged_at(line_position(i), i);
         inked = is_outline(own) ? i : inked;
         join_copy(own, i);
     }
@@ -76,7 +76,7 @@ vec4 ink_of_copies(inout float depth)
     int drawn = ink.a > 0.0 && fill_depth >= 1.0 ? 1 : 0;
 #endif
     for (int once = 0; once < drawn; once++) {
-        float nearest = depth_of_ink(line_place(inked));
+        float nearest = depth_of_ink(line_position(inked));
 #ifdef HAS_FOCUS
         ink *= in_focus_of_window(nearest < 1.0 ? nearest : fill_depth);
 #endif

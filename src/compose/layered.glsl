@@ -1,6 +1,6 @@
 /* One layer of a figure, put under those in front of it: fill, and ink over it. The composition's own file says what the fill is
  * and what becomes of the ink. */
-#include "compose/places.glsl"
+#include "compose/positions.glsl"
 #ifdef HAS_LINES
 #include "lines/ink.glsl"
 #endif
@@ -20,7 +20,7 @@ bool is_own(ivec2 at)
 #include "light/cut.glsl"
 #endif
 
-vec4 layer_fill(vec2 place);
+vec4 layer_fill(vec2 position);
 
 #ifdef HAS_LINES
 #include "compose/reach.glsl"
@@ -42,21 +42,21 @@ float hatch_of(ivec2 pixel)
 }
 #endif
 
-/* Ink of this layer's i-th repetition as its place in the stack leaves it. */
-vec4 stacked_ink(vec2 place, int i)
+/* Ink of this layer's i-th repetition as its position in the stack leaves it. */
+vec4 stacked_ink(vec2 position, int i)
 {
-    ivec2 pixel = pixel_at(place);
-    vec4 ink = layer_ink(ink_at(place));
+    ivec2 pixel = pixel_at(position);
+    vec4 ink = layer_ink(ink_at(position));
 #ifdef HAS_CUT
     /* Cut faces are hatched in the ink of the lines, but once, and where the fill is looked up. */
     if (i == 0)
-        ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel_at(fill_place()))));
+        ink = over(ink, vec4(u_line_colour.rgb, 1.0) * (u_line_colour.a * hatch_of(pixel_at(fill_position()))));
 #endif
     int hidden = u_layer > 0 && ink.a > 0.0 ? 1 : 0;
     for (int once = 0; once < hidden; once++) {
         ink *= u_hidden_opacity * pow(u_fade, float(u_layer - 1));
         /* Outlines and borders of parts carry the shape, creases the detail: those go first. */
-        vec4 edge = edge_at(place);
+        vec4 edge = edge_at(position);
         float important = max(1.0 - edge.r, 1.0 - edge.a);
         ink *= pow(1.0 - u_clutter * mix(0.5, 0.15, important), float(u_layer));
 #if defined(HAS_EDGE_BEFORE) && ONCE
@@ -92,9 +92,9 @@ float own_depth(ivec2 at)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    find_places(pixel);
-    float depth = own_depth(pixel_at(fill_place()));
-    vec4 fill = depth < 1.0 && u_filled ? layer_fill(fill_place()) : vec4(0.0), ink = vec4(0.0);
+    find_positions(pixel);
+    float depth = own_depth(pixel_at(fill_position()));
+    vec4 fill = depth < 1.0 && u_filled ? layer_fill(fill_position()) : vec4(0.0), ink = vec4(0.0);
 #ifdef HAS_LINES
 #ifdef MERGED
     detect_edges();
@@ -103,12 +103,12 @@ void main()
     ink = ink_of_copies(depth);
 #else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
-        vec2 place = line_place(i);
-        float line_depth = own_depth(pixel_at(place));
-        vec4 own_ink = copy_ink(stacked_ink(place, i), i);
+        vec2 position = line_position(i);
+        float line_depth = own_depth(pixel_at(position));
+        vec4 own_ink = copy_ink(stacked_ink(position, i), i);
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < search; once++)
-            line_depth = neighbour_depth(pixel_at(place));
+            line_depth = neighbour_depth(pixel_at(position));
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);
 #endif
@@ -117,7 +117,7 @@ void main()
     }
 #endif
 #endif
-    vec4 colour = ink + fill * (fill_share() * (1.0 - ink.a));
+    vec4 colour = ink + fill * (fill_fraction() * (1.0 - ink.a));
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour * u_rear;

@@ -1,5 +1,5 @@
 /* A figure as a depth sprite. What is drawn lies as deep as the nearer of what the lines and the fill show. */
-#include "compose/places.glsl"
+#include "compose/positions.glsl"
 #ifdef HAS_LINES
 #include "lines/ink.glsl"
 #endif
@@ -41,15 +41,15 @@ vec4 fallback_of(float alpha)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    find_places(pixel);
-    float fill_depth = own_depth(pixel_at(fill_place())), depth = fill_depth;
+    find_positions(pixel);
+    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     vec4 ink = vec4(0.0);
 #ifdef PERTURBED
-    vec4 fill = fill_depth < 1.0 ? shade_at(fill_place()) : vec4(0.0);
+    vec4 fill = fill_depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
 #else
     /* Ink of further line techniques is folded into the fill, outside the boundary, too. */
-    vec4 fill = is_own(pixel) ? shade_at(fill_place()) : vec4(0.0);
+    vec4 fill = is_own(pixel) ? shade_at(fill_position()) : vec4(0.0);
 #endif
 #ifdef HAS_LINES
 #ifdef MERGED
@@ -59,19 +59,19 @@ void main()
     ink = ink_of_copies(depth);
 #else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
-        vec2 place = line_place(i);
-        float line_depth = own_depth(pixel_at(place));
-        vec4 own_ink = copy_ink(ink_at(place), i);
+        vec2 position = line_position(i);
+        float line_depth = own_depth(pixel_at(position));
+        vec4 own_ink = copy_ink(ink_at(position), i);
 #ifdef PERTURBED
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
-            fill = fallback_of(texelFetch(t_shade, pixel_at(place), 0).a);
+            fill = fallback_of(texelFetch(t_shade, pixel_at(position), 0).a);
 #else
         int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
         for (int once = 0; once < search; once++)
-            line_depth = neighbour_depth(pixel_at(place));
+            line_depth = neighbour_depth(pixel_at(position));
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);
 #endif
@@ -82,7 +82,7 @@ void main()
 #endif
 #ifdef PERTURBED
 #ifndef FILL_STAYS
-    fill = mix(fallback_of(fill.a), fill, fill_share());
+    fill = mix(fallback_of(fill.a), fill, fill_fraction());
 #endif
 #endif
     vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;

@@ -9,9 +9,9 @@ typedef struct xray {
 
 static const param params[] = {
     LAYER_STYLE_ROWS,
-    PARAM_FLOAT_ROW(xray, opacity, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(xray, opacity, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Opacity of one layer, multiplied with the material's own."),
-    PARAM_FLOAT_ROW(xray, rim, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(xray, rim, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc =
                         "How much more opaque surfaces are that are seen at a slant, as glass and X-rays show them."),
 };

@@ -1,9 +1,9 @@
 #include "light/point.glsl"
 #include "compose/layered.glsl"
 
-vec4 layer_fill(vec2 place)
+vec4 layer_fill(vec2 position)
 {
-    ivec2 pixel = pixel_at(place);
+    ivec2 pixel = pixel_at(position);
     float opacity = u_opacity;
 #ifdef HAS_CUT
     /* Cut faces are what the section is made for: nearly solid. */
@@ -16,7 +16,7 @@ vec4 layer_fill(vec2 place)
         float facing = abs(dot(texelFetch(t_normal_depth, pixel, 0).xyz, ray));
         opacity = mix(opacity, 1.0, u_rim * (1.0 - facing) * (1.0 - facing));
     }
-    return shade_at(place) * opacity;
+    return shade_at(position) * opacity;
 }
 
 #ifdef HAS_LINES

@@ -1,4 +1,4 @@
-/* Growing polyhedra, and making points at the same place one. */
+/* Growing polyhedra, and making points at the same position one. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ void builder_point(solid_builder *b, double x, double y, double z)
         b->failed = true;
         return;
     }
-    /* -0 + 0 is +0: both zeros are one place. */
+    /* -0 + 0 is +0: both zeros are one position. */
     b->points[b->point_count++] = (point3){x + 0.0, y + 0.0, z + 0.0};
 }
 
@@ -45,7 +45,7 @@ void builder_release(solid_builder *b)
     *b = (solid_builder){0};
 }
 
-/* --- points at the same place --------------------------------------------------------------------------- */
+/* --- points at the same position --------------------------------------------------------------------------- */
 
 static uint64_t hash_point(const point3 *p)
 {
@@ -57,8 +57,8 @@ static uint64_t hash_point(const point3 *p)
     return h ^ h >> 31;
 }
 
-/* Fills places[i] with the number of the first point where point i is; places has room for all. */
-static bool find_places(const point3 *points, size_t count, uint32_t *places)
+/* Fills positions[i] with the number of the first point where point i is; positions has room for all. */
+static bool find_positions(const point3 *points, size_t count, uint32_t *positions)
 {
     size_t slots = 16, bytes;
     while (slots < count * 2)
@@ -73,19 +73,19 @@ static bool find_places(const point3 *points, size_t count, uint32_t *places)
             slot = (slot + 1) & (slots - 1);
         if (table[slot] == UINT32_MAX)
             table[slot] = (uint32_t)i;
-        places[i] = table[slot];
+        positions[i] = table[slot];
     }
     mem_free(table);
     return true;
 }
 
 /* Rewrites the triangles to the first points, leaves out those that have become edges, and marks what is used. */
-static void use_places(solid_builder *b, const uint32_t *places, uint8_t *used)
+static void use_positions(solid_builder *b, const uint32_t *positions, uint8_t *used)
 {
     size_t kept = 0;
     for (size_t i = 0; i < b->triangle_count; i++) {
         const uint32_t *t = &b->triangles[i * 3];
-        uint32_t        at[3] = {places[t[0]], places[t[1]], places[t[2]]};
+        uint32_t        at[3] = {positions[t[0]], positions[t[1]], positions[t[2]]};
         if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0])
             continue;
         for (int k = 0; k < 3; k++) {
@@ -113,14 +113,14 @@ static void drop_unused(solid_builder *b, uint32_t *numbers, const uint8_t *used
 
 static bool weld(solid_builder *b)
 {
-    uint32_t *places = mem_calloc(b->point_count, sizeof *places);
+    uint32_t *positions = mem_calloc(b->point_count, sizeof *positions);
     uint8_t  *used = mem_calloc(b->point_count, 1);
-    bool      done = places && used && find_places(b->points, b->point_count, places);
+    bool      done = positions && used && find_positions(b->points, b->point_count, positions);
     if (done) {
-        use_places(b, places, used);
-        drop_unused(b, places, used);
+        use_positions(b, positions, used);
+        drop_unused(b, positions, used);
     }
-    mem_free(places);
+    mem_free(positions);
     mem_free(used);
     return done;
 }

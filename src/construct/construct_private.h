@@ -29,8 +29,8 @@ void builder_triangle(solid_builder *b, uint32_t i, uint32_t j, uint32_t k);
 /* Two triangles; the corners are in order, the first diagonal runs from the first corner to the third. */
 void builder_quad(solid_builder *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
 void builder_release(solid_builder *b);
-/* Hands over what was built: points at the same place made one, unused ones left out, turned round where its volume is
- * negative. The builder is empty afterwards, also on failure. */
+/* Hands over what was built: points at the same position made one, unused ones left out, turned round where its volume
+ * is negative. The builder is empty afterwards, also on failure. */
 lmn_status builder_finish(solid_builder *b, polyhedron *out, lmn_error *error);
 
 /* Signed: positive when anticlockwise seen from outside. */
@@ -55,7 +55,7 @@ lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t 
 /* OpenSCAD's operations on regions work on whole multiples of this. What is not one is cut off towards zero, as
  * there. */
 #define GRID (1.0 / 65536)
-double grid_place(double value);
+double grid_position(double value);
 
 /* A region that grows contour by contour. Zero-initialise; the first failure to get memory sticks in `failed`. The
  * last contour grows; one of fewer than three points is taken back when it is ended. */
@@ -66,7 +66,7 @@ typedef struct region_builder {
 } region_builder;
 
 void       builder_contour(region_builder *b);
-void       builder_place(region_builder *b, double x, double y);
+void       builder_set_position(region_builder *b, double x, double y);
 void       builder_end_contour(region_builder *b);
 void       region_builder_release(region_builder *b);
 lmn_status region_builder_finish(region_builder *b, region *out, lmn_error *error);
@@ -82,7 +82,7 @@ typedef struct plane_edge {
     point2 from, to;
 } plane_edge;
 /* By x, then y; by where they begin, then where they end. */
-int compare_places(const void *a, const void *b);
+int compare_positions(const void *a, const void *b);
 int compare_plane_edges(const void *a, const void *b);
 /* The contours around faces that lie side by side, from the edges of all of them, the inside on the left: none
  * crosses another, none touches itself, none has corners on straight lines where no other touches it. Sorts the
@@ -104,11 +104,11 @@ typedef struct edge_strips {
 /* Owns the edges from now on, on failure too: release it in any case. False when memory is gone. */
 bool edge_strips_make(edge_strips *s, wound_edge *edges, size_t count);
 void edge_strips_release(edge_strips *s);
-/* Adds to each operand's number how often its contours run anticlockwise round the place: edges that cross the ray
+/* Adds to each operand's number how often its contours run anticlockwise round the position: edges that cross the ray
  * to the right. */
 void edge_strips_wind(const edge_strips *s, double x, double y, int *windings);
 
-/* Which places are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one
+/* Which positions are inside, by how often the contours of each operand run round them. ODD and POSITIVE have one
  * operand. */
 typedef enum cover_rule { COVER_ODD, COVER_POSITIVE, COVER_UNION, COVER_INTERSECTION, COVER_DIFFERENCE } cover_rule;
 /* Contours of any kind on the grid to a region without crossings and without corners on straight lines. */

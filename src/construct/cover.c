@@ -22,7 +22,7 @@ typedef struct cover {
     path               *paths;
     size_t              path_count, operand_count;
     edge_strips         edges;
-    int                *windings; /* of one place, by operand */
+    int                *windings; /* of one position, by operand */
     cover_rule          rule;
     bool                failed; /* memory is gone, ours */
 } cover;
@@ -68,7 +68,7 @@ static bool make_path(path *out, const contour *from, size_t operand)
     if (!out->points)
         return false;
     for (size_t i = 0; i < from->count; i++) {
-        point2 p = {grid_place(from->points[i].x), grid_place(from->points[i].y)};
+        point2 p = {grid_position(from->points[i].x), grid_position(from->points[i].y)};
         if (out->count > 0 && p.x == out->points[out->count - 1].x && p.y == out->points[out->count - 1].y)
             continue;
         out->points[out->count++] = p;
@@ -180,13 +180,13 @@ static bool is_inside(cover *c, double x, double y)
     }
 }
 
-/* A face too small to have a place of its own inside is outside. */
+/* A face too small to have a position of its own inside is outside. */
 static bool face_is_inside(cover *c, const GEOSGeometry *face)
 {
     double        x, y;
-    GEOSGeometry *place = GEOSPointOnSurface_r(c->geos, face);
-    bool          found = place && GEOSGeomGetX_r(c->geos, place, &x) == 1 && GEOSGeomGetY_r(c->geos, place, &y) == 1;
-    GEOSGeom_destroy_r(c->geos, place);
+    GEOSGeometry *position = GEOSPointOnSurface_r(c->geos, face);
+    bool found = position && GEOSGeomGetX_r(c->geos, position, &x) == 1 && GEOSGeomGetY_r(c->geos, position, &y) == 1;
+    GEOSGeom_destroy_r(c->geos, position);
     return found && is_inside(c, x, y);
 }
 

@@ -121,14 +121,14 @@ static double slice_count(const region *r, const linear_extrusion *how, const do
 
 /* --- linear: the sides ---------------------------------------------------------------------------------- */
 
-/* The region's points at this share of the height: turned, then scaled. */
+/* The region's points at this fraction of the height: turned, then scaled. */
 static void add_slice(solid_builder *b, const region *r, const linear_extrusion *how, const double scale[2],
-                      double share)
+                      double fraction)
 {
-    double angle = -how->twist * share, c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
-    double x = 1 - (1 - scale[0]) * share, y = 1 - (1 - scale[1]) * share;
-    double z = how->height * share - (how->centre ? how->height / 2 : 0);
-    if (share == 1) { /* without rounding */
+    double angle = -how->twist * fraction, c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
+    double x = 1 - (1 - scale[0]) * fraction, y = 1 - (1 - scale[1]) * fraction;
+    double z = how->height * fraction - (how->centre ? how->height / 2 : 0);
+    if (fraction == 1) { /* without rounding */
         x = scale[0];
         y = scale[1];
         z = how->centre ? how->height / 2 : how->height;
@@ -210,7 +210,7 @@ lmn_status construct_linear_extrude(polyhedron *out, const region *r, const line
 
 /* --- round the axis ------------------------------------------------------------------------------------- */
 
-/* The region's points at this angle. Nearly on the axis is on it: there the ring is one place. */
+/* The region's points at this angle. Nearly on the axis is on it: there the ring is one position. */
 static void add_ring(solid_builder *b, const region *r, double angle, double reach)
 {
     double c = cosine_of_degrees(angle), s = sine_of_degrees(angle);

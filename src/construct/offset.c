@@ -20,7 +20,7 @@ static double grid_nearest(double value)
 
 static void put_point(offsetting *o, point2 at, double x, double y)
 {
-    builder_place(&o->b, grid_nearest(at.x + o->distance * x), grid_nearest(at.y + o->distance * y));
+    builder_set_position(&o->b, grid_nearest(at.x + o->distance * x), grid_nearest(at.y + o->distance * y));
 }
 
 /* Unit and to the right of the edge: outwards. */
@@ -54,7 +54,7 @@ static void join(offsetting *o, point2 at, point2 n, point2 m)
 {
     double sine = n.x * m.y - n.y * m.x, cosine = n.x * m.x + n.y * m.y;
     sine = fmax(-1, fmin(1, sine));
-    /* So straight that both ends are at the same place of the grid. */
+    /* So straight that both ends are at the same position of the grid. */
     if (fabs(sine * o->distance) < GRID && cosine > 0) {
         put_point(o, at, n.x, n.y);
         return;
@@ -79,7 +79,7 @@ static size_t grid_points(const contour *c, point2 *points)
 {
     size_t count = 0;
     for (size_t i = 0; i < c->count; i++) {
-        point2 p = {grid_place(c->points[i].x), grid_place(c->points[i].y)};
+        point2 p = {grid_position(c->points[i].x), grid_position(c->points[i].y)};
         if (count == 0 || p.x != points[count - 1].x || p.y != points[count - 1].y)
             points[count++] = p;
     }

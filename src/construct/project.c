@@ -79,7 +79,7 @@ static void add_crossing(const section *s, region_builder *b, uint64_t edge)
 {
     const point3 *a = &s->p->points[edge >> 32], *c = &s->p->points[edge & UINT32_MAX];
     double        t = a->z / (a->z - c->z);
-    builder_place(b, a->x + (c->x - a->x) * t, a->y + (c->y - a->y) * t);
+    builder_set_position(b, a->x + (c->x - a->x) * t, a->y + (c->y - a->y) * t);
 }
 
 /* Leaves out points where only the triangles of one flat face meet: nearer than this to the line through their
@@ -174,14 +174,14 @@ lmn_status polyhedron_shadow(region *out, const polyhedron *p, lmn_error *error)
         point2 corners[3];
         for (size_t k = 0; k < 3; k++) {
             const point3 *at = &p->points[p->triangles[i * 3 + k]];
-            corners[k] = (point2){grid_place(at->x), grid_place(at->y)};
+            corners[k] = (point2){grid_position(at->x), grid_position(at->y)};
         }
         /* What faces down lies below what faces up. */
         if (!(contour_area2(corners, 3) > 0))
             continue;
         builder_contour(&b);
         for (int k = 0; k < 3; k++)
-            builder_place(&b, corners[k].x, corners[k].y);
+            builder_set_position(&b, corners[k].x, corners[k].y);
         builder_end_contour(&b);
     }
     region triangles;

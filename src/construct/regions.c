@@ -14,7 +14,7 @@ void region_release(region *r)
     *r = (region){0};
 }
 
-double grid_place(double value)
+double grid_position(double value)
 {
     return trunc(value / GRID) * GRID + 0.0;
 }
@@ -73,7 +73,7 @@ void builder_contour(region_builder *b)
     b->point_capacity = 0;
 }
 
-void builder_place(region_builder *b, double x, double y)
+void builder_set_position(region_builder *b, double x, double y)
 {
     if (b->failed)
         return;
@@ -128,10 +128,10 @@ lmn_status construct_square(region *out, const double size[2], bool centre, lmn_
     double         y1 = centre ? -size[1] / 2 : 0, y2 = centre ? size[1] / 2 : size[1];
     region_builder b = {0};
     builder_contour(&b);
-    builder_place(&b, x1, y1);
-    builder_place(&b, x2, y1);
-    builder_place(&b, x2, y2);
-    builder_place(&b, x1, y2);
+    builder_set_position(&b, x1, y1);
+    builder_set_position(&b, x2, y1);
+    builder_set_position(&b, x2, y2);
+    builder_set_position(&b, x1, y2);
     builder_end_contour(&b);
     return region_builder_finish(&b, out, error);
 }
@@ -149,7 +149,7 @@ lmn_status construct_circle(region *out, double radius, facets f, lmn_error *err
     builder_contour(&b);
     for (int i = 0; i < count; i++) {
         double angle = 360.0 * i / count;
-        builder_place(&b, radius * cosine_of_degrees(angle), radius * sine_of_degrees(angle));
+        builder_set_position(&b, radius * cosine_of_degrees(angle), radius * sine_of_degrees(angle));
     }
     builder_end_contour(&b);
     return region_builder_finish(&b, out, error);
@@ -182,7 +182,7 @@ lmn_status construct_polygon(region *out, const point2 *points, size_t point_cou
     for (size_t i = 0; i < path_count; corners += path_sizes[i++]) {
         builder_contour(&b);
         for (uint32_t k = 0; k < path_sizes[i]; k++)
-            builder_place(&b, points[corners[k]].x, points[corners[k]].y);
+            builder_set_position(&b, points[corners[k]].x, points[corners[k]].y);
         builder_end_contour(&b);
     }
     region paths;
@@ -223,7 +223,7 @@ lmn_status region_transform(region *out, const region *r, const double m[6], lmn
         builder_contour(&b);
         for (size_t k = 0, n = r->contours[i].count; k < n; k++) {
             point2 p = r->contours[i].points[determinant < 0 ? n - 1 - k : k];
-            builder_place(&b, m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]);
+            builder_set_position(&b, m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]);
         }
         builder_end_contour(&b);
     }
@@ -242,7 +242,7 @@ static bool turns_left(point2 a, point2 b, point2 c)
 /* Andrew's monotone chains; sorts the points. The hull has room for one more than there are points. */
 static size_t find_hull(point2 *points, size_t count, point2 *hull)
 {
-    qsort(points, count, sizeof *points, compare_places);
+    qsort(points, count, sizeof *points, compare_positions);
     size_t size = 0;
     for (size_t i = 0; i < count; i++) {
         while (size >= 2 && !turns_left(hull[size - 2], hull[size - 1], points[i]))
@@ -272,7 +272,7 @@ static lmn_status hull_of_points(region *out, point2 *points, size_t count, lmn_
     if (size >= 3 && contour_area2(hull, size) > 0) {
         builder_contour(&b);
         for (size_t i = 0; i < size; i++)
-            builder_place(&b, hull[i].x, hull[i].y);
+            builder_set_position(&b, hull[i].x, hull[i].y);
         builder_end_contour(&b);
     }
     mem_free(hull);
@@ -329,8 +329,8 @@ static lmn_status convex_sum(region *out, const contour *a, const contour *b, lm
         return error_memory(error);
     for (size_t i = 0; i < a->count; i++)
         for (size_t k = 0; k < b->count; k++)
-            points[i * b->count + k] = (point2){grid_place(a->points[i].x) + grid_place(b->points[k].x),
-                                                grid_place(a->points[i].y) + grid_place(b->points[k].y)};
+            points[i * b->count + k] = (point2){grid_position(a->points[i].x) + grid_position(b->points[k].x),
+                                                grid_position(a->points[i].y) + grid_position(b->points[k].y)};
     lmn_status status = hull_of_points(out, points, a->count * b->count, error);
     mem_free(points);
     return status;
@@ -339,22 +339,23 @@ static lmn_status convex_sum(region *out, const contour *a, const contour *b, lm
 /* What an edge covers while it moves along another one. */
 static void add_parallelogram(region_builder *sum, const point2 *a, const point2 *b, const point2 *c, const point2 *d)
 {
-    double ux = grid_place(b->x) - grid_place(a->x), uy = grid_place(b->y) - grid_place(a->y);
-    double vx = grid_place(d->x) - grid_place(c->x), vy = grid_place(d->y) - grid_place(c->y), area = ux * vy - uy * vx;
-    double x = grid_place(a->x) + grid_place(c->x), y = grid_place(a->y) + grid_place(c->y);
+    double ux = grid_position(b->x) - grid_position(a->x), uy = grid_position(b->y) - grid_position(a->y);
+    double vx = grid_position(d->x) - grid_position(c->x), vy = grid_position(d->y) - grid_position(c->y),
+           area = ux * vy - uy * vx;
+    double x = grid_position(a->x) + grid_position(c->x), y = grid_position(a->y) + grid_position(c->y);
     if (area == 0)
         return;
     builder_contour(sum);
-    builder_place(sum, x, y);
+    builder_set_position(sum, x, y);
     if (area > 0)
-        builder_place(sum, x + ux, y + uy);
+        builder_set_position(sum, x + ux, y + uy);
     else
-        builder_place(sum, x + vx, y + vy);
-    builder_place(sum, x + ux + vx, y + uy + vy);
+        builder_set_position(sum, x + vx, y + vy);
+    builder_set_position(sum, x + ux + vx, y + uy + vy);
     if (area > 0)
-        builder_place(sum, x + vx, y + vy);
+        builder_set_position(sum, x + vx, y + vy);
     else
-        builder_place(sum, x + ux, y + uy);
+        builder_set_position(sum, x + ux, y + uy);
     builder_end_contour(sum);
 }
 
@@ -399,7 +400,7 @@ static lmn_status unite_moved(region *sum, const region *a, const region *b, lmn
     return status;
 }
 
-/* A place of the sum either has both borders meeting in it, or one of the two lies wholly within the other there. */
+/* A position of the sum either has both borders meeting in it, or one of the two lies wholly within the other there. */
 lmn_status region_minkowski(region *out, const region *a, const region *b, lmn_error *error)
 {
     *out = (region){0};

@@ -90,7 +90,7 @@ lmn_status construct_cylinder(polyhedron *out, double height, double r1, double 
     double        z1 = centre ? -height / 2 : 0, z2 = centre ? height / 2 : height;
     uint32_t      count = (uint32_t)facets;
     solid_builder b = {0};
-    /* The ring of an apex is one place, and welding leaves one triangle of each quad. */
+    /* The ring of an apex is one position, and welding leaves one triangle of each quad. */
     add_ring(&b, r1, z1, facets);
     add_ring(&b, r2, z2, facets);
     if (r1 > 0)
@@ -117,7 +117,7 @@ static void face_normal(const point3 *points, const uint32_t *corners, uint32_t 
     }
 }
 
-/* The face's corners without neighbours at the same place, last to first. Returns how many. */
+/* The face's corners without neighbours at the same position, last to first. Returns how many. */
 static uint32_t face_corners(const point3 *points, const uint32_t *corners, uint32_t size, uint32_t *out)
 {
     uint32_t kept = 0;

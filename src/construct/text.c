@@ -21,8 +21,8 @@
 #define FONT_SIZE       100000
 #define FONT_RESOLUTION 100
 /* What lies between glyphs comes out a little smaller than the glyphs themselves: 1000 by 1024. So it is there. */
-#define PLACE_SCALE (1.0 / 102400)
-#define PIXEL       64
+#define POSITION_SCALE (1.0 / 102400)
+#define PIXEL          64
 
 typedef struct lettering {
     FT_Library     library;
@@ -133,13 +133,13 @@ static extent measure(const lettering *l)
 {
     unsigned             count;
     hb_glyph_info_t     *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
-    hb_glyph_position_t *places = hb_buffer_get_glyph_positions(l->buffer, &count);
+    hb_glyph_position_t *positions = hb_buffer_get_glyph_positions(l->buffer, &count);
     extent               e = {0};
     for (unsigned i = 0; i < count; i++) {
         FT_BBox  box;
         FT_Glyph glyph;
-        e.advance_x += places[i].x_advance * l->spacing;
-        e.advance_y += places[i].y_advance * l->spacing;
+        e.advance_x += positions[i].x_advance * l->spacing;
+        e.advance_y += positions[i].y_advance * l->spacing;
         if (FT_Load_Glyph(l->face, glyphs[i].codepoint, FT_LOAD_DEFAULT) != 0 ||
             FT_Get_Glyph(l->face->glyph, &glyph) != 0)
             continue;
@@ -178,8 +178,8 @@ static void align(lettering *l, const text_style *style)
 static void add_point(lettering *l, double x, double y)
 {
     if (l->points++ < LIMIT_SHAPE_POINTS)
-        builder_place(&l->outline, (x / FONT_SIZE + l->x * PLACE_SCALE) * l->size,
-                      (y / FONT_SIZE + l->y * PLACE_SCALE) * l->size);
+        builder_set_position(&l->outline, (x / FONT_SIZE + l->x * POSITION_SCALE) * l->size,
+                             (y / FONT_SIZE + l->y * POSITION_SCALE) * l->size);
     l->last = (point2){x, y};
 }
 
@@ -226,16 +226,16 @@ static int on_cubic(const FT_Vector *first, const FT_Vector *second, const FT_Ve
 }
 
 /* The glyph's contours where it stands: how many, and each with its points. */
-static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *place, fence_bytes *answer,
+static lmn_status put_glyph(lettering *l, unsigned glyph, const hb_glyph_position_t *position, fence_bytes *answer,
                             lmn_error *error)
 {
     static const FT_Outline_Funcs functions = {on_move, on_line, on_conic, on_cubic, 0, 0};
-    l->x += place->x_offset;
-    l->y += place->y_offset;
+    l->x += position->x_offset;
+    l->y += position->y_offset;
     if (FT_Load_Glyph(l->face, glyph, FT_LOAD_DEFAULT) == 0 && l->face->glyph->format == FT_GLYPH_FORMAT_OUTLINE)
         FT_Outline_Decompose(&l->face->glyph->outline, &functions, l);
-    l->x += place->x_advance * l->spacing - place->x_offset;
-    l->y += place->y_advance * l->spacing - place->y_offset;
+    l->x += position->x_advance * l->spacing - position->x_offset;
+    l->y += position->y_advance * l->spacing - position->y_offset;
     if (l->outline.count > 0)
         builder_end_contour(&l->outline);
     fence_put_u32(answer, (uint32_t)l->outline.count);
@@ -252,11 +252,11 @@ static lmn_status put_glyphs(lettering *l, fence_bytes *answer, lmn_error *error
 {
     unsigned             count;
     hb_glyph_info_t     *glyphs = hb_buffer_get_glyph_infos(l->buffer, &count);
-    hb_glyph_position_t *places = hb_buffer_get_glyph_positions(l->buffer, &count);
+    hb_glyph_position_t *positions = hb_buffer_get_glyph_positions(l->buffer, &count);
     lmn_status           status = LMN_OK;
     fence_put_u32(answer, count);
     for (unsigned i = 0; status == LMN_OK && i < count; i++)
-        status = put_glyph(l, glyphs[i].codepoint, &places[i], answer, error);
+        status = put_glyph(l, glyphs[i].codepoint, &positions[i], answer, error);
     return status;
 }
 
@@ -319,7 +319,7 @@ static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
         for (uint32_t k = 0; at && k < points; k++) {
             point2 p;
             memcpy(&p, at + k * sizeof p, sizeof p);
-            builder_place(&outline, p.x, p.y);
+            builder_set_position(&outline, p.x, p.y);
         }
         builder_end_contour(&outline);
     }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "construct/construct_private.h"
 
-int compare_places(const void *a, const void *b)
+int compare_positions(const void *a, const void *b)
 {
     const point2 *p = a, *q = b;
     if (p->x != q->x)
@@ -17,8 +17,8 @@ int compare_places(const void *a, const void *b)
 int compare_plane_edges(const void *a, const void *b)
 {
     const plane_edge *p = a, *q = b;
-    int               order = compare_places(&p->from, &q->from);
-    return order ? order : compare_places(&p->to, &q->to);
+    int               order = compare_positions(&p->from, &q->from);
+    return order ? order : compare_positions(&p->to, &q->to);
 }
 
 #define NOWHERE SIZE_MAX
@@ -29,8 +29,8 @@ typedef struct walk {
     size_t          count;
     bool           *used;
     size_t         *position; /* of a vertex on the way; NOWHERE when it is not on it */
-    size_t         *way;      /* vertices */
-    size_t          way_length;
+    size_t         *path;     /* vertices */
+    size_t          path_length;
     point2         *points; /* room for one contour */
     region_builder *b;
 } walk;
@@ -41,7 +41,7 @@ static size_t find_vertex(const walk *w, point2 at)
     size_t low = 0, high = w->count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (compare_places(&w->edges[middle].from, &at) < 0)
+        if (compare_positions(&w->edges[middle].from, &at) < 0)
             low = middle + 1;
         else
             high = middle;
@@ -51,7 +51,7 @@ static size_t find_vertex(const walk *w, point2 at)
 
 static bool begins_at(const walk *w, size_t edge, size_t vertex)
 {
-    return edge < w->count && compare_places(&w->edges[edge].from, &w->edges[vertex].from) == 0;
+    return edge < w->count && compare_positions(&w->edges[edge].from, &w->edges[vertex].from) == 0;
 }
 
 /* Do contours touch here? */
@@ -105,21 +105,21 @@ static size_t drop_straight(const walk *w, point2 *points, size_t count)
     return count;
 }
 
-/* The way from this place on has come back to where it was: it is a contour. */
+/* The way from this position on has come back to where it was: it is a contour. */
 static void take_loop(walk *w, size_t from)
 {
-    size_t count = w->way_length - from;
+    size_t count = w->path_length - from;
     for (size_t i = 0; i < count; i++) {
-        w->points[i] = w->edges[w->way[from + i]].from;
-        w->position[w->way[from + i]] = NOWHERE;
+        w->points[i] = w->edges[w->path[from + i]].from;
+        w->position[w->path[from + i]] = NOWHERE;
     }
-    w->way_length = from;
+    w->path_length = from;
     count = drop_straight(w, w->points, count);
     if (contour_area2(w->points, count) == 0)
         return;
     builder_contour(w->b);
     for (size_t i = 0; i < count; i++)
-        builder_place(w->b, w->points[i].x, w->points[i].y);
+        builder_set_position(w->b, w->points[i].x, w->points[i].y);
     builder_end_contour(w->b);
 }
 
@@ -130,23 +130,23 @@ static void walk_from(walk *w, size_t edge)
     for (;;) {
         if (w->position[vertex] != NOWHERE) {
             take_loop(w, w->position[vertex]);
-            if (w->way_length == 0)
+            if (w->path_length == 0)
                 return;
         }
         size_t next = arrived ? choose_next(w, vertex, arrived) : edge;
         if (next == NOWHERE)
-            break; /* cannot be: as many edges end at a place as begin there */
+            break; /* cannot be: as many edges end at a position as begin there */
         w->used[next] = true;
-        w->position[vertex] = w->way_length;
-        w->way[w->way_length++] = vertex;
+        w->position[vertex] = w->path_length;
+        w->path[w->path_length++] = vertex;
         arrived = &w->edges[next];
         vertex = find_vertex(w, arrived->to);
         if (vertex == w->count)
             break;
     }
-    for (size_t i = 0; i < w->way_length; i++)
-        w->position[w->way[i]] = NOWHERE;
-    w->way_length = 0;
+    for (size_t i = 0; i < w->path_length; i++)
+        w->position[w->path[i]] = NOWHERE;
+    w->path_length = 0;
 }
 
 /* Sorts, and leaves out edges between two faces, which are there in both directions. */
@@ -171,9 +171,9 @@ bool edges_trace(region *out, plane_edge *edges, size_t count)
     *out = (region){0};
     w.used = mem_calloc(count, sizeof *w.used);
     w.position = mem_calloc(count, sizeof *w.position);
-    w.way = mem_calloc(count, sizeof *w.way);
+    w.path = mem_calloc(count, sizeof *w.path);
     w.points = mem_calloc(count, sizeof *w.points);
-    b.failed = !w.used || !w.position || !w.way || !w.points;
+    b.failed = !w.used || !w.position || !w.path || !w.points;
     if (!b.failed) {
         w.count = cancel_inner(edges, count, w.used);
         memset(w.used, 0, count * sizeof *w.used);
@@ -184,7 +184,7 @@ bool edges_trace(region *out, plane_edge *edges, size_t count)
             walk_from(&w, i);
     mem_free(w.used);
     mem_free(w.position);
-    mem_free(w.way);
+    mem_free(w.path);
     mem_free(w.points);
     return region_builder_finish(&b, out, NULL) == LMN_OK;
 }

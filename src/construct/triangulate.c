@@ -46,12 +46,12 @@ static void GLAPIENTRY on_error(GLenum error, void *user)
     f->failed = f->failed || error == GLU_OUT_OF_MEMORY;
 }
 
-/* Two points at the same place are one. Where edges cross no point is made: the border comes out wrong and is found
+/* Two points at the same position are one. Where edges cross no point is made: the border comes out wrong and is found
  * so. */
-static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[4], void **out, void *user)
+static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat fractions[4], void **out, void *user)
 {
     (void)at;
-    (void)shares;
+    (void)fractions;
     (void)user;
     *out = data[0];
 }
@@ -85,7 +85,7 @@ static bool fill(filling *f, const contour *contours, size_t count)
 
 /* --- is the triangles' border that of the contours? ----------------------------------------------------- */
 
-/* Both directions of each edge of the sum "contours minus triangles": it must be its own reverse, by places. */
+/* Both directions of each edge of the sum "contours minus triangles": it must be its own reverse, by positions. */
 static bool borders_agree(const contour *contours, size_t count, const filling *f, const point2 *points,
                           size_t point_count, bool *failed)
 {

@@ -1,5 +1,5 @@
-/* How often contours run round a place. Edges are kept by horizontal strips, because a set operation asks for many
- * places. */
+/* How often contours run round a position. Edges are kept by horizontal strips, because a set operation asks for many
+ * positions. */
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +35,7 @@ static void choose_strips(edge_strips *s)
     s->scale = (double)s->strip_count / (high - s->low);
 }
 
-/* Calls for each strip of each edge; without entries they are only counted, at the place after the next one's
+/* Calls for each strip of each edge; without entries they are only counted, at the position after the next one's
  * beginning. */
 static void visit_strips(edge_strips *s, bool count_only)
 {

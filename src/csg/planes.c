@@ -236,10 +236,10 @@ static int by_group(const void *a, const void *b)
  * are far apart. */
 static bool find_members(const finder *f, const neighbours *n, const uint32_t *group_of, member_list *l)
 {
-    size_t room = 0, unique = 0;
+    size_t capacity = 0, unique = 0;
     for (size_t i = 0; i < f->soup->triangle_count; i++)
-        room += group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared;
-    l->items = mem_alloc((room + 1) * sizeof *l->items);
+        capacity += group_of[i] != UINT32_MAX && f->groups[group_of[i]].shared;
+    l->items = mem_alloc((capacity + 1) * sizeof *l->items);
     if (!l->items)
         return false;
     for (size_t i = 0; i < f->soup->triangle_count; i++)
@@ -293,10 +293,10 @@ bool csg_find_planes(const csg_soup *soup, uint16_t **numbers, csg_plane **plane
     while (f.cell_count < soup->triangle_count)
         f.cell_count *= 2;
     measure(&f);
-    size_t    room = soup->triangle_count ? soup->triangle_count : 1;
-    uint32_t *group_of = mem_alloc(room * sizeof *group_of);
+    size_t    capacity = soup->triangle_count ? soup->triangle_count : 1;
+    uint32_t *group_of = mem_alloc(capacity * sizeof *group_of);
     f.cells = mem_calloc(f.cell_count, sizeof *f.cells);
-    *numbers = mem_calloc(room, sizeof **numbers);
+    *numbers = mem_calloc(capacity, sizeof **numbers);
     *planes = NULL;
     *plane_count = 0;
     neighbours n = {.boxes = NULL};

@@ -21,11 +21,11 @@ bool fetch_surface(uint part)
     if (surface.z == 0u)
         return false;
     int operand = int(surface.z >> 16 & 0x3FFFu) - 1;
-    ivec2 place = ivec2(2 * (operand & 511), operand >> 9);
-    vec4 facts = texelFetch(t_operands, place + ivec2(1, 0), 0);
+    ivec2 position = ivec2(2 * (operand & 511), operand >> 9);
+    vec4 facts = texelFetch(t_operands, position + ivec2(1, 0), 0);
     if (uint(facts.x) != part)
         return false;
-    surface_albedo = u_solid_highlight.a > 0.0 ? u_solid_highlight : texelFetch(t_operands, place, 0);
+    surface_albedo = u_solid_highlight.a > 0.0 ? u_solid_highlight : texelFetch(t_operands, position, 0);
     surface_is_cut = facts.z > 0.5;
     surface_operand = surface_is_cut ? SURFACE_CUT | uint(facts.y) : SURFACE_OPERAND | (surface.z >> 16 & 0x3FFFu);
     float depth = eye_depth_of(surface.y);

@@ -38,9 +38,9 @@ cut_verdict cut_judge_box(const cut *c, box3 box)
 
 /* --- the part's vertices -------------------------------------------------------------------------------- */
 
-/* One number for each place, however many primitives and corners share it: `numbers` for all vertices, one
+/* One number for each position, however many primitives and corners share it: `numbers` for all vertices, one
  * primitive's behind the other's. */
-static uint32_t *number_places(cut_job *j, size_t input_count)
+static uint32_t *number_positions(cut_job *j, size_t input_count)
 {
     size_t total = 0;
     for (size_t i = 0; i < input_count; i++)
@@ -58,7 +58,7 @@ static uint32_t *number_places(cut_job *j, size_t input_count)
         numbers = mesh_position_ids(&all);
     for (size_t i = 0; numbers && i < total && !j->failed; i++) {
         if (numbers[i] != i) {
-            numbers[i] = numbers[numbers[i]]; /* the first at a place comes before the others */
+            numbers[i] = numbers[numbers[i]]; /* the first at a position comes before the others */
             continue;
         }
         vec3          p = all.positions[i];
@@ -243,7 +243,7 @@ static const cut_point *fan_corner(const cut_job *j, const cut_piece *p, uint32_
     return &j->points[p->first + (start + (k == 0 ? 0 : i + k - 1)) % p->count];
 }
 
-static vec3 place_of(const cut_job *j, const cut_point *p)
+static vec3 position_of(const cut_job *j, const cut_point *p)
 {
     const double *at = j->vertices[p->vertex].local;
     return (vec3){(float)at[0], (float)at[1], (float)at[2]};
@@ -269,7 +269,7 @@ static void write_surface(cut_job *j, const cut_piece *p)
         for (uint32_t k = 0; k < 3; k++) {
             const cut_point *from = fan_corner(j, p, start, i, k);
             cut_corner      *c = &s->corners[s->corner_count++];
-            *c = (cut_corner){.position = place_of(j, from), .triangle = p->triangle};
+            *c = (cut_corner){.position = position_of(j, from), .triangle = p->triangle};
             memcpy(c->weights, from->weights, sizeof c->weights);
         }
 }
@@ -285,7 +285,7 @@ static void write_cap(cut_job *j, const cut_piece *p)
     uint32_t start = job_fan_start(j, p);
     for (uint32_t i = 1; i + 1 < p->count; i++)
         for (uint32_t k = 0; k < 3; k++)
-            cap->positions[cap->count++] = place_of(j, fan_corner(j, p, start, i, j->inside_out && k ? 3 - k : k));
+            cap->positions[cap->count++] = position_of(j, fan_corner(j, p, start, i, j->inside_out && k ? 3 - k : k));
 }
 
 static void write_pieces(cut_job *j)
@@ -343,7 +343,7 @@ lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_
 {
     memset(out, 0, sizeof *out);
     cut_job   j = {.cut = c, .inputs = inputs, .world = world, .out = out};
-    uint32_t *numbers = number_places(&j, input_count);
+    uint32_t *numbers = number_positions(&j, input_count);
     out->surfaces = mem_calloc(input_count, sizeof *out->surfaces);
     out->surface_count = out->surfaces ? input_count : 0;
     j.failed = j.failed || !numbers || !out->surfaces;

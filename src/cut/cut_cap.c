@@ -136,10 +136,10 @@ static double measure_loop(section *s, size_t loop, body *b)
 {
     const cut_loops *l = &s->loops;
     double           area = 0, before[2];
-    contour_place(s->job, s->axes, l->points[l->starts[loop + 1] - 1], before);
+    contour_position(s->job, s->axes, l->points[l->starts[loop + 1] - 1], before);
     for (size_t k = l->starts[loop]; k < l->starts[loop + 1]; k++) {
         double at[2];
-        contour_place(s->job, s->axes, l->points[k], at);
+        contour_position(s->job, s->axes, l->points[k], at);
         area += before[0] * at[1] - before[1] * at[0];
         for (int i = 0; i < 2; i++) {
             b->low[i] = fmin(b->low[i], at[i]);
@@ -181,7 +181,7 @@ static bool find_bodies(section *s)
     return true;
 }
 
-/* How often the body's outline goes around the place. */
+/* How often the body's outline goes around the position. */
 static int winding(section *s, const body *b, const double at[2])
 {
     const cut_loops *l = &s->loops;
@@ -189,9 +189,9 @@ static int winding(section *s, const body *b, const double at[2])
     for (size_t i = b->first; i < b->first + b->count; i++) {
         size_t loop = s->order[i];
         double p[2], q[2];
-        contour_place(s->job, s->axes, l->points[l->starts[loop + 1] - 1], p);
+        contour_position(s->job, s->axes, l->points[l->starts[loop + 1] - 1], p);
         for (size_t k = l->starts[loop]; k < l->starts[loop + 1]; k++) {
-            contour_place(s->job, s->axes, l->points[k], q);
+            contour_position(s->job, s->axes, l->points[k], q);
             double side = (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]);
             if (p[1] <= at[1] && q[1] > at[1] && side > 0)
                 around++;
@@ -216,7 +216,7 @@ static void place_hollows(section *s)
         if (hollow->area >= 0)
             continue;
         double at[2];
-        contour_place(s->job, s->axes, s->loops.points[s->loops.starts[s->order[hollow->first]]], at);
+        contour_position(s->job, s->axes, s->loops.points[s->loops.starts[s->order[hollow->first]]], at);
         for (size_t k = 0; k < s->body_count; k++) {
             const body *b = &s->bodies[k];
             bool        better = b->area > 0 && (hollow->within < 0 || b->area < s->bodies[hollow->within].area);
@@ -241,7 +241,7 @@ static size_t add_body(section *s, size_t count, const body *b, bool material)
     return count;
 }
 
-/* The body with its hollows, without smaller bodies that share its place: a shaft runs through its gear. */
+/* The body with its hollows, without smaller bodies that share its position: a shaft runs through its gear. */
 static bool fill_body(section *s, size_t index)
 {
     const body *b = &s->bodies[index];

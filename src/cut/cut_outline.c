@@ -15,7 +15,7 @@ enum { GAP_NEIGHBOURS = 64 };
 
 typedef struct outline {
     const cut_job *job;
-    cut_segment   *segments; /* between places in `vertices` */
+    cut_segment   *segments; /* between positions in `vertices` */
     size_t         count, capacity;
     uint32_t      *vertices; /* ascending */
     size_t         vertex_count;
@@ -30,7 +30,7 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static uint32_t place_in(const outline *o, uint32_t vertex)
+static uint32_t position_in(const outline *o, uint32_t vertex)
 {
     size_t low = 0, high = o->vertex_count;
     while (high - low > 1) {
@@ -57,8 +57,8 @@ static bool number_vertices(outline *o)
         if (o->vertex_count == 0 || o->vertices[o->vertex_count - 1] != o->vertices[i])
             o->vertices[o->vertex_count++] = o->vertices[i];
     for (size_t i = 0; i < o->count; i++) {
-        o->segments[i].from = place_in(o, o->segments[i].from);
-        o->segments[i].to = place_in(o, o->segments[i].to);
+        o->segments[i].from = position_in(o, o->segments[i].from);
+        o->segments[i].to = position_in(o, o->segments[i].to);
     }
     o->excess = mem_calloc(o->vertex_count, sizeof *o->excess);
     o->group = mem_alloc(o->vertex_count * sizeof *o->group);
@@ -86,8 +86,8 @@ static int compare_segments(const void *a, const void *b)
     return ends ? ends : (s->primitive > t->primitive) - (s->primitive < t->primitive);
 }
 
-/* Drops what cancels: there and back, or with `any_way` every second one. */
-static size_t cancel(cut_segment *segments, size_t count, bool any_way)
+/* Drops what cancels: there and back, or with `any_direction` every second one. */
+static size_t cancel(cut_segment *segments, size_t count, bool any_direction)
 {
     size_t kept = 0;
     qsort(segments, count, sizeof *segments, compare_segments);
@@ -100,7 +100,7 @@ static size_t cancel(cut_segment *segments, size_t count, bool any_way)
         cut_segment s = segments[i];
         if (s.from == s.to)
             continue;
-        if (any_way)
+        if (any_direction)
             net = (long)(end - i) & 1;
         if ((net > 0) != (s.from < s.to))
             s = (cut_segment){s.to, s.from, s.primitive};
@@ -131,7 +131,7 @@ static void find_groups(outline *o)
 
 typedef struct loose_end {
     double   along; /* sorted by this: a direction that nothing in a model is likely to share */
-    uint32_t place;
+    uint32_t position;
     int32_t  sign; /* 1: a chain begins here, −1: one ends here; 0: either, or taken */
     bool     taken;
 } loose_end;
@@ -140,7 +140,7 @@ static int compare_ends(const void *a, const void *b)
 {
     const loose_end *s = a, *t = b;
     int              along = (s->along > t->along) - (s->along < t->along);
-    return along ? along : (s->place > t->place) - (s->place < t->place);
+    return along ? along : (s->position > t->position) - (s->position < t->position);
 }
 
 static double distance(const outline *o, uint32_t a, uint32_t b)
@@ -165,7 +165,7 @@ static bool join_end(outline *o, loose_end *ends, size_t count, size_t i)
     for (size_t k = i + 1; k < count && k < i + GAP_NEIGHBOURS && ends[k].along - ends[i].along <= GAP; k++) {
         if (ends[k].taken || ends[k].sign * ends[i].sign > 0 || (ends[k].sign == 0) != (ends[i].sign == 0))
             continue;
-        double apart = distance(o, ends[i].place, ends[k].place);
+        double apart = distance(o, ends[i].position, ends[k].position);
         if (apart <= least) {
             least = apart;
             best = k;
@@ -174,19 +174,19 @@ static bool join_end(outline *o, loose_end *ends, size_t count, size_t i)
     if (best == count)
         return true;
     ends[i].taken = ends[best].taken = true;
-    uint32_t from = ends[i].sign < 0 ? ends[i].place : ends[best].place,
-             to = ends[i].sign < 0 ? ends[best].place : ends[i].place;
+    uint32_t from = ends[i].sign < 0 ? ends[i].position : ends[best].position,
+             to = ends[i].sign < 0 ? ends[best].position : ends[i].position;
     o->excess[from]++;
     o->excess[to] += ends[i].sign == 0 ? 1 : -1;
     return add_segment(o, from, to);
 }
 
-/* Joins ends that nearly meet; with `any_way`, vertices with an odd number of segments. */
-static bool join_gaps(outline *o, bool any_way)
+/* Joins ends that nearly meet; with `any_direction`, vertices with an odd number of segments. */
+static bool join_gaps(outline *o, bool any_direction)
 {
     size_t count = 0;
     for (size_t i = 0; i < o->vertex_count; i++)
-        count += any_way ? (size_t)(o->excess[i] & 1) : (size_t)abs(o->excess[i]);
+        count += any_direction ? (size_t)(o->excess[i] & 1) : (size_t)abs(o->excess[i]);
     loose_end *ends = mem_alloc(count * sizeof *ends);
     if (!ends)
         return false;
@@ -194,9 +194,9 @@ static bool join_gaps(outline *o, bool any_way)
     for (uint32_t i = 0; i < o->vertex_count; i++) {
         const double *p = o->job->vertices[o->vertices[i]].world;
         double        along = (0.5377 * p[0] + 0.6532 * p[1] + 0.5332 * p[2]) * o->job->scale;
-        int           copies = any_way ? o->excess[i] & 1 : abs(o->excess[i]);
+        int           copies = any_direction ? o->excess[i] & 1 : abs(o->excess[i]);
         for (int k = 0; k < copies && isfinite(along); k++)
-            ends[count++] = (loose_end){along, i, any_way ? 0 : o->excess[i] > 0 ? 1 : -1, false};
+            ends[count++] = (loose_end){along, i, any_direction ? 0 : o->excess[i] > 0 ? 1 : -1, false};
     }
     qsort(ends, count, sizeof *ends, compare_ends);
     bool done = true;
@@ -227,7 +227,7 @@ static void walk_release(walk *w)
     mem_free(w->used);
 }
 
-static bool walk_make(walk *w, const outline *o, const cut_segment *segments, size_t count, bool any_way)
+static bool walk_make(walk *w, const outline *o, const cut_segment *segments, size_t count, bool any_direction)
 {
     *w = (walk){o,
                 segments,
@@ -240,7 +240,7 @@ static bool walk_make(walk *w, const outline *o, const cut_segment *segments, si
         return false;
     for (size_t i = 0; i < count; i++) {
         w->starts[segments[i].from + 1]++;
-        w->starts[segments[i].to + 1] += any_way;
+        w->starts[segments[i].to + 1] += any_direction;
     }
     for (size_t v = 0; v < o->vertex_count; v++) {
         w->starts[v + 1] += w->starts[v];
@@ -248,7 +248,7 @@ static bool walk_make(walk *w, const outline *o, const cut_segment *segments, si
     }
     for (uint32_t i = 0; i < count; i++) {
         w->leaving[w->next[segments[i].from]++] = i;
-        if (any_way)
+        if (any_direction)
             w->leaving[w->next[segments[i].to]++] = i;
     }
     memcpy(w->next, w->starts, o->vertex_count * sizeof(size_t));
@@ -297,12 +297,12 @@ static bool walk_from(walk *w, uint32_t start, cut_loops *out, bool *closed)
     return true;
 }
 
-static bool walk_all(outline *o, const cut_segment *segments, size_t count, bool any_way, cut_loops *out)
+static bool walk_all(outline *o, const cut_segment *segments, size_t count, bool any_direction, cut_loops *out)
 {
     walk w;
-    bool done = walk_make(&w, o, segments, count, any_way), closed;
+    bool done = walk_make(&w, o, segments, count, any_direction), closed;
     /* Open chains first, from their ends, so that closed loops are left. */
-    for (uint32_t v = 0; v < o->vertex_count && done && any_way; v++)
+    for (uint32_t v = 0; v < o->vertex_count && done && any_direction; v++)
         if (o->excess[v] & 1 && w.next[v] < w.starts[v + 1]) {
             size_t before = out->count, points = out->point_count;
             done = walk_from(&w, v, out, &closed);

@@ -4,7 +4,7 @@
 
 #include "cut/cut.h"
 
-/* A point of the part: its own vertices first, one for each place, then those made on edges, one for each edge. */
+/* A point of the part: its own vertices first, one for each position, then those made on edges, one for each edge. */
 typedef struct cut_vertex {
     double   world[3], local[3];
     uint32_t positive, negative; /* planes that it lies on these sides of; in neither: it lies in the plane */
@@ -105,7 +105,7 @@ typedef struct cut_triangles {
     size_t    count, capacity;
 } cut_triangles;
 /* Where a vertex is along the axes, in parts of the part's extent. */
-void contour_place(const cut_job *j, double axes[2][3], uint32_t vertex, double out[2]);
+void contour_position(const cut_job *j, double axes[2][3], uint32_t vertex, double out[2]);
 /* Fills the contours; new vertices may be added to the job. False when it cannot be done; memory trouble is in
  * job->failed. */
 bool contours_fill(cut_triangles *out, cut_job *j, int plane, double axes[2][3], const cut_contour *contours,

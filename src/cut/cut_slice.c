@@ -71,8 +71,8 @@ static bool grow_edges(cut_job *j)
     return true;
 }
 
-/* The vertex where the edge goes through the plane, and its share of the way from a to b. */
-static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, double *share)
+/* The vertex where the edge goes through the plane, and its fraction of the way from a to b. */
+static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, double *fraction)
 {
     uint32_t ends[2] = {a < b ? a : b, a < b ? b : a};
     double   low = height(&j->cut->planes[plane], j->vertices[ends[0]].world);
@@ -80,7 +80,7 @@ static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, doubl
     double   t = low / (low - high);
     if (!(t > 0 && t < 1)) /* the sides were inherited and rounding says something else */
         t = low == 0 || fabs(low) < fabs(high) ? 0 : 1;
-    *share = a < b ? t : 1 - t;
+    *fraction = a < b ? t : 1 - t;
     if (j->edge_count * 2 >= j->edge_slots && !grow_edges(j)) {
         j->failed = true;
         return 0;
@@ -142,10 +142,10 @@ static void divide_piece(cut_job *j, size_t index, int plane)
             add_point(&below, a);
         if (!crosses)
             continue;
-        double    share;
-        cut_point middle = {.vertex = divide_edge(j, a.vertex, b.vertex, plane, &share)};
+        double    fraction;
+        cut_point middle = {.vertex = divide_edge(j, a.vertex, b.vertex, plane, &fraction)};
         for (int k = 0; k < 3; k++)
-            middle.weights[k] = (float)((1 - share) * (double)a.weights[k] + share * (double)b.weights[k]);
+            middle.weights[k] = (float)((1 - fraction) * (double)a.weights[k] + fraction * (double)b.weights[k]);
         add_point(&above, middle);
         add_point(&below, middle);
     }

@@ -50,7 +50,7 @@ static bool read_number(reader *r, double *out)
 }
 
 /* A number in file units, or a percentage of the bounds along the axis. */
-static bool read_place(reader *r, int axis, double *out)
+static bool read_position(reader *r, int axis, double *out)
 {
     if (!read_number(r, out))
         return false;
@@ -98,19 +98,19 @@ static bool add_face(cut *c, cut_cell *cell, const double normal[3], double offs
 
 static lmn_status read_axis_plane(reader *r, cut *c, cut_cell *cell)
 {
-    double sign = take(r, '-') ? -1 : 1, place;
+    double sign = take(r, '-') ? -1 : 1, position;
     take(r, '+');
     int axis = *r->at++ - 'x';
     if (take(r, '=')) {
-        if (!read_place(r, axis, &place))
+        if (!read_position(r, axis, &position))
             return wrong(r, "behind '=' stands a number or a percentage of the bounds");
     } else {
         const float *low = &r->bounds.min.x + axis, *high = &r->bounds.max.x + axis;
-        place = box3_is_empty(r->bounds) ? 0 : ((double)*low + *high) / 2;
+        position = box3_is_empty(r->bounds) ? 0 : ((double)*low + *high) / 2;
     }
     double normal[3] = {0, 0, 0};
     normal[axis] = sign;
-    return add_face(c, cell, normal, sign * place) ? LMN_OK : wrong(r, "too many planes; 32 are allowed");
+    return add_face(c, cell, normal, sign * position) ? LMN_OK : wrong(r, "too many planes; 32 are allowed");
 }
 
 static lmn_status read_plane(reader *r, cut *c, cut_cell *cell)
@@ -123,7 +123,7 @@ static lmn_status read_plane(reader *r, cut *c, cut_cell *cell)
     if (!take(r, '@'))
         return wrong(r, form);
     for (int k = 0; k < 3; k++)
-        if ((k && !take(r, ',')) || !read_place(r, k, &p[k]))
+        if ((k && !take(r, ',')) || !read_position(r, k, &p[k]))
             return wrong(r, form);
     length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 1e-100))
@@ -140,7 +140,7 @@ static lmn_status read_box(reader *r, cut *c, cut_cell *cell)
     r->at += strlen("box");
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 3; k++)
-            if (!take(r, k ? ',' : i ? ':' : '=') || !read_place(r, k, &corners[i][k]))
+            if (!take(r, k ? ',' : i ? ':' : '=') || !read_position(r, k, &corners[i][k]))
                 return wrong(r, "a box is box=X0,Y0,Z0:X1,Y1,Z1, numbers or percentages of the bounds");
     for (int k = 0; k < 3; k++) {
         double low = fmin(corners[0][k], corners[1][k]), high = fmax(corners[0][k], corners[1][k]),

@@ -81,7 +81,7 @@ static bead *collect(cut_job *j, size_t *out_count)
     return beads;
 }
 
-/* The place of a bead that is in the list. */
+/* The position of a bead that is in the list. */
 static size_t find(const bead *beads, size_t count, const bead *wanted)
 {
     size_t low = 0, high = count;
@@ -106,10 +106,11 @@ static size_t between(const cut_job *j, const bead *beads, size_t count, cut_poi
     size_t found = from < to ? to - from : from - to, written = found ? found - 1 : 0;
     for (size_t i = 0; i < written && out; i++) {
         const bead *at = &beads[from < to ? from + 1 + i : from - 1 - i];
-        double length = ends[1].along - ends[0].along, share = length != 0 ? (at->along - ends[0].along) / length : 0;
+        double      length = ends[1].along - ends[0].along,
+               fraction = length != 0 ? (at->along - ends[0].along) / length : 0;
         out[i].vertex = at->vertex;
         for (int k = 0; k < 3; k++)
-            out[i].weights[k] = (float)((1 - share) * (double)a.weights[k] + share * (double)b.weights[k]);
+            out[i].weights[k] = (float)((1 - fraction) * (double)a.weights[k] + fraction * (double)b.weights[k]);
     }
     return written;
 }

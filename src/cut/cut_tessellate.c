@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "cut/cut_private.h"
 
-/* Places are parts of the part's extent; beyond this something is wrong with them. */
-#define PLACE_MAX 1e3
+/* Positions are parts of the part's extent; beyond this something is wrong with them. */
+#define POSITION_MAX 1e3
 
 typedef struct filling {
     cut_job       *job;
@@ -52,8 +52,8 @@ static void GLAPIENTRY on_error(GLenum error, void *user)
     f->job->failed = f->job->failed || error == GLU_OUT_OF_MEMORY;
 }
 
-/* A new vertex where edges meet, or one of two at the same place. */
-static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[4], void **out, void *user)
+/* A new vertex where edges meet, or one of two at the same position. */
+static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat fractions[4], void **out, void *user)
 {
     filling *f = user;
     uint32_t from[4];
@@ -61,10 +61,10 @@ static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[
     int      count = 0;
     (void)at;
     for (int i = 0; i < 4; i++)
-        if (data[i] && shares[i] > 0) {
+        if (data[i] && fractions[i] > 0) {
             from[count] = as_vertex(data[i]);
-            weights[count++] = (double)shares[i];
-            sum += (double)shares[i];
+            weights[count++] = (double)fractions[i];
+            sum += (double)fractions[i];
         }
     *out = data[0];
     if (count == 0 || !(sum > 0))
@@ -78,7 +78,7 @@ static void GLAPIENTRY on_combine(GLdouble at[3], void *data[4], GLfloat shares[
     *out = same ? as_pointer(from[0]) : as_pointer(job_blend(f->job, from, weights, count, f->plane));
 }
 
-void contour_place(const cut_job *j, double axes[2][3], uint32_t vertex, double out[2])
+void contour_position(const cut_job *j, double axes[2][3], uint32_t vertex, double out[2])
 {
     const double *at = j->vertices[vertex].world;
     for (int i = 0; i < 2; i++) {
@@ -94,8 +94,8 @@ static void give_contour(filling *f, GLUtesselator *t, double axes[2][3], const 
     for (size_t i = 0; i < c->count; i++) {
         uint32_t vertex = c->points[c->reversed ? c->count - 1 - i : i];
         GLdouble at[3] = {0, 0, 0};
-        contour_place(f->job, axes, vertex, at);
-        if (!(fabs(at[0]) < PLACE_MAX && fabs(at[1]) < PLACE_MAX))
+        contour_position(f->job, axes, vertex, at);
+        if (!(fabs(at[0]) < POSITION_MAX && fabs(at[1]) < POSITION_MAX))
             f->refused = true;
         else
             gluTessVertex(t, at, as_pointer(vertex));

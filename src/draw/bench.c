@@ -99,11 +99,11 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
     *out = NULL;
     series    *all = mem_calloc(count + 1, sizeof *all);
     lmn_status status = all ? LMN_OK : error_memory(error);
-    warnings   notes = {0};
+    warnings   warnings = {0};
     for (size_t k = 0; k <= count && status == LMN_OK; k++) {
         all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
         status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain,
-                                          &(draw_options){.desc = desc}, &notes, error)
+                                          &(draw_options){.desc = desc}, &warnings, error)
                            : error_memory(error);
     }
     if (status == LMN_OK)
@@ -113,6 +113,6 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
         mem_free(all[k].ms);
     }
     mem_free(all);
-    warnings_release(&notes);
+    warnings_release(&warnings);
     return status;
 }

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "plan/refuse.h"
-#include "frame/room.h"
+#include "frame/capacity.h"
 #include "finish/finish.h"
 #include "light/light.h"
 
@@ -89,7 +89,7 @@ static int square_root(int samples)
 }
 
 /* Shadows that were asked for and cannot be. */
-static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *notes)
+static void warn_of_lights(const lmn_scene *scene, const lmn_look *look, warnings *warnings)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     if (!v->shadows || v->lights != LIGHTS_FILE)
@@ -98,7 +98,7 @@ static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *
         if (scene->nodes[i].light < 0)
             continue;
         if (scene->lights[scene->nodes[i].light].type != LIGHT_DIRECTIONAL)
-            warnings_add(notes, WARNING_UNUSED,
+            warnings_add(warnings, WARNING_UNUSED,
                          "scene.shadows: the file's first light shines from a place; only light from one direction "
                          "throws shadows");
         return;
@@ -107,7 +107,7 @@ static void note_lights(const lmn_scene *scene, const lmn_look *look, warnings *
 
 /* The plan, and on the GPU what it needs. */
 static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side,
-                          warnings *notes, lmn_error *error)
+                          warnings *warnings, lmn_error *error)
 {
     lmn_renderer        *r = s->renderer;
     const lmn_draw_desc *desc = w->desc;
@@ -116,28 +116,28 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .pixel_scale = side,
                                     .as_sprites = w->maps,
                                     .surfaces_only = w->surfaces_only};
-    lmn_status           status = room_check_sides(r->g, desc->width, desc->height, side, error);
+    lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
         status = bring_pose(r, scene, error);
     if (status == LMN_OK)
-        status = plan_create(&s->plan, &r->pose, look, &options, notes, error);
+        status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
-        status = room_check(r->g, &s->plan,
-                            &(room_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)},
-                            error);
+        status = capacity_check(
+            r->g, &s->plan,
+            &(capacity_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
     if (status == LMN_OK)
-        note_lights(scene, look, notes);
+        warn_of_lights(scene, look, warnings);
     if (status == LMN_OK)
-        status = plan_textures_make(&s->textures, &r->made, r->g, &s->plan, !w->maps, notes, error);
+        status = plan_textures_make(&s->textures, &r->made, r->g, &s->plan, !w->maps, warnings, error);
     return status;
 }
 
 lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                        const draw_options *options, warnings *notes, lmn_error *error)
+                        const draw_options *options, warnings *warnings, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
     int                  side = options->maps ? 1 : square_root(desc->samples);
@@ -145,12 +145,12 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     memset(s, 0, sizeof *s);
     s->renderer = r;
     gpu_make_current(r->g);
-    lmn_status status = prepare(s, scene, look, options, side, notes, error);
+    lmn_status status = prepare(s, scene, look, options, side, warnings, error);
     if (status == LMN_OK)
         status = camera_place(&f->camera, desc, &r->pose, s->plan.box, error);
     if (status != LMN_OK)
         return status;
-    plan_camera_range(&s->plan, &f->camera, notes);
+    plan_camera_range(&s->plan, &f->camera, warnings);
     r->width = desc->width;
     r->height = desc->height;
     r->samples = desc->samples;
@@ -245,7 +245,7 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     return LMN_OK;
 }
 
-static void note_marks(const session *s, warnings *notes)
+static void warn_of_marks(const session *s, warnings *warnings)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure        *fig = &s->plan.figures[i];
@@ -253,20 +253,20 @@ static void note_marks(const session *s, warnings *notes)
         if (!surface || !surface->technique->surface->marks || fig->unmarked)
             continue;
         if (compose)
-            warnings_add(notes, WARNING_UNUSED,
+            warnings_add(warnings, WARNING_UNUSED,
                          "compose '%s' shades again and leaves out the marks of surface '%s'; 'opaque' draws them",
                          compose->technique->name, surface->technique->name);
     }
 }
 
 /* What could not be drawn as it was asked for. */
-static void keep_notes(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                       const session *s)
+static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                          const session *s)
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     const upload       *up = &r->up;
     bool                cut_out = false, spares = false;
-    note_marks(s, &d->warnings);
+    warn_of_marks(s, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool             blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;
@@ -301,7 +301,7 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     d->facts.triangles = r->up.triangles;
     d->facts.bounds = s->plan.box;
     warnings_append(&d->warnings, &scene->warnings);
-    keep_notes(d, r, scene, look, s);
+    keep_warnings(d, r, scene, look, s);
     refusal refusals = {scene, desc->lenient, &d->warnings, error};
     status = refuse_time(&refusals, look, desc->time_s, true);
     if (status == LMN_OK && s->plan.figure_count == 0)

@@ -59,7 +59,7 @@ typedef struct session {
     gpu_texture  *out;
 } session;
 lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                        const draw_options *options, warnings *notes, lmn_error *error);
+                        const draw_options *options, warnings *warnings, lmn_error *error);
 void       session_close(session *s);
 
 lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,

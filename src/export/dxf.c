@@ -1,6 +1,6 @@
 /* DXF of a sheet: release 12 in ASCII, which everything reads. Millimetres, the sheet's lower left corner at the
  * origin, y up. A layer for each class of lines and for what is hidden; lines of two points are LINE, others
- * POLYLINE, dots are CIRCLE, texts TEXT. Pictures have no place in it; areas are their borders. */
+ * POLYLINE, dots are CIRCLE, texts TEXT. Pictures have no position in it; areas are their borders. */
 #include "export/export.h"
 
 #include <math.h>
@@ -10,10 +10,10 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-enum { LAYER_NAME_ROOM = 32 }; /* what release 12 allows is 31 letters */
+enum { LAYER_NAME_CAPACITY = 32 }; /* what release 12 allows is 31 letters */
 
 typedef struct dxf_layer {
-    char name[LAYER_NAME_ROOM];
+    char name[LAYER_NAME_CAPACITY];
     int  ink;
 } dxf_layer;
 
@@ -73,7 +73,7 @@ static void put_number(dxf_writer *w, int code, double value)
     text_append_bytes(&w->out, digits, (size_t)size);
 }
 
-static void put_place(dxf_writer *w, int code, double x, double y)
+static void put_position(dxf_writer *w, int code, double x, double y)
 {
     put_number(w, code, x);
     put_number(w, code + 10, w->s->height - y);
@@ -83,11 +83,11 @@ static void put_place(dxf_writer *w, int code, double x, double y)
 /* --- layers --------------------------------------------------------------------------------------------- */
 
 /* A group's layer: its classes, "HIDDEN-CREASE"; "SHEET" where it has none. */
-static void layer_name(const sheet_group *g, char out[LAYER_NAME_ROOM])
+static void layer_name(const sheet_group *g, char out[LAYER_NAME_CAPACITY])
 {
     const char *name = g->css_class && *g->css_class ? g->css_class : "sheet";
-    int         size = snprintf(out, LAYER_NAME_ROOM, "%s", name);
-    for (int i = 0; i < size && i < LAYER_NAME_ROOM - 1; i++) {
+    int         size = snprintf(out, LAYER_NAME_CAPACITY, "%s", name);
+    for (int i = 0; i < size && i < LAYER_NAME_CAPACITY - 1; i++) {
         bool letter = (out[i] >= 'a' && out[i] <= 'z') || (out[i] >= 'A' && out[i] <= 'Z');
         out[i] = letter ? (char)(out[i] & ~0x20) : out[i] >= '0' && out[i] <= '9' ? out[i] : '-';
     }
@@ -120,7 +120,7 @@ static void find_layers(dxf_writer *w)
         uint32_t group = w->s->items[i].group;
         if (group >= w->s->group_count || w->layer_of[group])
             continue;
-        char name[LAYER_NAME_ROOM];
+        char name[LAYER_NAME_CAPACITY];
         layer_name(&w->s->groups[group], name);
         w->layer_of[group] = find_layer(w, name);
         w->layers[w->layer_of[group]].ink = palette_index(w->s->items[i].ink);
@@ -145,9 +145,9 @@ static void put_header(dxf_writer *w)
     put(w, 9, "$MEASUREMENT");
     put_whole(w, 70, 1); /* metric */
     put(w, 9, "$EXTMIN");
-    put_place(w, 10, 0, w->s->height);
+    put_position(w, 10, 0, w->s->height);
     put(w, 9, "$EXTMAX");
-    put_place(w, 10, w->s->width, 0);
+    put_position(w, 10, w->s->width, 0);
     put(w, 0, "ENDSEC");
 }
 
@@ -205,7 +205,7 @@ static void put_dots(dxf_writer *w, const sheet_item *item, const sheet_path *pa
     for (uint32_t i = 0; i < path->count; i++) {
         const float *p = w->s->points[path->first + i];
         begin_entity(w, path->width > 0 ? "CIRCLE" : "POINT", item);
-        put_place(w, 10, (double)p[0], (double)p[1]);
+        put_position(w, 10, (double)p[0], (double)p[1]);
         if (path->width > 0)
             put_number(w, 40, (double)path->width / 2);
     }
@@ -217,18 +217,18 @@ static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *pa
     bool closed = path->closed || path->filled;
     if (path->count == 2 && !closed) {
         begin_entity(w, "LINE", item);
-        put_place(w, 10, (double)points[0][0], (double)points[0][1]);
-        put_place(w, 11, (double)points[1][0], (double)points[1][1]);
+        put_position(w, 10, (double)points[0][0], (double)points[0][1]);
+        put_position(w, 11, (double)points[1][0], (double)points[1][1]);
         return;
     }
     begin_entity(w, "POLYLINE", item);
     put_whole(w, 66, 1);
-    put_place(w, 10, 0, w->s->height);
+    put_position(w, 10, 0, w->s->height);
     put_whole(w, 70, closed ? 1 : 0);
     for (uint32_t i = 0; i < path->count; i++) {
         put(w, 0, "VERTEX");
         put(w, 8, layer_of(w, item)->name);
-        put_place(w, 10, (double)points[i][0], (double)points[i][1]);
+        put_position(w, 10, (double)points[i][0], (double)points[i][1]);
     }
     put(w, 0, "SEQEND");
     put(w, 8, layer_of(w, item)->name);
@@ -257,12 +257,12 @@ static void put_text(dxf_writer *w, const sheet_item *item)
 {
     /* The height of capitals is what DXF calls a text's height. */
     begin_entity(w, "TEXT", item);
-    put_place(w, 10, item->box[0], item->box[1]);
+    put_position(w, 10, item->box[0], item->box[1]);
     put_number(w, 40, 0.716 * item->box[3]);
     put_words(w, item->text);
     if (item->anchor >= 0) {
         put_whole(w, 72, item->anchor == 0 ? 1 : 2);
-        put_place(w, 11, item->box[0], item->box[1]);
+        put_position(w, 11, item->box[0], item->box[1]);
     }
 }
 

@@ -173,9 +173,9 @@ static void draw_text(pdf_writer *w, const sheet_item *item)
     pango_layout_set_font_description(layout, font);
     pango_layout_set_text(layout, words, -1);
     pango_layout_get_size(layout, &width, &height);
-    double share = item->anchor < 0 ? 0 : item->anchor == 0 ? 0.5 : 1;
+    double fraction = item->anchor < 0 ? 0 : item->anchor == 0 ? 0.5 : 1;
     set_ink(c, item->ink);
-    cairo_move_to(c, item->box[0] - share * width / PANGO_SCALE,
+    cairo_move_to(c, item->box[0] - fraction * width / PANGO_SCALE,
                   item->box[1] - (double)pango_layout_get_baseline(layout) / PANGO_SCALE);
     pango_cairo_show_layout(c, layout);
     pango_font_description_free(font);

@@ -63,23 +63,23 @@ static void filter_up(png_image *png)
     }
 }
 
-static size_t compress_at_once(const png_image *png, unsigned char *out, size_t room)
+static size_t compress_at_once(const png_image *png, unsigned char *out, size_t capacity)
 {
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
-    size_t size = compressor ? libdeflate_zlib_compress(compressor, png->rows, png->rows_size, out, room) : 0;
+    size_t size = compressor ? libdeflate_zlib_compress(compressor, png->rows, png->rows_size, out, capacity) : 0;
     libdeflate_free_compressor(compressor);
     return size;
 }
 
 /* 0 when it is to stop, or memory is gone. */
-static size_t compress_in_pieces(const png_image *png, unsigned char *out, size_t room)
+static size_t compress_in_pieces(const png_image *png, unsigned char *out, size_t capacity)
 {
     z_stream z = {0};
     int      result = deflateInit(&z, LEVEL);
     size_t   read = 0, written = 0;
     while (result == Z_OK && !work_stopped() && work_check(NULL) == LMN_OK) {
         size_t some = png->rows_size - read < PIECE ? png->rows_size - read : PIECE,
-               left = room - written < PIECE ? room - written : PIECE;
+               left = capacity - written < PIECE ? capacity - written : PIECE;
         z.next_in = png->rows + read;
         z.avail_in = (uInt)some;
         z.next_out = out + written;

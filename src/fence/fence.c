@@ -341,12 +341,12 @@ static lmn_status receive_answer(exchange *e, fence_bytes *answer, bool *whole)
         return r.error.status;
     }
     /* So much that no byte can be added does not come from the decoder. */
-    size_t room;
-    if (!size_add(r.size, 1, &room)) {
+    size_t capacity;
+    if (!size_add(r.size, 1, &capacity)) {
         *whole = false;
         return error_set(e->error, LMN_FORMAT, "%s gave a wrong answer", e->what);
     }
-    *answer = (fence_bytes){.bytes = mem_alloc(room), .size = r.size, .capacity = room};
+    *answer = (fence_bytes){.bytes = mem_alloc(capacity), .size = r.size, .capacity = capacity};
     *whole = answer->bytes && receive_bytes(e, answer->bytes, r.size);
     return answer->bytes ? LMN_OK : error_memory(e->error);
 }

@@ -21,7 +21,7 @@ typedef struct direction_field {
  * three edges, wherever they are short or long; at most about nine mean edges) and smoothed; where nothing bends,
  * sure directions nearby are carried on, with a sureness that stays below 0.1. A flat piece has one direction: that
  * of what bends around it, else that of its border, along its longer side. Robust on open, non-manifold, degenerate
- * and tiny meshes: never a NaN; vertices that no triangle uses have zeros. Size and place of the model do not
+ * and tiny meshes: never a NaN; vertices that no triangle uses have zeros. Size and position of the model do not
  * matter. One million triangles take less than 3 s on two cores. Errors: LMN_MEMORY. Free with
  * direction_field_release. */
 lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,

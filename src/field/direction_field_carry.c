@@ -1,4 +1,4 @@
-/* Directions for places that have none of their own: from the nearest sure place, over the surface; where a piece
+/* Directions for positions that have none of their own: from the nearest sure position, over the surface; where a piece
  * is flat, one for all of it. */
 #include <string.h>
 
@@ -68,12 +68,12 @@ static bool spread(carrier *c, bool into_flat)
     c->near.count = 0;
     for (uint32_t e = 0; e < c->surface->element_count; e++)
         c->distances[e] = INFINITY;
-    /* Units of places that are not reached yet are overwritten with each nearer offer; the nearest is the last. */
+    /* Units of positions that are not reached yet are overwritten with each nearer offer; the nearest is the last. */
     for (uint32_t e = 0; e < c->surface->element_count; e++)
         if (c->reached[e] && !offer(c, e, 0, into_flat))
             return false;
     while (c->near.count > 0) {
-        near_place p = near_pop(&c->near);
+        near_position p = near_pop(&c->near);
         if (c->reached[p.element])
             continue;
         c->reached[p.element] = true;
@@ -87,7 +87,7 @@ static bool spread(carrier *c, bool into_flat)
 typedef struct shape {
     point3 normal, mean;
     double area, covariance[6]; /* xx, yy, zz, xy, yz, zx */
-    tensor bend;                /* of the sure places around */
+    tensor bend;                /* of the sure positions around */
     double bend_weight;
     double border_cos, border_sin, border; /* edges turned by four times their angle */
 } shape;

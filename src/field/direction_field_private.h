@@ -36,19 +36,19 @@ typedef struct field_surface {
     double    rounding;        /* what a float rounds away from positions, diagonal 1 */
 } field_surface;
 
-/* Places in the order of their distances; free `items`. */
-typedef struct near_place {
+/* Positions in the order of their distances; free `items`. */
+typedef struct near_position {
     double   distance;
     uint32_t element;
-} near_place;
+} near_position;
 
 typedef struct near_queue {
-    near_place *items;
-    size_t      count, room;
+    near_position *items;
+    size_t         count, capacity;
 } near_queue;
 
-bool       near_push(near_queue *q, double distance, uint32_t element); /* false when memory is gone */
-near_place near_pop(near_queue *q);                                     /* only when there is one */
+bool          near_push(near_queue *q, double distance, uint32_t element); /* false when memory is gone */
+near_position near_pop(near_queue *q);                                     /* only when there is one */
 
 /* Errors: LMN_MEMORY; then there is nothing to release. */
 lmn_status field_surface_make(field_surface *out, const primitive *p, double feature_angle, lmn_error *error);

@@ -78,7 +78,7 @@ static uint32_t next_corner(uint32_t h)
     return h % 3 == 2 ? h - 2 : h + 1;
 }
 
-/* Centres and scales: a model of any size and place gives the same numbers. */
+/* Centres and scales: a model of any size and position gives the same numbers. */
 static void find_scale(field_surface *s, const primitive *m, point3 *centre)
 {
     point3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
@@ -95,7 +95,7 @@ static void find_scale(field_surface *s, const primitive *m, point3 *centre)
     s->rounding = s->triangle_count ? 6e-8 * far / s->size : 0;
 }
 
-static point3 place(const field_surface *s, const primitive *m, point3 centre, uint32_t corner)
+static point3 position(const field_surface *s, const primitive *m, point3 centre, uint32_t corner)
 {
     vec3 p = m->positions[m->indices[corner]];
     return point_scale(point_sub((point3){p.x, p.y, p.z}, centre), 1 / s->size);
@@ -105,7 +105,8 @@ static void measure_triangles(field_surface *s, const primitive *m, point3 centr
 {
     double sum = 0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        point3 a = place(s, m, centre, 3 * t), b = place(s, m, centre, 3 * t + 1), c = place(s, m, centre, 3 * t + 2);
+        point3 a = position(s, m, centre, 3 * t), b = position(s, m, centre, 3 * t + 1),
+               c = position(s, m, centre, 3 * t + 2);
         point3 u = point_sub(b, a), v = point_sub(c, a), w = point_sub(c, b), n = point_cross(u, v);
         double longest = fmax(fmax(point_dot(u, u), point_dot(v, v)), point_dot(w, w)), length = point_length(n);
         /* Below what the positions' rounding can turn, a normal is noise. */
@@ -117,7 +118,7 @@ static void measure_triangles(field_surface *s, const primitive *m, point3 centr
     s->mean_edge = s->triangle_count ? sum / 3 / s->triangle_count : 1;
 }
 
-static bool same_way(const primitive *m, uint32_t h, uint32_t o)
+static bool same_direction(const primitive *m, uint32_t h, uint32_t o)
 {
     return m->indices[h] == m->indices[o];
 }
@@ -138,7 +139,7 @@ static void agree_on_windings(field_surface *s, const primitive *m, uint32_t *qu
                 if (o == NOWHERE || seen[o / 3])
                     continue;
                 seen[o / 3] = true;
-                s->turned[o / 3] = s->turned[t] != same_way(m, h, o);
+                s->turned[o / 3] = s->turned[t] != same_direction(m, h, o);
                 queue[end++] = o / 3;
             }
         }
@@ -161,7 +162,7 @@ static void join_corners(field_surface *s, const primitive *m, uint32_t *parents
             s->opposite[h] = s->opposite[o] = NOWHERE;
             continue;
         }
-        bool same = same_way(m, h, o);
+        bool same = same_direction(m, h, o);
         group_join(parents, h, same ? o : next_corner(o));
         group_join(parents, next_corner(h), same ? next_corner(o) : o);
     }
@@ -226,7 +227,7 @@ static bool make_elements(field_surface *s, const primitive *m, point3 centre, d
         return false;
     list_corners(s);
     for (uint32_t c = 0; c < corner_count; c++)
-        s->positions[s->corners[c]] = place(s, m, centre, c);
+        s->positions[s->corners[c]] = position(s, m, centre, c);
     threads_for(s->element_count, ELEMENTS_PER_THREAD, make_normals, s);
     return true;
 }

@@ -18,8 +18,8 @@ static const double feature = 1.0471975511965976;
 /* Triangles laid flat, one patch behind the other. */
 typedef struct sheet {
     uint32_t *source, *indices;
-    float (*places)[4];
-    size_t vertex_count, index_count, source_room, place_room, index_room;
+    float (*positions)[4];
+    size_t vertex_count, index_count, source_capacity, position_capacity, index_capacity;
 } sheet;
 
 typedef struct lapping {
@@ -100,17 +100,17 @@ static bool find_axes(lapping *l, const direction_field *field)
 
 static bool add_vertex(lapping *l, sheet *to, uint32_t vertex, uint32_t element, float ignore, uint32_t patch)
 {
-    flat_place place = l->ground.vertices[l->ground.local[element]].place;
-    if (!mem_grow((void **)&to->source, &to->source_room, to->vertex_count + 1, sizeof *to->source) ||
-        !mem_grow((void **)&to->places, &to->place_room, to->vertex_count + 1, sizeof *to->places))
+    flat_position position = l->ground.vertices[l->ground.local[element]].position;
+    if (!mem_grow((void **)&to->source, &to->source_capacity, to->vertex_count + 1, sizeof *to->source) ||
+        !mem_grow((void **)&to->positions, &to->position_capacity, to->vertex_count + 1, sizeof *to->positions))
         return false;
     l->rounds[vertex] = l->round;
     l->elements[vertex] = element;
     l->numbers[vertex] = (uint32_t)to->vertex_count;
     to->source[to->vertex_count] = vertex;
-    float *out = to->places[to->vertex_count++];
-    out[0] = (float)(place.x * l->surface.size);
-    out[1] = (float)(place.y * l->surface.size);
+    float *out = to->positions[to->vertex_count++];
+    out[0] = (float)(position.x * l->surface.size);
+    out[1] = (float)(position.y * l->surface.size);
     out[2] = ignore;
     out[3] = (float)patch;
     return true;
@@ -124,7 +124,7 @@ static bool add_triangle(lapping *l, sheet *to, uint32_t triangle, float ignore,
     l->stretches[cell < STRETCH_CELLS ? (size_t)fmax(cell, 0) : STRETCH_CELLS - 1]++;
     l->triangles++;
     for (uint32_t own = l->surface.triangles[triangle]; own != NOWHERE; own = l->copies[own]) {
-        if (!mem_grow((void **)&to->indices, &to->index_room, to->index_count + 3, sizeof *to->indices))
+        if (!mem_grow((void **)&to->indices, &to->index_capacity, to->index_count + 3, sizeof *to->indices))
             return false;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t v = p->indices[3 * own + k], element = field_surface_element(&l->surface, p, 3 * own + k);
@@ -159,9 +159,9 @@ static uint64_t all_cells(int rows)
     return UINT64_MAX >> (64 - rows * rows);
 }
 
-/* The corners of a part, as shares of the second and third corner. With 8 rows these have 15, 13 … 1 parts, every
+/* The corners of a part, as fractions of the second and third corner. With 8 rows these have 15, 13 … 1 parts, every
  * other one upside down. */
-static void cell_corners(int cell, int rows, flat_place shares[3])
+static void cell_corners(int cell, int rows, flat_position fractions[3])
 {
     int row = 0, row_size = 2 * rows - 1;
     for (; cell >= row_size; row_size -= 2, row++)
@@ -169,63 +169,64 @@ static void cell_corners(int cell, int rows, flat_place shares[3])
     int column = cell / 2, upside_down = cell % 2;
     for (int k = 0; k < 3; k++) {
         int x = column + (upside_down ? k != 1 : k == 1), y = row + (upside_down ? k != 0 : k == 2);
-        shares[k] = (flat_place){(double)x / rows, (double)y / rows};
+        fractions[k] = (flat_position){(double)x / rows, (double)y / rows};
     }
 }
 
-static bool holds_cell(const lapping *l, const flat_place places[3], int cell, int rows)
+static bool holds_cell(const lapping *l, const flat_position positions[3], int cell, int rows)
 {
-    flat_place shares[3], corners[3];
-    cell_corners(cell, rows, shares);
+    flat_position fractions[3], corners[3];
+    cell_corners(cell, rows, fractions);
     for (int k = 0; k < 3; k++) {
-        double b = shares[k].x, c = shares[k].y, a = 1 - b - c;
-        corners[k] = (flat_place){a * places[0].x + b * places[1].x + c * places[2].x,
-                                  a * places[0].y + b * places[1].y + c * places[2].y};
+        double b = fractions[k].x, c = fractions[k].y, a = 1 - b - c;
+        corners[k] = (flat_position){a * positions[0].x + b * positions[1].x + c * positions[2].x,
+                                     a * positions[0].y + b * positions[1].y + c * positions[2].y};
     }
     return outline_holds(&l->outline, corners);
 }
 
-static void cover_triangle(lapping *l, uint32_t triangle, const flat_place places[3])
+static void cover_triangle(lapping *l, uint32_t triangle, const flat_position positions[3])
 {
     uint64_t *cells = &l->cells[triangle];
     if (l->ground.covered[triangle])
         return;
     int rows = cell_rows(l, triangle);
-    if (outline_holds(&l->outline, places))
+    if (outline_holds(&l->outline, positions))
         *cells = all_cells(rows);
     else if (rows > 1)
         for (int k = 0; k < rows * rows; k++)
-            if (!(*cells >> k & 1) && holds_cell(l, places, k, rows))
+            if (!(*cells >> k & 1) && holds_cell(l, positions, k, rows))
                 *cells |= UINT64_C(1) << k;
     l->ground.covered[triangle] = *cells == all_cells(rows);
 }
 
 /* Where in a triangle a patch is to have its middle: in a part that is not covered. */
-static flat_place bare_place(const lapping *l, uint32_t triangle, int *cell)
+static flat_position bare_position(const lapping *l, uint32_t triangle, int *cell)
 {
-    flat_place shares[3];
-    int        rows = cell_rows(l, triangle), count = rows * rows;
+    flat_position fractions[3];
+    int           rows = cell_rows(l, triangle), count = rows * rows;
     *cell = (int)(mix_bits(triangle + l->patch_count) % (uint32_t)count);
     while (l->cells[triangle] >> *cell & 1)
         *cell = (*cell + 1) % count;
-    cell_corners(*cell, rows, shares);
-    return (flat_place){(shares[0].x + shares[1].x + shares[2].x) / 3, (shares[0].y + shares[1].y + shares[2].y) / 3};
+    cell_corners(*cell, rows, fractions);
+    return (flat_position){(fractions[0].x + fractions[1].x + fractions[2].x) / 3,
+                           (fractions[0].y + fractions[1].y + fractions[2].y) / 3};
 }
 
 /* Takes the grown patch if its outline has the part around its middle, and there is room for it. */
 static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
 {
     patch_ground *g = &l->ground;
-    flat_place    places[3];
+    flat_position positions[3];
     size_t        kept = 0, most = (size_t)MOST_TIMES * l->surface.triangle_count;
     l->outline = outline_of(l->patch_count, l->radius);
-    patch_places(g, seed, places);
-    l->hopeless[seed] = !holds_cell(l, places, cell, cell_rows(l, seed));
+    patch_positions(g, seed, positions);
+    l->hopeless[seed] = !holds_cell(l, positions, cell, cell_rows(l, seed));
     if (l->hopeless[seed])
         return true;
     for (size_t i = 0; i < g->triangle_count; i++) {
-        patch_places(g, g->triangles[i], places);
-        if (outline_touches(&l->outline, places))
+        patch_positions(g, g->triangles[i], positions);
+        if (outline_touches(&l->outline, positions))
             g->triangles[kept++] = g->triangles[i];
     }
     g->triangle_count = kept;
@@ -235,8 +236,8 @@ static bool take_patch(lapping *l, uint32_t seed, int cell, bool *full)
     l->round++;
     for (size_t i = 0; i < g->triangle_count; i++) {
         uint32_t t = g->triangles[i];
-        patch_places(g, t, places);
-        cover_triangle(l, t, places);
+        patch_positions(g, t, positions);
+        cover_triangle(l, t, positions);
         if (!add_triangle(l, &l->patches, t, 0, l->patch_count))
             return false;
     }
@@ -256,7 +257,7 @@ static bool cover_with_patches(lapping *l)
             int      cell;
             if (l->ground.covered[seed] || l->hopeless[seed])
                 continue;
-            flat_place middle = bare_place(l, seed, &cell);
+            flat_position middle = bare_position(l, seed, &cell);
             /* A part that is longer than twice the radius has no room in any outline. */
             l->hopeless[seed] = longest_edge(&l->surface, seed) > 2 * MOST_ROWS * l->radius;
             if (l->hopeless[seed])
@@ -277,7 +278,7 @@ static bool cover_the_rest(lapping *l)
     for (uint32_t seed = 0; good && seed < l->surface.triangle_count; seed++) {
         if (g->covered[seed])
             continue;
-        good = patch_grow(g, seed, (flat_place){1.0 / 3, 1.0 / 3}, LEFT_OVER_RADII * l->radius);
+        good = patch_grow(g, seed, (flat_position){1.0 / 3, 1.0 / 3}, LEFT_OVER_RADII * l->radius);
         l->round++;
         for (size_t i = 0; good && i < g->triangle_count; i++) {
             g->covered[g->triangles[i]] = true;
@@ -299,16 +300,16 @@ static lmn_status put_together(lapped_mesh *out, const lapping *l, lmn_error *er
             "the patches of a lapped surface have %zu vertices and %zu indices; at most 4 thousand million are allowed",
             vertices, indices);
     out->source = mem_alloc(vertices * sizeof *out->source);
-    out->places = mem_alloc(vertices * sizeof *out->places);
+    out->positions = mem_alloc(vertices * sizeof *out->positions);
     out->indices = mem_alloc(indices * sizeof *out->indices);
-    if (!out->source || !out->places || !out->indices)
+    if (!out->source || !out->positions || !out->indices)
         return error_memory(error);
     const sheet *const sheets[2] = {a, b};
     for (int i = 0; i < 2; i++) {
         const sheet *from = sheets[i];
         for (size_t v = 0; v < from->vertex_count; v++) {
             out->source[out->vertex_count + v] = from->source[v];
-            memcpy(out->places[out->vertex_count + v], from->places[v], sizeof *out->places);
+            memcpy(out->positions[out->vertex_count + v], from->positions[v], sizeof *out->positions);
         }
         for (size_t k = 0; k < from->index_count; k++)
             out->indices[out->index_count + k] = from->indices[k] + out->vertex_count;
@@ -354,11 +355,18 @@ static bool make_ready(lapping *l, const direction_field *field, uint32_t seed)
 static void release(lapping *l)
 {
     patch_ground *g = &l->ground;
-    void *const   blocks[] = {g->axes,           g->sure,           g->local,          g->covered,     g->stamps,
-                              g->vertices,       g->edges,          g->triangles,      g->kept,        g->near.items,
-                              l->order,          l->cells,          l->hopeless,       l->copies,      l->numbers,
-                              l->rounds,         l->elements,       l->base.source,    l->base.places, l->base.indices,
-                              l->patches.source, l->patches.places, l->patches.indices};
+    void *const   blocks[] = {g->axes,           g->sure,
+                              g->local,          g->covered,
+                              g->stamps,         g->vertices,
+                              g->edges,          g->triangles,
+                              g->kept,           g->near.items,
+                              l->order,          l->cells,
+                              l->hopeless,       l->copies,
+                              l->numbers,        l->rounds,
+                              l->elements,       l->base.source,
+                              l->base.positions, l->base.indices,
+                              l->patches.source, l->patches.positions,
+                              l->patches.indices};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     field_surface_release(&l->surface);
@@ -388,7 +396,7 @@ lmn_status lapped_make(lapped_mesh *out, const primitive *p, const direction_fie
 void lapped_release(lapped_mesh *m)
 {
     mem_free(m->source);
-    mem_free(m->places);
+    mem_free(m->positions);
     mem_free(m->indices);
     memset(m, 0, sizeof *m);
 }

@@ -7,13 +7,13 @@
 #include "field/direction_field.h"
 
 /* Triangles again, once for each patch that they belong to, in the order in which they are drawn: later ones lie on
- * top where their patch's outline has them. The outline of patch k: a place (x, y) is inside when its distance from
+ * top where their patch's outline has them. The outline of patch k: a position (x, y) is inside when its distance from
  * 0 is less than lapped_outline(k, its angle) × radius. First come triangles that the outlines together do not have
  * all of: each once, with the flag to ignore the outline. */
 typedef struct lapped_mesh {
     uint32_t  vertex_count, index_count, patch_count;
-    uint32_t *source;   /* per vertex: the primitive's vertex */
-    float (*places)[4]; /* per vertex: x and y in the patch's plane (model units, x along the field's d), 1 where the
+    uint32_t *source;      /* per vertex: the primitive's vertex */
+    float (*positions)[4]; /* per vertex: x and y in the patch's plane (model units, x along the field's d), 1 where the
                            outline must be ignored since nothing else covers the triangle there, else 0; number of the
                            patch */
     uint32_t *indices;
@@ -30,7 +30,7 @@ lmn_status lapped_make(lapped_mesh *out, const primitive *p, const direction_fie
                        lmn_error *error);
 void       lapped_release(lapped_mesh *m);
 
-/* Radius of an outline at an angle, share of the patch's: 0.7 + 0.2 sin(3a + 2.4k) + 0.1 sin(7a + 1.7k), so that
+/* Radius of an outline at an angle, fraction of the patch's: 0.7 + 0.2 sin(3a + 2.4k) + 0.1 sin(7a + 1.7k), so that
  * edges look torn. */
 double lapped_outline(uint32_t patch, double angle);
 

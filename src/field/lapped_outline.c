@@ -20,20 +20,20 @@ outline outline_of(uint32_t patch, double radius)
     return (outline){radius, {cos(2.4 * patch), sin(2.4 * patch)}, {cos(1.7 * patch), sin(1.7 * patch)}};
 }
 
-static flat_place turn(flat_place a, flat_place b)
+static flat_position turn(flat_position a, flat_position b)
 {
-    return (flat_place){a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+    return (flat_position){a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 
 /* How far beyond the outline, in radii; negative inside. The same as by lapped_outline, with multiples of the angle
  * from powers: this is asked a hundred million times. */
-static double beyond(const outline *o, flat_place p)
+static double beyond(const outline *o, flat_position p)
 {
     double length = length_of(p.x, p.y);
     if (!(length > 0))
         return -0.4;
-    flat_place once = {p.x / length, p.y / length}, cube = turn(turn(once, once), once);
-    double     third = turn(cube, o->third).y, seventh = turn(turn(turn(cube, cube), once), o->seventh).y;
+    flat_position once = {p.x / length, p.y / length}, cube = turn(turn(once, once), once);
+    double        third = turn(cube, o->third).y, seventh = turn(turn(turn(cube, cube), once), o->seventh).y;
     return length / o->radius - (0.7 + 0.2 * third + 0.1 * seventh);
 }
 
@@ -42,10 +42,10 @@ static double beyond(const outline *o, flat_place p)
 static const double steepest = 3.4;
 static const double finest = 0.004; /* radii; shorter pieces are not divided further */
 
-static bool segment_inside(const outline *o, flat_place a, flat_place b)
+static bool segment_inside(const outline *o, flat_position a, flat_position b)
 {
-    flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-    double     half = length_of(b.x - a.x, b.y - a.y) / 2 / o->radius, from = length_of(middle.x, middle.y) / o->radius;
+    flat_position middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+    double half = length_of(b.x - a.x, b.y - a.y) / 2 / o->radius, from = length_of(middle.x, middle.y) / o->radius;
     if (from + half < 0.4 - spare)
         return true;
     if (from > 1)
@@ -58,10 +58,10 @@ static bool segment_inside(const outline *o, flat_place a, flat_place b)
     return segment_inside(o, a, middle) && segment_inside(o, middle, b);
 }
 
-static bool segment_touches(const outline *o, flat_place a, flat_place b)
+static bool segment_touches(const outline *o, flat_position a, flat_position b)
 {
-    flat_place middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-    double     half = length_of(b.x - a.x, b.y - a.y) / 2 / o->radius, from = length_of(middle.x, middle.y) / o->radius;
+    flat_position middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+    double half = length_of(b.x - a.x, b.y - a.y) / 2 / o->radius, from = length_of(middle.x, middle.y) / o->radius;
     if (from - half > 1 + spare)
         return false;
     double out = beyond(o, middle);
@@ -74,13 +74,13 @@ static bool segment_touches(const outline *o, flat_place a, flat_place b)
 
 /* What lies outside an outline hangs together and has no end, so that a triangle whose border is inside has no part
  * of it. */
-bool outline_holds(const outline *o, const flat_place corners[3])
+bool outline_holds(const outline *o, const flat_position corners[3])
 {
     return segment_inside(o, corners[0], corners[1]) && segment_inside(o, corners[1], corners[2]) &&
            segment_inside(o, corners[2], corners[0]);
 }
 
-bool outline_touches(const outline *o, const flat_place c[3])
+bool outline_touches(const outline *o, const flat_position c[3])
 {
     double a = c[0].x * c[1].y - c[0].y * c[1].x, b = c[1].x * c[2].y - c[1].y * c[2].x,
            d = c[2].x * c[0].y - c[2].y * c[0].x;

@@ -4,21 +4,21 @@
 
 enum { RELAXING = 20 };
 
-static flat_place flat_add(flat_place a, flat_place b, double factor)
+static flat_position flat_add(flat_position a, flat_position b, double factor)
 {
-    return (flat_place){a.x + factor * b.x, a.y + factor * b.y};
+    return (flat_position){a.x + factor * b.x, a.y + factor * b.y};
 }
 
-static double flat_length(flat_place a)
+static double flat_length(flat_position a)
 {
     return sqrt(a.x * a.x + a.y * a.y);
 }
 
 /* How far the segment passes from 0. */
-static double segment_distance(flat_place a, flat_place b)
+static double segment_distance(flat_position a, flat_position b)
 {
-    flat_place d = flat_add(b, a, -1);
-    double     square = d.x * d.x + d.y * d.y, t = square > 0 ? -(a.x * d.x + a.y * d.y) / square : 0;
+    flat_position d = flat_add(b, a, -1);
+    double        square = d.x * d.x + d.y * d.y, t = square > 0 ? -(a.x * d.x + a.y * d.y) / square : 0;
     t = t < 0 ? 0 : t > 1 ? 1 : t;
     return flat_length(flat_add(a, d, t));
 }
@@ -35,21 +35,21 @@ static point3 carry_tangent(point3 axis, point3 from, point3 to)
 }
 
 /* An edge in the frame of one of its ends, as long as it is. */
-static flat_place in_frame(point3 edge, point3 normal, point3 axis)
+static flat_position in_frame(point3 edge, point3 normal, point3 axis)
 {
-    flat_place p = {point_dot(edge, axis), point_dot(edge, point_cross(normal, axis))};
-    double     flat = flat_length(p), length = point_length(edge);
-    return flat > 1e-12 ? (flat_place){p.x * length / flat, p.y * length / flat} : (flat_place){0, 0};
+    flat_position p = {point_dot(edge, axis), point_dot(edge, point_cross(normal, axis))};
+    double        flat = flat_length(p), length = point_length(edge);
+    return flat > 1e-12 ? (flat_position){p.x * length / flat, p.y * length / flat} : (flat_position){0, 0};
 }
 
-static flat_place edge_way(const field_surface *s, const patch_vertex *from, const patch_vertex *to)
+static flat_position edge_direction(const field_surface *s, const patch_vertex *from, const patch_vertex *to)
 {
-    point3     edge = point_sub(s->positions[to->element], s->positions[from->element]);
-    flat_place a = in_frame(edge, s->normals[from->element], from->axis),
-               b = in_frame(edge, s->normals[to->element], to->axis);
-    flat_place sum = flat_add(a, b, 1);
-    double     flat = flat_length(sum), length = point_length(edge);
-    return flat > 1e-12 * length ? (flat_place){sum.x * length / flat, sum.y * length / flat} : a;
+    point3        edge = point_sub(s->positions[to->element], s->positions[from->element]);
+    flat_position a = in_frame(edge, s->normals[from->element], from->axis),
+                  b = in_frame(edge, s->normals[to->element], to->axis);
+    flat_position sum = flat_add(a, b, 1);
+    double        flat = flat_length(sum), length = point_length(edge);
+    return flat > 1e-12 * length ? (flat_position){sum.x * length / flat, sum.y * length / flat} : a;
 }
 
 static bool may_use(const patch_ground *g, uint32_t triangle)
@@ -80,7 +80,7 @@ static uint32_t local_number(patch_ground *g, uint32_t element)
 {
     if (g->local[element] != NOWHERE)
         return g->local[element];
-    if (!mem_grow((void **)&g->vertices, &g->vertex_room, g->vertex_count + 1, sizeof *g->vertices))
+    if (!mem_grow((void **)&g->vertices, &g->vertex_capacity, g->vertex_count + 1, sizeof *g->vertices))
         return NOWHERE;
     g->vertices[g->vertex_count] = (patch_vertex){.element = element};
     return g->local[element] = (uint32_t)g->vertex_count++;
@@ -104,10 +104,10 @@ static bool offer_around(patch_ground *g, uint32_t element, double radius)
         for (uint32_t k = 1; k < 3; k++) {
             uint32_t            other = s->corners[3 * t + (at + k) % 3], third = s->corners[3 * t + (at + 3 - k) % 3];
             const patch_vertex *b = settled(g, other);
-            if (!b || settled(g, third) || segment_distance(own.place, b->place) >= radius)
+            if (!b || settled(g, third) || segment_distance(own.position, b->position) >= radius)
                 continue;
-            flat_place guess = flat_add(
-                own.place,
+            flat_position guess = flat_add(
+                own.position,
                 in_frame(point_sub(s->positions[third], s->positions[element]), s->normals[element], own.axis), 1);
             if (!near_push(&g->near, flat_length(guess), third))
                 return false;
@@ -121,7 +121,7 @@ static bool settle(patch_ground *g, uint32_t element, double distance)
 {
     const field_surface *s = g->surface;
     point3               axis = {0, 0, 0};
-    flat_place           sum = {0, 0};
+    flat_position        sum = {0, 0};
     double               weights = 0;
     uint32_t             l = local_number(g, element);
     if (l == NOWHERE)
@@ -140,13 +140,13 @@ static bool settle(patch_ground *g, uint32_t element, double distance)
                         axis, point_scale(carry_tangent(from->axis, s->normals[other], s->normals[element]), weight));
                     continue;
                 }
-                sum = flat_add(sum, flat_add(from->place, edge_way(s, from, &g->vertices[l]), 1), weight);
+                sum = flat_add(sum, flat_add(from->position, edge_direction(s, from, &g->vertices[l]), 1), weight);
                 weights += weight;
             }
         if (turn == 0)
             g->vertices[l].axis = steer(g, element, axis, distance);
     }
-    g->vertices[l].place = weights > 0 ? (flat_place){sum.x / weights, sum.y / weights} : (flat_place){0, 0};
+    g->vertices[l].position = weights > 0 ? (flat_position){sum.x / weights, sum.y / weights} : (flat_position){0, 0};
     g->vertices[l].settled = true;
     return true;
 }
@@ -156,10 +156,10 @@ static bool lay_seed(patch_ground *g, uint32_t seed)
     const field_surface *s = g->surface;
     const uint32_t      *corners = s->corners + 3 * (size_t)seed;
     point3               axis = {0, 0, 0}, middle = {0, 0, 0}, n = s->directions[seed];
-    const double         shares[3] = {1 - g->middle.x - g->middle.y, g->middle.x, g->middle.y};
+    const double         fractions[3] = {1 - g->middle.x - g->middle.y, g->middle.x, g->middle.y};
     uint32_t             surest = corners[0];
     for (int k = 0; k < 3; k++) {
-        middle = point_add(middle, point_scale(s->positions[corners[k]], shares[k]));
+        middle = point_add(middle, point_scale(s->positions[corners[k]], fractions[k]));
         if (g->sure[corners[k]] > g->sure[surest])
             surest = corners[k];
     }
@@ -178,35 +178,35 @@ static bool lay_seed(patch_ground *g, uint32_t seed)
         if (l == NOWHERE)
             return false;
         point3 away = point_sub(s->positions[corners[k]], middle);
-        g->vertices[l].place = (flat_place){point_dot(away, axis), point_dot(away, point_cross(n, axis))};
+        g->vertices[l].position = (flat_position){point_dot(away, axis), point_dot(away, point_cross(n, axis))};
         g->vertices[l].axis = steer(g, corners[k], carry_tangent(axis, n, s->normals[corners[k]]), point_length(away));
         g->vertices[l].settled = true;
     }
     return true;
 }
 
-void patch_places(const patch_ground *g, uint32_t triangle, flat_place out[3])
+void patch_positions(const patch_ground *g, uint32_t triangle, flat_position out[3])
 {
     for (int k = 0; k < 3; k++)
-        out[k] = g->vertices[g->local[g->surface->corners[3 * (size_t)triangle + (size_t)k]]].place;
+        out[k] = g->vertices[g->local[g->surface->corners[3 * (size_t)triangle + (size_t)k]]].position;
 }
 
 double patch_stretch(const patch_ground *g, uint32_t triangle)
 {
     const field_surface *s = g->surface;
     const uint32_t      *corners = s->corners + 3 * (size_t)triangle;
-    flat_place           flat[3];
-    patch_places(g, triangle, flat);
+    flat_position        flat[3];
+    patch_positions(g, triangle, flat);
     point3 n = s->directions[triangle], a = point_sub(s->positions[corners[1]], s->positions[corners[0]]);
     point3 b = point_sub(s->positions[corners[2]], s->positions[corners[0]]), u = point_unit_or(a, (point3){1, 0, 0});
     if (point_dot(n, n) == 0)
         return 1;
-    double     length = point_dot(a, u), bx = point_dot(b, u), by = point_dot(b, point_cross(n, u));
-    flat_place p = flat_add(flat[1], flat[0], -1), q = flat_add(flat[2], flat[0], -1);
+    double        length = point_dot(a, u), bx = point_dot(b, u), by = point_dot(b, point_cross(n, u));
+    flat_position p = flat_add(flat[1], flat[0], -1), q = flat_add(flat[2], flat[0], -1);
     /* Columns of the map from the triangle's plane to the patch's. */
-    flat_place c0 = {p.x / length, p.y / length}, c1 = {(q.x - c0.x * bx) / by, (q.y - c0.y * bx) / by};
-    double     determinant = (c0.x * c1.y - c0.y * c1.x) * (s->turned[triangle] ? -1 : 1);
-    double     half = (c0.x * c0.x + c0.y * c0.y + c1.x * c1.x + c1.y * c1.y) / 2,
+    flat_position c0 = {p.x / length, p.y / length}, c1 = {(q.x - c0.x * bx) / by, (q.y - c0.y * bx) / by};
+    double        determinant = (c0.x * c1.y - c0.y * c1.x) * (s->turned[triangle] ? -1 : 1);
+    double        half = (c0.x * c0.x + c0.y * c0.y + c1.x * c1.x + c1.y * c1.y) / 2,
            root = sqrt(fmax(0, half * half - determinant * determinant));
     double most = sqrt(half + root), least = most > 0 ? fabs(determinant) / most : 0;
     if (!(determinant > 0) || !(least > 0))
@@ -214,7 +214,7 @@ double patch_stretch(const patch_ground *g, uint32_t triangle)
     return fmax(most, 1 / least);
 }
 
-static bool reaches_disc(const flat_place c[3], double radius)
+static bool reaches_disc(const flat_position c[3], double radius)
 {
     double nearest =
         fmin(fmin(segment_distance(c[0], c[1]), segment_distance(c[1], c[2])), segment_distance(c[2], c[0]));
@@ -232,21 +232,21 @@ static bool gather(patch_ground *g, uint32_t seed, double radius)
     g->round++;
     g->triangle_count = 0;
     g->stamps[seed] = g->round;
-    if (!mem_grow((void **)&g->triangles, &g->triangle_room, 1, sizeof *g->triangles))
+    if (!mem_grow((void **)&g->triangles, &g->triangle_capacity, 1, sizeof *g->triangles))
         return false;
     g->triangles[g->triangle_count++] = seed;
     for (size_t i = 0; i < g->triangle_count; i++)
         for (uint32_t h = 3 * g->triangles[i]; h < 3 * g->triangles[i] + 3; h++) {
-            uint32_t   o = s->opposite[h], t = o / 3;
-            flat_place places[3];
+            uint32_t      o = s->opposite[h], t = o / 3;
+            flat_position positions[3];
             if (o == NOWHERE || g->stamps[t] == g->round || !may_use(g, t) || !settled(g, s->corners[3 * t]) ||
                 !settled(g, s->corners[3 * t + 1]) || !settled(g, s->corners[3 * t + 2]))
                 continue;
             g->stamps[t] = g->round;
-            patch_places(g, t, places);
-            if (!reaches_disc(places, radius) || patch_stretch(g, t) > STRETCH_MAX)
+            patch_positions(g, t, positions);
+            if (!reaches_disc(positions, radius) || patch_stretch(g, t) > STRETCH_MAX)
                 continue;
-            if (!mem_grow((void **)&g->triangles, &g->triangle_room, g->triangle_count + 1, sizeof *g->triangles))
+            if (!mem_grow((void **)&g->triangles, &g->triangle_capacity, g->triangle_count + 1, sizeof *g->triangles))
                 return false;
             g->triangles[g->triangle_count++] = t;
         }
@@ -265,8 +265,8 @@ static bool list_edges(patch_ground *g)
 {
     const field_surface *s = g->surface;
     g->edge_count = 0;
-    if (!mem_grow((void **)&g->edges, &g->edge_room, 3 * g->triangle_count, sizeof *g->edges) ||
-        !mem_grow((void **)&g->kept, &g->kept_room, g->vertex_count, sizeof *g->kept))
+    if (!mem_grow((void **)&g->edges, &g->edge_capacity, 3 * g->triangle_count, sizeof *g->edges) ||
+        !mem_grow((void **)&g->kept, &g->kept_capacity, g->vertex_count, sizeof *g->kept))
         return false;
     for (size_t i = 0; i < g->triangle_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
@@ -274,10 +274,10 @@ static bool list_edges(patch_ground *g)
             uint32_t            a = c[k], b = c[(k + 1) % 3], across = c[(k + 2) % 3];
             const patch_vertex *from = &g->vertices[g->local[a]], *to = &g->vertices[g->local[b]];
             g->edges[g->edge_count++] =
-                (patch_edge){g->local[a], g->local[b], edge_way(s, from, to), edge_weight(s, a, b, across)};
+                (patch_edge){g->local[a], g->local[b], edge_direction(s, from, to), edge_weight(s, a, b, across)};
         }
     for (size_t l = 0; l < g->vertex_count; l++)
-        g->kept[l] = g->vertices[l].place;
+        g->kept[l] = g->vertices[l].position;
     return true;
 }
 
@@ -287,37 +287,38 @@ static void relax(patch_ground *g)
 {
     for (int step = 0; step < RELAXING; step++) {
         for (size_t l = 0; l < g->vertex_count; l++) {
-            g->vertices[l].sum = (flat_place){0, 0};
+            g->vertices[l].sum = (flat_position){0, 0};
             g->vertices[l].weight = 0;
         }
         for (size_t i = 0; i < g->edge_count; i++) {
             const patch_edge *e = &g->edges[i];
             patch_vertex     *a = &g->vertices[e->from], *b = &g->vertices[e->to];
-            a->sum = flat_add(a->sum, flat_add(b->place, e->way, -1), e->weight);
-            b->sum = flat_add(b->sum, flat_add(a->place, e->way, 1), e->weight);
+            a->sum = flat_add(a->sum, flat_add(b->position, e->direction, -1), e->weight);
+            b->sum = flat_add(b->sum, flat_add(a->position, e->direction, 1), e->weight);
             a->weight += e->weight;
             b->weight += e->weight;
         }
         for (size_t l = 0; l < g->vertex_count; l++) {
             patch_vertex *v = &g->vertices[l];
             if (v->weight > 0)
-                v->place = flat_add((flat_place){0.25 * v->place.x, 0.25 * v->place.y}, v->sum, 0.75 / v->weight);
+                v->position =
+                    flat_add((flat_position){0.25 * v->position.x, 0.25 * v->position.y}, v->sum, 0.75 / v->weight);
         }
     }
 }
 
 static void centre(patch_ground *g, uint32_t seed)
 {
-    flat_place c[3];
-    patch_places(g, seed, c);
-    double     first = 1 - g->middle.x - g->middle.y;
-    flat_place middle =
-        flat_add(flat_add((flat_place){first * c[0].x, first * c[0].y}, c[1], g->middle.x), c[2], g->middle.y);
+    flat_position c[3];
+    patch_positions(g, seed, c);
+    double        first = 1 - g->middle.x - g->middle.y;
+    flat_position middle =
+        flat_add(flat_add((flat_position){first * c[0].x, first * c[0].y}, c[1], g->middle.x), c[2], g->middle.y);
     for (size_t l = 0; l < g->vertex_count; l++)
-        g->vertices[l].place = flat_add(g->vertices[l].place, middle, -1);
+        g->vertices[l].position = flat_add(g->vertices[l].position, middle, -1);
 }
 
-bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius)
+bool patch_grow(patch_ground *g, uint32_t seed, flat_position middle, double radius)
 {
     const field_surface *s = g->surface;
     g->middle = middle;
@@ -328,8 +329,8 @@ bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius
         if (!offer_around(g, s->corners[3 * (size_t)seed + k], radius))
             return false;
     while (g->near.count > 0) {
-        near_place next = near_pop(&g->near);
-        uint32_t   element = next.element;
+        near_position next = near_pop(&g->near);
+        uint32_t      element = next.element;
         if (settled(g, element))
             continue;
         if (!settle(g, element, next.distance) || !offer_around(g, element, radius))
@@ -341,7 +342,7 @@ bool patch_grow(patch_ground *g, uint32_t seed, flat_place middle, double radius
     centre(g, seed);
     if (patch_stretch(g, seed) > STRETCH_MAX)
         for (size_t l = 0; l < g->vertex_count; l++)
-            g->vertices[l].place = g->kept[l];
+            g->vertices[l].position = g->kept[l];
     return gather(g, seed, radius);
 }
 

@@ -26,24 +26,24 @@ typedef struct sheet_view {
 } sheet_view;
 
 /* From pixels (x, y) to a paper that repeats: (a x − b y + u, b x + a y + v). */
-typedef struct sheet_place {
+typedef struct sheet_position {
     float a, b, u, v;
-} sheet_place;
+} sheet_position;
 
 /* How the paper lies. Papers that zoom are two, of one octave each. A paper that has rolled half around has come to
  * its end, and begins again: around there some of its pieces are where it ends and some where it begins. */
 typedef struct sheet_lie {
-    sheet_place octaves[2];
-    float       finer;    /* share of the second octave; 0: there is one only */
-    float       begin[2]; /* of each octave, what is to be added to u where it begins again */
-    float       begun;    /* share of the pieces that do */
-    sheet_place
-        pieces; /* from pixels to what tells pieces apart: those begin whose contact there is less than the share */
+    sheet_position octaves[2];
+    float          finer;    /* fraction of the second octave; 0: there is one only */
+    float          begin[2]; /* of each octave, what is to be added to u where it begins again */
+    float          begun;    /* fraction of the pieces that do */
+    sheet_position
+        pieces; /* from pixels to what tells pieces apart: those begin whose contact there is less than the fraction */
 } sheet_lie;
 
 /* What the strongest ink differs by from a ground (linear, premultiplied), where it takes away from it and where it
  * adds to it. */
-void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4]);
+void sheet_range(const sheet_values *values, const float ground[4], float less[4], float more[4]);
 
 /* A function of the view alone. */
 sheet_lie sheet_lay(const sheet_values *values, const sheet_view *view);

@@ -14,12 +14,12 @@ static const param params[] = {
                    .doc = "What is drawn on: ink stays on the hills of its grain and leaves out the valleys, the "
                           "fainter the more. smooth, drawing (fine tooth), "
                           "rough, laid (ribs and chain lines) or canvas."),
-    PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
+    PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "paper",
                     .doc = "How much ink follows the grain."),
     PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1.5, .max = 32, .soft_max = 8, .unit = UNIT_PX,
                     .logarithmic = true, .cpu_only = true, .only_if = "paper",
                     .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
-    PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_SHARE, .only_if = "paper",
+    PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_FRACTION, .only_if = "paper",
                     .doc = "1: where ink is full it fills the valleys, and tones stay what they are; below, the "
                            "darkest strokes are broken too, and lighter for it."),
     PARAM_COLOUR_ROW(sheet_values, ink, .def_colour = {NAN, NAN, NAN, 1}, .can_auto = true, .def_auto = true,
@@ -27,7 +27,7 @@ static const param params[] = {
                      .doc = "The strongest ink: the pencil's colour, beyond which hills do not go; auto: as far as "
                             "colours go, so that grey ink gets black specks."),
     PARAM_FLOAT_ROW(sheet_values, relief, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_max = 0.3,
-                    .unit = UNIT_SHARE, .only_if = "paper",
+                    .unit = UNIT_FRACTION, .only_if = "paper",
                     .doc = "How much the bare paper shows its grain by light from the upper left."),
     PARAM_ENUM_ROW(sheet_values, motion, .names = motion_names, .variant = true, .only_if = "paper",
                    .doc = "fixed: the paper lies still under what moves; following: it goes, turns and rolls along "
@@ -81,7 +81,7 @@ const kind kind_finish = {
     .look_wide = true,
 };
 
-void sheet_room(const sheet_values *values, const float ground[4], float less[4], float more[4])
+void sheet_range(const sheet_values *values, const float ground[4], float less[4], float more[4])
 {
     const colour c = values->ink;
     const float  ink[4] = {colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), 1};
@@ -103,12 +103,12 @@ static float fraction(double value)
 }
 
 /* A sheet of `tiles` a pixel that has gone so far from the middle of the model. */
-static sheet_place lay_at(const sheet_view *view, double tiles, double u, double v)
+static sheet_position lay_at(const sheet_view *view, double tiles, double u, double v)
 {
     double a = tiles * cos(view->roll), b = -tiles * sin(view->roll);
     u -= a * view->anchor[0] - b * view->anchor[1];
     v -= b * view->anchor[0] + a * view->anchor[1];
-    return (sheet_place){(float)a, (float)b, fraction(u), fraction(v)};
+    return (sheet_position){(float)a, (float)b, fraction(u), fraction(v)};
 }
 
 /* One octave, which rolls along like a ball of `radius` pixels. Its number shifts it, so that it is not the next

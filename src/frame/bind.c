@@ -91,7 +91,8 @@ static void set_field(frame *f, const figure_state *s)
 }
 
 /* The walls of a hole are where what was taken away ends. Both are found apart, so their depths differ by rounding,
- * of places as shares of the distance and of window depth: the ghost shall be in front, rather than in speckles. */
+ * of positions as fractions of the distance and of window depth: the ghost shall be in front, rather than in speckles.
+ */
 static float forward_of(const frame *f, const figure *fig)
 {
     double far = f->camera.far, range = far - f->camera.near;

@@ -1,4 +1,4 @@
-#include "frame/room.h"
+#include "frame/capacity.h"
 
 #include <math.h>
 
@@ -10,25 +10,25 @@ static int limit_of(const gpu *g)
     return facts->max_texture < LIMIT_PICTURE_SIDE ? facts->max_texture : LIMIT_PICTURE_SIDE;
 }
 
-lmn_status room_check_sides(gpu *g, int width, int height, int side, lmn_error *error)
+lmn_status capacity_check_sides(gpu *g, int width, int height, int side, lmn_error *error)
 {
     int limit = limit_of(g), longer = width > height ? width : height;
     if (longer * side <= limit)
         return LMN_OK;
-    double share = (double)(limit / side) / longer;
+    double fraction = (double)(limit / side) / longer;
     error_set(error, LMN_LIMIT,
               "a picture of %dx%d pixels with %d samples a pixel needs %d pixels a side, the limit is %d", width,
               height, side * side, longer * side, limit);
     error_hint(error, "with %d samples at most --size %.0fx%.0f, or fewer --samples", side * side,
-               fmax(floor(width * share), 1), fmax(floor(height * share), 1));
+               fmax(floor(width * fraction), 1), fmax(floor(height * fraction), 1));
     return LMN_LIMIT;
 }
 
 /* The pictures of one pass, beside its depth. */
-typedef struct room_pass {
+typedef struct capacity_pass {
     gpu_format formats[GPU_COLOURS_MAX];
     int        count, width, height;
-} room_pass;
+} capacity_pass;
 
 /* The page; what the figures take that are not drawn straight onto it; what solids are gathered in; and what maps
  * take. */
@@ -42,14 +42,14 @@ static bool has_solids(const plan *p)
     return false;
 }
 
-static void add_format(room_pass *pass, gpu_format format, bool wanted)
+static void add_format(capacity_pass *pass, gpu_format format, bool wanted)
 {
     if (wanted)
         pass->formats[pass->count++] = format;
 }
 
 /* The channels as src/frame/raster.c has them, and fields of what perturbs. */
-static void list_passes(room_pass out[PASSES], const plan *p, const room_options *w)
+static void list_passes(capacity_pass out[PASSES], const plan *p, const capacity_options *w)
 {
     unsigned channels = 0;
     bool     perturbed = false;
@@ -59,7 +59,7 @@ static void list_passes(room_pass out[PASSES], const plan *p, const room_options
         perturbed = perturbed || rule_use(p->figures[i].rule, KIND_PERTURB);
     }
     for (int i = 0; i < PASSES; i++)
-        out[i] = (room_pass){.width = i < 3 ? width : w->width, .height = i < 3 ? height : w->height};
+        out[i] = (capacity_pass){.width = i < 3 ? width : w->width, .height = i < 3 ? height : w->height};
     add_format(&out[0], GPU_RGBA16F, true);
     add_format(&out[1], GPU_RGBA32F, (channels & CHANNEL_NORMAL_DEPTH) || perturbed);
     add_format(&out[1], GPU_RG32UI, channels & CHANNEL_ID);
@@ -71,9 +71,9 @@ static void list_passes(room_pass out[PASSES], const plan *p, const room_options
 }
 
 /* Does the driver say that it can? */
-static bool is_possible(gpu *g, const plan *p, const room_options *w)
+static bool is_possible(gpu *g, const plan *p, const capacity_options *w)
 {
-    room_pass passes[PASSES];
+    capacity_pass passes[PASSES];
     list_passes(passes, p, w);
     for (int i = 0; i < PASSES; i++)
         for (int k = 0; k < passes[i].count; k++)
@@ -83,7 +83,7 @@ static bool is_possible(gpu *g, const plan *p, const room_options *w)
 }
 
 /* Can it? The pictures go back to the pool. */
-static bool has_pass(gpu *g, const room_pass *r, lmn_error *error)
+static bool has_pass(gpu *g, const capacity_pass *r, lmn_error *error)
 {
     gpu_pass pass = {0};
     for (int i = 0; i < r->count; i++)
@@ -98,9 +98,9 @@ static bool has_pass(gpu *g, const room_pass *r, lmn_error *error)
 }
 
 /* *error is set when the driver failed, and not when it says beforehand that it cannot. */
-static bool has_room(gpu *g, const plan *p, const room_options *w, lmn_error *error)
+static bool has_capacity(gpu *g, const plan *p, const capacity_options *w, lmn_error *error)
 {
-    room_pass passes[PASSES];
+    capacity_pass passes[PASSES];
     list_passes(passes, p, w);
     bool fits = is_possible(g, p, w);
     for (int i = 0; i < PASSES && fits; i++)
@@ -108,23 +108,23 @@ static bool has_room(gpu *g, const plan *p, const room_options *w, lmn_error *er
     return fits;
 }
 
-static room_options smaller(const room_options *w, double share)
+static capacity_options smaller(const capacity_options *w, double fraction)
 {
-    room_options s = *w;
-    s.width = (int)fmax(floor(w->width * share), 1);
-    s.height = (int)fmax(floor(w->height * share), 1);
+    capacity_options s = *w;
+    s.width = (int)fmax(floor(w->width * fraction), 1);
+    s.height = (int)fmax(floor(w->height * fraction), 1);
     return s;
 }
 
-/* The largest share of the size that there is room for, nearly: as the driver says, or where it says too readily,
+/* The largest fraction of the size that there is room for, nearly: as the driver says, or where it says too readily,
  * the first half that is true. */
-static double find_share(gpu *g, const plan *p, const room_options *options)
+static double find_fraction(gpu *g, const plan *p, const capacity_options *options)
 {
     enum { STEPS = 64, HALVES = 6 };
     int low = 0, high = STEPS;
     while (!is_possible(g, p, options) && high - low > 1) {
-        int          middle = (low + high) / 2;
-        room_options less = smaller(options, (double)middle / STEPS);
+        int              middle = (low + high) / 2;
+        capacity_options less = smaller(options, (double)middle / STEPS);
         if (is_possible(g, p, &less))
             low = middle;
         else
@@ -132,13 +132,13 @@ static double find_share(gpu *g, const plan *p, const room_options *options)
     }
     if (high < STEPS || low > 0)
         return (double)low / STEPS;
-    double share = 0.5;
-    for (int i = 0; i < HALVES; i++, share /= 2) {
-        room_options less = smaller(options, share);
-        bool         fits = has_room(g, p, &less, NULL);
+    double fraction = 0.5;
+    for (int i = 0; i < HALVES; i++, fraction /= 2) {
+        capacity_options less = smaller(options, fraction);
+        bool             fits = has_capacity(g, p, &less, NULL);
         gpu_targets_trim(g);
         if (fits)
-            return share;
+            return fraction;
     }
     return 0;
 }
@@ -146,10 +146,10 @@ static double find_share(gpu *g, const plan *p, const room_options *options)
 /* Pixels that every driver can draw, when there is memory. */
 enum { SMALL = 1 << 20 };
 
-lmn_status room_check(gpu *g, const plan *p, const room_options *options, lmn_error *error)
+lmn_status capacity_check(gpu *g, const plan *p, const capacity_options *options, lmn_error *error)
 {
     lmn_error problem = {0};
-    if (has_room(g, p, options, &problem))
+    if (has_capacity(g, p, options, &problem))
         return LMN_OK;
     gpu_targets_trim(g);
     int samples = options->side * options->side;
@@ -161,13 +161,13 @@ lmn_status room_check(gpu *g, const plan *p, const room_options *options, lmn_er
             *error = problem;
         return problem.status;
     }
-    double share = find_share(g, p, options);
+    double fraction = find_fraction(g, p, options);
     error_set(error, LMN_LIMIT,
               "a picture of %dx%d pixels with %d sample%s a pixel is larger than the driver can draw with this look",
               options->width, options->height, samples, samples == 1 ? "" : "s");
-    if (share > 0)
+    if (fraction > 0)
         error_hint(error, "with %d sample%s --size %dx%d can be drawn%s", samples, samples == 1 ? "" : "s",
-                   smaller(options, share).width, smaller(options, share).height,
+                   smaller(options, fraction).width, smaller(options, fraction).height,
                    samples > 1 ? ", or more with fewer --samples" : "");
     else
         error_hint(error, "ask for a smaller --size%s", samples > 1 ? " or fewer --samples" : "");

@@ -57,8 +57,8 @@ struct frame_maps {
     float    *edge;        /* 4 */
     float    *shade;       /* 4, linear premultiplied */
     float    *uncertainty; /* 3; NULL while nothing is perturbed */
-    float
-        *direction; /* 3: the way of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks for it */
+    float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks
+                         for it */
     bool        whole;  /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
     layer_map **layers; /* of figures that are seen through, nearest first */
     size_t      layer_count, layer_capacity;

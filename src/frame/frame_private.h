@@ -79,7 +79,7 @@ void shadow_set(frame *f);     /* uniforms of light/shadow.glsl */
 void visibility_set(frame *f); /* of light/light.glsl's soft shadows and occlusion */
 /* Are the first light's shadows drawn, and soft? */
 bool shadow_is_soft(const frame *f);
-/* The first light's direction in eye space, towards it; false when it has a place instead. */
+/* The first light's direction in eye space, towards it; false when it has a position instead. */
 bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- shadow.c --- */
@@ -126,13 +126,13 @@ void raster_figure(frame *f, figure_state *s);                    /* G-buffer, a
 void raster_direct(frame *f, figure_state *s);                    /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
 void raster_shade_deferred(frame *f, figure_state *s);
-/* The pictures of a layer, cleared, as the targets of a pass; their places are declared. */
+/* The pictures of a layer, cleared, as the targets of a pass; their positions are declared. */
 void layer_outputs_open(frame *f, layer_stack *stack, gpu_pass *pass, text *prelude);
 /* The figure's parts with their surfaces moved outwards by some pixels: x and y of the normal, part id, eye depth
  * (0: empty). */
 void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
 /* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their
- * surfaces are made for one place. */
+ * surfaces are made for one position. */
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
@@ -152,9 +152,9 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
 /* Draws `count` figures whose layers interleave. */
 void layered_draw(frame *f, const figure *figures, int count);
 
-/* Gathers every fragment inside the stack's `around` box in at most `room` bytes. Returns how many times the room
+/* Gathers every fragment inside the stack's `around` box in at most `capacity` bytes. Returns how many times the room
  * is needed: 1 when everything is there; otherwise the lists are not whole. */
-int lists_build(frame *f, layer_stack *stack, size_t room);
+int lists_build(frame *f, layer_stack *stack, size_t capacity);
 /* Draws layer `index` into the stack's pictures. Layers are asked for in order. */
 void lists_layer(frame *f, layer_stack *stack, int index);
 void lists_release(frame *f, layer_stack *stack);

@@ -213,7 +213,7 @@ static bool is_finished(const frame *f, figure_state *s, coverage c)
         return true;
     if (how->fraction > 0 && c.covered < (double)how->fraction * f->width * f->height)
         return true;
-    if (s->figure->focus && c.uncovered >= (double)how->focus_share * c.mask) {
+    if (s->figure->focus && c.uncovered >= (double)how->focus_fraction * c.mask) {
         s->rear = how->rear;
         return how->rear <= 0;
     }

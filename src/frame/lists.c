@@ -26,17 +26,17 @@ void lists_release(frame *f, layer_stack *stack)
     }
 }
 
-int lists_build(frame *f, layer_stack *stack, size_t room)
+int lists_build(frame *f, layer_stack *stack, size_t capacity)
 {
     stopwatch w = watch_start(&f->profile);
     size_t    pixels = (size_t)stack->around[2] * (size_t)stack->around[3];
     size_t    block = (size_t)gpu_capabilities_of(f->g)->max_storage_mib << 20;
-    room = room < block ? room : block;
+    capacity = capacity < block ? capacity : block;
     stack->node_vectors =
         stack->channels & (CHANNEL_SHADE | CHANNEL_ALBEDO) ? NODE_VECTORS_COLOURED : NODE_VECTORS_BARE;
-    unsigned limit = (unsigned)(room / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));
+    unsigned limit = (unsigned)(capacity / (4 * sizeof(uint32_t) * (size_t)stack->node_vectors));
     stack->heads = gpu_buffer_acquire(f->g, pixels * sizeof(uint32_t));
-    stack->list = gpu_buffer_acquire(f->g, room);
+    stack->list = gpu_buffer_acquire(f->g, capacity);
     stack->counter = gpu_buffer_acquire(f->g, 64);
     gpu_buffer_fill(f->g, stack->heads, 0, pixels * sizeof(uint32_t));
     gpu_buffer_fill(f->g, stack->counter, 0, 64);

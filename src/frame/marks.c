@@ -7,7 +7,7 @@
 #include "stage/mark_sets.h"
 #include "surface/marks.h"
 
-/* How many of the set, in its order, can be drawn at all: what a place of the figure that is as near and as much
+/* How many of the set, in its order, can be drawn at all: what a position of the figure that is as near and as much
  * towards the eye as can be asks for. */
 static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *set, const mark_style *style)
 {
@@ -18,13 +18,13 @@ static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *s
     double scale = focal;
     if (!f->camera.orthographic)
         scale = focal * sqrt(1 + 1 / (p[0] * p[0]) + 1 / (p[5] * p[5])) / fmax(nearest, f->camera.near);
-    double share, size = (double)style->diameter;
+    double fraction, size = (double)style->diameter;
     if (set->lines)
-        share = scale / (set->density * (double)style->scale);
+        fraction = scale / (set->density * (double)style->scale);
     else
-        share = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) *
-                scale * scale / set->density;
-    double most = share * (1 + (double)style->fade) * SPARE;
+        fraction = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) *
+                   scale * scale / set->density;
+    double most = fraction * (1 + (double)style->fade) * SPARE;
     if (!(most < 1))
         return set->count;
     if (!set->lines)

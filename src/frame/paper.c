@@ -5,12 +5,12 @@
 
 #include "finish/finish.h"
 
-/* A ball's points move by their depth when it turns; half of those that are seen are deeper than this share of its
+/* A ball's points move by their depth when it turns; half of those that are seen are deeper than this fraction of its
  * radius. */
-static const double BALL_SHARE = 0.7071;
+static const double BALL_FRACTION = 0.7071;
 
-/* The middle of the model never counts as nearer than this share of its size: there is no page at the eye. */
-static const double NEAREST_SHARE = 0.1;
+/* The middle of the model never counts as nearer than this fraction of its size: there is no page at the eye. */
+static const double NEAREST_FRACTION = 0.1;
 
 static const technique_use *sheet_of(const frame *f)
 {
@@ -66,10 +66,10 @@ static sheet_view view_of(const frame *f)
         to_viewer[k] = m[4 * k + 2];
     double     shown = c->orthographic
                            ? c->half_height
-                           : tan(c->fov_y / 2) * fmax(-eye[2], NEAREST_SHARE * size); /* half the page's height, units */
+                           : tan(c->fov_y / 2) * fmax(-eye[2], NEAREST_FRACTION * size); /* half the page's height, units */
     sheet_view out = {.scale = height / 2 / shown,
                       .fitted = fmin(width, height) / 2 / size,
-                      .radius = BALL_SHARE * cbrt(half[0] * half[1] * half[2])};
+                      .radius = BALL_FRACTION * cbrt(half[0] * half[1] * half[2])};
     out.anchor[0] = width / 2 + eye[0] * out.scale;
     out.anchor[1] = height / 2 + eye[1] * out.scale;
     find_angles(&out, f, to_viewer);
@@ -84,16 +84,16 @@ void paper_declare(text *prelude, const frame *f)
     used_textures_declare(prelude, sheet_of(f), f->sheet);
 }
 
-static void set_place(gpu *g, const char *name, sheet_place place)
+static void set_position(gpu *g, const char *name, sheet_position position)
 {
-    gpu_set_vec4(g, name, (float[]){place.a, place.b, place.u, place.v});
+    gpu_set_vec4(g, name, (float[]){position.a, position.b, position.u, position.v});
 }
 
 /* The texture's level at which a texel is as large as a pixel: the same all over the page, so that nobody has to
  * find it there. */
-static float level_of(sheet_place place, float side)
+static float level_of(sheet_position position, float side)
 {
-    return (float)fmax(log2(fmax(hypot((double)place.a, (double)place.b) * (double)side, 1e-30)), 0);
+    return (float)fmax(log2(fmax(hypot((double)position.a, (double)position.b) * (double)side, 1e-30)), 0);
 }
 
 void paper_set(frame *f)
@@ -109,18 +109,18 @@ void paper_set(frame *f)
         ground[k] *= f->ground.a;
     uniforms_set(f->g, use_own_set(KIND_FINISH, sheet));
     used_textures_set(f->g, sheet, f->sheet);
-    sheet_room(sheet->values, ground, less, more);
+    sheet_range(sheet->values, ground, less, more);
     gpu_set_vec4(f->g, "u_sheet", ground);
-    gpu_set_vec4(f->g, "u_room_below", less);
-    gpu_set_vec4(f->g, "u_room_above", more);
-    set_place(f->g, "u_paper_place", lie.octaves[0]);
-    set_place(f->g, "u_paper_finer", lie.octaves[1]);
-    set_place(f->g, "u_paper_pieces", lie.pieces);
-    const float       side = f->sheet->facts[0][0];
-    const sheet_place places[3] = {lie.octaves[0], lie.octaves[1], lie.pieces};
-    float             levels[3];
+    gpu_set_vec4(f->g, "u_range_below", less);
+    gpu_set_vec4(f->g, "u_range_above", more);
+    set_position(f->g, "u_paper_position", lie.octaves[0]);
+    set_position(f->g, "u_paper_finer", lie.octaves[1]);
+    set_position(f->g, "u_paper_pieces", lie.pieces);
+    const float          side = f->sheet->facts[0][0];
+    const sheet_position positions[3] = {lie.octaves[0], lie.octaves[1], lie.pieces};
+    float                levels[3];
     for (int k = 0; k < 3; k++)
-        levels[k] = level_of(places[k], side);
+        levels[k] = level_of(positions[k], side);
     gpu_set_vec3(f->g, "u_paper_levels", levels);
-    gpu_set_vec4(f->g, "u_paper_shares", (float[]){lie.finer, lie.begun, lie.begin[0], lie.begin[1]});
+    gpu_set_vec4(f->g, "u_paper_fractions", (float[]){lie.finer, lie.begun, lie.begin[0], lie.begin[1]});
 }

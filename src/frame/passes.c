@@ -48,7 +48,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
             text_append(&prelude, "#define BROAD_LINES\n");
         used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
-        snprintf(path, sizeof path, "%s+%s", params->perturbed->places, p->shader);
+        snprintf(path, sizeof path, "%s+%s", params->perturbed->positions, p->shader);
     }
     return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
 }

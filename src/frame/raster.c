@@ -14,8 +14,8 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
     return fig->designated[item->part_index] || (fig->complement && f->plan->opaque[item->part_index]);
 }
 
-/* The item's material; `room` holds it when it is painted in the figure's highlight. */
-static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *room)
+/* The item's material; `capacity` holds it when it is painted in the figure's highlight. */
+static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *capacity)
 {
     /* Formats without materials: a light neutral grey. */
     static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1},
@@ -28,10 +28,10 @@ static const material *material_of(const frame *f, const figure *fig, const draw
         return own;
     float linear[4];
     uniforms_linear(fig->highlight, linear);
-    *room = *own;
-    room->base_texture = standard.base_texture;
-    room->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
-    return room;
+    *capacity = *own;
+    capacity->base_texture = standard.base_texture;
+    capacity->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
+    return capacity;
 }
 
 typedef struct item_textures {
@@ -244,7 +244,7 @@ static gpu_state state_of(const raster_job *job)
                        .depth_compare = job->stack ? GPU_LESS : GPU_LESS_EQUAL};
 }
 
-/* Does the surface lay strokes along the way that the item bends? */
+/* Does the surface lay strokes along the direction in which the item bends? */
 static bool uses_field(const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);

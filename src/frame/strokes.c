@@ -49,7 +49,7 @@ static const gpu_state drawn = {.depth_write = true, .blend = GPU_BLEND_MIN};
 
 /* --- sampled -------------------------------------------------------------------------------------------- */
 
-/* The eye in an item's axes: its place, 1; or without perspective the way towards it, 0. */
+/* The eye in an item's axes: its position, 1; or without perspective the way towards it, 0. */
 static void find_viewer(const frame *f, const mat4 *world, float out[4])
 {
     mat4   both = mat4_multiply(&f->camera.view, world);

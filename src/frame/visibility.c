@@ -9,9 +9,9 @@
 /* Half as large as the page; with several samples a pixel as large as it will be in the end. */
 static void size_of(const frame *f, int out[2])
 {
-    int share = f->samples > 1 ? f->samples : 2;
-    out[0] = (f->width + share - 1) / share;
-    out[1] = (f->height + share - 1) / share;
+    int fraction = f->samples > 1 ? f->samples : 2;
+    out[0] = (f->width + fraction - 1) / fraction;
+    out[1] = (f->height + fraction - 1) / fraction;
 }
 
 static const scene_values *values_of(const frame *f)
@@ -19,7 +19,7 @@ static const scene_values *values_of(const frame *f)
     return f->plan->look->wide[KIND_SCENE].values;
 }
 
-static void set_places(const frame *f, int width, int height)
+static void set_positions(const frame *f, int width, int height)
 {
     const double *m = f->camera.projection.m;
     gpu_set_float(f->g, "u_perspective", f->camera.orthographic ? 0 : 1);
@@ -42,7 +42,7 @@ static void set_depth(const frame *f, int width, int height)
     }
 }
 
-static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_texture *normals)
+static void measure(frame *f, gpu_texture *depth, gpu_texture *fraction, gpu_texture *normals)
 {
     const scene_values *v = values_of(f);
     int                 width = gpu_texture_width(depth), height = gpu_texture_height(depth);
@@ -54,9 +54,9 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *share, gpu_textur
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
-    gpu_pass_begin(f->g, &(gpu_pass){.colours = {share, normals}, .colour_count = 2});
+    gpu_pass_begin(f->g, &(gpu_pass){.colours = {fraction, normals}, .colour_count = 2});
     gpu_use(f->g, p, (gpu_state){0});
-    set_places(f, width, height);
+    set_positions(f, width, height);
     set_depth(f, width, height);
     gpu_set_texture(f->g, "t_depth", depth, false);
     if (shadow_is_soft(f))
@@ -73,9 +73,9 @@ static void blur(frame *f, gpu_texture *from, gpu_texture *to, gpu_texture *norm
         return;
     gpu_pass_begin(f->g, &(gpu_pass){.colours = {to}, .colour_count = 1});
     gpu_use(f->g, p, (gpu_state){0});
-    set_places(f, gpu_texture_width(to), gpu_texture_height(to));
+    set_positions(f, gpu_texture_width(to), gpu_texture_height(to));
     gpu_set_vec2(f->g, "u_along", upwards ? 0 : 1, upwards ? 1 : 0);
-    gpu_set_texture(f->g, "t_share", from, false);
+    gpu_set_texture(f->g, "t_fraction", from, false);
     gpu_set_texture(f->g, "t_normals", normals, false);
     gpu_draw_screen(f->g);
 }
@@ -105,20 +105,20 @@ void visibility_draw(frame *f)
     gpu_texture *depth = small_depth(f, size[0], size[1]);
     watch_stop(&f->profile, w, "scene", "visible depth");
     w = watch_start(&f->profile);
-    gpu_texture *share = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F),
+    gpu_texture *fraction = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F),
                 *other = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F);
     gpu_texture *normals = gpu_target_acquire(f->g, size[0], size[1], GPU_RGBA32F);
     if (!gpu_failed(f->g))
-        measure(f, depth, share, normals);
+        measure(f, depth, fraction, normals);
     watch_stop(&f->profile, w, "scene", "visibility");
     w = watch_start(&f->profile);
     if (!gpu_failed(f->g)) {
-        blur(f, share, other, normals, false);
-        blur(f, other, share, normals, true);
+        blur(f, fraction, other, normals, false);
+        blur(f, other, fraction, normals, true);
     }
     gpu_target_release(f->g, depth);
     gpu_target_release(f->g, other);
     gpu_target_release(f->g, normals);
-    f->visibility = share;
+    f->visibility = fraction;
     watch_stop(&f->profile, w, "scene", "visibility blur");
 }

@@ -21,7 +21,7 @@ void gpu_forget_framebuffers(gpu *g, const gpu_texture *t)
     }
 }
 
-static framebuffer *place_for(gpu *g)
+static framebuffer *framebuffer_slot(gpu *g)
 {
     if (g->framebuffer_count < FRAMEBUFFERS_MAX)
         return &g->framebuffers[g->framebuffer_count++];
@@ -44,7 +44,7 @@ static void bind_framebuffer(gpu *g, const gpu_pass *pass)
             return;
         }
     }
-    framebuffer *f = place_for(g);
+    framebuffer *f = framebuffer_slot(g);
     *f = (framebuffer){.depth = pass->depth, .used = g->clock};
     memcpy(f->colours, pass->colours, sizeof f->colours);
     glGenFramebuffers(1, &f->name);

@@ -28,11 +28,11 @@ typedef enum lead_grade {
 } lead_grade;
 extern const char *const lead_grade_names[LEAD_COUNT + 1]; /* NULL-terminated */
 
-/* The darkest that a lead gets however often it goes over a place, 0 … 1 as the eye counts: 0.36 for 6H, 0.95 for
+/* The darkest that a lead gets however often it goes over a position, 0 … 1 as the eye counts: 0.36 for 6H, 0.95 for
  * 8B. */
 float lead_darkest(lead_grade grade);
 
-/* The same as a share of light that is taken away from white paper, for mixing in linear light. */
+/* The same as a fraction of light that is taken away from white paper, for mixing in linear light. */
 float lead_ink(lead_grade grade);
 
 /* Side of the pictures that graphite_grain makes, texels. */

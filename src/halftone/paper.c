@@ -12,7 +12,7 @@ enum { SIDE = PAPER_SIDE, MASK = SIDE - 1, TEXELS = SIDE * SIDE, BINS = 1 << 14,
 
 static const double PI = 3.14159265358979323846;
 
-/* By paper: how much of its valleys stays out of reach, its steepest slopes' share of 45 degrees, and the deviation
+/* By paper: how much of its valleys stays out of reach, its steepest slopes' fraction of 45 degrees, and the deviation
  * in texels of its widest marks. */
 static const struct {
     float  depth, steep;
@@ -31,7 +31,7 @@ static const float FLANK = 0.45f; /* weight of the side that faces the stroke ag
 /* A field and room for one step of work on it. */
 typedef struct bench {
     random_source random;
-    float        *field, *other, *room;
+    float        *field, *other, *capacity;
 } bench;
 
 static void add_noise(bench *b, float *out)
@@ -77,9 +77,9 @@ static void blur_across(bench *b, float *field, double deviation)
     for (int y = 0; y < SIDE; y++) {
         for (int i = 0; i < SIDE + 2 * REACH_MOST; i++)
             line[i] = field[y * SIDE + ((i - REACH_MOST) & MASK)];
-        sum_lines(b->room + y * SIDE, lines, weights, reach);
+        sum_lines(b->capacity + y * SIDE, lines, weights, reach);
     }
-    memcpy(field, b->room, TEXELS * sizeof *field);
+    memcpy(field, b->capacity, TEXELS * sizeof *field);
 }
 
 static void blur_up(bench *b, float *field, double deviation)
@@ -93,9 +93,9 @@ static void blur_up(bench *b, float *field, double deviation)
             lines[2 * k - 1] = field + ((y - k) & MASK) * SIDE;
             lines[2 * k] = field + ((y + k) & MASK) * SIDE;
         }
-        sum_lines(b->room + y * SIDE, lines, weights, reach);
+        sum_lines(b->capacity + y * SIDE, lines, weights, reach);
     }
-    memcpy(field, b->room, TEXELS * sizeof *field);
+    memcpy(field, b->capacity, TEXELS * sizeof *field);
 }
 
 /* A Gaussian around the corners, of a deviation for each axis in texels. */
@@ -138,7 +138,7 @@ static void add_band(bench *b, float *scratch, double fine, double coarse, float
         b->field[i] += weight * scratch[i];
 }
 
-/* Each value becomes the share of values below it. */
+/* Each value becomes the fraction of values below it. */
 static bool flatten(float *field)
 {
     float     low = field[0], high = field[0];
@@ -242,7 +242,7 @@ static void make_laid(bench *b, float *scratch)
     add_fibres(b, scratch, 10000, 0.3f);
 }
 
-/* A thread's round back at a place across it, from −1/2 to 1/2. */
+/* A thread's round back at a position across it, from −1/2 to 1/2. */
 static double back_of(double aside)
 {
     return sqrt(fmax(1 - 3.6 * aside * aside, 0));
@@ -293,9 +293,9 @@ lmn_status paper_create(paper *out, paper_kind kind, uint32_t seed, lmn_error *e
     bench  b = {.random = random_start(seed, STREAM + (uint32_t)kind),
                 .field = mem_calloc(TEXELS, sizeof(float)),
                 .other = mem_alloc(TEXELS * sizeof(float)),
-                .room = mem_alloc(TEXELS * sizeof(float))};
+                .capacity = mem_alloc(TEXELS * sizeof(float))};
     float *scratch = mem_alloc(TEXELS * sizeof *scratch);
-    bool   good = b.field && b.other && b.room && scratch;
+    bool   good = b.field && b.other && b.capacity && scratch;
     if (good) {
         makers[kind](&b, scratch);
         good = flatten(b.field);
@@ -303,7 +303,7 @@ lmn_status paper_create(paper *out, paper_kind kind, uint32_t seed, lmn_error *e
         good = good && flatten(b.field);
     }
     mem_free(b.other);
-    mem_free(b.room);
+    mem_free(b.capacity);
     mem_free(scratch);
     if (!good) {
         mem_free(b.field);

@@ -37,7 +37,7 @@ void       paper_release(paper *p);
 /* The unit normal of a texel, normalise(−k ∂h/∂x, −k ∂h/∂y, 1); k is the paper's own. */
 void paper_normal(const paper *p, int x, int y, float out[3]);
 
-/* What shaders need, RG8, one level. Red, contact: how early a pencil touches the place, from its height and from
+/* What shaders need, RG8, one level. Red, contact: how early a pencil touches the position, from its height and from
  * how far its normal leans towards the stroke; again each tenth of it covers a tenth of the sheet. Green: light of
  * the bare sheet from the upper left, 1/2 where it is level. The fact is the paper's depth, 0 … 1: how much of its
  * valleys a pencil leaves out. Errors: LMN_MEMORY. */

@@ -53,8 +53,8 @@ uint32_t bayer_rank(uint32_t x, uint32_t y, int side)
 
 /* --- spots ---------------------------------------------------------------------------------------------- */
 
-/* Distance of a lattice place to the next multiple of `period`, as a share of half a period, 0 … FINE. */
-static int64_t share_of_half(int64_t at, int64_t period)
+/* Distance of a lattice position to the next multiple of `period`, as a fraction of half a period, 0 … FINE. */
+static int64_t fraction_of_half(int64_t at, int64_t period)
 {
     int64_t rest = ((at % period) + period) % period;
     return FINE * (rest * 2 < period ? rest * 2 : (period - rest) * 2) / period;
@@ -72,8 +72,8 @@ static int64_t near_cosine(int64_t turn)
  * Bayer's order of the cells, so that there are as many tones as texels in the tile. */
 static uint64_t dot_key(int x, int y, int period, int tile)
 {
-    int64_t a = near_cosine(share_of_half(2 * x + 1, 2 * period)),
-            b = near_cosine(share_of_half(2 * y + 1, 2 * period));
+    int64_t a = near_cosine(fraction_of_half(2 * x + 1, 2 * period)),
+            b = near_cosine(fraction_of_half(2 * y + 1, 2 * period));
     int64_t spot = (int64_t)FINE * FINE - a * b;
     /* Counted from between the dots, so that a dot is in one cell. */
     int      left = (x + period / 4) % tile, low = (y + period / 4) % tile;
@@ -83,8 +83,8 @@ static uint64_t dot_key(int x, int y, int period, int tile)
     return (uint64_t)spot << 24 | (uint64_t)(corner << 20) | turn;
 }
 
-/* How far a line's middle is off, in shares of a texel times 2 × wave. Where it lay between texels, the tone would
- * go in steps of two rows. So lines sway by half a texel to both sides, each at other places, or all would grow
+/* How far a line's middle is off, in fractions of a texel times 2 × wave. Where it lay between texels, the tone would
+ * go in steps of two rows. So lines sway by half a texel to both sides, each at other positions, or all would grow
  * wider in the same columns; and the few lines of small levels, which shall be straight, are off by different parts
  * of half a texel. */
 static int64_t line_sway(int x, int line, int lines, int wave)
@@ -99,8 +99,8 @@ static uint8_t line_value(int x, int y, int period, int side)
 {
     int     wave = side < WAVE ? side : WAVE, lines = side / period;
     int64_t unit = (int64_t)2 * wave, off = line_sway(x, (y + period / 2) / period % lines, lines, wave);
-    int64_t share = period > 1 ? share_of_half(unit * y + wave + off, unit * period) : FINE / 2;
-    int64_t value = (255 * share + FINE - 1) / FINE;
+    int64_t fraction = period > 1 ? fraction_of_half(unit * y + wave + off, unit * period) : FINE / 2;
+    int64_t value = (255 * fraction + FINE - 1) / FINE;
     return (uint8_t)(value > 254 ? 254 : value < 1 ? 1 : value);
 }
 

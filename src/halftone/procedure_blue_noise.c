@@ -65,7 +65,7 @@ static size_t scatter(dither *d)
         turn(d, at, true);
         placed++;
     }
-    /* It settles long before; the bound keeps two equal places from taking turns. */
+    /* It settles long before; the bound keeps two equal positions from taking turns. */
     for (size_t i = 0; i < 4 * d->count; i++) {
         size_t cluster = extreme(d, true);
         turn(d, cluster, false);

@@ -33,7 +33,7 @@ typedef struct mark {
 typedef struct raster {
     const strokes        *strokes;
     const screen_options *options;
-    double                width; /* with the strokes' own share */
+    double                width; /* with the strokes' own fraction */
     mark                 *marks;
     ranked               *order;
     size_t                count;
@@ -163,7 +163,7 @@ static lmn_status raster_begin(raster *r, const strokes *s, const screen_options
     return LMN_OK;
 }
 
-static bool has_room(const raster *r, int level)
+static bool has_capacity(const raster *r, int level)
 {
     if (r->options->levels > 0)
         return level < r->options->levels;
@@ -224,7 +224,7 @@ static void draw_level(raster *r, int level)
     size_t texels = (size_t)r->side * (size_t)r->side;
     memset(r->ink, 0, texels * sizeof *r->ink);
     memset(r->owner, 0xff, texels * sizeof *r->owner);
-    for (size_t i = 0; i < r->count && has_room(r, level); i++) {
+    for (size_t i = 0; i < r->count && has_capacity(r, level); i++) {
         uint32_t              index = r->order[i].index;
         const texture_stroke *s = &r->strokes->items[index];
         if (!is_kept(s, level))
@@ -316,9 +316,9 @@ lmn_status screen_ink_map(mip_chain *out, const strokes *s, const screen_options
 }
 
 /* The shortest way around the border. */
-static double around(double way)
+static double around(double offset)
 {
-    return way - floor(way + 0.5);
+    return offset - floor(offset + 0.5);
 }
 
 static void fill_warp(const raster *r, int level, void *texels, double user)
@@ -347,8 +347,8 @@ lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_options *o
     return status;
 }
 
-/* From a place to the nearest point of a stroke's axis, whichever copy that is on. */
-static void to_axis(const texture_stroke *s, double u, double v, double way[2])
+/* From a position to the nearest point of a stroke's axis, whichever copy that is on. */
+static void to_axis(const texture_stroke *s, double u, double v, double offset[2])
 {
     double du = (double)s->u1 - (double)s->u0, dv = (double)s->v1 - (double)s->v0, size = du * du + dv * dv,
            best = INFINITY;
@@ -360,8 +360,8 @@ static void to_axis(const texture_stroke *s, double u, double v, double way[2])
             double wu = along * du - pu, wv = along * dv - pv, distance = wu * wu + wv * wv;
             if (distance < best) {
                 best = distance;
-                way[0] = wu;
-                way[1] = wv;
+                offset[0] = wu;
+                offset[1] = wv;
             }
         }
 }
@@ -374,14 +374,14 @@ static void fill_normals(const raster *r, int level, void *texels, double steep)
     for (int y = 0; y < r->side; y++)
         for (int x = 0; x < r->side; x++, to += 2) {
             int32_t owner = r->owner[(size_t)y * (size_t)r->side + (size_t)x];
-            double  way[2] = {0, 0};
+            double  offset[2] = {0, 0};
             if (owner != NOBODY) {
                 texture_stroke s = fit_ends(r, (size_t)owner, r->options->detail == DETAIL_KEPT ? level : 0);
-                to_axis(&s, (x + 0.5) / r->side, (y + 0.5) / r->side, way);
+                to_axis(&s, (x + 0.5) / r->side, (y + 0.5) / r->side, offset);
             }
-            double distance = sqrt(way[0] * way[0] + way[1] * way[1]);
+            double distance = sqrt(offset[0] * offset[0] + offset[1] * offset[1]);
             double slope = distance > 0 ? steep * fmin(1, distance / half) / distance : 0;
-            double nu = way[0] * slope, nv = way[1] * slope, unit = 1 / sqrt(1 + nu * nu + nv * nv);
+            double nu = offset[0] * slope, nv = offset[1] * slope, unit = 1 / sqrt(1 + nu * nu + nv * nv);
             to[0] = (uint8_t)(128.5 + 127 * nu * unit);
             to[1] = (uint8_t)(128.5 + 127 * nv * unit);
         }

@@ -24,7 +24,7 @@ typedef struct screen_options {
     int           side;  /* of level 0, a power of two */
     stroke_brush  brush; /* width in texels, on all levels */
     screen_detail detail;
-    bool equalised; /* the share of texels below v is v on every level, up to the level's darkest tone (IM-14); see
+    bool equalised; /* the fraction of texels below v is v on every level, up to the level's darkest tone (IM-14); see
                        screen_equalise */
     int levels; /* with strokes (DETAIL_KEPT); what follows is white. 0: as long as a stroke is longer than it is wide,
                  * dots: while a level is four times as wide */
@@ -37,7 +37,7 @@ lmn_status screen_of_strokes(mip_chain *out, const strokes *s, const screen_opti
 
 /* The warp map that belongs to that screen (IM-18): RG16F, nearest; per texel, rims included, the middle of the
  * stroke that owns it (the one whose value the screen has there; of a curve, its middle) minus the texel's own
- * place, in the square, the shortest way around the border; 0 where there is no stroke. Relative, so that it may be
+ * position, in the square, the shortest way around the border; 0 where there is no stroke. Relative, so that it may be
  * tiled (IM-20). Strokes should be shorter than the square. */
 lmn_status screen_warp(mip_chain *out, const strokes *s, const screen_options *options, lmn_error *error);
 
@@ -70,7 +70,7 @@ typedef enum screen_procedure {
 } screen_procedure;
 extern const char *const screen_procedure_names[PROCEDURE_COUNT + 1];
 
-/* All of them equalised: the share of texels below v is v. side and period: powers of two, the period 2 … 256 and
+/* All of them equalised: the fraction of texels below v is v. side and period: powers of two, the period 2 … 256 and
  * within the side. Blue noise has no period: it is made on 64 × 64 texels and repeated. Levels that are narrower
  * than a period have the pattern of a narrower one. Errors: LMN_USAGE, LMN_LIMIT, LMN_MEMORY. */
 lmn_status screen_of_procedure(mip_chain *out, screen_procedure procedure, int side, int period, lmn_error *error);
@@ -88,13 +88,13 @@ lmn_status screen_of_layers(mip_chain *out, const screen_layer *layers, size_t c
                             screen_detail detail, lmn_error *error);
 
 /* Makes the tone of each level linear in place, antialiased greys included (IM-14): texels keep their order, and
- * the share below v becomes v until there is no more ink; then it stays. So the same light gives the same tone on
+ * the fraction below v becomes v until there is no more ink; then it stays. So the same light gives the same tone on
  * all levels. Texels of equal value stay equal, since they are of one stroke: the tone is off by up to half of the
- * largest such group. To use strokes that ink the share s for the whole range of light, threshold 1 − s × (1 −
+ * largest such group. To use strokes that ink the fraction s for the whole range of light, threshold 1 − s × (1 −
  * light). R8 only. Errors: LMN_USAGE, LMN_MEMORY. */
 lmn_status screen_equalise(mip_chain *screen, lmn_error *error);
 
-/* Share of ink of a level for a light 0 … 1 by the threshold schemes of IM-08 (gain 0: binary) and IM-09, for tests
+/* Fraction of ink of a level for a light 0 … 1 by the threshold schemes of IM-08 (gain 0: binary) and IM-09, for tests
  * and tables. 255 is paper in all of them, so that a screen has 255 amounts of ink, not 256. */
 double screen_ink(const mip_chain *screen, int level, double light, double gain, bool centred);
 

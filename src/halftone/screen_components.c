@@ -25,13 +25,13 @@ static int32_t root_of(int32_t *parent, int32_t at)
 /* Joins neighbours, around the border too; each texel's parent is one before it, or itself. */
 static void join_texels(int32_t *parent, const uint16_t *ink, int side)
 {
-    static const int ways[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+    static const int directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
     int              mask = side - 1;
     for (int i = 0; i < side * side; i++)
         parent[i] = ink[i] >= FAINT ? i : NOBODY;
     for (int i = 0; i < side * side; i++)
         for (int w = 0; w < 4 && parent[i] != NOBODY; w++) {
-            int other = ((i / side + ways[w][1]) & mask) * side + ((i + ways[w][0]) & mask);
+            int other = ((i / side + directions[w][1]) & mask) * side + ((i + directions[w][0]) & mask);
             if (parent[other] == NOBODY)
                 continue;
             int32_t a = root_of(parent, i), b = root_of(parent, other);
@@ -144,10 +144,10 @@ void screen_marks_reduce(screen_marks *m, uint16_t *ink, const uint16_t *finer, 
 }
 
 /* Marks stay in their order as long as there is too little ink; what is gone stays away on all coarser levels. */
-void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double share)
+void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double fraction)
 {
     size_t texels = (size_t)side * (size_t)side;
-    double wanted = share * INK_MOST * (double)texels, sum = 0;
+    double wanted = fraction * INK_MOST * (double)texels, sum = 0;
     memset(m->ink, 0, m->count * sizeof *m->ink);
     for (size_t i = 0; i < texels; i++)
         if (m->label[i] != NOBODY)

@@ -123,7 +123,7 @@ static int by_ink(const void *a, const void *b)
 }
 
 /* The darkest of four is as wide as before and has about twice the ink. Where that does not come from many marks,
- * of which some can go, texels go: so that each tone has its share again, they get the values of the level 0 in
+ * of which some can go, texels go: so that each tone has its fraction again, they get the values of the level 0 in
  * their order; of equally dark ones those around which there was more ink stay, and then those of some patches, so
  * that strokes end rather than fall apart. `up_to`: texels of level 0 that are at least as dark. */
 static bool thin(uint16_t *ink, const uint16_t *mean, int side, const uint32_t *up_to, size_t whole)
@@ -187,19 +187,19 @@ static double mean_of(const uint16_t *ink, size_t count)
 }
 
 /* A coarser level with as much ink and lines as wide: first whole marks go, and where that is not enough, texels. */
-static bool keep_detail(painting *p, screen_marks *m, int side, double share, size_t whole)
+static bool keep_detail(painting *p, screen_marks *m, int side, double fraction, size_t whole)
 {
     size_t count = (size_t)side * (size_t)side;
     reduce(p->ink, side, p->mean, p->next);
     screen_marks_reduce(m, p->next, p->ink, side);
-    screen_marks_thin(m, p->next, side, share);
-    return mean_of(p->next, count) <= MUCH * share || thin(p->next, p->mean, side, p->up_to, whole);
+    screen_marks_thin(m, p->next, side, fraction);
+    return mean_of(p->next, count) <= MUCH * fraction || thin(p->next, p->mean, side, p->up_to, whole);
 }
 
 static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
 {
     size_t       whole = (size_t)out->width * (size_t)out->width;
-    double       share = mean_of(p->ink, whole);
+    double       fraction = mean_of(p->ink, whole);
     screen_marks m = {0};
     bool         good = detail != DETAIL_KEPT || screen_marks_find(&m, p->ink, out->width);
     add_up(p->up_to, p->ink, whole);
@@ -208,7 +208,7 @@ static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
         int    side = mip_width(out, k);
         size_t count = (size_t)side * (size_t)side;
         if (detail == DETAIL_KEPT)
-            good = keep_detail(p, &m, side, share, whole);
+            good = keep_detail(p, &m, side, fraction, whole);
         else
             reduce(p->ink, side, p->mean, p->next);
         memcpy(p->ink, detail == DETAIL_AVERAGE ? p->mean : p->next, count * sizeof *p->ink);

@@ -8,10 +8,10 @@
 
 /* --- tone ----------------------------------------------------------------------------------------------- */
 
-/* A group of equally dark texels takes the middle of its share, so that the ink is never off by more than half of
- * the group. Rounded up, since v is inked up to the light 1 − v: so the ink at light t/255 is the share (255 −
+/* A group of equally dark texels takes the middle of its fraction, so that the ink is never off by more than half of
+ * the group. Rounded up, since v is inked up to the light 1 − v: so the ink at light t/255 is the fraction (255 −
  * t)/255 exactly where groups are single texels, and none in full light. */
-static uint8_t value_of_share(uint64_t before, uint64_t group, uint64_t all)
+static uint8_t value_of_fraction(uint64_t before, uint64_t group, uint64_t all)
 {
     uint64_t value = (255 * (2 * before + group) + 2 * all - 1) / (2 * all);
     return (uint8_t)(value > 254 ? 254 : value < 1 ? 1 : value);
@@ -26,7 +26,7 @@ void ink_equalise(uint8_t *out, const uint16_t *ink, size_t count, uint32_t *ton
     for (size_t t = INK_MOST; t > 0; t--) {
         uint32_t group = tones[t];
         if (group)
-            tones[t] = value_of_share(before, group, count);
+            tones[t] = value_of_fraction(before, group, count);
         before += group;
     }
     tones[0] = 255;

@@ -8,7 +8,7 @@
  * strokes whose priorities differ little keep their order when a screen is equalised. */
 enum { INK_MOST = 65535, INK_TONES = INK_MOST + 1 };
 
-/* Screen values for texels in the order of their ink: the share below v becomes v. Texels of equal ink stay equal,
+/* Screen values for texels in the order of their ink: the fraction below v becomes v. Texels of equal ink stay equal,
  * since they are of one stroke. `tones` is room for INK_TONES numbers. */
 void ink_equalise(uint8_t *out, const uint16_t *ink, size_t count, uint32_t *tones);
 /* Screen values without that: 255 × (1 − ink). */
@@ -22,7 +22,7 @@ static inline bool is_power_of_two(int n)
 /* Ranks 0 … side² − 1 of a dispersed order in which no texels of near ranks are near each other, also around the
  * border; by void and cluster. */
 lmn_status blue_noise_ranks(uint32_t *ranks, int side, lmn_error *error);
-/* The place of a texel in Bayer's order, 0 … side² − 1; side is a power of two. */
+/* The position of a texel in Bayer's order, 0 … side² − 1; side is a power of two. */
 uint32_t bayer_rank(uint32_t x, uint32_t y, int side);
 
 /* --- screen_components.c: marks of painted screens, texels that hang together --- */
@@ -40,7 +40,7 @@ bool screen_marks_find(screen_marks *m, const uint16_t *ink, int side);
 void screen_marks_release(screen_marks *m);
 /* The next coarser level: the darkest of four that belongs to a mark. `ink` may be `finer`. */
 void screen_marks_reduce(screen_marks *m, uint16_t *ink, const uint16_t *finer, int half);
-/* Takes away whole marks until the mean ink is about `share`, 0 … 1. */
-void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double share);
+/* Takes away whole marks until the mean ink is about `fraction`, 0 … 1. */
+void screen_marks_thin(screen_marks *m, uint16_t *ink, int side, double fraction);
 
 #endif

@@ -14,7 +14,7 @@ const char *const tam_placement_names[TAM_PLACEMENT_COUNT + 1] = {"best-fit", "s
 enum { SIDE_LEAST = 8, SIDE_MOST = 1024, TONES_LEAST = 2, TONES_MOST = 16, STREAM = 0x7a61 };
 
 /* Both ends of a stroke run out over so many widths; what it covers less for that, by stroke_draw's profile, as a
- * share of an end. */
+ * fraction of an end. */
 static const double CAP_WIDTHS = 6, CAP_LOSS = 1.0 / 3.0;
 
 double tam_target(const tam_options *w, int tone)
@@ -49,7 +49,7 @@ typedef struct darkening {
     float      limit, opacity;
 } darkening;
 
-/* Each stroke takes its share of what is left, so that overlaps darken less and less (Müller, section 3.2; row
+/* Each stroke takes its fraction of what is left, so that overlaps darken less and less (Müller, section 3.2; row
  * P32), and never past the limit. */
 static void darken(void *user, size_t index, float coverage)
 {
@@ -133,7 +133,7 @@ static double whole_length(const tam *t, size_t index)
     return length + 0.8 * t->brush.width / t->levels[t->level].side;
 }
 
-/* Places as many as the level being filled needs, or as there are; curves as a whole. */
+/* Positions as many as the level being filled needs, or as there are; curves as a whole. */
 static bool fill_drawn(tam *t, queue *q)
 {
     const texture_stroke *items = t->options->drawn->items;

@@ -19,8 +19,8 @@ typedef struct tam_options {
     double length; /* longest stroke in the square, 0.05 … 1; lengths are 30 … 100 % of it, the longer ones on coarse
                       levels */
     double
-        opacity; /* 0.1 … 1. 1: hatching; below: gradation, where strokes cover each other and each takes this share of
-                  * what is left up to the darkest that graphite gets, half way from `darkest` to black (P20, P32) */
+        opacity; /* 0.1 … 1. 1: hatching; below: gradation, where strokes cover each other and each takes this fraction
+                  * of what is left up to the darkest that graphite gets, half way from `darkest` to black (P20, P32) */
     bool           cross;  /* from the middle tone on also across, until there is as much of both directions */
     double         grain;  /* 0 … 1: strokes are streaked as graphite is, and get lighter towards their ends */
     float          uneven; /* wobble of direction, 0 … 1; the most is a slope of 0.16 */

@@ -21,7 +21,7 @@ static const double SHORTEST = 0.3;                   /* of the longest stroke *
 static const double LONG_ENOUGH = 3; /* widths that a stroke should be long on the level for which it is drawn */
 static const double SWAY = 0.16;     /* slope of the most uneven strokes */
 static const double REACH = 4; /* gaps between even strokes of the tone over which strokes keep away from each other */
-static const double STRIP_SHARE = 0.7; /* of a strip, for hatching, in which strokes begin */
+static const double STRIP_FRACTION = 0.7; /* of a strip, for hatching, in which strokes begin */
 
 /* --- crowding ------------------------------------------------------------------------------------------- */
 
@@ -46,10 +46,10 @@ bool tam_set_crowding(tam *t)
 }
 
 /* Ends are thin and crowd less, so that strokes go in between them; else there would be white lenses. */
-static float end_share(float along)
+static float end_fraction(float along)
 {
-    float share = fminf(along, 1 - along) * END_SLOPE;
-    return share >= 1 ? 1 : END_LEAST + (1 - END_LEAST) * share;
+    float fraction = fminf(along, 1 - along) * END_SLOPE;
+    return fraction >= 1 ? 1 : END_LEAST + (1 - END_LEAST) * fraction;
 }
 
 void tam_add_crowd(tam *t, tam_level *level, const texture_stroke *s, int direction)
@@ -67,7 +67,7 @@ void tam_add_crowd(tam *t, tam_level *level, const texture_stroke *s, int direct
             float  inside = along < 0 ? 0 : along > 1 ? 1 : along, past = END_STRETCH * (along - inside);
             size_t entry = (size_t)(sqrtf(aside * aside / size + past * past * size) * CROWD_STEPS);
             if (entry < t->crowding_count)
-                row[x & mask] += t->crowding[entry] * end_share(inside);
+                row[x & mask] += t->crowding[entry] * end_fraction(inside);
         }
     }
 }
@@ -141,7 +141,7 @@ static texture_stroke middle_of(const texture_stroke *s)
     return (texture_stroke){.u0 = s->u0 + du, .v0 = s->v0 + dv, .u1 = s->u1 - du, .v1 = s->v1 - dv};
 }
 
-/* Tries places in a band across strokes' direction and draws where it is least crowded. */
+/* Tries positions in a band across strokes' direction and draws where it is least crowded. */
 static bool put_best(tam *t, double length, int direction, double band, double thickness, int candidates)
 {
     const tam_level *level = &t->levels[t->level];
@@ -197,11 +197,11 @@ static size_t common_divisor(size_t a, size_t b)
 /* As many strips as strokes are needed, one stroke into each, until the tone is there. Strips are taken in steps of
  * the golden section, so that those that are left over at the end lie apart. Müller's strips are of an empty
  * picture; here there are strokes of lighter tones and coarser levels already, so that each stroke takes the best
- * of a few places in its strip. */
+ * of a few positions in its strip. */
 bool tam_fill_strips(tam *t)
 {
     const tam_options *w = t->options;
-    double             inside = w->opacity < 1 ? 1 : STRIP_SHARE;
+    double             inside = w->opacity < 1 ? 1 : STRIP_FRACTION;
     const tam_level   *level = &t->levels[t->level];
     size_t             most = strokes_most(t);
     while (level->count < most) {

@@ -19,7 +19,7 @@ typedef struct tam_level {
 typedef struct tam {
     const tam_options *options;
     stroke_brush       brush;
-    float              limit, opacity; /* of ink; share of what is left of it that one stroke takes */
+    float              limit, opacity; /* of ink; fraction of what is left of it that one stroke takes */
     tam_level          levels[MIP_LEVELS_MAX];
     int                level_count; /* with strokes */
     random_source      random;
@@ -38,7 +38,7 @@ double tam_expected(const tam *t, int level, double length);
 /* Draws a stroke into the level being filled and all finer ones, and keeps it. False: memory is gone. */
 bool tam_put(tam *t, texture_stroke s, int direction);
 
-/* --- tonal_art_map_place.c --- */
+/* --- tonal_art_map_position.c --- */
 
 /* How strokes crowd each other at the tone being filled. Called once a tone. */
 bool tam_set_crowding(tam *t);

@@ -83,7 +83,7 @@ static verdict lies_in_allowed(const char *path, const lmn_task_desc *conditions
 }
 
 /* In the model's folder; or in the one above it, where that is not the root of the file system, and what is reached
- * is not hidden: programs keep keys in such places. */
+ * is not hidden: programs keep keys in such positions. */
 static verdict lies_near(const char *path, const char *model, lmn_file_access access)
 {
     char   *own = folder_of(model), *folder = own ? resolve(own) : NULL, *above = folder ? folder_of(folder) : NULL;

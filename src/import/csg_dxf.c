@@ -154,8 +154,8 @@ static lmn_status add_line(drawing *d, point2 a, point2 b)
 static lmn_status add_arc(drawing *d, point2 centre, const double radii[2], double turn, double from, double to)
 {
     int        whole = facets_of_circle(fmax(radii[0], radii[1]), d->how->facets);
-    double     share = (to - from) / 360;
-    int        pieces = (int)ceil(whole * share - 1e-9);
+    double     fraction = (to - from) / 360;
+    int        pieces = (int)ceil(whole * fraction - 1e-9);
     point2     last = {0, 0};
     lmn_status status = LMN_OK;
     for (int i = 0; i <= pieces && pieces > 0 && status == LMN_OK; i++) {

@@ -39,16 +39,16 @@ static lmn_status add_piece(csg_reader *r, piece_list *l, polyhedron *p)
 static lmn_status gather_pieces(csg_reader *r, int32_t shape, const mat4 *above, piece_list *out, bool *possible)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     lmn_status       status = LMN_OK;
     if (s->kind == SOLID_OPERAND) {
         polyhedron p = {0};
-        status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &place, r->error);
+        status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &position, r->error);
         return status == LMN_OK ? add_piece(r, out, &p) : status;
     }
     *possible = *possible && s->kind == SOLID_UNION;
     for (int32_t c = s->first_child; c != NONE && status == LMN_OK && *possible; c = r->shapes[c].next)
-        status = gather_pieces(r, c, &place, out, possible);
+        status = gather_pieces(r, c, &position, out, possible);
     return status;
 }
 

@@ -334,7 +334,7 @@ static void take_colour(csg_reader *r, int32_t node, int32_t shape)
             r->shapes[shape].has_colour = csg_read_colour(r, i, &r->shapes[shape].colour);
 }
 
-/* Groups stay, so that their figures keep colours and places; OpenSCAD's preview moves them in space too. */
+/* Groups stay, so that their figures keep colours and positions; OpenSCAD's preview moves them in space too. */
 lmn_status csg_plate_of(csg_reader *r, int32_t node, int32_t *shape)
 {
     const csg_meaning *m = csg_meaning_of(r, node);

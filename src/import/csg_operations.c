@@ -1,4 +1,4 @@
-/* Set operations, places, colours, sizes and hulls of .csg files. */
+/* Set operations, positions, colours, sizes and hulls of .csg files. */
 #include <math.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ lmn_status csg_intersection(csg_reader *r, int32_t node, int32_t *shape)
     return csg_group(r, node, SOLID_INTERSECTION, shape);
 }
 
-/* --- places --------------------------------------------------------------------------------------------- */
+/* --- positions --------------------------------------------------------------------------------------------- */
 
 /* Numbers beyond this cannot place anything that is drawn. */
 static const double LARGEST = 1e15;
@@ -127,14 +127,15 @@ typedef struct extent {
 
 static const extent EMPTY_EXTENT = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-static extent operand_extent(const csg_reader *r, const csg_shape *s, const mat4 *place)
+static extent operand_extent(const csg_reader *r, const csg_shape *s, const mat4 *position)
 {
     const polyhedron *p = &r->meshes[s->mesh].polyhedron;
     extent            e = EMPTY_EXTENT;
     for (size_t i = 0; i < p->point_count; i++) {
         const double at[3] = {p->points[i].x, p->points[i].y, p->points[i].z};
         for (int k = 0; k < 3; k++) {
-            double v = place->m[k] * at[0] + place->m[4 + k] * at[1] + place->m[8 + k] * at[2] + place->m[12 + k];
+            double v =
+                position->m[k] * at[0] + position->m[4 + k] * at[1] + position->m[8 + k] * at[2] + position->m[12 + k];
             e.low[k] = fmin(e.low[k], v);
             e.high[k] = fmax(e.high[k], v);
         }
@@ -146,12 +147,12 @@ static extent operand_extent(const csg_reader *r, const csg_shape *s, const mat4
 static extent shape_extent(const csg_reader *r, int32_t shape, const mat4 *above)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND)
-        return operand_extent(r, s, &place);
-    extent all = shape_extent(r, s->first_child, &place);
+        return operand_extent(r, s, &position);
+    extent all = shape_extent(r, s->first_child, &position);
     for (int32_t c = r->shapes[s->first_child].next; c != NONE && s->kind != SOLID_DIFFERENCE; c = r->shapes[c].next) {
-        extent e = shape_extent(r, c, &place);
+        extent e = shape_extent(r, c, &position);
         for (int k = 0; k < 3; k++) {
             all.low[k] = s->kind == SOLID_UNION ? fmin(all.low[k], e.low[k]) : fmax(all.low[k], e.low[k]);
             all.high[k] = s->kind == SOLID_UNION ? fmax(all.high[k], e.high[k]) : fmin(all.high[k], e.high[k]);
@@ -228,12 +229,12 @@ static lmn_status add_to_hull(hull_input *h, int32_t shape, const mat4 *above)
 {
     csg_reader      *r = h->reader;
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND) {
         if (!mem_grow((void **)&h->items, &h->capacity, h->count + 1, sizeof *h->items))
             return error_memory(r->error);
         h->items[h->count] = (polyhedron){0};
-        return polyhedron_transform(&h->items[h->count++], &r->meshes[s->mesh].polyhedron, &place, r->error);
+        return polyhedron_transform(&h->items[h->count++], &r->meshes[s->mesh].polyhedron, &position, r->error);
     }
     if (s->kind != SOLID_UNION)
         csg_warn(r, h->node, WARNING_APPROXIMATE, "hull() takes the %s() in line %u as its first operand",
@@ -241,7 +242,7 @@ static lmn_status add_to_hull(hull_input *h, int32_t shape, const mat4 *above)
     lmn_status status = LMN_OK;
     for (int32_t c = s->first_child; c != NONE && status == LMN_OK;
          c = s->kind == SOLID_UNION ? r->shapes[c].next : NONE)
-        status = add_to_hull(h, c, &place);
+        status = add_to_hull(h, c, &position);
     return status;
 }
 

@@ -11,10 +11,10 @@
 /* How many cuts stand for the shadow of a difference or intersection. */
 enum { CUTS = 64 };
 
-static lmn_status cut_operand(csg_reader *r, const csg_shape *s, const mat4 *place, region *out)
+static lmn_status cut_operand(csg_reader *r, const csg_shape *s, const mat4 *position, region *out)
 {
     polyhedron p = {0};
-    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, place, r->error);
+    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, position, r->error);
     if (status == LMN_OK)
         status = polyhedron_slice(out, &p, r->error);
     polyhedron_release(&p);
@@ -29,7 +29,7 @@ static region_operation operation_of(solid_kind kind)
 /* Applies one function to all children and puts the regions together. */
 typedef lmn_status (*project_fn)(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out);
 
-static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, const mat4 *place, project_fn fn,
+static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, const mat4 *position, project_fn fn,
                                    region *out)
 {
     region    *items = NULL;
@@ -41,7 +41,7 @@ static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, c
             break;
         }
         items[count] = (region){0};
-        status = fn(r, node, c, place, &items[count++]);
+        status = fn(r, node, c, position, &items[count++]);
     }
     if (status == LMN_OK)
         status = region_combine(out, items, count, operation_of(r->shapes[shape].kind), r->error);
@@ -54,21 +54,21 @@ static lmn_status combine_children(csg_reader *r, int32_t node, int32_t shape, c
 static lmn_status cut(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
-    return s->kind == SOLID_OPERAND ? cut_operand(r, s, &place, out)
-                                    : combine_children(r, node, shape, &place, cut, out);
+    mat4             position = mat4_multiply(above, &s->matrix);
+    return s->kind == SOLID_OPERAND ? cut_operand(r, s, &position, out)
+                                    : combine_children(r, node, shape, &position, cut, out);
 }
 
 /* How far the shape reaches along z at most. */
 static void reach(const csg_reader *r, int32_t shape, const mat4 *above, double *low, double *high)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_OPERAND) {
         const polyhedron *p = &r->meshes[s->mesh].polyhedron;
         for (size_t i = 0; i < p->point_count; i++) {
-            double z =
-                place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
+            double z = position.m[2] * p->points[i].x + position.m[6] * p->points[i].y +
+                       position.m[10] * p->points[i].z + position.m[14];
             *low = fmin(*low, z);
             *high = fmax(*high, z);
         }
@@ -76,7 +76,7 @@ static void reach(const csg_reader *r, int32_t shape, const mat4 *above, double 
     }
     for (int32_t c = s->first_child; c != NONE; c = s->kind == SOLID_DIFFERENCE ? NONE : r->shapes[c].next) {
         double l = INFINITY, h = -INFINITY;
-        reach(r, c, &place, &l, &h);
+        reach(r, c, &position, &l, &h);
         bool first = c == s->first_child, inside = s->kind == SOLID_INTERSECTION && !first;
         *low = inside ? fmax(*low, l) : fmin(*low, l);
         *high = inside ? fmin(*high, h) : fmax(*high, h);
@@ -91,18 +91,18 @@ typedef struct heights {
 static lmn_status gather_heights(csg_reader *r, int32_t shape, const mat4 *above, heights *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     lmn_status       status = LMN_OK;
     for (int32_t c = s->first_child; c != NONE && status == LMN_OK; c = r->shapes[c].next)
-        status = gather_heights(r, c, &place, out);
+        status = gather_heights(r, c, &position, out);
     if (s->kind != SOLID_OPERAND)
         return status;
     const polyhedron *p = &r->meshes[s->mesh].polyhedron;
     if (!mem_grow((void **)&out->items, &out->capacity, out->count + p->point_count, sizeof *out->items))
         return error_memory(r->error);
     for (size_t i = 0; i < p->point_count; i++)
-        out->items[out->count++] =
-            place.m[2] * p->points[i].x + place.m[6] * p->points[i].y + place.m[10] * p->points[i].z + place.m[14];
+        out->items[out->count++] = position.m[2] * p->points[i].x + position.m[6] * p->points[i].y +
+                                   position.m[10] * p->points[i].z + position.m[14];
     return LMN_OK;
 }
 
@@ -142,10 +142,10 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
         double between = ((double)(i - h.count) + 0.5) / (double)(CUTS - h.count), margin = (high - low) * 1e-9;
         mat4   down = mat4_identity();
         down.m[14] = -(i < h.count ? h.items[i] + margin : low + (high - low) * between);
-        mat4 place = mat4_multiply(&down, above);
+        mat4 position = mat4_multiply(&down, above);
         status = import_progress(r->job, 0.5, "evaluating", r->error);
         if (status == LMN_OK)
-            status = cut(r, node, shape, &place, &cuts[i]);
+            status = cut(r, node, shape, &position, &cuts[i]);
     }
     if (status == LMN_OK)
         status = region_combine(out, cuts, CUTS, REGION_UNION, r->error);
@@ -158,13 +158,13 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
 static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     const csg_shape *s = &r->shapes[shape];
-    mat4             place = mat4_multiply(above, &s->matrix);
+    mat4             position = mat4_multiply(above, &s->matrix);
     if (s->kind == SOLID_UNION)
-        return combine_children(r, node, shape, &place, shadow, out);
+        return combine_children(r, node, shape, &position, shadow, out);
     if (s->kind != SOLID_OPERAND)
         return shadow_by_cuts(r, node, shape, above, out);
     polyhedron p = {0};
-    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &place, r->error);
+    lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &position, r->error);
     if (status == LMN_OK)
         status = polyhedron_shadow(out, &p, r->error);
     polyhedron_release(&p);

@@ -31,7 +31,7 @@ typedef struct csg_node {
     uint8_t  modifiers, dimension; /* 2, 3, 0 when there is nothing; set by the reader */
     int32_t  after;
     int32_t  first_argument, argument_count, first_value, value_count;
-    uint64_t hash; /* of all it says, children too, its place in the file apart */
+    uint64_t hash; /* of all it says, children too, its position in the file apart */
 } csg_node;
 
 typedef struct csg_tree {

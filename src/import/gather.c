@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "scene/mesh.h"
 
-static lmn_status append_primitive(polyhedron *out, const primitive *p, const mat4 *place, lmn_error *error)
+static lmn_status append_primitive(polyhedron *out, const primitive *p, const mat4 *position, lmn_error *error)
 {
     size_t  points = out->point_count + p->vertex_count, corners = 3 * out->triangle_count + p->index_count;
     point3 *grown = mem_realloc(out->points, points * sizeof *grown);
@@ -16,7 +16,7 @@ static lmn_status append_primitive(polyhedron *out, const primitive *p, const ma
         return error_memory(error);
     for (uint32_t i = 0; i < p->index_count; i++)
         triangles[3 * out->triangle_count + i] = p->indices[i] + (uint32_t)out->point_count;
-    const double *m = place->m;
+    const double *m = position->m;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         double x = (double)p->positions[i].x, y = (double)p->positions[i].y, z = (double)p->positions[i].z;
         grown[out->point_count + i] =

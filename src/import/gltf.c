@@ -106,7 +106,7 @@ static bool check_json(gltf_reader *r, const unsigned char *json, size_t size)
             depth--;
         }
     }
-    return work_has_room(size + values * VALUE_BYTES) || gltf_out_of_memory(r);
+    return work_has_memory(size + values * VALUE_BYTES) || gltf_out_of_memory(r);
 }
 
 /* A part of the text for the parser, which can be stopped in between. */

@@ -110,7 +110,7 @@ static void read_weights(gltf_reader *r, json_t *object, node *n)
     n->morph_weight_count = n->morph_weights ? count : 0;
 }
 
-/* Everything of node `index` but its place in the tree. `drawn`: it belongs to the scene and is not hidden. */
+/* Everything of node `index` but its position in the tree. `drawn`: it belongs to the scene and is not hidden. */
 static void fill_node(gltf_reader *r, json_t *object, size_t index, int32_t at, bool drawn)
 {
     char    where[GLTF_WHERE];
@@ -152,12 +152,12 @@ typedef struct visit {
 
 typedef struct visits {
     visit *items;
-    size_t count, room;
+    size_t count, capacity;
 } visits;
 
 static void push(gltf_reader *r, visits *stack, visit v)
 {
-    if (!mem_grow((void **)&stack->items, &stack->room, stack->count + 1, sizeof v))
+    if (!mem_grow((void **)&stack->items, &stack->capacity, stack->count + 1, sizeof v))
         gltf_out_of_memory(r);
     else
         stack->items[stack->count++] = v;

@@ -66,10 +66,10 @@ static size_t bytes_of(const image *i)
 }
 
 /* Halves the largest textures until all fit. */
-static void make_room(const import_job *job, size_t room)
+static void make_room(const import_job *job, size_t capacity)
 {
     lmn_scene *s = job->scene;
-    while (room && !work_stopped()) {
+    while (capacity && !work_stopped()) {
         size_t total = 0;
         image *largest = NULL;
         for (size_t i = 0; i < s->image_count; i++) {
@@ -77,7 +77,7 @@ static void make_room(const import_job *job, size_t room)
             if (!largest || bytes_of(&s->images[i]) > bytes_of(largest))
                 largest = &s->images[i];
         }
-        if (total <= room || bytes_of(largest) <= 4)
+        if (total <= capacity || bytes_of(largest) <= 4)
             return;
         image_pixels p = {.width = largest->width, .height = largest->height, .rgba = largest->pixels};
         image_halve(&p);
@@ -99,8 +99,8 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
         return build_strokes(job, name, out, error);
     lmn_error    problem;
     image_pixels pixels;
-    size_t       room = (size_t)work_limits().textures;
-    lmn_status   status = image_read(&pixels, bytes, size, room, &problem);
+    size_t       capacity = (size_t)work_limits().textures;
+    lmn_status   status = image_read(&pixels, bytes, size, capacity, &problem);
     if (status == LMN_MEMORY)
         return error_set(error, status, "texture \"%s\": %s", name, problem.message);
     if (status == LMN_CANCELLED || work_stopped())
@@ -126,7 +126,7 @@ lmn_status build_image_bytes(const import_job *job, const char *name, const unsi
     *out = (int32_t)job->scene->image_count - 1;
     if (pixels.halved)
         note_halved(job, name, &decoded, pixels.halved);
-    make_room(job, room);
+    make_room(job, capacity);
     return LMN_OK;
 }
 

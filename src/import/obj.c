@@ -23,13 +23,13 @@ typedef struct corner {
 typedef struct piece {
     int32_t material;
     corner *corners;
-    size_t  count, room;
+    size_t  count, capacity;
 } piece;
 
 typedef struct object {
     char  *name; /* NULL: before the first "o" or "g" */
     piece *pieces;
-    size_t count, room;
+    size_t count, capacity;
 } object;
 
 /* Names to numbers, open addressing; the names belong to others. */
@@ -40,13 +40,13 @@ typedef struct name_entry {
 
 typedef struct name_table {
     name_entry *entries;
-    size_t      room, used; /* room is a power of two */
+    size_t      capacity, used; /* room is a power of two */
 } name_table;
 
 /* Where the piece of a material is, as long as the object has not changed since. */
-typedef struct piece_place {
+typedef struct piece_start {
     size_t switches, index;
-} piece_place;
+} piece_start;
 
 typedef struct obj_reader {
     const import_job *job;
@@ -55,18 +55,19 @@ typedef struct obj_reader {
     vec3             *positions, *normals;
     vec4             *colours; /* as many as positions, once a vertex has one */
     vec2             *uvs;
-    size_t       position_count, position_room, colour_count, colour_room, normal_count, normal_room, uv_count, uv_room;
+    size_t position_count, position_capacity, colour_count, colour_capacity, normal_count, normal_capacity, uv_count,
+        uv_capacity;
     object      *objects;
-    size_t       object_count, object_room, current;
+    size_t       object_count, object_capacity, current;
     name_table   object_names, material_names;
     int32_t      material;
-    piece_place *places; /* by material + 1 */
-    size_t       place_room, switches;
+    piece_start *starts; /* by material + 1 */
+    size_t       start_capacity, switches;
     size_t       triangles;
     corner      *polygon;
     vec3        *polygon_positions;
     uint32_t    *polygon_order, *polygon_triangles;
-    size_t       polygon_room, polygon_position_room, polygon_order_room, polygon_triangle_room;
+    size_t       polygon_capacity, polygon_position_capacity, polygon_order_capacity, polygon_triangle_capacity;
     bool         has_objects;
 } obj_reader;
 
@@ -91,7 +92,7 @@ static float to_linear(double value)
 /* Vertices before the first with a colour are white. */
 static lmn_status add_colour(obj_reader *r, const double *rgb)
 {
-    if (!mem_grow((void **)&r->colours, &r->colour_room, r->position_count, sizeof *r->colours))
+    if (!mem_grow((void **)&r->colours, &r->colour_capacity, r->position_count, sizeof *r->colours))
         return error_memory(r->error);
     while (r->colour_count < r->position_count)
         r->colours[r->colour_count++] = (vec4){1, 1, 1, 1};
@@ -111,7 +112,7 @@ static lmn_status read_position(obj_reader *r)
         return wrong(r, "expected three numbers after \"v\"");
     if (r->position_count >= LIMIT_VERTICES)
         return too_many(r, "vertices", LIMIT_VERTICES);
-    if (!mem_grow((void **)&r->positions, &r->position_room, r->position_count + 1, sizeof *r->positions))
+    if (!mem_grow((void **)&r->positions, &r->position_capacity, r->position_count + 1, sizeof *r->positions))
         return error_memory(r->error);
     r->positions[r->position_count++] = (vec3){(float)v[0], (float)v[1], (float)v[2]};
     return count == 6 || r->colours ? add_colour(r, count == 6 ? v + 3 : NULL) : LMN_OK;
@@ -125,7 +126,7 @@ static lmn_status read_normal(obj_reader *r)
             return wrong(r, "expected three numbers after \"vn\"");
     if (r->normal_count >= LIMIT_VERTICES)
         return too_many(r, "normals", LIMIT_VERTICES);
-    if (!mem_grow((void **)&r->normals, &r->normal_room, r->normal_count + 1, sizeof *r->normals))
+    if (!mem_grow((void **)&r->normals, &r->normal_capacity, r->normal_count + 1, sizeof *r->normals))
         return error_memory(r->error);
     r->normals[r->normal_count++] = (vec3){(float)v[0], (float)v[1], (float)v[2]};
     return LMN_OK;
@@ -140,7 +141,7 @@ static lmn_status read_uv(obj_reader *r)
     obj_number(&r->text, &v);
     if (r->uv_count >= LIMIT_VERTICES)
         return too_many(r, "texture coordinates", LIMIT_VERTICES);
-    if (!mem_grow((void **)&r->uvs, &r->uv_room, r->uv_count + 1, sizeof *r->uvs))
+    if (!mem_grow((void **)&r->uvs, &r->uv_capacity, r->uv_count + 1, sizeof *r->uvs))
         return error_memory(r->error);
     r->uvs[r->uv_count++] = (vec2){(float)u, 1.0f - (float)v};
     return LMN_OK;
@@ -158,22 +159,22 @@ static uint64_t hash_name(const char *name)
 
 static name_entry *find_name(const name_table *t, const char *name)
 {
-    size_t slot = hash_name(name) & (t->room - 1);
+    size_t slot = hash_name(name) & (t->capacity - 1);
     while (t->entries[slot].name && strcmp(t->entries[slot].name, name) != 0)
-        slot = (slot + 1) & (t->room - 1);
+        slot = (slot + 1) & (t->capacity - 1);
     return &t->entries[slot];
 }
 
 /* Room for one more name. */
 static bool grow_names(name_table *t)
 {
-    if (t->room > 2 * t->used)
+    if (t->capacity > 2 * t->used)
         return true;
-    name_table bigger = {.room = t->room ? t->room * 4 : 64, .used = t->used};
-    bigger.entries = mem_calloc(bigger.room, sizeof *bigger.entries);
+    name_table bigger = {.capacity = t->capacity ? t->capacity * 4 : 64, .used = t->used};
+    bigger.entries = mem_calloc(bigger.capacity, sizeof *bigger.entries);
     if (!bigger.entries)
         return false;
-    for (size_t i = 0; i < t->room; i++)
+    for (size_t i = 0; i < t->capacity; i++)
         if (t->entries[i].name)
             *find_name(&bigger, t->entries[i].name) = t->entries[i];
     mem_free(t->entries);
@@ -198,7 +199,7 @@ static lmn_status use_object(obj_reader *r, char *name)
         return too_many(r, "objects", LIMIT_NODES);
     }
     if (!grow_names(&r->object_names) ||
-        !mem_grow((void **)&r->objects, &r->object_room, r->object_count + 1, sizeof *r->objects)) {
+        !mem_grow((void **)&r->objects, &r->object_capacity, r->object_count + 1, sizeof *r->objects)) {
         mem_free(name);
         return error_memory(r->error);
     }
@@ -307,16 +308,16 @@ static bool read_corner(obj_reader *r, corner *out)
 static piece *current_piece(obj_reader *r)
 {
     object *o = &r->objects[r->current];
-    size_t  slot = (size_t)(r->material + 1), had = r->place_room;
-    if (!mem_grow((void **)&r->places, &r->place_room, slot + 1, sizeof *r->places))
+    size_t  slot = (size_t)(r->material + 1), had = r->start_capacity;
+    if (!mem_grow((void **)&r->starts, &r->start_capacity, slot + 1, sizeof *r->starts))
         return NULL;
-    memset(r->places + had, 0, (r->place_room - had) * sizeof *r->places);
-    piece_place *place = &r->places[slot];
-    if (place->switches == r->switches && o->count > 0)
-        return &o->pieces[place->index];
-    if (!mem_grow((void **)&o->pieces, &o->room, o->count + 1, sizeof *o->pieces))
+    memset(r->starts + had, 0, (r->start_capacity - had) * sizeof *r->starts);
+    piece_start *start = &r->starts[slot];
+    if (start->switches == r->switches && o->count > 0)
+        return &o->pieces[start->index];
+    if (!mem_grow((void **)&o->pieces, &o->capacity, o->count + 1, sizeof *o->pieces))
         return NULL;
-    *place = (piece_place){r->switches, o->count};
+    *start = (piece_start){r->switches, o->count};
     o->pieces[o->count] = (piece){.material = r->material};
     return &o->pieces[o->count++];
 }
@@ -327,7 +328,7 @@ static lmn_status read_polygon(obj_reader *r, size_t *count)
     while (!obj_at_line_end(&r->text)) {
         if (*count >= LIMIT_POLYGON_CORNERS)
             return too_many(r, "corners in a face", LIMIT_POLYGON_CORNERS);
-        if (!mem_grow((void **)&r->polygon, &r->polygon_room, *count + 1, sizeof *r->polygon))
+        if (!mem_grow((void **)&r->polygon, &r->polygon_capacity, *count + 1, sizeof *r->polygon))
             return error_memory(r->error);
         if (!read_corner(r, &r->polygon[*count]))
             return wrong(r, "a face has a corner that is no \"v/vt/vn\" or names a vertex that was not given before");
@@ -338,9 +339,9 @@ static lmn_status read_polygon(obj_reader *r, size_t *count)
 
 static lmn_status cut_polygon(obj_reader *r, size_t count)
 {
-    if (!mem_grow((void **)&r->polygon_positions, &r->polygon_position_room, count, sizeof *r->polygon_positions) ||
-        !mem_grow((void **)&r->polygon_order, &r->polygon_order_room, count, sizeof *r->polygon_order) ||
-        !mem_grow((void **)&r->polygon_triangles, &r->polygon_triangle_room, (count - 2) * 3,
+    if (!mem_grow((void **)&r->polygon_positions, &r->polygon_position_capacity, count, sizeof *r->polygon_positions) ||
+        !mem_grow((void **)&r->polygon_order, &r->polygon_order_capacity, count, sizeof *r->polygon_order) ||
+        !mem_grow((void **)&r->polygon_triangles, &r->polygon_triangle_capacity, (count - 2) * 3,
                   sizeof *r->polygon_triangles))
         return error_memory(r->error);
     for (size_t i = 0; i < count; i++) {
@@ -368,7 +369,7 @@ static lmn_status read_face(obj_reader *r)
     if (r->object_count == 0)
         status = use_object(r, NULL);
     piece *p = status == LMN_OK ? current_piece(r) : NULL;
-    if (!p || !mem_grow((void **)&p->corners, &p->room, p->count + (count - 2) * 3, sizeof *p->corners))
+    if (!p || !mem_grow((void **)&p->corners, &p->capacity, p->count + (count - 2) * 3, sizeof *p->corners))
         return status == LMN_OK ? error_memory(r->error) : status;
     if (count == 3) {
         memcpy(p->corners + p->count, r->polygon, 3 * sizeof *p->corners);
@@ -561,7 +562,7 @@ static void release(obj_reader *r)
     mem_free(r->objects);
     mem_free(r->object_names.entries);
     mem_free(r->material_names.entries);
-    mem_free(r->places);
+    mem_free(r->starts);
     mem_free(r->positions);
     mem_free(r->normals);
     mem_free(r->colours);

@@ -30,9 +30,9 @@ typedef enum ply_slot {
 
 typedef struct model {
     primitive p;
-    size_t    index_room;
+    size_t    index_capacity;
     uint32_t *corners; /* of the current face */
-    size_t    corner_room;
+    size_t    corner_capacity;
     bool      have_vertices;
     float     to_linear[256];
 } model;
@@ -332,8 +332,8 @@ static lmn_status grow_indices(const ply_reader *r, model *m, size_t more)
     size_t wanted = (size_t)m->p.index_count + more;
     if (wanted / 3 > LIMIT_TRIANGLES)
         return error_in_file(r->error, LMN_LIMIT, r->job->path, 0, "more than %zu triangles", LIMIT_TRIANGLES);
-    return mem_grow((void **)&m->p.indices, &m->index_room, wanted, sizeof *m->p.indices) ? LMN_OK
-                                                                                          : error_memory(r->error);
+    return mem_grow((void **)&m->p.indices, &m->index_capacity, wanted, sizeof *m->p.indices) ? LMN_OK
+                                                                                              : error_memory(r->error);
 }
 
 static lmn_status add_polygon(const ply_reader *r, const ply_element *e, model *m, uint32_t count, uint64_t row)
@@ -394,7 +394,7 @@ static lmn_status read_corners(ply_reader *r, const ply_element *e, const ply_pr
                              "%s %llu has %.0f corners, more than the limit of %zu", e->name, (unsigned long long)row,
                              count, limit);
     *out_count = (uint32_t)count;
-    if (!mem_grow((void **)&m->corners, &m->corner_room, *out_count, sizeof *m->corners))
+    if (!mem_grow((void **)&m->corners, &m->corner_capacity, *out_count, sizeof *m->corners))
         return error_memory(r->error);
     for (uint32_t i = 0; i < *out_count; i++) {
         if (!ply_read_value(r, p->type, &value))

@@ -29,7 +29,7 @@ typedef struct ply_element {
     char          name[PLY_NAME_SIZE];
     uint64_t      count;
     ply_property *properties;
-    size_t        property_count, property_room;
+    size_t        property_count, property_capacity;
 } ply_element;
 
 typedef struct ply_reader {
@@ -37,7 +37,7 @@ typedef struct ply_reader {
     lmn_error        *error;
     ply_encoding      encoding;
     ply_element      *elements;
-    size_t            element_count, element_room;
+    size_t            element_count, element_capacity;
     const char       *begin, *at, *end;
     bool              lone_returns; /* lines end with CR alone: a LF behind one is data */
     const char       *texture;      /* in the file's bytes, of a "comment TextureFile NAME" */

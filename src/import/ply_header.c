@@ -106,7 +106,7 @@ static lmn_status read_element(ply_reader *r, const words *w)
     e.count = (uint64_t)count;
     if (r->element_count >= ELEMENTS_MAX)
         return wrong(r, w, "more than 64 elements");
-    if (!mem_grow((void **)&r->elements, &r->element_room, r->element_count + 1, sizeof e))
+    if (!mem_grow((void **)&r->elements, &r->element_capacity, r->element_count + 1, sizeof e))
         return error_memory(r->error);
     r->elements[r->element_count++] = e;
     return LMN_OK;
@@ -129,7 +129,7 @@ static lmn_status read_property(ply_reader *r, const words *w)
         return wrong(r, w, "a property without a name, or one longer than 63 bytes");
     if (e->property_count >= PROPERTIES_MAX)
         return wrong(r, w, "more than 1024 properties");
-    if (!mem_grow((void **)&e->properties, &e->property_room, e->property_count + 1, sizeof p))
+    if (!mem_grow((void **)&e->properties, &e->property_capacity, e->property_count + 1, sizeof p))
         return error_memory(r->error);
     e->properties[e->property_count++] = p;
     return LMN_OK;

@@ -63,7 +63,7 @@ static bool same_point(point2 a, point2 b)
     return a.x == b.x && a.y == b.y;
 }
 
-/* Can the corner at place `i` of the ring be cut off? */
+/* Can the corner at position `i` of the ring be cut off? */
 static bool is_ear(const point2 *flat, const uint32_t *ring, uint32_t count, uint32_t i)
 {
     point2 a = flat[ring[(i + count - 1) % count]], b = flat[ring[i]], c = flat[ring[(i + 1) % count]];

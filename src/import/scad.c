@@ -24,11 +24,11 @@
 #include "base/text.h"
 #include "import/csg.h"
 
-enum { POLL_MS = 20, SAID_MAX = 1 << 16, PATH_ROOM = 4096 };
+enum { POLL_MS = 20, SAID_MAX = 1 << 16, PATH_CAPACITY = 4096 };
 
 typedef struct evaluation {
     const import_job *job;
-    char              program[PATH_ROOM], folder[PATH_ROOM], output[PATH_ROOM + 16];
+    char              program[PATH_CAPACITY], folder[PATH_CAPACITY], output[PATH_CAPACITY + 16];
     pid_t             id;
     int               pipe;
     char              said[SAID_MAX + 1]; /* what openscad prints */
@@ -39,14 +39,14 @@ typedef struct evaluation {
 } evaluation;
 
 /* The first executable file of this name in the PATH. */
-static bool find_program(char out[PATH_ROOM])
+static bool find_program(char out[PATH_CAPACITY])
 {
     const char *at = getenv("PATH");
     while (at && *at) {
         size_t      length = strcspn(at, ":");
         struct stat facts;
-        int         size = snprintf(out, PATH_ROOM, "%.*s/openscad", (int)length, at);
-        if (length > 0 && size < PATH_ROOM && *at == '/' && access(out, X_OK) == 0 && stat(out, &facts) == 0 &&
+        int         size = snprintf(out, PATH_CAPACITY, "%.*s/openscad", (int)length, at);
+        if (length > 0 && size < PATH_CAPACITY && *at == '/' && access(out, X_OK) == 0 && stat(out, &facts) == 0 &&
             S_ISREG(facts.st_mode))
             return true;
         at += length + (at[length] == ':');
@@ -166,7 +166,7 @@ static void run_child(const evaluation *e, char *const *arguments, int pipe_end)
 static lmn_status start(evaluation *e)
 {
     /* A name must not be taken for an option. */
-    char   input[PATH_ROOM];
+    char   input[PATH_CAPACITY];
     int    ends[2], size = snprintf(input, sizeof input, "%s%s", e->job->path[0] == '-' ? "./" : "", e->job->path);
     char **arguments = make_arguments(e, input);
     if (!arguments)
@@ -196,7 +196,7 @@ static bool read_some(evaluation *e)
     ssize_t got = read(e->pipe, bytes, sizeof bytes);
     if (got < 0)
         return errno != EINTR && errno != EAGAIN;
-    size_t room = SAID_MAX - e->said_size, kept = (size_t)got < room ? (size_t)got : room;
+    size_t capacity = SAID_MAX - e->said_size, kept = (size_t)got < capacity ? (size_t)got : capacity;
     memcpy(e->said + e->said_size, bytes, kept);
     e->said_size += kept;
     return got == 0;

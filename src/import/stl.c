@@ -169,7 +169,7 @@ typedef struct text_reader {
     const import_job *job;
     const char       *begin, *at, *end;
     vec3             *positions; /* of the current solid */
-    size_t            count, room, total;
+    size_t            count, capacity, total;
     char             *name;
     int32_t           material;
     lmn_error        *error;
@@ -227,7 +227,7 @@ static lmn_status add_corner(text_reader *r, vec3 p)
     if (r->total >= LIMIT_VERTICES)
         return error_in_file(r->error, LMN_LIMIT, r->job->path, build_line(r->begin, r->at), "more than %zu corners",
                              LIMIT_VERTICES);
-    if (!mem_grow((void **)&r->positions, &r->room, r->count + 1, sizeof *r->positions))
+    if (!mem_grow((void **)&r->positions, &r->capacity, r->count + 1, sizeof *r->positions))
         return error_memory(r->error);
     r->positions[r->count++] = p;
     r->total++;
@@ -277,7 +277,7 @@ static lmn_status end_solid(text_reader *r)
     if (r->count > 0) {
         primitive p = {.vertex_count = (uint32_t)r->count, .positions = r->positions, .material = r->material};
         r->positions = NULL;
-        r->count = r->room = 0;
+        r->count = r->capacity = 0;
         status = add_welded(r->job, &p, r->name, r->error);
     }
     mem_free(r->name);

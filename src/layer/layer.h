@@ -35,7 +35,7 @@ typedef struct layering {
     int32_t     producer, memory;     /* layer_producer; MiB for lists */
     float       fraction;             /* of the picture: ends with a layer that covers less */
     const char *focus;                /* selector of what is to be uncovered; empty: nothing */
-    float       focus_share, rear;    /* of it; opacity of what lies behind that */
+    float       focus_fraction, rear; /* of it; opacity of what lies behind that */
     colour      focus_colour;
 } layering;
 

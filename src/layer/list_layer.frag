@@ -35,8 +35,8 @@ void main()
     int some = index != 0u ? 1 : 0;
     for (int once = 0; once < some; once++) {
         uint node = (index - 1u) * uint(NODE_VECTORS);
-        uvec4 place = nodes[node];
-        gl_FragDepth = uintBitsToFloat(place.y);
+        uvec4 position = nodes[node];
+        gl_FragDepth = uintBitsToFloat(position.y);
 #if defined(AT_NORMAL_DEPTH) || defined(AT_ID)
         uvec4 surface = nodes[node + 1u];
 #endif
@@ -49,7 +49,7 @@ void main()
         out_normal_depth = vec4(normalize(normal), uintBitsToFloat(surface.y));
 #endif
 #ifdef AT_ID
-        out_id = uvec2(place.w, surface.x);
+        out_id = uvec2(position.w, surface.x);
 #endif
 #if defined(AT_SHADE) || defined(AT_ALBEDO)
         uvec4 colours = nodes[node + 2u];

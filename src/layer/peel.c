@@ -9,7 +9,7 @@ typedef struct peel_values {
     int32_t     count, producer, memory, evaluation;
     float       fraction;
     param_words focus;
-    float       focus_share, rear;
+    float       focus_fraction, rear;
     colour      focus_colour;
 } peel_values;
 
@@ -19,16 +19,16 @@ static const param params[] = {
     PARAM_INT_ROW(peel_values, count, .def = 5, .min = 0, .max = LAYERS_MAX, .soft_max = 16, .unit = UNIT_COUNT,
                   .cpu_only = true, .doc = "Layers that are drawn at most; 0: all there are, up to 256."),
     PARAM_FLOAT_ROW(
-        peel_values, fraction, .def = 0, .min = 0, .max = 1, .soft_max = 0.05, .unit = UNIT_SHARE, .cpu_only = true,
-        .doc = "Ends with the first layer that covers less than this share of the picture; 0 looks at every layer."),
+        peel_values, fraction, .def = 0, .min = 0, .max = 1, .soft_max = 0.05, .unit = UNIT_FRACTION, .cpu_only = true,
+        .doc = "Ends with the first layer that covers less than this fraction of the picture; 0 looks at every layer."),
     PARAM_TEXT_ROW(peel_values, focus, .example = "ball", .is_selector = true,
                    .doc = "Selector of parts to be uncovered: as few layers as show them, and they themselves opaque "
                           "at their true depth."),
-    PARAM_FLOAT_ROW(peel_values, focus_share, .def = 0.95, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
-                    .only_if = "focus", .doc = "Share of the focus that must be uncovered."),
+    PARAM_FLOAT_ROW(peel_values, focus_fraction, .def = 0.95, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .cpu_only = true, .only_if = "focus", .doc = "Fraction of the focus that must be uncovered."),
     PARAM_COLOUR_ROW(peel_values, focus_colour, .def_colour = {0.85f, 0.33f, 0.18f, 1}, .cpu_only = true,
                      .only_if = "focus", .doc = "Colour of the focus; none keeps its own."),
-    PARAM_FLOAT_ROW(peel_values, rear, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+    PARAM_FLOAT_ROW(peel_values, rear, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .only_if = "focus",
                     .doc = "Opacity of the layers behind those that uncover the focus; 0 leaves them out."),
     PARAM_ENUM_ROW(peel_values, producer, .names = producers, .cpu_only = true,
@@ -56,7 +56,7 @@ static void peel_layering(layering *out, const void *values)
                       .memory = v->memory,
                       .fraction = v->fraction,
                       .focus = v->focus.text,
-                      .focus_share = v->focus_share,
+                      .focus_fraction = v->focus_fraction,
                       .rear = v->rear,
                       .focus_colour = v->focus_colour};
 }

@@ -62,7 +62,7 @@ float stored_depth()
 #endif
 
 #ifdef HAS_PATCHES
-/* Is the place outside its patch's outline? src/field/lapped.h; the number of a patch is the same at all its corners. */
+/* Is the position outside its patch's outline? src/field/lapped.h; the number of a patch is the same at all its corners. */
 bool outside_patch()
 {
     float angle = atan(v_patch.y, v_patch.x), number = floor(v_patch.w + 0.5);

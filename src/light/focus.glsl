@@ -1,4 +1,4 @@
-/* Depth focus: the share of its ink that a place keeps. Müller, section 5 (figures 16 and 21), which has no formula; row P22. */
+/* Depth focus: the fraction of its ink that a position keeps. Müller, section 5 (figures 16 and 21), which has no formula; row P22. */
 uniform vec4 u_focus; /* share that is lost at most, depth that is looked at, 1 / range, 0; eye depths */
 
 float in_focus(float eye_depth)

@@ -2,7 +2,7 @@
 #include "light/point.glsl"
 
 /* The number of lights is a constant, so that loops over them are unrolled: on a software driver they cost twice as much. */
-uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its place. Eye space. */
+uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its position. Eye space. */
 uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
 
 #include "light/shadow.glsl"
@@ -16,7 +16,7 @@ vec3 towards_light(int i, vec3 eye)
     return light.w > 0.5 ? normalize(light.xyz - eye) : light.xyz;
 }
 
-/* Share of the first light that is not kept off by what lies between; the others have no shadows. Asked for outside of loops over lights: those with loops
+/* Fraction of the first light that is not kept off by what lies between; the others have no shadows. Asked for outside of loops over lights: those with loops
  * inside are not unrolled. */
 float unshadowed(surface_point p)
 {
@@ -24,14 +24,14 @@ float unshadowed(surface_point p)
     arrived_light arrived = light_at(p);
     return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
 #elif defined(LIT_WITH_SHADOW)
-    return lit_share(p.eye, p.normal, towards_light(0, p.eye));
+    return lit_fraction(p.eye, p.normal, towards_light(0, p.eye));
 #else
     return 1.0;
 #endif
 }
 
-/* Share of all light that corners and clefts leave. */
-float sky_share(surface_point p)
+/* Fraction of all light that corners and clefts leave. */
+float sky_fraction(surface_point p)
 {
 #ifdef HAS_OCCLUSION
     return light_at(p).sky;
@@ -47,7 +47,7 @@ vec3 diffuse_light(surface_point p)
     float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * (i == 0 ? first : 1.0));
-    return sum * sky_share(p);
+    return sum * sky_fraction(p);
 }
 
 /* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */
@@ -62,7 +62,7 @@ float wrapped_light(surface_point p)
         sum += strength * (0.5 * (turned > 0.0 && i == 0 ? turned * first : turned) + 0.5);
         total += strength;
     }
-    return total > 0.0 ? sum / total * sky_share(p) : 0.0;
+    return total > 0.0 ? sum / total * sky_fraction(p) : 0.0;
 }
 
 /* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
@@ -71,5 +71,5 @@ float highlight(surface_point p, float shininess)
 {
     vec3 light = towards_light(0, p.eye);
     float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    return unshadowed(p) * sky_share(p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
+    return unshadowed(p) * sky_fraction(p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);
 }

@@ -16,13 +16,13 @@ in vec4 v_patch;
 uniform float u_patch_radius;
 #endif
 #ifdef HAS_UV
-/* Texture coordinates of the place, for surfaces that are shaded with their geometry: as the material's own picture has them, and those that a
+/* Texture coordinates of the position, for surfaces that are shaded with their geometry: as the material's own picture has them, and those that a
  * light map has: of the second set, where there is one. */
 vec2 s_uv;
 vec2 s_uv_unique;
 #endif
 
-/* Unit vector from the place to the viewer. */
+/* Unit vector from the position to the viewer. */
 vec3 towards_viewer(vec3 eye)
 {
     return u_perspective > 0.5 ? -normalize(eye) : vec3(0.0, 0.0, 1.0);

@@ -16,7 +16,7 @@ static const param params[] = {
     PARAM_DIRECTION_ROW(scene_values, light_direction, .def_direction = {-0.45f, 0.75f, 0.85f}, .min = -1e6, .max = 1e6,
                         .cpu_only = true,
                         .doc = "Direction towards the key light as the viewer sees it: right, up, to the viewer."),
-    PARAM_FLOAT_ROW(scene_values, fill, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+    PARAM_FLOAT_ROW(scene_values, fill, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Strength of a fill light from the other side."),
     PARAM_FLOAT_ROW(scene_values, crease_angle, .def = 30, .min = 0, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
                     .doc = "Faces that meet at less are smoothed where a model brings no normals."),
@@ -32,22 +32,23 @@ static const param params[] = {
                     .cpu_only = true, .only_if = "shadows",
                     .doc = "How wide the light is as the model sees it: the farther a shadow falls, the softer its "
                            "border; 0 is hard, the sun has 0.5."),
-    PARAM_FLOAT_ROW(scene_values, occlusion, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+    PARAM_FLOAT_ROW(scene_values, occlusion, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "How much darker corners and clefts get, which see little of the sky: ambient occlusion; "
                            "with halftones denser strokes."),
-    PARAM_FLOAT_ROW(scene_values, occlusion_radius, .def = 0.1, .min = 0.001, .max = 1, .soft_min = 0.02,
-                    .soft_max = 0.4, .unit = UNIT_SHARE, .logarithmic = true, .cpu_only = true, .only_if = "occlusion",
-                    .doc =
-                        "How far off something may stand to keep the sky from a place, share of the model's diagonal."),
-    PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
-                    .doc = "Depth focus: share of the ink that lines and strokes lose away from the depth that is "
+    PARAM_FLOAT_ROW(
+        scene_values, occlusion_radius, .def = 0.1, .min = 0.001, .max = 1, .soft_min = 0.02, .soft_max = 0.4,
+        .unit = UNIT_FRACTION, .logarithmic = true, .cpu_only = true, .only_if = "occlusion",
+        .doc = "How far off something may stand to keep the sky from a place, fraction of the model's diagonal."),
+    PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "Depth focus: fraction of the ink that lines and strokes lose away from the depth that is "
                            "looked at; the paper stays what it is."),
     PARAM_FLOAT_ROW(
-        scene_values, focus_at, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .cpu_only = true, .only_if = "focus",
-        .doc = "The depth with all its ink, share of the model's depth: 0 is the nearest place, 1 the farthest."),
-    PARAM_FLOAT_ROW(scene_values, focus_depth, .def = 0.8, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_SHARE,
+        scene_values, focus_at, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+        .only_if = "focus",
+        .doc = "The depth with all its ink, fraction of the model's depth: 0 is the nearest place, 1 the farthest."),
+    PARAM_FLOAT_ROW(scene_values, focus_depth, .def = 0.8, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "focus",
-                    .doc = "How far away from there the most ink is lost, share of the model's depth."),
+                    .doc = "How far away from there the most ink is lost, fraction of the model's depth."),
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or "
                           "box=50%,0%,50%:100%,100%,100%; see draw.md."),

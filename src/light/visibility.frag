@@ -1,11 +1,11 @@
-/* How much light arrives at each place of a small picture: of the first light, which is a disc, and of the sky. The pattern of samples turns from
+/* How much light arrives at each position of a small picture: of the first light, which is a disc, and of the sky. The pattern of samples turns from
  * pixel to pixel; light/visibility_blur.frag averages over exactly its period, four by four. */
 #include "light/visibility.glsl"
 
 uniform sampler2D t_depth;        /* of the whole scene */
 uniform vec4      u_depth_terms;  /* eye depth = (x + y z) / (z + w z) */
 uniform vec2      u_slope;        /* from steps of depth between pixels to the normal */
-layout(location = 0) out vec4 out_share;  /* of the light; of the sky; eye depth; radius of the penumbra in pixels */
+layout(location = 0) out vec4 out_fraction;  /* of the light; of the sky; eye depth; radius of the penumbra in pixels */
 layout(location = 1) out vec4 out_normal;
 
 const float NOTHING = 1.0; /* the depth of what is empty */
@@ -52,19 +52,19 @@ vec2 turned_by(float turns)
     return vec2(cos(6.2831853 * turns), sin(6.2831853 * turns));
 }
 
-/* The texel of the map at an offset: 1 when it is before the surface's own plane; how far to the side; how far before the place. */
-vec3 in_the_way(vec3 place, vec2 offset, vec2 rise, float bias, float lean)
+/* The texel of the map at an offset: 1 when it is before the surface's own plane; how far to the side; how far before the position. */
+vec3 in_the_way(vec3 position, vec2 offset, vec2 rise, float bias, float lean)
 {
-    ivec2 texel = clamp(ivec2((place.xy + offset) / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1);
-    vec2 off = (vec2(texel) + 0.5) * u_shadow_texel.x - place.xy;
-    float above = place.z - texelFetch(t_shadow, texel, 0).r, aside = length(off);
+    ivec2 texel = clamp(ivec2((position.xy + offset) / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1);
+    vec2 off = (vec2(texel) + 0.5) * u_shadow_texel.x - position.xy;
+    float above = position.z - texelFetch(t_shadow, texel, 0).r, aside = length(off);
     return vec3(above + dot(rise, off) > bias + lean * aside ? 1.0 : 0.0, aside, above);
 }
 
-/* Share of the light's disc that is seen, and the radius of the penumbra in eye space; 0: nothing is in the way. */
-vec2 light_share(vec3 eye, vec3 normal, float turns, float jitter)
+/* Fraction of the light's disc that is seen, and the radius of the penumbra in eye space; 0: nothing is in the way. */
+vec2 light_fraction(vec3 eye, vec3 normal, float turns, float jitter)
 {
-    vec3 place = (u_shadow_from_eye * vec4(eye, 1.0)).xyz;
+    vec3 position = (u_shadow_from_eye * vec4(eye, 1.0)).xyz;
     vec3 across = mat3(u_shadow_from_eye) * normal;
     float width = u_shadow_texel.y / u_shadow_texel.x, ratio = width / u_shadow_depth;
     /* The surface's own plane, as depth over the map: only what is before it is in the way. */
@@ -72,17 +72,17 @@ vec2 light_share(vec3 eye, vec3 normal, float turns, float jitter)
     vec2 rise = -across.xy * width / (abs(facing) > 0.03 ? facing : facing < 0.0 ? -0.03 : 0.03) * ratio;
     float steep = dot(rise, rise) / (ratio * ratio);
     float bias = u_shadow_texel.x * ratio * (0.6 + 0.3 * sqrt(steep)), lean = ratio * 0.002 * (1.0 + steep);
-    float reach = clamp((place.z - u_shadow_nearest) * u_cone, 0.0, 0.25);
-    vec2 way = turned_by(turns);
+    float reach = clamp((position.z - u_shadow_nearest) * u_cone, 0.0, 0.25);
+    vec2 direction = turned_by(turns);
     float found = 0.0, sum = 0.0;
     for (int i = 0; i < SEARCHED; i++) {
         /* Densest in the middle, where what is near and thin is. */
-        float share = (float(i) + jitter) / float(SEARCHED), radius = i > 0 ? reach * share * share : 0.0;
-        vec3 here = in_the_way(place, way * radius, rise, bias, lean);
-        float hides = here.x * (here.y <= here.z * u_cone + 0.75 * u_shadow_texel.x ? share * share * share + 1e-3 : 0.0);
+        float fraction = (float(i) + jitter) / float(SEARCHED), radius = i > 0 ? reach * fraction * fraction : 0.0;
+        vec3 here = in_the_way(position, direction * radius, rise, bias, lean);
+        float hides = here.x * (here.y <= here.z * u_cone + 0.75 * u_shadow_texel.x ? fraction * fraction * fraction + 1e-3 : 0.0);
         found += hides;
         sum += hides * here.z;
-        way = GOLDEN * way;
+        direction = GOLDEN * direction;
     }
     float between = sum / max(found, 1e-12);
     float radius = max(between * u_cone, 0.7 * u_shadow_texel.x), lit = float(COMPARED);
@@ -90,9 +90,9 @@ vec2 light_share(vec3 eye, vec3 normal, float turns, float jitter)
     float added = pixel_size(-eye.z) / width, compared_in = radius * sqrt(max(1.0 - 1.2 * added * added / (radius * radius), 0.4));
     int compared = found > 0.0 ? COMPARED : 0;
     for (int i = 0; i < compared; i++) {
-        vec3 here = in_the_way(place, way * (compared_in * sqrt((float(i) + jitter) / float(COMPARED))), rise, bias, lean);
+        vec3 here = in_the_way(position, direction * (compared_in * sqrt((float(i) + jitter) / float(COMPARED))), rise, bias, lean);
         lit -= here.x * (here.y <= 2.0 * here.z * u_cone + 1.5 * u_shadow_texel.x ? 1.0 : 0.0);
-        way = GOLDEN * way;
+        direction = GOLDEN * direction;
     }
     return vec2(lit / float(COMPARED), found > 0.0 ? radius * width : 0.0);
 }
@@ -120,13 +120,13 @@ float sky_below(float cosine, vec2 normal)
 }
 
 /* What stands before the sky to one side of a slice: outwards, each thing hides what those before left. */
-float hidden_sky(ivec2 pixel, ivec2 way, vec3 eye, vec3 viewer, vec2 normal, float most, float jitter)
+float hidden_sky(ivec2 pixel, ivec2 direction, vec3 eye, vec3 viewer, vec2 normal, float most, float jitter)
 {
     float cosine = -normal.y * inversesqrt(max(dot(normal, normal), 1e-12));
     float seen = sky_below(cosine, normal), hidden = 0.0, narrow = 1.0 / (u_radius * u_radius), before = 0.0;
     for (int i = 0; i < STEPS; i++) {
-        float share = (float(i) + jitter) / float(STEPS);
-        ivec2 at = pixel + way * int(max(share * (0.3 + 0.7 * share) * most + 0.5, 1.0));
+        float fraction = (float(i) + jitter) / float(STEPS);
+        ivec2 at = pixel + direction * int(max(fraction * (0.3 + 0.7 * fraction) * most + 0.5, 1.0));
         float depth = depth_at(at);
         vec3 off = eye_at(at, depth) - eye;
         /* What hides a part of the sky begins somewhere between the last sample and this one. */
@@ -141,24 +141,24 @@ float hidden_sky(ivec2 pixel, ivec2 way, vec3 eye, vec3 viewer, vec2 normal, flo
     return hidden;
 }
 
-float hidden_slice(ivec2 pixel, ivec2 way, vec3 eye, vec3 viewer, vec3 normal, float jitter)
+float hidden_slice(ivec2 pixel, ivec2 direction, vec3 eye, vec3 viewer, vec3 normal, float jitter)
 {
-    vec3 along = vec3(vec2(way) * u_pixel, 0.0);
+    vec3 along = vec3(vec2(direction) * u_pixel, 0.0);
     along = normalize(along - viewer * dot(along, viewer));
     vec2 in_slice = vec2(dot(normal, viewer), dot(normal, along));
-    float most = min(u_radius / (pixel_size(-eye.z) * length(vec2(way))), 0.5 * float(last.y));
-    return hidden_sky(pixel, way, eye, viewer, in_slice, most, jitter) + hidden_sky(pixel, -way, eye, viewer, vec2(in_slice.x, -in_slice.y), most, jitter);
+    float most = min(u_radius / (pixel_size(-eye.z) * length(vec2(direction))), 0.5 * float(last.y));
+    return hidden_sky(pixel, direction, eye, viewer, in_slice, most, jitter) + hidden_sky(pixel, -direction, eye, viewer, vec2(in_slice.x, -in_slice.y), most, jitter);
 }
 
-/* Share of the sky that is seen. Slices run along whole pixels, so that samples of a plane lie on it exactly; there are four pairs of slices at right
+/* Fraction of the sky that is seen. Slices run along whole pixels, so that samples of a plane lie on it exactly; there are four pairs of slices at right
  * angles, and each counts by the angle that is nearest to it. */
-float sky_share(ivec2 pixel, vec3 eye, vec3 normal)
+float sky_fraction(ivec2 pixel, vec3 eye, vec3 normal)
 {
     vec3 viewer = u_perspective > 0.5 ? -normalize(eye) : vec3(0.0, 0.0, 1.0);
     int which = (pixel.x + 2 * pixel.y) & 3;
     float jitter = (float(pixel.y & 3) + 0.5) * 0.25, weight = which == 0 ? 1.1808 : which == 2 ? 0.8192 : 1.0;
-    ivec2 way = ivec2(which == 3 ? 1 : which == 1 ? 2 : 1, which == 0 ? 0 : which == 3 ? 2 : 1);
-    float hidden = hidden_slice(pixel, way, eye, viewer, normal, jitter) + hidden_slice(pixel, ivec2(-way.y, way.x), eye, viewer, normal, jitter);
+    ivec2 direction = ivec2(which == 3 ? 1 : which == 1 ? 2 : 1, which == 0 ? 0 : which == 3 ? 2 : 1);
+    float hidden = hidden_slice(pixel, direction, eye, viewer, normal, jitter) + hidden_slice(pixel, ivec2(-direction.y, direction.x), eye, viewer, normal, jitter);
     return clamp(1.0 - 0.5 * weight * hidden, 0.0, 1.0);
 }
 #endif
@@ -168,20 +168,20 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     last = textureSize(t_depth, 0) - 1;
     float depth = depth_at(pixel);
-    out_share = vec4(1.0, 1.0, EMPTY, 1e3);
+    out_fraction = vec4(1.0, 1.0, EMPTY, 1e3);
     out_normal = vec4(0.0, 0.0, 1.0, 0.0);
     int full = depth < NOTHING ? 1 : 0;
     for (int once = 0; once < full; once++) {
         vec3 eye = eye_at(pixel, depth), normal = normal_at(pixel, depth, eye);
         out_normal = vec4(normal, 0.0);
-        out_share.z = -eye.z;
+        out_fraction.z = -eye.z;
 #ifdef HAS_SOFT_SHADOW
-        vec2 light = light_share(eye, normal, (float((pixel.x & 3) * 4 + (pixel.y & 3)) + 0.5) * (1.0 / 16.0), (float((pixel.x + 2 * pixel.y) & 3) + 0.5) * 0.25);
-        out_share.x = light.x;
-        out_share.w = light.y > 0.0 ? light.y / pixel_size(-eye.z) : 1e3;
+        vec2 light = light_fraction(eye, normal, (float((pixel.x & 3) * 4 + (pixel.y & 3)) + 0.5) * (1.0 / 16.0), (float((pixel.x + 2 * pixel.y) & 3) + 0.5) * 0.25);
+        out_fraction.x = light.x;
+        out_fraction.w = light.y > 0.0 ? light.y / pixel_size(-eye.z) : 1e3;
 #endif
 #ifdef HAS_OCCLUSION
-        out_share.y = sky_share(pixel, eye, normal);
+        out_fraction.y = sky_fraction(pixel, eye, normal);
 #endif
     }
 }

@@ -4,7 +4,7 @@
 #include "lines/lines.h"
 #include "stroke/ribbon.h"
 
-static const float inner_share = 0.75f; /* width of creases beside outlines, as draughtsmen have it */
+static const float inner_fraction = 0.75f; /* width of creases beside outlines, as draughtsmen have it */
 
 static bool is_class_inner(int kind)
 {
@@ -18,7 +18,7 @@ void lines_as_strokes(stroke_options *options, stroke_style *style, const void *
     for (int i = 0; i < STROKE_CLASS_COUNT; i++)
         style->colours[i] = is_class_inner(i) ? inner : lines->colour;
     style->width = lines->width;
-    style->crease_width = inner_share;
+    style->crease_width = inner_fraction;
     style->dash = lines->dash;
     style->gap = lines->gap;
     style->overshoot = lines->overshoot;

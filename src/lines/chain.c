@@ -39,13 +39,13 @@ typedef struct tracing {
     thin_grid grid;
     uint32_t *cells; /* of all lines */
     raw_line *lines;
-    size_t    cell_count, cell_room, line_count, line_room;
+    size_t    cell_count, cell_capacity, line_count, line_capacity;
     bool      failed;
 } tracing;
 
 static void add_cell(tracing *t, uint32_t cell)
 {
-    if (!mem_grow((void **)&t->cells, &t->cell_room, t->cell_count + 1, sizeof *t->cells)) {
+    if (!mem_grow((void **)&t->cells, &t->cell_capacity, t->cell_count + 1, sizeof *t->cells)) {
         t->failed = true;
         return;
     }
@@ -55,7 +55,7 @@ static void add_cell(tracing *t, uint32_t cell)
 
 static void add_line(tracing *t, raw_line line)
 {
-    if (!mem_grow((void **)&t->lines, &t->line_room, t->line_count + 1, sizeof *t->lines)) {
+    if (!mem_grow((void **)&t->lines, &t->line_capacity, t->line_count + 1, sizeof *t->lines)) {
         t->failed = true;
         return;
     }
@@ -197,8 +197,8 @@ static trace_point point_of(const tracing *t, uint32_t cell)
             count += ink;
         }
     int   column = (int)(cell % (uint32_t)g->stride) - 1, row = (int)(cell / (uint32_t)g->stride) - 1;
-    float share = 1 / (float)(count ? count : 1);
-    return (trace_point){(float)column + (float)sum_x * share, (float)row + (float)sum_y * share, 0,
+    float fraction = 1 / (float)(count ? count : 1);
+    return (trace_point){(float)column + (float)sum_x * fraction, (float)row + (float)sum_y * fraction, 0,
                          (uint32_t)row * (uint32_t)g->width + (uint32_t)column};
 }
 
@@ -210,7 +210,7 @@ static size_t reach_at(size_t n, size_t i, bool closed, size_t reach)
     return behind < reach ? behind : reach;
 }
 
-/* Angle between the ways from and to the points at this distance, without sign. */
+/* Angle between the directions from and to the points at this distance, without sign. */
 static float turn_at(const trace_point *p, size_t n, size_t i, size_t reach)
 {
     const trace_point *a = &p[(i + n - reach) % n], *b = &p[i], *c = &p[(i + reach) % n];
@@ -238,7 +238,7 @@ static size_t corner_reach_at(const trace_point *p, size_t n, size_t i, bool clo
 }
 
 /* 0 where the line goes on at point i of n, or an end is too near. At corners how far the point stands out from the
- * chord between its neighbours, as a share of their distance along the line; greatest at the very corner. */
+ * chord between its neighbours, as a fraction of their distance along the line; greatest at the very corner. */
 static float sharpness_at(const trace_point *p, size_t n, size_t i, bool closed)
 {
     size_t reach = corner_reach_at(p, n, i, closed);
@@ -265,9 +265,9 @@ static bool is_corner(const float *sharpness, size_t n, size_t i, bool closed)
     return true;
 }
 
-/* The point `k` places from `i`. Beyond an open end the line goes on as its mirror image in the end point, which
+/* The point `k` positions from `i`. Beyond an open end the line goes on as its mirror image in the end point, which
  * keeps ends in their place and straight lines straight. */
-static void place_at(const trace_point *p, long n, long i, bool closed, float out[2])
+static void position_at(const trace_point *p, long n, long i, bool closed, float out[2])
 {
     if (closed)
         i = ((i % n) + n) % n;
@@ -291,8 +291,8 @@ static void smooth_point(trace_point *to, const trace_point *from, long n, long 
             behind[0] = from[i + k].x;
             behind[1] = from[i + k].y;
         } else {
-            place_at(from, n, i - k, closed, before);
-            place_at(from, n, i + k, closed, behind);
+            position_at(from, n, i - k, closed, before);
+            position_at(from, n, i + k, closed, behind);
         }
         x += weights[k] * (before[0] + behind[0]);
         y += weights[k] * (before[1] + behind[1]);
@@ -306,8 +306,8 @@ static void smooth_point(trace_point *to, const trace_point *from, long n, long 
  * measured. */
 static bool add_chain(chain_set *out, trace_point *p, size_t n, size_t first, chain c)
 {
-    if (!mem_grow((void **)&out->points, &out->point_room, out->point_count + 2 * c.count, sizeof *out->points) ||
-        !mem_grow((void **)&out->chains, &out->chain_room, out->chain_count + 1, sizeof *out->chains))
+    if (!mem_grow((void **)&out->points, &out->point_capacity, out->point_count + 2 * c.count, sizeof *out->points) ||
+        !mem_grow((void **)&out->chains, &out->chain_capacity, out->chain_count + 1, sizeof *out->chains))
         return false;
     c.first = out->point_count;
     trace_point *to = &out->points[c.first], *from = to + c.count; /* the room behind holds the rough ones meanwhile */

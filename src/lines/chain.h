@@ -26,7 +26,7 @@ typedef struct chain_set {
     trace_point *points;
     chain       *chains;
     size_t       point_count, chain_count;
-    size_t       point_room, chain_room;
+    size_t       point_capacity, chain_capacity;
 } chain_set;
 
 /* The chains of the ink (not 0 = ink), in the order in which they are met by rows. They part at junctions and at

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "lines/lines.h"
 
-/* The detected map's lines reach this far from their middle; and chains of less than this share of a period stay
+/* The detected map's lines reach this far from their middle; and chains of less than this fraction of a period stay
  * whole. */
 static const float DETECTED_REACH = 3.5f, LEAST_PERIOD = 0.75f, LEAST_DASHES = 1.5f;
 /* Half of the widest lines, with eight samples a side. */
@@ -129,8 +129,8 @@ static void place_sources(painting *p)
     }
 }
 
-/* Share of ink at a pixel, by its place beside the nearest chain. */
-static uint8_t share_at(const painting *p, const source *s, int x, int y)
+/* Fraction of ink at a pixel, by its position beside the nearest chain. */
+static uint8_t fraction_at(const painting *p, const source *s, int x, int y)
 {
     const chain        *c = &p->set->chains[s->chain];
     const dash_pattern *pattern = &p->patterns[s->chain];
@@ -142,8 +142,8 @@ static uint8_t share_at(const painting *p, const source *s, int x, int y)
         inside = 0.5f * p->style->width - hypotf(dash_from_middle(pattern, c, along), dx * s->ty - dy * s->tx);
     else
         inside = dash_inside(pattern, c, along);
-    float share = inside + 0.5f;
-    return share <= 0 ? 0 : share >= 1 ? 255 : (uint8_t)(share * 255 + 0.5f);
+    float fraction = inside + 0.5f;
+    return fraction <= 0 ? 0 : fraction >= 1 ? 255 : (uint8_t)(fraction * 255 + 0.5f);
 }
 
 static void paint_row(const painting *p, uint8_t *out, int y)
@@ -155,7 +155,7 @@ static void paint_row(const painting *p, uint8_t *out, int y)
         while (x + 4 <= p->width && (memcpy(&four, &p->distance[first + (size_t)x], sizeof four), four == 0))
             x += 4;
         if (x < p->width && p->distance[first + (size_t)x])
-            out[first + (size_t)x] = share_at(p, &p->sources[p->nearest[first + (size_t)x]], x, y);
+            out[first + (size_t)x] = fraction_at(p, &p->sources[p->nearest[first + (size_t)x]], x, y);
     }
 }
 

@@ -1,4 +1,4 @@
-/* Dashes along lines: which share of a picture's ink stays. No GL, only arrays. */
+/* Dashes along lines: which fraction of a picture's ink stays. No GL, only arrays. */
 #ifndef LIMNER_LINES_DASH_H
 #define LIMNER_LINES_DASH_H
 
@@ -20,13 +20,13 @@ typedef struct dash_pattern {
 } dash_pattern;
 dash_pattern dash_pattern_of(const chain *c, const dash_style *style);
 
-/* How far a place of the chain lies from the middle of the nearest dash, in pixels along it. */
+/* How far a position of the chain lies from the middle of the nearest dash, in pixels along it. */
 float dash_from_middle(const dash_pattern *p, const chain *c, float along);
 
 /* How far inside a dash (negative: inside a gap) it is. */
 float dash_inside(const dash_pattern *p, const chain *c, float along);
 
-/* The share of ink that stays at each pixel, 255 = all: one byte a pixel, everything within the line's reach
+/* The fraction of ink that stays at each pixel, 255 = all: one byte a pixel, everything within the line's reach
  * belongs to the nearest chain. False when memory is gone. */
 bool dash_paint(uint8_t *out, int width, int height, const chain_set *set, const dash_style *style);
 

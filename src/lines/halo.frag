@@ -1,5 +1,5 @@
 /* Haloed lines: ink clearly behind an outline is taken away for some pixels beside it, so that objects separate. What is behind is told by the
- * surface's own plane: of two places of a convex body neither is before the other's, so that nothing on it is taken away. At outlines of
+ * surface's own plane: of two positions of a convex body neither is before the other's, so that nothing on it is taken away. At outlines of
  * round things depth runs away within a pixel, so that how steep it is there counts, too. Ink on the farther side of an outline is the
  * outline's own. */
 #include "lines/halo.glsl"
@@ -26,7 +26,7 @@ float nearest_in_row(float y)
     return 1.0 - 1.001 * textureLod(t_nearer_row, (gl_FragCoord.xy + vec2(0.0, y)) * u_texel, 0.0).r - 1e-6;
 }
 
-/* Where an outline must be to be clearly before this place. */
+/* Where an outline must be to be clearly before this position. */
 float before_this(vec3 owner)
 {
     return owner.z - clear_step(owner.z);
@@ -41,7 +41,7 @@ bool has_nearer(vec3 owner)
     return nearest < before_this(owner);
 }
 
-/* Share of the ink that stays beside an outline's pixel at `off`; `plane` is that of the ink's owner. */
+/* Fraction of the ink that stays beside an outline's pixel at `off`; `plane` is that of the ink's owner. */
 float kept_beside(vec2 off, float beyond, vec3 owner, vec3 plane, float clear_times)
 {
     vec2 there = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).rg;

@@ -4,7 +4,7 @@
 
 /* Ink of less than this is shading; see lines.c. */
 const float LINE_INK = 0.15;
-/* A step that separates objects, as a share of the figure's depth range; and what rounding can add up to. */
+/* A step that separates objects, as a fraction of the figure's depth range; and what rounding can add up to. */
 const float CLEARLY = 0.005;
 /* Slopes of what bends count up to this, in pixels. */
 const float STEEP = 24.0;
@@ -31,30 +31,30 @@ float clear_step(float window)
 
 /* How depth grows to one side of a place where it does so evenly on this side or the other: a flat face, whose slope that is exactly. y: to
  * which side, 1 or −1, and 0 where it does not. */
-vec2 even_slope(vec3 place, vec2 side)
+vec2 even_slope(vec3 position, vec2 side)
 {
-    float right = depth_at(place.xy + side), left = depth_at(place.xy - side);
-    float ahead = right - place.z, behind = place.z - left;
-    bool ahead_even = abs(depth_at(place.xy + 2.0 * side) - right - ahead) <= 0.002 * abs(ahead) + DEPTH_NOISE;
-    bool behind_even = abs(left - depth_at(place.xy - 2.0 * side) - behind) <= 0.002 * abs(behind) + DEPTH_NOISE;
+    float right = depth_at(position.xy + side), left = depth_at(position.xy - side);
+    float ahead = right - position.z, behind = position.z - left;
+    bool ahead_even = abs(depth_at(position.xy + 2.0 * side) - right - ahead) <= 0.002 * abs(ahead) + DEPTH_NOISE;
+    bool behind_even = abs(left - depth_at(position.xy - 2.0 * side) - behind) <= 0.002 * abs(behind) + DEPTH_NOISE;
     bool to_right = ahead_even && (!behind_even || abs(ahead) < abs(behind));
     return vec2(to_right ? ahead : behind, to_right ? 1.0 : behind_even ? -1.0 : 0.0);
 }
 
-/* How depth grows from pixel to pixel on the plane of what is seen at a place: x, y. z: how far that may be wrong, as what bends can be as
+/* How depth grows from pixel to pixel on the plane of what is seen at a position: x, y. z: how far that may be wrong, as what bends can be as
  * steep as it likes at its outline; on flat faces it is exact. */
-vec3 plane_at(vec3 place)
+vec3 plane_at(vec3 position)
 {
-    vec2 across = even_slope(place, vec2(1.0, 0.0)), up = even_slope(place, vec2(0.0, 1.0));
+    vec2 across = even_slope(position, vec2(1.0, 0.0)), up = even_slope(position, vec2(0.0, 1.0));
     vec3 plane = vec3(across.x, up.x, 0.0);
     /* Both may be even, but on two faces: then the corner between them is not in their plane. */
-    float corner = depth_at(place.xy + vec2(across.y, up.y)) - place.z, expected = across.x * across.y + up.x * up.y;
+    float corner = depth_at(position.xy + vec2(across.y, up.y)) - position.z, expected = across.x * across.y + up.x * up.y;
     bool even = across.y * up.y != 0.0 && abs(corner - expected) <= 0.004 * (abs(across.x) + abs(up.x)) + DEPTH_NOISE;
     int bent = even ? 0 : 1;
     for (int once = 0; once < bent; once++) {
-        vec3 normal = textureLod(t_normal_depth, (gl_FragCoord.xy + place.xy) * u_texel, 0.0).xyz;
-        vec3 ray = vec3((2.0 * (gl_FragCoord.xy + place.xy) * u_texel - 1.0) * u_unproject * u_perspective, -1.0);
-        vec2 eye = eye_of(place.z), pixel = 2.0 * u_unproject * u_texel * mix(1.0, eye.x, u_perspective);
+        vec3 normal = textureLod(t_normal_depth, (gl_FragCoord.xy + position.xy) * u_texel, 0.0).xyz;
+        vec3 ray = vec3((2.0 * (gl_FragCoord.xy + position.xy) * u_texel - 1.0) * u_unproject * u_perspective, -1.0);
+        vec2 eye = eye_of(position.z), pixel = 2.0 * u_unproject * u_texel * mix(1.0, eye.x, u_perspective);
         float facing = dot(normal, ray), steepest = STEEP * pixel.y * eye.y;
         vec2 slope = -normal.xy * pixel * eye.y / (abs(facing) < 1e-4 ? 1e-4 : facing);
         slope *= min(1.0, steepest / max(length(slope), 1e-20));

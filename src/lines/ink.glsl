@@ -1,30 +1,30 @@
 /* Ink of the edge map at a pixel, premultiplied. Nienhaus 2005, section 4.4: intensities blend between line and surface colour, each
  * class with a colour of its own. */
 
-/* Integer places are the centres of pixels; a perturbation looks in between. */
-vec4 edge_at(vec2 place)
+/* Integer positions are the centres of pixels; a perturbation looks in between. */
+vec4 edge_at(vec2 position)
 {
 #ifdef MERGED
     return out_edge;
 #elif defined(PERTURBED)
-    vec4 edge = textureLod(t_edge, (place + 0.5) / u_size, 0.0);
+    vec4 edge = textureLod(t_edge, (position + 0.5) / u_size, 0.0);
 #ifdef BROAD_LINES
     float wider = broadening();
-    vec4 beside = textureLod(t_edge, (place + vec2(wider, 0.0) + 0.5) / u_size, 0.0);
-    vec4 above = textureLod(t_edge, (place + vec2(0.0, wider) + 0.5) / u_size, 0.0);
+    vec4 beside = textureLod(t_edge, (position + vec2(wider, 0.0) + 0.5) / u_size, 0.0);
+    vec4 above = textureLod(t_edge, (position + vec2(0.0, wider) + 0.5) / u_size, 0.0);
     edge = wider > 0.0 ? min(edge, min(beside, above)) : max(edge, max(beside, above));
 #endif
     return edge;
 #else
-    return texelFetch(t_edge, clamp(ivec2(place), ivec2(0), ivec2(u_size) - 1), 0);
+    return texelFetch(t_edge, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1), 0);
 #endif
 }
 
-/* Share of the lines' ink that dashes leave. */
-float dash_at(vec2 place)
+/* Fraction of the lines' ink that dashes leave. */
+float dash_at(vec2 position)
 {
 #ifdef HAS_DASH
-    return texelFetch(t_dash, clamp(ivec2(floor(place + 0.5)), ivec2(0), ivec2(u_size) - 1), 0).r;
+    return texelFetch(t_dash, clamp(ivec2(floor(position + 0.5)), ivec2(0), ivec2(u_size) - 1), 0).r;
 #else
     return 1.0;
 #endif
@@ -58,16 +58,16 @@ float lightness(vec3 colour)
 }
 #endif
 
-vec4 ink_at(vec2 place)
+vec4 ink_at(vec2 position)
 {
-    vec4 edge = edge_at(place);
-    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour) * dash_at(place);
+    vec4 edge = edge_at(position);
+    vec4 ink = ink_of(edge, u_line_colour, u_line_inner_colour, u_line_id_colour) * dash_at(position);
 #if CONTRAST >= 2
-    ivec2 pixel = ivec2(floor(place + 0.5));
+    ivec2 pixel = ivec2(floor(position + 0.5));
 #endif
 #if CONTRAST == 1
     /* Freudenberg 2003, section 8.6.1: the same contour once more in the second colour, moved; the first lies on top. */
-    vec2 moved = place - floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5);
+    vec2 moved = position - floor(vec2(u_line_offset_x, -u_line_offset_y) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #elif CONTRAST == 2
     /* Section 8.6.2: dark on light ground and light on dark, by the blurred picture; where the picture shows the edge by itself the
@@ -76,7 +76,7 @@ vec4 ink_at(vec2 place)
     float light_distance = abs(lightness(u_line_light_colour.rgb) - ground);
     float dark_distance = abs(lightness(u_line_colour.rgb) - ground);
     if (light_distance > dark_distance)
-        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(place);
+        ink = ink_of(edge, u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(position);
     if (u_line_suppress > 0.0) {
         ivec2 reach = ivec2(2, 0);
         float across = lightness(texelFetch(t_shade, clamp(pixel + reach.xy, ivec2(0), ivec2(u_size) - 1), 0).rgb) -
@@ -94,7 +94,7 @@ vec4 ink_at(vec2 place)
                             texelFetch(t_depth, clamp(pixel - ivec2(0, 2), ivec2(0), last), 0).r);
     float size = length(outward);
     vec2 unit = size > 1e-7 ? outward / size : vec2(0.0);
-    vec2 moved = place - floor(unit * max(u_line_width, 1.0) + 0.5);
+    vec2 moved = position - floor(unit * max(u_line_width, 1.0) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #endif
     return ink;

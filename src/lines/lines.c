@@ -16,16 +16,16 @@ static const param common[] = {
                      .doc = "Colour of lines between parts; auto takes colour."),
     PARAM_FLOAT_ROW(lines_common, width, .def = 2, .min = 0.5, .max = 32, .soft_min = 1, .soft_max = 8, .unit = UNIT_PX,
                     .doc = "Width of the lines; above 2 they grow from the detected map."),
-    PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of profile lines; 0 hides them."),
-    PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of inner lines; 0 hides them."),
-    PARAM_FLOAT_ROW(lines_common, id_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(lines_common, id_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of lines between parts; 0 hides them."),
     PARAM_FLOAT_ROW(lines_common, gain, .def = 1, .min = 0, .max = 1000, .soft_min = 0.5, .soft_max = 50,
                     .logarithmic = true, .doc = "Multiplies the detected ink; 1 keeps the operator's formula."),
-    PARAM_FLOAT_ROW(lines_common, threshold, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Ink below this share is paper; taken off before the gain."),
+    PARAM_FLOAT_ROW(lines_common, threshold, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Ink below this fraction is paper; taken off before the gain."),
     PARAM_FLOAT_ROW(lines_common, sharpen, .def = 0, .min = -0.12, .max = 1, .soft_min = -0.12, .soft_max = 0.5,
                     .doc = "Sharpening of the normal-depth buffer before detection; 0.1 gives wider and stronger "
                            "lines, negative values blur."),
@@ -40,7 +40,7 @@ static const param common[] = {
     PARAM_FLOAT_ROW(lines_common, offset_y, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4,
                     .unit = UNIT_PX, .only_if = "contrast=double", .doc = "How far the second line lies down."),
     PARAM_FLOAT_ROW(
-        lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE, .only_if = "contrast=adaptive",
+        lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "contrast=adaptive",
         .doc =
             "Luminance step across a line above which the picture shows the edge by itself and the line is left out; "
             "0 keeps all lines."),

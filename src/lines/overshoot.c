@@ -14,9 +14,9 @@
 
 enum { WINDOW_MAX = 192, SIDES = 2 };
 
-/* Lines shorter than this, in pixels as they are seen, are detail and end where they end; a line runs on by a share
+/* Lines shorter than this, in pixels as they are seen, are detail and end where they end; a line runs on by a fraction
  * of its length at most, and not by less than a dot. */
-static const float LEAST_LINE = 20, OWN_SHARE = 0.3f, LEAST_STROKE = 3;
+static const float LEAST_LINE = 20, OWN_FRACTION = 0.3f, LEAST_STROKE = 3;
 
 /* The part of a chain that tells its direction, and how far it may bow: long ones first, then shorter ones that
  * must be straighter, so that arcs do not pass by their short pieces. */
@@ -42,7 +42,7 @@ static const float LEAST_TANGENT = 48, TANGENT_TIMES = 4, MOST_TANGENT = 128, TA
 
 /* A extension that leaves other ink later than this leaves it at a small angle. Until shortly before it is not
  * drawn. */
-static const float LEAVING = 8, LEAVING_SHARE = 1.5f, BEFORE_LEAVING = 6, BEFORE_END = 2.5f;
+static const float LEAVING = 8, LEAVING_FRACTION = 1.5f, BEFORE_LEAVING = 6, BEFORE_END = 2.5f;
 
 typedef struct chain_end {
     uint32_t pixel;
@@ -67,7 +67,7 @@ static const trace_point *point_from(const finding *f, const chain *c, int side,
 }
 
 /* How far along the chain that is, from this side. */
-static float way_from(const chain *c, const trace_point *p, int side)
+static float arc_from(const chain *c, const trace_point *p, int side)
 {
     return side ? c->length - p->along : p->along;
 }
@@ -86,10 +86,10 @@ static void gather(window *w, const finding *f, const chain *c, int side, float 
     w->count = 0;
     for (size_t k = 0; k < c->count && w->count < WINDOW_MAX; k++) {
         const trace_point *p = point_from(f, c, side, k);
-        float              way = way_from(c, p, side);
-        if (way > to)
+        float              arc = arc_from(c, p, side);
+        if (arc > to)
             break;
-        if (way >= from)
+        if (arc >= from)
             w->points[w->count++] = p;
     }
 }
@@ -222,12 +222,12 @@ static float turn_between(float dx, float dy, const trace_point *a, const trace_
 static bool carries_on(const finding *f, const chain *c, int side, size_t first, const extension *s)
 {
     const trace_point *start = point_from(f, c, side, first), *middle = NULL, *end = start;
-    float from = way_from(c, start, side), way = fminf(c->length - from, fminf(64, fmaxf(3 * s->length, 24)));
-    if (way < 5)
+    float from = arc_from(c, start, side), arc = fminf(c->length - from, fminf(64, fmaxf(3 * s->length, 24)));
+    if (arc < 5)
         return false;
-    for (size_t k = first; k < c->count && way_from(c, end, side) - from < way; k++) {
+    for (size_t k = first; k < c->count && arc_from(c, end, side) - from < arc; k++) {
         end = point_from(f, c, side, k);
-        if (!middle && way_from(c, end, side) - from >= 0.5f * way)
+        if (!middle && arc_from(c, end, side) - from >= 0.5f * arc)
             middle = end;
     }
     float turn = fabsf(turn_between(s->dx, s->dy, start, end));
@@ -251,7 +251,7 @@ static bool is_carried_on(const finding *f, const chain_end *own, const extensio
     return false;
 }
 
-/* Is there ink within a pixel of a place on the extension's line? */
+/* Is there ink within a pixel of a position on the extension's line? */
 static bool has_ink(const finding *f, const extension *s, float along)
 {
     int x = (int)lroundf(s->x + along * s->dx), y = (int)lroundf(s->y + along * s->dy);
@@ -268,7 +268,7 @@ static bool has_ink(const finding *f, const extension *s, float along)
  * lie on other ink. */
 static bool leave_ink(const finding *f, extension *s)
 {
-    float most = LEAVING_SHARE * s->length + LEAVING;
+    float most = LEAVING_FRACTION * s->length + LEAVING;
     s->start = 0;
     while (s->start <= most && (has_ink(f, s, s->start) || has_ink(f, s, s->start + 1)))
         s->start += 1;
@@ -305,7 +305,7 @@ static float hash_of(int x, int y)
     return (float)(h >> 8) / 16777216.0f;
 }
 
-/* What a extension's length is multiplied by: it goes with place and direction and changes slowly with both, so
+/* What a extension's length is multiplied by: it goes with position and direction and changes slowly with both, so
  * that lines which move do not flicker, and with the length asked for, so that it is the same at every resolution. */
 static float variation_at(const finding *f, const extension *s)
 {
@@ -428,16 +428,16 @@ static bool is_own(const finding *f, const window *w)
 typedef struct line_end {
     const chain     *chain;
     int              side;
-    size_t           place; /* of the point, from that side */
-    const chain_end *meets; /* the chain's end, or NULL where an arc of the same chain touches the line */
+    size_t           position; /* of the point, from that side */
+    const chain_end *meets;    /* the chain's end, or NULL where an arc of the same chain touches the line */
 } line_end;
 
 static bool is_needed(const finding *f, const line_end *e, extension *s)
 {
     if (s->length < LEAST_STROKE * f->in->scale)
         return false;
-    bool carried =
-        e->meets ? is_carried_on(f, e->meets, s) : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->place, s);
+    bool carried = e->meets ? is_carried_on(f, e->meets, s)
+                            : carries_on(f, e->chain, !e->side, e->chain->count - 1 - e->position, s);
     if (carried || !leave_ink(f, s))
         return false;
     if (e->meets && s->start <= LEAVING) /* what leaves at once is measured from the corner */
@@ -448,13 +448,13 @@ static bool is_needed(const finding *f, const line_end *e, extension *s)
 /* Adds the extension by which a line runs on, unless it should not. False when memory is gone. */
 static bool add_stroke(const finding *f, const window *w, const line_end *e)
 {
-    const trace_point *end = point_from(f, e->chain, e->side, e->place);
+    const trace_point *end = point_from(f, e->chain, e->side, e->position);
     float              along = (end->x - w->x) * w->dx + (end->y - w->y) * w->dy;
     extension          s = {
                  .x = w->x + along * w->dx, .y = w->y + along * w->dy, .dx = w->dx, .dy = w->dy, .length = f->style->length};
     s.length *= variation_at(f, &s);
-    float line = length_before(f, &s, s.length / OWN_SHARE);
-    s.length = fminf(s.length, OWN_SHARE * fmaxf(e->meets ? e->chain->length : 0, line));
+    float line = length_before(f, &s, s.length / OWN_FRACTION);
+    s.length = fminf(s.length, OWN_FRACTION * fmaxf(e->meets ? e->chain->length : 0, line));
     if (!is_own(f, w) || !is_needed(f, e, &s))
         return true;
     s.length += s.start;
@@ -463,20 +463,22 @@ static bool add_stroke(const finding *f, const window *w, const line_end *e)
     find_classes(f, w, &s);
     if (s.length - s.start < LEAST_STROKE * f->in->scale)
         return true;
-    if (!mem_grow((void **)&f->found->extensions, &f->found->room, f->found->count + 1, sizeof *f->found->extensions))
+    if (!mem_grow((void **)&f->found->extensions, &f->found->capacity, f->found->count + 1,
+                  sizeof *f->found->extensions))
         return false;
     f->found->extensions[f->found->count++] = s;
     return true;
 }
 
-/* The nearest point to a side of the chain that is on the window's line, from `place` on towards the side. */
-static size_t place_on_line(const finding *f, const window *w, const chain *c, int side, size_t place, bool outwards)
+/* The nearest point to a side of the chain that is on the window's line, from `position` on towards the side. */
+static size_t position_on_line(const finding *f, const window *w, const chain *c, int side, size_t position,
+                               bool outwards)
 {
-    while (outwards && place > 0 && beside(w, point_from(f, c, side, place - 1)) <= OFF_LINE)
-        place--;
-    while (!outwards && place + 1 < c->count && beside(w, point_from(f, c, side, place)) > OFF_LINE)
-        place++;
-    return place;
+    while (outwards && position > 0 && beside(w, point_from(f, c, side, position - 1)) <= OFF_LINE)
+        position--;
+    while (!outwards && position + 1 < c->count && beside(w, point_from(f, c, side, position)) > OFF_LINE)
+        position++;
+    return position;
 }
 
 /* The extension at an end of a chain, where the line meets others. */
@@ -486,23 +488,23 @@ static bool add_at_end(const finding *f, const chain_end *e)
     window       w;
     if (c->broad || c->length < LEAST_LINE * f->in->scale || !find_line(&w, f, c, e->side))
         return true;
-    return add_stroke(f, &w, &(line_end){c, e->side, place_on_line(f, &w, c, e->side, 0, false), e});
+    return add_stroke(f, &w, &(line_end){c, e->side, position_on_line(f, &w, c, e->side, 0, false), e});
 }
 
 /* Is the chain straight from this point, which lies at this way, to `span` behind it? Asks its middle first, which
  * is quick. */
-static bool is_straight(window *w, const finding *f, const chain *c, int side, size_t place, float span)
+static bool is_straight(window *w, const finding *f, const chain *c, int side, size_t position, float span)
 {
-    const trace_point *a = point_from(f, c, side, place);
-    float              way = way_from(c, a, side);
-    size_t             last = place + (size_t)(0.7f * span); /* at least as many points on any slope */
+    const trace_point *a = point_from(f, c, side, position);
+    float              arc = arc_from(c, a, side);
+    size_t             last = position + (size_t)(0.7f * span); /* at least as many points on any slope */
     if (last >= c->count)
         return false;
-    const trace_point *b = point_from(f, c, side, (place + last) / 2), *d = point_from(f, c, side, last);
+    const trace_point *b = point_from(f, c, side, (position + last) / 2), *d = point_from(f, c, side, last);
     float              dx = d->x - a->x, dy = d->y - a->y;
     if (fabsf((b->x - a->x) * dy - (b->y - a->y) * dx) > 1.2f * hypotf(dx, dy))
         return false;
-    gather(w, f, c, side, way, way + span);
+    gather(w, f, c, side, arc, arc + span);
     fit(w);
     return bow_of(w) <= TANGENT_BOW;
 }
@@ -514,15 +516,15 @@ static bool add_tangents(const finding *f, const chain *c, int side)
     bool  was_straight = false, good = true;
     for (size_t k = 0; k < c->count && good && !c->broad;) {
         const trace_point *p = point_from(f, c, side, k);
-        if (way_from(c, p, side) + span > c->length)
+        if (arc_from(c, p, side) + span > c->length)
             break;
         window w;
         bool   straight = is_straight(&w, f, c, side, k, span);
         if (straight && !was_straight) {
-            size_t place = place_on_line(f, &w, c, side, k, true);
-            if (way_from(c, point_from(f, c, side, place), side) >
+            size_t position = position_on_line(f, &w, c, side, k, true);
+            if (arc_from(c, point_from(f, c, side, position), side) >
                 skips[2]) /* lines at the chain's end have been seen to */
-                good = add_stroke(f, &w, &(line_end){c, side, place, NULL});
+                good = add_stroke(f, &w, &(line_end){c, side, position, NULL});
         }
         was_straight = straight;
         k += straight ? (size_t)(0.5f * span) : 3;
@@ -562,10 +564,10 @@ static float pressure_at(const extension *s, const overshoot_style *style, float
     return 1 - style->fade * t * t;
 }
 
-static uint32_t with_ink(uint32_t packed, const extension *s, float share)
+static uint32_t with_ink(uint32_t packed, const extension *s, float fraction)
 {
     for (int k = 0; k < OVERSHOOT_CLASSES; k++) {
-        uint32_t shift = 8 * (uint32_t)k, ink = (uint32_t)(share * s->ink[k] * 255 + 0.5f);
+        uint32_t shift = 8 * (uint32_t)k, ink = (uint32_t)(fraction * s->ink[k] * 255 + 0.5f);
         if (ink > (packed >> shift & 255))
             packed = (packed & ~(255u << shift)) | ink << shift;
     }

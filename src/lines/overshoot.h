@@ -14,7 +14,7 @@ typedef struct overshoot_style {
     float length; /* of an extension, about; pixels */
     float width;  /* of the detected lines */
     float spread; /* how far beside the detected line its ink may come to lie */
-    float fade;   /* share of the ink that is missing at the tip */
+    float fade;   /* fraction of the ink that is missing at the tip */
 } overshoot_style;
 
 enum { OVERSHOOT_CLASSES = 3 }; /* profile, inner, id */
@@ -31,7 +31,7 @@ typedef struct extension {
 
 typedef struct extension_set {
     extension *extensions;
-    size_t     count, room;
+    size_t     count, capacity;
 } extension_set;
 
 /* What the chains of an edge map run on by. `in` has the edge map and, where it is known, normals with eye depth;

@@ -42,7 +42,7 @@ static void leave(reader *r)
     r->depth--;
 }
 
-static void print_place(const reader *r, char *out, size_t size)
+static void print_position(const reader *r, char *out, size_t size)
 {
     size_t length = 0;
     out[0] = '\0';
@@ -54,16 +54,16 @@ static void print_place(const reader *r, char *out, size_t size)
     }
 }
 
-/* An error at the reader's place. `key` (may be NULL) is a member of it that is to blame. */
+/* An error at the reader's position. `key` (may be NULL) is a member of it that is to blame. */
 static lmn_status fail(reader *r, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
 static lmn_status fail(reader *r, const char *key, const char *format, ...)
 {
-    char    message[400], place[200];
+    char    message[400], position[200];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    print_place(r, place, sizeof place);
+    print_position(r, position, sizeof position);
     if (key)
         enter_key(r, key);
     int line, column;
@@ -71,7 +71,7 @@ static lmn_status fail(reader *r, const char *key, const char *format, ...)
     if (key)
         leave(r);
     lmn_status status =
-        error_in_file(r->error, LMN_FORMAT, r->file, line, "%s%s%.400s", place, *place ? ": " : "", message);
+        error_in_file(r->error, LMN_FORMAT, r->file, line, "%s%s%.400s", position, *position ? ": " : "", message);
     if (r->error)
         r->error->column = column;
     return status;
@@ -225,7 +225,7 @@ static lmn_status read_uses(reader *r, const kind *k, json_t *json, technique_us
     return LMN_OK;
 }
 
-/* An unknown key, with the nearest of the keys that are allowed here: `words` and the kinds of this place. */
+/* An unknown key, with the nearest of the keys that are allowed here: `words` and the kinds of this position. */
 static lmn_status unknown_key(reader *r, const char *key, const char *const *words, size_t word_count, bool look_wide)
 {
     const char *allowed[KIND_COUNT + 8];

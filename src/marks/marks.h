@@ -1,7 +1,7 @@
 /* Marks on surfaces: dots, strokes and polygons that lie on a mesh, each with priorities that decide where and when it
  * is drawn. Freudenberg 2003, chapter 5 (explicit halftoning); rows EX-01 to EX-16 and EX-26 to EX-33. Needs no GPU.
  *
- *   a mesh ──► marks, once ──► thresholds from light and place, each frame ──► what is drawn of them: on the GPU, or
+ *   a mesh ──► marks, once ──► thresholds from light and position, each frame ──► what is drawn of them: on the GPU, or
  * here as a marks_page
  */
 #ifndef LIMNER_MARKS_MARKS_H
@@ -14,22 +14,22 @@ struct strokes; /* stroke_texture/strokes.h */
 
 /* Triangles that marks are put on. Borrowed. */
 typedef struct mark_surface {
-    const vec3     *places, *normals; /* per vertex; normals unit */
-    const vec2     *uvs;              /* NULL: none */
-    const uint32_t *indices;          /* three a triangle */
+    const vec3     *positions, *normals; /* per vertex; normals unit */
+    const vec2     *uvs;                 /* NULL: none */
+    const uint32_t *indices;             /* three a triangle */
     uint32_t        vertex_count, triangle_count;
 } mark_surface;
 
 /* A dot. It has one priority for light and distance together (EX-31). */
 typedef struct mark_dot {
-    vec3     place, normal;
-    float    share[2]; /* of the triangle's second and third corner */
-    float    priority; /* 1 − rank / count; every prefix of the ranks is evenly spread */
-    float    bright;   /* of what it lies on, 0 … 1, linear: set by who knows the material; 1 */
+    vec3     position, normal;
+    float    fraction[2]; /* of the triangle's second and third corner */
+    float    priority;    /* 1 − rank / count; every prefix of the ranks is evenly spread */
+    float    bright;      /* of what it lies on, 0 … 1, linear: set by who knows the material; 1 */
     uint32_t triangle;
 } mark_dot;
 
-/* By how much pieces may leave the surface of a stroke that bends, share of its length. */
+/* By how much pieces may leave the surface of a stroke that bends, fraction of its length. */
 #define MARK_SAG 0.012
 
 /* A straight piece of a stroke, on one triangle or over small ones. Pieces of a stroke follow each other. */
@@ -72,30 +72,30 @@ lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32
 
 /* The same, found again on disk (base/store.h) where it was made before. */
 lmn_status marks_stipple_kept(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error);
-/* The same, of what is longer than wide: `way` gives the way of a stroke at a dot, and its length counts. NULL:
- * dots. */
-typedef vec3 (*mark_way_fn)(void *user, const mark_dot *at);
-lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_way_fn way, void *user,
-                        double length, lmn_error *error);
+/* The same, of what is longer than wide: `direction` gives the directions of a stroke at a dot, and its length counts.
+ * NULL: dots. */
+typedef vec3 (*mark_direction_fn)(void *user, const mark_dot *at);
+lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_direction_fn direction,
+                        void *user, double length, lmn_error *error);
 
 /* A point among candidates. */
-typedef struct spread_place {
-    vec3 place, normal;
-    vec3 way; /* unit: along the stroke that begins there; 0 for dots */
-} spread_place;
+typedef struct spread_position {
+    vec3 position, normal;
+    vec3 direction; /* unit: along the stroke that begins there; 0 for dots */
+} spread_position;
 
 /* Orders points by taking away, again and again, the one that is most crowded by those left (sample elimination:
  * Yuksel 2015). ranks[i] is the number of point i in the order, those that are left longest first; what goes before
  * `wanted` points are left has UINT32_MAX. `area`: of what they lie on; `length`: of the strokes that will be
  * there, 0 for dots: strokes keep away from each other more sideways than along. False: memory is gone. */
-bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area,
+bool marks_eliminate(uint32_t *ranks, const spread_position *points, size_t count, size_t wanted, double area,
                      double length);
 
 /* --- strokes of a stroke texture (marks_tile.c) --------------------------------------------------------- */
 
 typedef struct tile_options {
     float    repeat; /* how many times the unit square of strokes lies on the unit of texture coordinates */
-    float    jitter; /* how far copies of a stroke are moved, share of the square, at most 0.5 (EX-33) */
+    float    jitter; /* how far copies of a stroke are moved, fraction of the square, at most 0.5 (EX-33) */
     float    turn;   /* turns the strokes, radians */
     uint32_t seed;
     /* Indication (EX-28): a grey map over texture coordinates, 0 … 1, row 0 at the bottom; 0.5 changes nothing.
@@ -121,15 +121,15 @@ bool mark_barycentrics(const double p[2], const double corners[3][2], double out
 typedef struct trace_options {
     size_t count;  /* of strokes */
     double length; /* of a stroke, model units */
-    float  uneven; /* how much lengths and ways differ, 0 … 1 */
-    int    series; /* 1 … 4: sets of strokes that cross; later ones for darker places */
+    float  uneven; /* how much lengths and directions differ, 0 … 1 */
+    int    series; /* 1 … 4: sets of strokes that cross; later ones for darker positions */
     float  turn;   /* angle between one set and the next, radians */
-    bool   bends;  /* strokes run along the way the surface bends: field/direction_field.h. Else in planes through the
-                      model */
+    bool   bends; /* strokes run along the direction in which the surface bends: field/direction_field.h. Else in planes
+                     through the   model */
     uint32_t seed;
 } trace_options;
 
-/* Strokes begin at evenly spread places and walk both ways over the surface, each in a plane of its own, until they
+/* Strokes begin at evenly spread positions and walk both ways over the surface, each in a plane of its own, until they
  * are long enough or come to a border or a sharp edge. For meshes without texture coordinates. Errors: LMN_MEMORY,
  * LMN_LIMIT. */
 lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error);
@@ -162,24 +162,24 @@ int mark_cut_at(const mark_cut *c, double p, double (*out)[2]);
 
 typedef enum mark_law {
     MARK_LAW_THESIS, /* 1 − t = d |N·P| / |P|², as printed: right for lines that lie across the way a surface tilts */
-    MARK_LAW_LINE,   /* the same ink on the page for lines of any way: knows how much each is foreshortened */
+    MARK_LAW_LINE,   /* the same ink on the page for lines of any direction: knows how much each is foreshortened */
     MARK_LAW_DOT     /* for dots, which do not get smaller */
 } mark_law;
 
-/* 1 − t of the thesis' thresholds (EX-03, EX-04): share of the marks to be drawn at an eye-space place when all are
- * drawn face-on at distance `d`. Not clamped. */
-double mark_share_by_distance(const double place[3], double d);
-double mark_share_by_slope(const double place[3], const double normal[3]);
-/* Both together, by one of the laws (EX-05). `way`: unit, of a line. The last two laws are exact off the picture's
- * middle too. Without perspective d is a number to a unit of length. */
-double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d,
-                  bool orthographic);
+/* 1 − t of the thesis' thresholds (EX-03, EX-04): fraction of the marks to be drawn at an eye-space position when all
+ * are drawn face-on at distance `d`. Not clamped. */
+double mark_fraction_by_distance(const double position[3], double d);
+double mark_fraction_by_slope(const double position[3], const double normal[3]);
+/* Both together, by one of the laws (EX-05). `direction`: unit, of a line. The last two laws are exact off the
+ * picture's middle too. Without perspective d is a number to a unit of length. */
+double mark_fraction(mark_law law, const double position[3], const double normal[3], const double direction[3],
+                     double d, bool orthographic);
 
 /* Page area, in pixels, of a unit of a surface's area (EX-02); `focal`: of the projection, pixels at depth 1, or to
  * a unit without perspective. */
-double mark_page_area(const double place[3], const double normal[3], double focal, bool orthographic);
-/* Page length of a unit of length along a way. */
-double mark_page_length(const double place[3], const double way[3], double focal, bool orthographic);
+double mark_page_area(const double position[3], const double normal[3], double focal, bool orthographic);
+/* Page length of a unit of length along a direction. */
+double mark_page_length(const double position[3], const double direction[3], double focal, bool orthographic);
 
 /* EX-07: visible where both priorities are at least their thresholds. */
 bool mark_is_drawn(float light, float perspective, float light_threshold, float perspective_threshold);
@@ -187,18 +187,18 @@ bool mark_is_drawn(float light, float perspective, float light_threshold, float 
  * at 0 all is drawn and at 1 nothing. */
 float mark_fade(float light, float perspective, float light_threshold, float perspective_threshold, float ramp);
 
-/* How much of a dot is drawn, share of its area, when `share` of all dots are wanted: those of low rank whole, some
- * around the share in part. Dots grow where there are not enough of them, to `most` times their area. */
-float mark_dot_ink(float priority, float share, float ramp, float most);
-/* How much of a stroke is drawn, share of its width. `light_share`, `share`: what light and distance ask for, 0 …
- * 1. */
-float mark_line_ink(const mark_line *line, float light_share, float share, float ramp);
+/* How much of a dot is drawn, fraction of its area, when `fraction` of all dots are wanted: those of low rank whole,
+ * some around the fraction in part. Dots grow where there are not enough of them, to `most` times their area. */
+float mark_dot_ink(float priority, float fraction, float ramp, float most);
+/* How much of a stroke is drawn, fraction of its width. `light_fraction`, `fraction`: what light and distance ask for,
+ * 0 … 1. */
+float mark_line_ink(const mark_line *line, float light_fraction, float fraction, float ramp);
 
-/* Sum of the areas of evenly spread dots, for a place of the page to be covered to this share by what does not
+/* Sum of the areas of evenly spread dots, for a position of the page to be covered to this fraction by what does not
  * overlap. `rim`: 0 for true discs; for those that are drawn in pixels 1 / diameter²: the soft rims of dots that
  * touch cover less. */
 float mark_ink_of_cover(float cover, float rim);
-/* The same for strokes, in layers of `span` (a share of all) of strokes side by side that cross those before; 0:
+/* The same for strokes, in layers of `span` (a fraction of all) of strokes side by side that cross those before; 0:
  * strewn at random. `darkest`: of all strokes. */
 float mark_ink_of_strokes(float cover, float darkest, float span);
 
@@ -211,17 +211,17 @@ typedef struct mark_style {
     float   diameter;   /* of dots, or width of strokes, pixels */
     float   scale;      /* strokes: mean distance where it is darkest, pixels */
     float   fade, most; /* ramp; how much larger dots may become, times their area */
-    float   taper;      /* share of a stroke over which each end runs out */
+    float   taper;      /* fraction of a stroke over which each end runs out */
     int32_t law;        /* mark_law, of strokes */
     float   shadow, light, contrast,
-        texture; /* tone without and in full light; its bend; share of the surface's own brightness */
+        texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */
     bool white;  /* marks stand for light */
     bool pixels; /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same
                     tone */
     colour ink;
 } mark_style;
 
-/* A camera, and light in its eye space as shaders have it: w 0: a direction, w 1: a place. */
+/* A camera, and light in its eye space as shaders have it: w 0: a direction, w 1: a position. */
 typedef struct mark_view {
     mat4  model_view, projection;
     bool  orthographic;
@@ -230,8 +230,8 @@ typedef struct mark_view {
     int   light_count;
 } mark_view;
 
-/* How many surfaces lie in front of places in model axes: 0 is visible. */
-typedef void (*mark_hidden_fn)(void *user, const double (*places)[3], size_t count, uint32_t *out);
+/* How many surfaces lie in front of positions in model axes: 0 is visible. */
+typedef void (*mark_hidden_fn)(void *user, const double (*positions)[3], size_t count, uint32_t *out);
 
 typedef struct marks_page_point {
     float    x, y, width;

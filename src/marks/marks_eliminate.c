@@ -11,10 +11,10 @@
 
 /* Points with neighbours, of one round: until half of them are left. */
 typedef struct round_of {
-    const spread_place *points;
-    const uint32_t     *alive; /* numbers of the points that are left when it begins */
-    uint32_t            count;
-    double              reach; /* beyond it points do not crowd each other */
+    const spread_position *points;
+    const uint32_t        *alive; /* numbers of the points that are left when it begins */
+    uint32_t               count;
+    double                 reach; /* beyond it points do not crowd each other */
     double    longer;  /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
     double    cell;    /* side of the table's cells */
     double    closest; /* nearer than this is as bad as this */
@@ -37,7 +37,7 @@ static void find_cells(size_t begin, size_t end, void *user)
 {
     round_of *r = user;
     for (size_t i = begin; i < end; i++) {
-        const vec3 *p = &r->points[r->alive[i]].place;
+        const vec3 *p = &r->points[r->alive[i]].position;
         r->cells[i][0] = (int32_t)floor((double)p->x / r->cell);
         r->cells[i][1] = (int32_t)floor((double)p->y / r->cell);
         r->cells[i][2] = (int32_t)floor((double)p->z / r->cell);
@@ -60,16 +60,16 @@ static void fill_table(round_of *r)
 }
 
 /* How much a point crowds another; 0: not at all. */
-static float weight_of(const round_of *r, const spread_place *a, const spread_place *b)
+static float weight_of(const round_of *r, const spread_position *a, const spread_position *b)
 {
     enum { POWER = 8 };
     const double AWAY = -0.25; /* cosine from which on surfaces are each other's backs */
-    double       x = (double)a->place.x - (double)b->place.x, y = (double)a->place.y - (double)b->place.y,
-           z = (double)a->place.z - (double)b->place.z;
+    double       x = (double)a->position.x - (double)b->position.x, y = (double)a->position.y - (double)b->position.y,
+           z = (double)a->position.z - (double)b->position.z;
     double square = x * x + y * y + z * z;
     if (r->longer > 1) {
-        double own = x * (double)a->way.x + y * (double)a->way.y + z * (double)a->way.z,
-               other = x * (double)b->way.x + y * (double)b->way.y + z * (double)b->way.z;
+        double own = x * (double)a->direction.x + y * (double)a->direction.y + z * (double)a->direction.z,
+               other = x * (double)b->direction.x + y * (double)b->direction.y + z * (double)b->direction.z;
         double along = fmin(0.5 * (own * own + other * other), square);
         square = r->longer * (square - along) + along / r->longer;
     }
@@ -235,7 +235,7 @@ static uint32_t take_away(crowd *c, const round_of *r)
 
 /* Takes points away until `target` are left; those that go when fewer than `wanted` are left get their ranks. */
 static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size_t wanted, uint32_t *ranks,
-                         const spread_place *points, double area, double length)
+                         const spread_position *points, double area, double length)
 {
     const double LONGEST = 8, OVERLAP = 0.8; /* ends of strokes may lie beside each other */
     /* What discs of the densest packing have room for; from the paper, with its β and γ for how close the closest
@@ -270,7 +270,7 @@ static bool eliminate_to(uint32_t *alive, uint32_t *count, uint32_t target, size
     return done;
 }
 
-bool marks_eliminate(uint32_t *ranks, const spread_place *points, size_t count, size_t wanted, double area,
+bool marks_eliminate(uint32_t *ranks, const spread_position *points, size_t count, size_t wanted, double area,
                      double length)
 {
     uint32_t *alive = mem_alloc(count * sizeof *alive), left = (uint32_t)count;

@@ -1,4 +1,4 @@
-/* Which marks are drawn: thresholds from place and light. Freudenberg 2003, sections 5.1.1, 5.1.3 and 5.4.3 to
+/* Which marks are drawn: thresholds from position and light. Freudenberg 2003, sections 5.1.1, 5.1.3 and 5.4.3 to
  * 5.4.5, with what is printed wrong there mended: visible is what reaches both thresholds (not what misses one),
  * fades take the greater lack (not the smaller) over a ramp (not over all), and laws know what kind of mark they
  * are for. */
@@ -11,42 +11,44 @@ static double dot3(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double mark_share_by_distance(const double place[3], double d)
+double mark_fraction_by_distance(const double position[3], double d)
 {
-    return d / fmax(sqrt(dot3(place, place)), 1e-30);
+    return d / fmax(sqrt(dot3(position, position)), 1e-30);
 }
 
-double mark_share_by_slope(const double place[3], const double normal[3])
+double mark_fraction_by_slope(const double position[3], const double normal[3])
 {
-    return fabs(dot3(place, normal)) / fmax(sqrt(dot3(place, place)), 1e-30);
+    return fabs(dot3(position, normal)) / fmax(sqrt(dot3(position, position)), 1e-30);
 }
 
-double mark_page_area(const double place[3], const double normal[3], double focal, bool orthographic)
+double mark_page_area(const double position[3], const double normal[3], double focal, bool orthographic)
 {
-    double depth = fmax(-place[2], 1e-30);
+    double depth = fmax(-position[2], 1e-30);
     return orthographic ? focal * focal * fabs(normal[2])
-                        : focal * focal * fabs(dot3(place, normal)) / (depth * depth * depth);
+                        : focal * focal * fabs(dot3(position, normal)) / (depth * depth * depth);
 }
 
-double mark_page_length(const double place[3], const double way[3], double focal, bool orthographic)
+double mark_page_length(const double position[3], const double direction[3], double focal, bool orthographic)
 {
-    double depth = fmax(-place[2], 1e-30);
+    double depth = fmax(-position[2], 1e-30);
     if (orthographic)
-        return focal * hypot(way[0], way[1]);
-    return focal / depth * hypot(way[0] + place[0] * way[2] / depth, way[1] + place[1] * way[2] / depth);
+        return focal * hypot(direction[0], direction[1]);
+    return focal / depth *
+           hypot(direction[0] + position[0] * direction[2] / depth, direction[1] + position[1] * direction[2] / depth);
 }
 
-double mark_share(mark_law law, const double place[3], const double normal[3], const double way[3], double d,
-                  bool orthographic)
+double mark_fraction(mark_law law, const double position[3], const double normal[3], const double direction[3],
+                     double d, bool orthographic)
 {
-    const double END_ON = 0.02; /* lines that are shorter on the page, share of their length, are dots */
+    const double END_ON = 0.02; /* lines that are shorter on the page, fraction of their length, are dots */
     if (law == MARK_LAW_THESIS)
-        return orthographic ? d * fabs(normal[2]) : d * fabs(dot3(place, normal)) / fmax(dot3(place, place), 1e-30);
-    double area = mark_page_area(place, normal, 1, orthographic);
+        return orthographic ? d * fabs(normal[2])
+                            : d * fabs(dot3(position, normal)) / fmax(dot3(position, position), 1e-30);
+    double area = mark_page_area(position, normal, 1, orthographic);
     if (law == MARK_LAW_DOT)
         return d * d * area;
-    double unit = orthographic ? 1 : 1 / fmax(-place[2], 1e-30);
-    return d * area / fmax(mark_page_length(place, way, 1, orthographic), END_ON * unit);
+    double unit = orthographic ? 1 : 1 / fmax(-position[2], 1e-30);
+    return d * area / fmax(mark_page_length(position, direction, 1, orthographic), END_ON * unit);
 }
 
 bool mark_is_drawn(float light, float perspective, float light_threshold, float perspective_threshold)
@@ -67,29 +69,29 @@ float mark_fade(float light, float perspective, float light_threshold, float per
     return clamped(1 - fmaxf(lack_of_light, lack) / ramp);
 }
 
-float mark_dot_ink(float priority, float share, float ramp, float most)
+float mark_dot_ink(float priority, float fraction, float ramp, float most)
 {
-    float rank = 1 - priority, half = fmaxf(ramp, 1e-4f) * share, low = share - half, high = share + half;
-    if (!(share > 0))
+    float rank = 1 - priority, half = fmaxf(ramp, 1e-4f) * fraction, low = fraction - half, high = fraction + half;
+    if (!(fraction > 0))
         return 0;
     float own = half > 0 ? clamped((high - rank) / (2 * half)) : 0;
     /* What all dots together have when some would be needed beyond the last one. */
-    float all = low >= 1 ? 1 : high <= 1 ? share : low + (high * (1 - low) - 0.5f * (1 - low * low)) / (2 * half);
-    return own * fminf(fmaxf(share / all, 1), most);
+    float all = low >= 1 ? 1 : high <= 1 ? fraction : low + (high * (1 - low) - 0.5f * (1 - low * low)) / (2 * half);
+    return own * fminf(fmaxf(fraction / all, 1), most);
 }
 
-float mark_line_ink(const mark_line *line, float light_share, float share, float ramp)
+float mark_line_ink(const mark_line *line, float light_fraction, float fraction, float ramp)
 {
     if (line->span > 0) {
-        float wanted = clamped((line->light - (1 - light_share)) / line->span) * share;
+        float wanted = clamped((line->light - (1 - light_fraction)) / line->span) * fraction;
         return mark_dot_ink(line->perspective, wanted, ramp, 1);
     }
-    return mark_fade(line->light, line->perspective, 1 - light_share, 1 - clamped(share), ramp);
+    return mark_fade(line->light, line->perspective, 1 - light_fraction, 1 - clamped(fraction), ramp);
 }
 
 float mark_ink_of_cover(float cover, float rim)
 {
-    /* Fitted to discs at the places of marks_stipple, within a hundredth: they touch each other from a third on.
+    /* Fitted to discs at the positions of marks_stipple, within a hundredth: they touch each other from a third on.
      * Rims that lie over each other cover as what is strewn at random does. */
     float c = fminf(clamped(cover), 0.98f), over = fmaxf(c - 0.311f, 0), ink = c + 0.156f * over * over / (1.08f - c);
     return ink + fminf(0.56f * c * rim, 1) * (-logf(1 - c) - ink);

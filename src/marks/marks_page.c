@@ -7,12 +7,12 @@
 
 #include "base/memory.h"
 
-typedef struct place_on_page {
+typedef struct position_on_page {
     double eye[3], normal[3]; /* towards the viewer's side */
     float  x, y;              /* pixels, y down */
     double facing;            /* cosine between normal and view; below 0 it turns away */
     bool   inside;            /* in front of the eye */
-} place_on_page;
+} position_on_page;
 
 typedef struct pager {
     const mark_view  *view;
@@ -33,7 +33,7 @@ static void move_point(const mat4 *m, vec3 p, double out[3])
         out[k] = m->m[k] * (double)p.x + m->m[4 + k] * (double)p.y + m->m[8 + k] * (double)p.z + m->m[12 + k];
 }
 
-static void move_way(const mat4 *m, vec3 p, double out[3])
+static void move_direction(const mat4 *m, vec3 p, double out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = m->m[k] * (double)p.x + m->m[4 + k] * (double)p.y + m->m[8 + k] * (double)p.z;
@@ -53,10 +53,10 @@ static bool on_page(const pager *g, const double eye[3], float *x, float *y)
 }
 
 /* `area`: how much larger the surface is there than in the model's own axes. */
-static place_on_page find_place(const pager *g, vec3 place, vec3 normal, double *area)
+static position_on_page find_position(const pager *g, vec3 position, vec3 normal, double *area)
 {
-    place_on_page p = {.inside = true};
-    move_point(&g->view->model_view, place, p.eye);
+    position_on_page p = {.inside = true};
+    move_point(&g->view->model_view, position, p.eye);
     const double n[3] = {(double)normal.x, (double)normal.y, (double)normal.z};
     for (int k = 0; k < 3; k++)
         p.normal[k] = g->cofactors[k] * n[0] + g->cofactors[3 + k] * n[1] + g->cofactors[6 + k] * n[2];
@@ -68,8 +68,8 @@ static place_on_page find_place(const pager *g, vec3 place, vec3 normal, double 
     return p;
 }
 
-/* How dark a place shall be, 0 … 1: light/light.glsl and surface/halftone/tone.glsl in doubles. */
-static float darkness_at(const pager *g, const place_on_page *p, float bright)
+/* How dark a position shall be, 0 … 1: light/light.glsl and surface/halftone/tone.glsl in doubles. */
+static float darkness_at(const pager *g, const position_on_page *p, float bright)
 {
     const double     luminance[3] = {0.2126, 0.7152, 0.0722};
     const mark_view *v = g->view;
@@ -110,9 +110,9 @@ static bool add_dot(marks_page *out, marks_page_point dot)
 /* The diameter of a dot in this view; 0: it is not drawn. */
 static float dot_size(const pager *g, const marks *m, const mark_dot *d, float *x, float *y)
 {
-    double        stretch;
-    place_on_page p = find_place(g, d->place, d->normal, &stretch);
-    float         margin = g->style->diameter;
+    double           stretch;
+    position_on_page p = find_position(g, d->position, d->normal, &stretch);
+    float            margin = g->style->diameter;
     if (!p.inside || (p.facing <= 0 && !g->backs) || p.x < -margin || p.y < -margin ||
         p.x > (float)g->view->width + margin || p.y > (float)g->view->height + margin)
         return 0;
@@ -142,12 +142,12 @@ static void to_model(const pager *g, const double eye[3], double out[3])
                  g->determinant;
 }
 
-/* Places around a dot on its plane: RIM a little above the surface, then as many a little below. */
+/* Positions around a dot on its plane: RIM a little above the surface, then as many a little below. */
 static void find_rim(const pager *g, const mark_dot *d, float size, double (*out)[3])
 {
-    double        stretch, way[3] = {0, 0, -1};
-    place_on_page p = find_place(g, d->place, d->normal, &stretch);
-    double        pixel = (g->view->orthographic ? 1 : -p.eye[2]) / g->focal, radius = 0.5 * (double)size,
+    double           stretch, direction[3] = {0, 0, -1};
+    position_on_page p = find_position(g, d->position, d->normal, &stretch);
+    double           pixel = (g->view->orthographic ? 1 : -p.eye[2]) / g->focal, radius = 0.5 * (double)size,
            c = fmin(fabs(p.facing), 1);
     double steep = fmin(sqrt(1 - c * c) / fmax(c, 0.05), 8), reach = pixel * (radius + 1) * (1 + 2 * steep);
     for (int i = 0; i < RIM; i++) {
@@ -159,14 +159,14 @@ static void find_rim(const pager *g, const mark_dot *d, float size, double (*out
         if (!g->view->orthographic) {
             length = fmax(sqrt(dot(at, at)), 1e-300);
             for (int k = 0; k < 3; k++)
-                way[k] = at[k] / length;
+                direction[k] = at[k] / length;
         }
-        double along = dot(p.normal, way), most = 8 * radius * pixel;
+        double along = dot(p.normal, direction), most = 8 * radius * pixel;
         double t = fabs(along) > 1e-6 ? fmin(fmax(-off / along, -most), most) : 0;
         for (int side = 0; side < 2; side++) {
             double eye[3];
             for (int k = 0; k < 3; k++)
-                eye[k] = at[k] + (t + (side ? reach : -reach)) * way[k];
+                eye[k] = at[k] + (t + (side ? reach : -reach)) * direction[k];
             to_model(g, eye, out[side * RIM + i]);
         }
     }
@@ -176,11 +176,11 @@ static void find_rim(const pager *g, const mark_dot *d, float size, double (*out
  * something a little below. What is outside the page counts. */
 static bool lies_on_surface(const pager *g, const mark_dot *d, float size, mark_hidden_fn hidden, void *user)
 {
-    double   places[2 * RIM][3];
+    double   positions[2 * RIM][3];
     uint32_t front[2 * RIM];
     int      own = 0;
-    find_rim(g, d, size, places);
-    hidden(user, (const double(*)[3])places, 2 * RIM, front);
+    find_rim(g, d, size, positions);
+    hidden(user, (const double(*)[3])positions, 2 * RIM, front);
     for (int i = 0; i < RIM; i++)
         own += front[i] == UINT32_MAX || (front[i] == 0 && front[RIM + i] > 0);
     return 2 * own >= RIM;
@@ -190,28 +190,28 @@ static lmn_status dots_visible(marks_page *out, const pager *g, const marks *m, 
                                lmn_error *error)
 {
     size_t first = out->dot_count, count = 0;
-    double(*places)[3] = mem_alloc(m->dot_count * sizeof *places);
+    double(*positions)[3] = mem_alloc(m->dot_count * sizeof *positions);
     uint32_t *numbers = mem_alloc(m->dot_count * sizeof *numbers);
     uint32_t *behind = mem_calloc(m->dot_count, sizeof *behind);
-    bool      done = places && behind && numbers;
+    bool      done = positions && behind && numbers;
     for (size_t i = 0; done && i < m->dot_count; i++) {
         float x = 0, y = 0, size = dot_size(g, m, &m->dots[i], &x, &y);
         if (!(size > 0))
             continue;
-        const vec3  *at = &m->dots[i].place;
-        const double place[3] = {(double)at->x, (double)at->y, (double)at->z};
+        const vec3  *at = &m->dots[i].position;
+        const double position[3] = {(double)at->x, (double)at->y, (double)at->z};
         numbers[count] = (uint32_t)i;
-        memcpy(places[count++], place, sizeof place);
+        memcpy(positions[count++], position, sizeof position);
         done = add_dot(out, (marks_page_point){x, y, size, part_of(m, m->dots[i].triangle)});
     }
     if (done && hidden && count > 0) {
-        hidden(user, (const double(*)[3])places, count, behind);
+        hidden(user, (const double(*)[3])positions, count, behind);
         out->dot_count = first;
         for (size_t i = 0; i < count; i++)
             if (behind[i] == 0 && lies_on_surface(g, &m->dots[numbers[i]], out->dots[first + i].width, hidden, user))
                 out->dots[out->dot_count++] = out->dots[first + i];
     }
-    mem_free(places);
+    mem_free(positions);
     mem_free(numbers);
     mem_free(behind);
     return done ? LMN_OK : error_memory(error);
@@ -219,25 +219,25 @@ static lmn_status dots_visible(marks_page *out, const pager *g, const marks *m, 
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
 
-/* Width of a stroke, share of the style's, decided at its middle. */
+/* Width of a stroke, fraction of the style's, decided at its middle. */
 static float stroke_ink(const pager *g, const mark_line *l)
 {
-    double        stretch, way[3];
-    place_on_page p = find_place(g, l->middle, l->middle_normal, &stretch);
+    double           stretch, direction[3];
+    position_on_page p = find_position(g, l->middle, l->middle_normal, &stretch);
     if (!p.inside || (p.facing <= 0 && !g->backs))
         return 0;
-    move_way(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, way);
-    double length = fmax(sqrt(dot(way, way)), 1e-300),
+    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, direction);
+    double length = fmax(sqrt(dot(direction, direction)), 1e-300),
            own = hypot(hypot((double)l->b.x - (double)l->a.x, (double)l->b.y - (double)l->a.y),
                        (double)l->b.z - (double)l->a.z);
     for (int k = 0; k < 3; k++)
-        way[k] /= length;
+        direction[k] /= length;
     /* Ink where it is darkest, and what all strokes would have, of lines side by side. */
     double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
     double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
-    double share = mark_share((mark_law)g->style->law, p.eye, p.normal, way, d, g->view->orthographic);
+    double fraction = mark_fraction((mark_law)g->style->law, p.eye, p.normal, direction, d, g->view->orthographic);
     double ink = (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span) / darkest;
-    return mark_line_ink(l, (float)fmin(ink, 1), (float)share, g->style->fade);
+    return mark_line_ink(l, (float)fmin(ink, 1), (float)fraction, g->style->fade);
 }
 
 /* What ends leave of the width. */
@@ -290,7 +290,7 @@ static void close_line(stretch_walk *w)
 static void find_lift(const pager *g, const mark_line *l, double out[3])
 {
     double stretch, lift = 2 * MARK_SAG * (double)l->length;
-    if (find_place(g, l->a, l->normal, &stretch).facing < 0)
+    if (find_position(g, l->a, l->normal, &stretch).facing < 0)
         lift = -lift;
     out[0] = lift * (double)l->normal.x;
     out[1] = lift * (double)l->normal.y;
@@ -301,7 +301,7 @@ static void find_lift(const pager *g, const mark_line *l, double out[3])
 static bool add_piece(stretch_walk *w, const mark_line *l, float width)
 {
     enum { SAMPLES_MAX = 64 };
-    double   places[SAMPLES_MAX + 1][3], eye[3], lift[3];
+    double   positions[SAMPLES_MAX + 1][3], eye[3], lift[3];
     float    at[SAMPLES_MAX + 1][2];
     uint32_t behind[SAMPLES_MAX + 1] = {0};
     bool     there[SAMPLES_MAX + 1], hides = w->hidden != NULL;
@@ -318,14 +318,14 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
     for (int i = 0; i <= count; i++) {
         float s = (float)i / (float)count;
         vec3  p = {l->a.x + s * (l->b.x - l->a.x), l->a.y + s * (l->b.y - l->a.y), l->a.z + s * (l->b.z - l->a.z)};
-        places[i][0] = (double)p.x + lift[0];
-        places[i][1] = (double)p.y + lift[1];
-        places[i][2] = (double)p.z + lift[2];
+        positions[i][0] = (double)p.x + lift[0];
+        positions[i][1] = (double)p.y + lift[1];
+        positions[i][2] = (double)p.z + lift[2];
         move_point(&w->g->view->model_view, p, eye);
         there[i] = on_page(w->g, eye, &at[i][0], &at[i][1]);
     }
     if (hides)
-        w->hidden(w->user, (const double(*)[3])places, (size_t)count + 1, behind);
+        w->hidden(w->user, (const double(*)[3])positions, (size_t)count + 1, behind);
     for (int i = w->open ? 1 : 0; i <= count; i++) {
         float along = l->from + (float)i / (float)count * (l->to - l->from);
         if (!there[i] || behind[i] > 0)
@@ -343,7 +343,7 @@ static bool is_far_side(const stretch_walk *w, const mark_line *l)
     double       stretch;
     const double middle[1][3] = {{(double)l->middle.x, (double)l->middle.y, (double)l->middle.z}};
     uint32_t     front = 0;
-    if (!w->hidden || find_place(w->g, l->middle, l->middle_normal, &stretch).facing >= 0)
+    if (!w->hidden || find_position(w->g, l->middle, l->middle_normal, &stretch).facing >= 0)
         return false;
     w->hidden(w->user, middle, 1, &front);
     return front > 0 && front != UINT32_MAX;

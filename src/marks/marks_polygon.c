@@ -24,7 +24,7 @@ static double distance(const double a[2], const double b[2])
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* Angle between two ways from a corner, without a sign. */
+/* Angle between two directions from a corner, without a sign. */
 static double angle_at(const double corner[2], const double a[2], const double b[2])
 {
     double along = (a[0] - corner[0]) * (b[0] - corner[0]) + (a[1] - corner[1]) * (b[1] - corner[1]);
@@ -75,7 +75,7 @@ void mark_cut_make(mark_cut *out, const double mark[3][2], const double onto[3][
 }
 
 /* Where the edge from a corner that stays to one that goes meets the ray from M1 at an angle `turn`: by the sine
- * rule, in the triangle of M1, the corner that goes and the meeting place. */
+ * rule, in the triangle of M1, the corner that goes and the meeting position. */
 static void meet(const mark_cut *c, int goes, int stays, double turn, double out[2])
 {
     const double *from = c->corners[goes], *to = c->corners[stays];
@@ -83,9 +83,9 @@ static void meet(const mark_cut *c, int goes, int stays, double turn, double out
     double        at_corner = l > 0 ? angle_at(from, c->first, to) : 0;
     double        along = sin(at_corner + more), edge = distance(from, to);
     /* Length along the edge, from the corner that goes. */
-    double share = along > 1e-300 && edge > 0 ? fmin(l * sin(more) / along / edge, 1) : 0;
+    double fraction = along > 1e-300 && edge > 0 ? fmin(l * sin(more) / along / edge, 1) : 0;
     for (int k = 0; k < 2; k++)
-        out[k] = from[k] + share * (to[k] - from[k]);
+        out[k] = from[k] + fraction * (to[k] - from[k]);
 }
 
 int mark_cut_at(const mark_cut *c, double p, double (*out)[2])

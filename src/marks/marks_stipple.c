@@ -16,7 +16,7 @@ enum { CANDIDATES = 3 /* for each dot that is wanted */ };
 static double triangle_area(const mark_surface *s, uint32_t t)
 {
     const uint32_t *i = &s->indices[3 * (size_t)t];
-    const vec3     *a = &s->places[i[0]], *b = &s->places[i[1]], *c = &s->places[i[2]];
+    const vec3     *a = &s->positions[i[0]], *b = &s->positions[i[1]], *c = &s->positions[i[2]];
     double          u[3] = {(double)b->x - (double)a->x, (double)b->y - (double)a->y, (double)b->z - (double)a->z};
     double          v[3] = {(double)c->x - (double)a->x, (double)c->y - (double)a->y, (double)c->z - (double)a->z};
     double          x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
@@ -31,12 +31,13 @@ double mark_surface_area(const mark_surface *s)
     return sum;
 }
 
-static vec3 between(const vec3 *values, const uint32_t *i, const float share[2])
+static vec3 between(const vec3 *values, const uint32_t *i, const float fraction[2])
 {
     const vec3 *a = &values[i[0]], *b = &values[i[1]], *c = &values[i[2]];
-    float       rest = 1 - share[0] - share[1];
-    return (vec3){rest * a->x + share[0] * b->x + share[1] * c->x, rest * a->y + share[0] * b->y + share[1] * c->y,
-                  rest * a->z + share[0] * b->z + share[1] * c->z};
+    float       rest = 1 - fraction[0] - fraction[1];
+    return (vec3){rest * a->x + fraction[0] * b->x + fraction[1] * c->x,
+                  rest * a->y + fraction[0] * b->y + fraction[1] * c->y,
+                  rest * a->z + fraction[0] * b->z + fraction[1] * c->z};
 }
 
 static vec3 unit(vec3 v)
@@ -45,7 +46,7 @@ static vec3 unit(vec3 v)
     return length > 0 ? (vec3){v.x / length, v.y / length, v.z / length} : (vec3){0, 0, 1};
 }
 
-/* One candidate in each of `count` equal shares of the area, as the triangles follow each other. */
+/* One candidate in each of `count` equal fractions of the area, as the triangles follow each other. */
 static void share_out(mark_dot *out, size_t count, const mark_surface *s, double area, uint32_t seed)
 {
     random_source r = random_start(seed, 0x5711);
@@ -63,20 +64,20 @@ static void share_out(mark_dot *out, size_t count, const mark_surface *s, double
             b = 1 - b;
         }
         mark_dot *d = &out[i];
-        *d = (mark_dot){.share = {(float)a, (float)b}, .triangle = t};
-        d->place = between(s->places, &s->indices[3 * (size_t)t], d->share);
-        d->normal = unit(between(s->normals, &s->indices[3 * (size_t)t], d->share));
+        *d = (mark_dot){.fraction = {(float)a, (float)b}, .triangle = t};
+        d->position = between(s->positions, &s->indices[3 * (size_t)t], d->fraction);
+        d->normal = unit(between(s->normals, &s->indices[3 * (size_t)t], d->fraction));
     }
 }
 
 /* Ranks of the candidates; false when memory is gone. */
-static bool rank(uint32_t *ranks, const mark_dot *candidates, size_t count, size_t wanted, double area, mark_way_fn way,
-                 void *user, double length)
+static bool rank(uint32_t *ranks, const mark_dot *candidates, size_t count, size_t wanted, double area,
+                 mark_direction_fn direction, void *user, double length)
 {
-    spread_place *points = mem_alloc(count * sizeof *points);
+    spread_position *points = mem_alloc(count * sizeof *points);
     for (size_t i = 0; points && i < count; i++)
-        points[i] = (spread_place){candidates[i].place, candidates[i].normal,
-                                   way ? way(user, &candidates[i]) : (vec3){0, 0, 0}};
+        points[i] = (spread_position){candidates[i].position, candidates[i].normal,
+                                      direction ? direction(user, &candidates[i]) : (vec3){0, 0, 0}};
     bool done = points && marks_eliminate(ranks, points, count, wanted, area, length);
     mem_free(points);
     return done;
@@ -87,8 +88,8 @@ lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32
     return marks_spread(out, s, count, seed, NULL, NULL, 0, error);
 }
 
-lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_way_fn way, void *user,
-                        double length, lmn_error *error)
+lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_direction_fn direction,
+                        void *user, double length, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->area = mark_surface_area(s);
@@ -103,7 +104,7 @@ lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_
     bool done = candidates && ranks && out->dots;
     if (done) {
         share_out(candidates, many, s, out->area, seed);
-        done = rank(ranks, candidates, many, count, out->area, way, user, length);
+        done = rank(ranks, candidates, many, count, out->area, direction, user, length);
     }
     for (size_t i = 0; done && i < many; i++) {
         if (ranks[i] == UINT32_MAX)
@@ -120,16 +121,16 @@ lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_
 
 /* --- kept on disk --------------------------------------------------------------------------------------- */
 
-enum { KEPT_FROM = 20000 /* fewer are made as fast as they are read */, KEPT_WIDTH = 1024, DESCRIPTION_ROOM = 128 };
+enum { KEPT_FROM = 20000 /* fewer are made as fast as they are read */, KEPT_WIDTH = 1024, DESCRIPTION_CAPACITY = 128 };
 
-/* Two texels a dot: its triangle, in two halves that floats have exactly, and its place there. */
+/* Two texels a dot: its triangle, in two halves that floats have exactly, and its position there. */
 static void write_dots(mip_chain *chain, const marks *m)
 {
     float(*texels)[2] = chain->data[0];
     for (size_t i = 0; i < m->dot_count; i++) {
         texels[2 * i][0] = (float)(m->dots[i].triangle >> 16);
         texels[2 * i][1] = (float)(m->dots[i].triangle & 0xFFFF);
-        memcpy(texels[2 * i + 1], m->dots[i].share, sizeof texels[0]);
+        memcpy(texels[2 * i + 1], m->dots[i].fraction, sizeof texels[0]);
     }
 }
 
@@ -144,29 +145,29 @@ static bool read_dots(marks *out, const mip_chain *chain, const mark_surface *s,
         if (triangle >= s->triangle_count)
             return false;
         mark_dot *d = &out->dots[i];
-        *d = (mark_dot){.share = {texels[2 * i + 1][0], texels[2 * i + 1][1]},
+        *d = (mark_dot){.fraction = {texels[2 * i + 1][0], texels[2 * i + 1][1]},
                         .priority = 1 - (float)i / (float)count,
                         .bright = 1,
                         .triangle = triangle};
-        d->place = between(s->places, &s->indices[3 * (size_t)triangle], d->share);
-        d->normal = unit(between(s->normals, &s->indices[3 * (size_t)triangle], d->share));
+        d->position = between(s->positions, &s->indices[3 * (size_t)triangle], d->fraction);
+        d->normal = unit(between(s->normals, &s->indices[3 * (size_t)triangle], d->fraction));
     }
     return true;
 }
 
 /* Equal text, equal dots. */
-static void describe(char out[DESCRIPTION_ROOM], const mark_surface *s, size_t count, uint32_t seed)
+static void describe(char out[DESCRIPTION_CAPACITY], const mark_surface *s, size_t count, uint32_t seed)
 {
-    uint64_t places = store_hash(s->places, s->vertex_count * sizeof *s->places),
+    uint64_t positions = store_hash(s->positions, s->vertex_count * sizeof *s->positions),
              normals = store_hash(s->normals, s->vertex_count * sizeof *s->normals);
     uint64_t indices = store_hash(s->indices, 3 * (size_t)s->triangle_count * sizeof *s->indices);
-    snprintf(out, DESCRIPTION_ROOM, "stipple 1 %zu %u %016llx %016llx %016llx", count, seed, (unsigned long long)places,
-             (unsigned long long)normals, (unsigned long long)indices);
+    snprintf(out, DESCRIPTION_CAPACITY, "stipple 1 %zu %u %016llx %016llx %016llx", count, seed,
+             (unsigned long long)positions, (unsigned long long)normals, (unsigned long long)indices);
 }
 
 lmn_status marks_stipple_kept(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error)
 {
-    char      description[DESCRIPTION_ROOM];
+    char      description[DESCRIPTION_CAPACITY];
     mip_chain chain;
     if (count < KEPT_FROM || count > LIMIT_MARKS)
         return marks_stipple(out, s, count, seed, error);

@@ -27,7 +27,7 @@ typedef struct piece {
     mark_line line;
     int32_t   square[2];
     uint32_t  source;   /* stroke of the texture */
-    double    from, to; /* share of that stroke */
+    double    from, to; /* fraction of that stroke */
 } piece;
 
 typedef struct tiling {
@@ -175,14 +175,14 @@ static void to_squares(const tiling *t, vec2 uv, double out[2])
     out[1] = t->turn[0] * v - t->turn[1] * u;
 }
 
-static vec3 lifted(const vec3 *values, const uint32_t *corner, const double share[3])
+static vec3 lifted(const vec3 *values, const uint32_t *corner, const double fraction[3])
 {
     double out[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
         const vec3 *v = &values[corner[i]];
-        out[0] += share[i] * (double)v->x;
-        out[1] += share[i] * (double)v->y;
-        out[2] += share[i] * (double)v->z;
+        out[0] += fraction[i] * (double)v->x;
+        out[1] += fraction[i] * (double)v->y;
+        out[2] += fraction[i] * (double)v->z;
     }
     return (vec3){(float)out[0], (float)out[1], (float)out[2]};
 }
@@ -211,16 +211,16 @@ static float indicated(const tiling *t, const double a[2], const double b[2])
 static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], double density, const grid_entry *e,
                       const int32_t square[2])
 {
-    double a[2], b[2], part[2], share[2][3], middle[3];
+    double a[2], b[2], part[2], fraction[2][3], middle[3];
     copy_ends(t, e->stroke, square, a, b);
     if (!mark_clip_line(a, b, corners, part))
         return;
     for (int i = 0; i < 2; i++) {
         double at[2] = {a[0] + part[i] * (b[0] - a[0]), a[1] + part[i] * (b[1] - a[1])};
-        mark_barycentrics(at, corners, share[i]);
+        mark_barycentrics(at, corners, fraction[i]);
     }
     for (int i = 0; i < 3; i++)
-        middle[i] = 0.5 * (share[0][i] + share[1][i]);
+        middle[i] = 0.5 * (fraction[0][i] + fraction[1][i]);
     if (!mem_grow((void **)&t->pieces, &t->capacity, t->count + 1, sizeof *t->pieces)) {
         t->full = true;
         return;
@@ -230,8 +230,8 @@ static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], 
     const texture_stroke *source = &t->texture->items[e->stroke];
     piece                *p = &t->pieces[t->count++];
     *p = (piece){.square = {square[0], square[1]}, .source = e->stroke, .from = part[0], .to = part[1]};
-    p->line = (mark_line){.a = lifted(s->places, corner, share[0]),
-                          .b = lifted(s->places, corner, share[1]),
+    p->line = (mark_line){.a = lifted(s->positions, corner, fraction[0]),
+                          .b = lifted(s->positions, corner, fraction[1]),
                           .normal = unit(lifted(s->normals, corner, middle)),
                           .perspective = source->perspective,
                           .density = (float)density,
@@ -329,7 +329,7 @@ static void close_stroke(mark_line *lines, size_t count, uint32_t number)
     for (size_t i = 0; i < count; i++)
         length += between(lines[i].a, lines[i].b);
     size_t middle = 0;
-    double share = 0.5;
+    double fraction = 0.5;
     for (size_t i = 0; i < count; i++) {
         double own = between(lines[i].a, lines[i].b);
         lines[i].stroke = number;
@@ -338,12 +338,12 @@ static void close_stroke(mark_line *lines, size_t count, uint32_t number)
         lines[i].to = (float)(before + own);
         if (before <= 0.5 * length) {
             middle = i;
-            share = own > 0 ? fmin((0.5 * length - before) / own, 1) : 0.5;
+            fraction = own > 0 ? fmin((0.5 * length - before) / own, 1) : 0.5;
         }
         before += own;
     }
     const mark_line *m = &lines[middle];
-    float            s = (float)share;
+    float            s = (float)fraction;
     vec3 at = {m->a.x + s * (m->b.x - m->a.x), m->a.y + s * (m->b.y - m->a.y), m->a.z + s * (m->b.z - m->a.z)};
     for (size_t i = 0; i < count; i++) {
         lines[i].middle = at;

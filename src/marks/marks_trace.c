@@ -1,4 +1,4 @@
-/* Strokes that follow a surface: from evenly spread places, each walks over the triangles in a plane of its own, so
+/* Strokes that follow a surface: from evenly spread positions, each walks over the triangles in a plane of its own, so
  * that it is straight where it is drawn and bends only as the surface does. For meshes without texture coordinates,
  * which Freudenberg's explicit strokes need (2003, section 5.3.2). */
 #include "marks/marks.h"
@@ -15,7 +15,7 @@
 enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
 static const double SHARP = 0.5;   /* cosine between faces at which strokes end */
-static const double FEATURE = 0.7; /* radians: edges over which ways do not go on */
+static const double FEATURE = 0.7; /* radians: edges over which directions do not go on */
 
 typedef struct d3 {
     double x, y, z;
@@ -31,7 +31,7 @@ typedef struct tracer {
     double               density;
 } tracer;
 
-/* A stroke while it is walked: places from its seed, and the triangle that each chord towards it lies in. */
+/* A stroke while it is walked: positions from its seed, and the triangle that each chord towards it lies in. */
 typedef struct path {
     d3       points[2 * POINTS_MAX + 1];
     uint32_t triangles[2 * POINTS_MAX + 1];
@@ -58,9 +58,10 @@ static d3 cross(d3 a, d3 b)
     return (d3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-static d3 along(d3 from, d3 to, double share)
+static d3 along(d3 from, d3 to, double fraction)
 {
-    return (d3){from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.z + share * (to.z - from.z)};
+    return (d3){from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y),
+                from.z + fraction * (to.z - from.z)};
 }
 
 static d3 unit(d3 v)
@@ -77,7 +78,7 @@ static vec3 rounded(d3 v)
 static void corners_of(const tracer *t, uint32_t triangle, d3 out[3])
 {
     for (uint32_t i = 0; i < 3; i++)
-        out[i] = of(t->surface->places[t->surface->indices[3 * (size_t)triangle + i]]);
+        out[i] = of(t->surface->positions[t->surface->indices[3 * (size_t)triangle + i]]);
 }
 
 static d3 face_normal(const tracer *t, uint32_t triangle)
@@ -89,9 +90,9 @@ static d3 face_normal(const tracer *t, uint32_t triangle)
 
 /* --- walking -------------------------------------------------------------------------------------------- */
 
-/* One step of a walk in the plane through `seed` with this normal: from a place in a triangle to where it leaves
+/* One step of a walk in the plane through `seed` with this normal: from a position in a triangle to where it leaves
  * it, not by the edge that it came in by. Returns the edge, or −1 where there is no way on. */
-static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 plane, d3 way, d3 *out)
+static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 plane, d3 direction, d3 *out)
 {
     d3 c[3];
     corners_of(t, triangle, c);
@@ -105,7 +106,7 @@ static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 pl
         if (i == entered || (from >= 0) == (to >= 0))
             continue;
         d3     at = along(c[i], c[(i + 1) % 3], from / (from - to));
-        double gone = entered >= 0 ? 1 : dot(way, minus(at, seed)); /* from the seed: forwards */
+        double gone = entered >= 0 ? 1 : dot(direction, minus(at, seed)); /* from the seed: forwards */
         if (gone > farthest) {
             farthest = gone;
             best = i;
@@ -116,13 +117,13 @@ static int leave(const tracer *t, uint32_t triangle, int entered, d3 seed, d3 pl
 }
 
 /* Walks at most `length`; appends to the path. */
-static void walk(const tracer *t, path *p, uint32_t triangle, d3 seed, d3 plane, d3 way, double length)
+static void walk(const tracer *t, path *p, uint32_t triangle, d3 seed, d3 plane, d3 direction, double length)
 {
     int entered = -1;
     d3  at = seed;
     for (int steps = 0; steps < POINTS_MAX - 1 && length > 0; steps++) {
         d3  next;
-        int edge = leave(t, triangle, entered, seed, plane, way, &next);
+        int edge = leave(t, triangle, entered, seed, plane, direction, &next);
         if (edge < 0)
             return;
         d3     step = minus(next, at);
@@ -143,9 +144,9 @@ static void walk(const tracer *t, path *p, uint32_t triangle, d3 seed, d3 plane,
 /* Both ways from the seed, in order. */
 static void walk_both(const tracer *t, path *p, const mark_dot *seed, d3 plane, double length)
 {
-    d3 at = of(seed->place), way = cross(face_normal(t, seed->triangle), plane);
+    d3 at = of(seed->position), direction = cross(face_normal(t, seed->triangle), plane);
     p->count = 0;
-    walk(t, p, seed->triangle, at, plane, (d3){-way.x, -way.y, -way.z}, 0.5 * length);
+    walk(t, p, seed->triangle, at, plane, (d3){-direction.x, -direction.y, -direction.z}, 0.5 * length);
     /* Turned around: the chord towards a point becomes the one away from it. */
     for (size_t i = 0, k = p->count; i + 1 < k; i++, k--) {
         d3       point = p->points[i];
@@ -159,7 +160,7 @@ static void walk_both(const tracer *t, path *p, const mark_dot *seed, d3 plane, 
     for (size_t i = p->count; i > 0; i--)
         p->triangles[i] = p->triangles[i - 1];
     p->triangles[p->count++] = seed->triangle;
-    walk(t, p, seed->triangle, at, plane, way, 0.5 * length);
+    walk(t, p, seed->triangle, at, plane, direction, 0.5 * length);
 }
 
 /* --- chords --------------------------------------------------------------------------------------------- */
@@ -172,8 +173,8 @@ static double farthest_of(const path *p, size_t first, size_t last, size_t *at)
     *at = first;
     for (size_t i = first + 1; i < last; i++) {
         d3     to = minus(p->points[i], a);
-        double share = square > 0 ? dot(to, chord) / square : 0;
-        d3     away = minus(to, (d3){share * chord.x, share * chord.y, share * chord.z});
+        double fraction = square > 0 ? dot(to, chord) / square : 0;
+        d3     away = minus(to, (d3){fraction * chord.x, fraction * chord.y, fraction * chord.z});
         double off = sqrt(dot(away, away));
         if (off > most) {
             most = off;
@@ -238,7 +239,7 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
         return true;
     bool kept[2 * POINTS_MAX + 1];
     simplify(p, MARK_SAG * length, kept);
-    mark_line line = {.middle = seed->place,
+    mark_line line = {.middle = seed->position,
                       .middle_normal = seed->normal,
                       .light = light,
                       .perspective = perspective,
@@ -258,7 +259,7 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
     return done;
 }
 
-/* --- ways ----------------------------------------------------------------------------------------------- */
+/* --- directions ----------------------------------------------------------------------------------------- */
 
 /* Axes of the planes that strokes lie in: askew, so that hardly a face lies in one, and a second one where a
  * surface nearly does. */
@@ -269,14 +270,14 @@ static d3 plane_of_model(d3 normal)
     return fabs(dot(normal, first)) < FLAT ? first : second;
 }
 
-/* The unit tangent along the way a surface bends. */
-static d3 way_of_field(const tracer *t, const mark_dot *seed, d3 normal)
+/* The unit tangent along the direction in which a surface bends. */
+static d3 direction_of_field(const tracer *t, const mark_dot *seed, d3 normal)
 {
-    double m[6] = {0}, share[3] = {1 - (double)seed->share[0] - (double)seed->share[1], (double)seed->share[0],
-                                   (double)seed->share[1]};
+    double m[6] = {0}, fraction[3] = {1 - (double)seed->fraction[0] - (double)seed->fraction[1],
+                                      (double)seed->fraction[0], (double)seed->fraction[1]};
     for (uint32_t i = 0; i < 3; i++)
         for (int k = 0; k < 6; k++)
-            m[k] += share[i] * (double)direction_field_at(&t->field, &t->mesh, 3 * seed->triangle + i)[k];
+            m[k] += fraction[i] * (double)direction_field_at(&t->field, &t->mesh, 3 * seed->triangle + i)[k];
     d3 u = unit(fabs(normal.x) < 0.7 ? cross(normal, (d3){1, 0, 0}) : cross(normal, (d3){0, 1, 0})),
        v = cross(normal, u);
     d3     tu = {m[0] * u.x + m[3] * u.y + m[5] * u.z, m[3] * u.x + m[1] * u.y + m[4] * u.z,
@@ -294,7 +295,7 @@ static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven
     d3           normal = face_normal(t, seed->triangle), plane;
     double       turn = set * (double)t->options->turn + uneven * MOST * random_hand(r);
     if (t->options->bends)
-        plane = cross(normal, way_of_field(t, seed, normal));
+        plane = cross(normal, direction_of_field(t, seed, normal));
     else
         plane = plane_of_model(normal);
     /* Rodrigues' rotation. */
@@ -304,17 +305,17 @@ static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven
                      c * plane.z + s * aside.z + rest * normal.z});
 }
 
-typedef struct set_ways {
+typedef struct set_directions {
     const tracer *tracer;
     int           set;
-} set_ways;
+} set_directions;
 
 /* Of a stroke, before its own unevenness. */
-static vec3 way_of_set(void *user, const mark_dot *at)
+static vec3 direction_of_set(void *user, const mark_dot *at)
 {
-    const set_ways *w = user;
-    random_source   none = {0};
-    d3              normal = face_normal(w->tracer, at->triangle);
+    const set_directions *w = user;
+    random_source         none = {0};
+    d3                    normal = face_normal(w->tracer, at->triangle);
     return rounded(unit(cross(normal, plane_at(w->tracer, at, w->set, 0, &none))));
 }
 
@@ -323,8 +324,8 @@ static lmn_status trace_set(tracer *t, int set, size_t count, path *p, lmn_error
 {
     const trace_options *w = t->options;
     marks                seeds;
-    lmn_status           status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, way_of_set,
-                                               &(set_ways){t, set}, w->length, error);
+    lmn_status status = marks_spread(&seeds, t->surface, count, w->seed + (uint32_t)set * 7919u, direction_of_set,
+                                     &(set_directions){t, set}, w->length, error);
     for (size_t i = 0; i < seeds.dot_count && status == LMN_OK; i++) {
         const mark_dot *seed = &seeds.dots[i];
         random_source   r = random_start(w->seed, (uint32_t)(set * 0x10001) ^ (uint32_t)i * 2654435761u);
@@ -349,21 +350,21 @@ lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *o
     tracer t = {.surface = s, .options = options, .out = out};
     t.mesh = (primitive){.vertex_count = s->vertex_count,
                          .index_count = 3 * s->triangle_count,
-                         .positions = (vec3 *)(uintptr_t)s->places,
+                         .positions = (vec3 *)(uintptr_t)s->positions,
                          .indices = (uint32_t *)(uintptr_t)s->indices,
                          .material = NONE};
     t.across = mesh_adjacency(&t.mesh);
-    path      *room = mem_alloc(sizeof *room);
-    lmn_status status = t.across && room ? LMN_OK : error_memory(error);
+    path      *capacity = mem_alloc(sizeof *capacity);
+    lmn_status status = t.across && capacity ? LMN_OK : error_memory(error);
     if (status == LMN_OK && options->bends)
         status = direction_field_make(&t.field, &t.mesh, FEATURE, 0, error);
     size_t each = (options->count + (size_t)options->series - 1) / (size_t)options->series;
     for (int set = 0; set < options->series && status == LMN_OK; set++)
-        status = trace_set(&t, set, each, room, error);
+        status = trace_set(&t, set, each, capacity, error);
     for (size_t i = 0; i < out->line_count; i++)
         out->lines[i].density = (float)(out->line_length / out->area);
     direction_field_release(&t.field);
-    mem_free(room);
+    mem_free(capacity);
     mem_free(t.across);
     if (status != LMN_OK)
         surface_marks_release(out);

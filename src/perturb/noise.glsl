@@ -20,12 +20,12 @@ const float LATTICE = 0.69;
 /* Noise is 0 at the corners of its lattice: this keeps those of all octaves from falling together in the middle of a model. */
 const vec3 LATTICE_SHIFT = vec3(0.4331, 0.2719, 0.6173);
 
-/* In the plane; the lattice repeats after `period` places unless that is 0. */
-vec3 noise_of(vec2 place, int period, uint seed)
+/* In the plane; the lattice repeats after `period` positions unless that is 0. */
+vec3 noise_of(vec2 position, int period, uint seed)
 {
-    place += LATTICE_SHIFT.xy * float(1u + (seed & 7u));
-    vec2 low = floor(place), inside = place - low;
-    vec3 share = fade_of(vec3(inside, 0.0));
+    position += LATTICE_SHIFT.xy * float(1u + (seed & 7u));
+    vec2 low = floor(position), inside = position - low;
+    vec3 fraction = fade_of(vec3(inside, 0.0));
     ivec2 first = ivec2(low), second = first + 1;
     if (period > 0) {
         first = ((first % period) + period) % period;
@@ -35,21 +35,21 @@ vec3 noise_of(vec2 place, int period, uint seed)
     vec3 b = corner_of(uvec3(second.x, first.y, 0), seed, vec3(inside - vec2(1.0, 0.0), 0.0));
     vec3 c = corner_of(uvec3(first.x, second.y, 0), seed, vec3(inside - vec2(0.0, 1.0), 0.0));
     vec3 d = corner_of(uvec3(second, 0), seed, vec3(inside - 1.0, 0.0));
-    return mix(mix(a, b, share.x), mix(c, d, share.x), share.y);
+    return mix(mix(a, b, fraction.x), mix(c, d, fraction.x), fraction.y);
 }
 
 /* In space. */
-vec3 noise_of(vec3 place, uint seed)
+vec3 noise_of(vec3 position, uint seed)
 {
-    place += LATTICE_SHIFT * float(1u + (seed & 7u));
-    vec3 low = floor(place), inside = place - low, share = fade_of(inside);
+    position += LATTICE_SHIFT * float(1u + (seed & 7u));
+    vec3 low = floor(position), inside = position - low, fraction = fade_of(inside);
     uvec3 first = uvec3(ivec3(low));
     vec3 sum = vec3(0.0);
     for (int z = 0; z < 2; z++)
         for (int y = 0; y < 2; y++)
             for (int x = 0; x < 2; x++) {
                 uvec3 step = uvec3(x, y, z);
-                vec3 part = mix(1.0 - share, share, vec3(step));
+                vec3 part = mix(1.0 - fraction, fraction, vec3(step));
                 sum += part.x * part.y * part.z * corner_of(first + step, seed, inside - vec3(step));
             }
     return sum;

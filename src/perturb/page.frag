@@ -5,7 +5,7 @@ layout(location = 0) out vec4 out_0;
 
 void main()
 {
-    vec2 place = gl_FragCoord.xy * u_cell;
+    vec2 position = gl_FragCoord.xy * u_cell;
     float side = LATTICE * u_perturb_scale;
     int period = 0;
     if (u_perturb_tile > 0.0) {
@@ -15,7 +15,7 @@ void main()
     vec3 sum = vec3(0.0);
     float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
-        sum += weight * octave_of(noise_of(place / side, period, u_seed + uint(i) * 0x51ed270bu));
+        sum += weight * octave_of(noise_of(position / side, period, u_seed + uint(i) * 0x51ed270bu));
         weights += weight;
         squares += weight * weight;
         weight *= 0.5;

@@ -29,11 +29,11 @@ typedef struct pencil {
     PARAM_FLOAT_ROW(pencil, FIELD, .def = DEFAULT, .min = 0, .max = 100, .soft_max = 20, .cpu_only = true, .doc = TEXT)
 
 static const param params[] = {
-    PARAM_INT_ROW(pencil, dark, .def = 4, .min = 0, .max = COPIES_MAX, .soft_max = 8, .unit = UNIT_COUNT,
-                  .variant = true,
-                  .doc = "How often the final lines are drawn; a single one has its share of their darkness, so that "
-                         "it is full where all fall together. "
-                         "Without copies of either kind lines stay as exact and black as without a perturbation."),
+    PARAM_INT_ROW(
+        pencil, dark, .def = 4, .min = 0, .max = COPIES_MAX, .soft_max = 8, .unit = UNIT_COUNT, .variant = true,
+        .doc = "How often the final lines are drawn; a single one has its fraction of their darkness, so that "
+               "it is full where all fall together. "
+               "Without copies of either kind lines stay as exact and black as without a perturbation."),
     PARAM_FLOAT_ROW(pencil, dark_sway, .def = 2, .min = 0, .max = 64, .soft_max = 8, .unit = UNIT_PX, .cpu_only = true,
                     .doc = "How far final lines sway from the exact ones."),
     WAVES_ROW(dark_waves_least, 1.27, "Waves of final lines across the page, at least."),
@@ -47,13 +47,13 @@ static const param params[] = {
     WAVES_ROW(light_waves_most, 1.27, "Waves of sketched lines across the page, at most."),
     PARAM_FLOAT_ROW(pencil, jitter, .def = 1, .min = 0, .max = 32, .soft_max = 4, .unit = UNIT_PX, .cpu_only = true,
                     .doc = "How far copies lie apart besides, both ways."),
-    PARAM_FLOAT_ROW(pencil, sketch, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(pencil, sketch, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Darkness of sketched lines where they have not faded."),
     PARAM_ENUM_ROW(pencil, lead, .names = lead_grade_names, .def = LEAD_8B, .cpu_only = true,
                    .doc = "The lead, from hard and light to soft and dark."),
-    PARAM_FLOAT_ROW(pencil, texture, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(pencil, texture, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much streaks of graphite break lines up."),
-    PARAM_FLOAT_ROW(pencil, pressure, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(pencil, pressure, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much the weight of final lines varies along them."),
     PARAM_FLOAT_ROW(pencil, grain, .def = 1, .min = 0.25, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true,
                     .doc = "Size of a grain of streaks and of what has faded."),
@@ -110,7 +110,7 @@ static size_t numbers_of(const void *values, uint32_t seed, int width, int heigh
         double first = least + (most - least) * random_unit(&r), first_phase = turn * random_unit(&r);
         double second = least + (most - least) * random_unit(&r), second_phase = turn * random_unit(&r);
         double right = (double)v->jitter * random_signed(&r), up = (double)v->jitter * random_signed(&r);
-        /* Places must not fold over each other. */
+        /* Positions must not fold over each other. */
         sway = fmin(sway, 0.9 * side / fmax(fmax(first, second), 1e-3));
         const float rows[2][4] = {{(float)first, (float)first_phase, (float)second, (float)second_phase},
                                   {(float)right, (float)up, (float)sway, 0}};
@@ -146,7 +146,7 @@ static void pencil_hand(struct stroke_style *style, const void *values)
 }
 
 static const perturbation perturbs = {
-    .places = "perturb/pencil.glsl",
+    .positions = "perturb/pencil.glsl",
     .active = is_active,
     .reach = reach_of,
     .seed = seed_of,

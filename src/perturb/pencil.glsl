@@ -12,8 +12,8 @@
 
 uniform vec4 u_numbers[2 * LINE_COPIES + 1]; /* numbers_of in pencil.c */
 
-vec2  s_place;
-vec2  s_share; /* σ: the place as shares of the page */
+vec2  s_position;
+vec2  s_fraction; /* σ: the position as fractions of the page */
 vec2  s_fill;
 float s_bare;
 float s_fading; /* noise, 0 … 1 */
@@ -39,51 +39,51 @@ float band_noise(float band)
 }
 
 /* The fill, moved along its strokes by another way in each band. */
-vec2 overrun_place(vec2 at)
+vec2 overrun_position(vec2 at)
 {
     vec2 along = u_perturb_overrun_angle;
     float across = dot(at, vec2(-along.y, along.x)) / u_perturb_overrun_width;
-    float band = floor(across), share = across - band;
-    float way = mix(band_noise(band), band_noise(band + 1.0), smoothstep(0.35, 0.65, share));
-    return at + along * (u_perturb_overrun * way);
+    float band = floor(across), fraction = across - band;
+    float amount = mix(band_noise(band), band_noise(band + 1.0), smoothstep(0.35, 0.65, fraction));
+    return at + along * (u_perturb_overrun * amount);
 }
 #endif
 
-void find_places(ivec2 pixel)
+void find_positions(ivec2 pixel)
 {
-    s_place = vec2(pixel);
-    s_share = (s_place + 0.5) / u_size;
+    s_position = vec2(pixel);
+    s_fraction = (s_position + 0.5) / u_size;
     s_dark = s_light = vec4(0.0);
     s_fading = s_streak = 1.0;
     s_bare = 1.0;
-    s_fill = s_place;
+    s_fill = s_position;
 #ifdef WITH_OVERRUN
-    s_fill = overrun_place(s_place);
+    s_fill = overrun_position(s_position);
     ivec2 last = ivec2(u_size) - 1, at = ivec2(floor(s_fill + 0.5));
     bool inside = texelFetch(t_depth, pixel, 0).r < 1.0;
     bool found = texelFetch(t_depth, clamp(at, ivec2(0), last), 0).r < 1.0;
     s_bare = inside && !found ? 0.0 : 1.0;
-    s_fill = inside && !found ? s_place : s_fill;
+    s_fill = inside && !found ? s_position : s_fill;
 #endif
 }
 
-float fill_share()
+float fill_fraction()
 {
     return s_bare;
 }
 
-vec2 fill_place()
+vec2 fill_position()
 {
     return s_fill;
 }
 
 /* Equations 4 and 5. */
-vec2 line_place(int i)
+vec2 line_position(int i)
 {
     vec4 wave = u_numbers[2 * i], rest = u_numbers[2 * i + 1];
     /* A cosine is a sine a quarter turn on. */
-    vec2 sway = near_sine(vec2(wave.x * s_share.y + wave.y, wave.z * s_share.x + wave.w + 1.5707963));
-    return s_place + rest.z * sway - rest.xy;
+    vec2 sway = near_sine(vec2(wave.x * s_fraction.y + wave.y, wave.z * s_fraction.x + wave.w + 1.5707963));
+    return s_position + rest.z * sway - rest.xy;
 }
 
 /* Shown grey to light, the sRGB curve within 0.8/255 of what is shown; exact for white. */
@@ -94,7 +94,7 @@ float light_of_grey(float grey)
 
 void read_graphite()
 {
-    vec2 at = s_place / (u_perturb_grain * u_graphite_facts.x);
+    vec2 at = s_position / (u_perturb_grain * u_graphite_facts.x);
     vec2 grain = textureLod(t_graphite, vec3(at, 0.0), 0.0).rg;
     s_fading = grain.r;
 #ifdef WITH_TEXTURE
@@ -104,11 +104,11 @@ void read_graphite()
 
 #ifdef HAS_LINES
 /* The composition's: compose/joined.glsl. */
-vec4 averaged_at(vec2 place, int i);
+vec4 averaged_at(vec2 position, int i);
 vec4 ink_of_mean(vec4 mean);
 
-/* Darkness of displayed grey to a share of light. */
-float share_of_darkness(float darkness)
+/* Darkness of displayed grey to a fraction of light. */
+float fraction_of_darkness(float darkness)
 {
     return 1.0 - light_of_grey(1.0 - darkness);
 }
@@ -119,7 +119,7 @@ vec4 coloured_ink(float darkest)
     vec3 through = vec3(1.0);
     for (int i = 0; i < DARK; i++) {
         vec4 pencil = u_perturb_colours[i % max(u_perturb_colours_count, 1)];
-        through *= 1.0 - (1.0 - pencil.rgb) * (share_of_darkness(ink_of_mean(averaged_at(line_place(i), i)).a * darkest) * pencil.a);
+        through *= 1.0 - (1.0 - pencil.rgb) * (fraction_of_darkness(ink_of_mean(averaged_at(line_position(i), i)).a * darkest) * pencil.a);
     }
     float bare = min(through.r, min(through.g, through.b));
     return vec4(through - bare, 1.0 - bare);
@@ -137,7 +137,7 @@ vec4 joined_ink()
 #endif
     float darkest = u_numbers[2 * LINE_COPIES].x * force;
     vec4 ink = dark.a >= light.a ? dark : light;
-    ink *= share_of_darkness(ink.a * darkest) / max(ink.a, 1e-4);
+    ink *= fraction_of_darkness(ink.a * darkest) / max(ink.a, 1e-4);
     int coloured = u_perturb_colours_count > 1 && dark.a >= light.a ? 1 : 0;
     for (int once = 0; once < coloured; once++)
         ink = coloured_ink(darkest);

@@ -20,7 +20,7 @@ const kind kind_perturb = {
 void hand_draw(stroke_style *style, const hand *h)
 {
     enum { COPIES_MOST = 3 };
-    static const float taper_share = 8; /* how many widths a sketched line takes to thin out */
+    static const float taper_fraction = 8; /* how many widths a sketched line takes to thin out */
     style->wobble = h->sway;
     style->wobble_length = fmaxf(h->length, 4);
     style->pressure = fminf(h->pressure, 1);
@@ -30,5 +30,5 @@ void hand_draw(stroke_style *style, const hand *h)
         style->brush = BRUSH_PENCIL;
     }
     if (style->wobble > 0)
-        style->taper = style->width * taper_share;
+        style->taper = style->width * taper_fraction;
 }

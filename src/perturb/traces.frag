@@ -37,8 +37,8 @@ vec3 ray_of(vec2 pixel)
     return vec3((2.0 * (pixel + 0.5) * u_texel - 1.0) * u_unproject, -1.0);
 }
 
-/* Eye-space place of a pixel's surface. */
-vec3 place_of(vec2 pixel, float depth)
+/* Eye-space position of a pixel's surface. */
+vec3 position_of(vec2 pixel, float depth)
 {
     vec3 ray = ray_of(pixel);
     return vec3(ray.xy * mix(1.0, depth, u_perspective), -depth);
@@ -52,7 +52,7 @@ float pixel_size(float depth)
 #if BY == 0
 /* Waves of a fixed length on the sheet: the ladder of octaves goes with the size of a pixel on the surface, and each fades in and out
  * as it enters and leaves. */
-vec3 noise_at(vec3 place, float depth, uint seed)
+vec3 noise_at(vec3 position, float depth, uint seed)
 {
     float level = log2(LATTICE * u_perturb_scale * pixel_size(depth)), top = floor(level) + 1.0;
     vec3 sum = vec3(0.0);
@@ -60,23 +60,23 @@ vec3 noise_at(vec3 place, float depth, uint seed)
     for (int i = 0; i <= OCTAVES; i++) {
         float octave = top - float(i), above = octave - level;
         float weight = exp2(min(above, 0.0)) * clamp(1.0 - above, 0.0, 1.0) * clamp(above + float(OCTAVES), 0.0, 1.0);
-        sum += weight * octave_of(noise_of(place * exp2(-octave), seed + uint(int(octave) + 64) * 0x51ed270bu));
+        sum += weight * octave_of(noise_of(position * exp2(-octave), seed + uint(int(octave) + 64) * 0x51ed270bu));
         weights += weight;
         squares += weight * weight;
     }
     return uncertainty_of(sum, weights, squares);
 }
 #else
-vec3 noise_at(vec3 place, uint seed)
+vec3 noise_at(vec3 position, uint seed)
 {
     vec3 sum = vec3(0.0);
     float weight = 1.0, weights = 0.0, squares = 0.0;
     for (int i = 0; i < OCTAVES; i++) {
-        sum += weight * octave_of(noise_of(place, seed + uint(i) * 0x51ed270bu));
+        sum += weight * octave_of(noise_of(position, seed + uint(i) * 0x51ed270bu));
         weights += weight;
         squares += weight * weight;
         weight *= 0.5;
-        place *= 2.0;
+        position *= 2.0;
     }
     return uncertainty_of(sum, weights, squares);
 }
@@ -91,16 +91,16 @@ vec3 trace_of(vec2 pixel, vec4 surface)
                          texelFetch(t_part_frames, at + ivec2(2, 0), 0));
     uint seed = u_seed + uint(texelFetch(t_part_frames, at + ivec2(3, 0), 0).r) * 0x632be59bu;
 #if BY == 0
-    vec4 world = u_world_from_eye * vec4(place_of(pixel, surface.w), 1.0);
+    vec4 world = u_world_from_eye * vec4(position_of(pixel, surface.w), 1.0);
     return noise_at(world * rows, surface.w, seed);
 #elif BY == 1
     vec4 normal = u_world_from_eye * vec4(surface.xyz, 0.0);
     return noise_at(2.0 * (normal * rows), seed);
 #else
     /* How much the normal turns over an eighteenth of a wave. */
-    float way = max(floor(u_perturb_scale / 36.0 + 0.5), 1.0);
-    float bend = surface_at(pixel + vec2(way, 0.0)).x - surface_at(pixel - vec2(way, 0.0)).x +
-                 surface_at(pixel + vec2(0.0, way)).y - surface_at(pixel - vec2(0.0, way)).y;
+    float spacing = max(floor(u_perturb_scale / 36.0 + 0.5), 1.0);
+    float bend = surface_at(pixel + vec2(spacing, 0.0)).x - surface_at(pixel - vec2(spacing, 0.0)).x +
+                 surface_at(pixel + vec2(0.0, spacing)).y - surface_at(pixel - vec2(0.0, spacing)).y;
     return noise_at(vec3(4.0 * bend, 0.37, 0.61), seed);
 #endif
 }
@@ -119,19 +119,19 @@ float step_to(float neighbour, float depth, float opposite)
  * waves crowd there. */
 float say_of(vec2 pixel, vec4 surface)
 {
-    const vec2 ways[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
+    const vec2 directions[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.7071, 0.7071), vec2(0.7071, -0.7071));
     float wave = LATTICE * u_perturb_scale * pixel_size(surface.w) * exp2(1.0 - float(OCTAVES)), yielded = 1.0, inside = 0.0;
     for (int ring = 0; ring < 2; ring++)
         for (int i = 0; i < 4; i++) {
-            vec2 way = floor((ring == 0 ? 1.2 : 2.4) * u_cell * ways[i] + 0.5);
-            float ahead = surface_at(pixel + way).w, behind = surface_at(pixel - way).w;
+            vec2 spacing = floor((ring == 0 ? 1.2 : 2.4) * u_cell * directions[i] + 0.5);
+            float ahead = surface_at(pixel + spacing).w, behind = surface_at(pixel - spacing).w;
             vec2 steps = vec2(step_to(ahead, surface.w, behind), step_to(behind, surface.w, ahead)) / wave;
             float nearer = smoothstep(0.15, 0.6, max(steps.x, steps.y));
             vec2 same = (1.0 - smoothstep(vec2(0.15), vec2(0.6), -steps)) * vec2(greaterThan(vec2(ahead, behind), vec2(0.0)));
             yielded = min(yielded, mix(1.0, ring == 0 ? 0.0 : 0.5, nearer));
             inside += ring == 0 ? same.x + same.y : 0.0;
         }
-    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), place_of(pixel, surface.w), u_perspective));
+    vec3 ray = normalize(mix(vec3(0.0, 0.0, -1.0), position_of(pixel, surface.w), u_perspective));
     return yielded * (inside / 8.0) * smoothstep(0.0, 0.4, abs(dot(surface.xyz, ray)));
 }
 #endif

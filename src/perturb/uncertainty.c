@@ -65,22 +65,22 @@ static const param params[] = {
     PARAM_FLOAT_ROW(uncertainty, enlarge, .def = 12, .min = 1, .max = 200, .soft_max = 40, .unit = UNIT_PX,
                     .along = true, .only_if = "outward=enlarged", .cpu_only = true,
                     .doc = "How far the enlarged model reaches beyond the model."),
-    DEGREE_ROW(edges_xx, 1, "Degree of uncertainty of lines: share of the first noise in the way to the right."),
-    DEGREE_ROW(edges_xy, 0, "Of lines: share of the second noise in the way to the right."),
-    DEGREE_ROW(edges_yx, 0, "Of lines: share of the first noise in the way up."),
-    DEGREE_ROW(edges_yy, 1, "Of lines: share of the second noise in the way up."),
-    DEGREE_ROW(shades_xx, -0.75,
-               "Degree of uncertainty of fill: share of the first noise in the way to the right; of another sign than "
-               "that of lines, both part."),
-    DEGREE_ROW(shades_xy, 0, "Of fill: share of the second noise in the way to the right."),
-    DEGREE_ROW(shades_yx, 0, "Of fill: share of the first noise in the way up."),
-    DEGREE_ROW(shades_yy, -0.75, "Of fill: share of the second noise in the way up."),
+    DEGREE_ROW(edges_xx, 1, "Degree of uncertainty of lines: fraction of the first noise in the way to the right."),
+    DEGREE_ROW(edges_xy, 0, "Of lines: fraction of the second noise in the way to the right."),
+    DEGREE_ROW(edges_yx, 0, "Of lines: fraction of the first noise in the way up."),
+    DEGREE_ROW(edges_yy, 1, "Of lines: fraction of the second noise in the way up."),
+    DEGREE_ROW(
+        shades_xx, -0.75,
+        "Degree of uncertainty of fill: fraction of the first noise in the way to the right; of another sign than "
+        "that of lines, both part."),
+    DEGREE_ROW(shades_xy, 0, "Of fill: fraction of the second noise in the way to the right."),
+    DEGREE_ROW(shades_yx, 0, "Of fill: fraction of the first noise in the way up."),
+    DEGREE_ROW(shades_yy, -0.75, "Of fill: fraction of the second noise in the way up."),
     PARAM_FLOAT_ROW(uncertainty, rough, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,
                     .doc = "Displacement of every grain of the paper by itself: borders fray as chalk's do."),
-    PARAM_FLOAT_ROW(
-        uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-        .doc =
-            "Share of the paper's grains that the fill leaves bare; lines, drawn with more force, leave half as many."),
+    PARAM_FLOAT_ROW(uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of the paper's grains that the fill leaves bare; lines, drawn with more force, "
+                           "leave half as many."),
     PARAM_FLOAT_ROW(uncertainty, grain, .def = 1, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true,
                     .doc = "Size of the paper's grains."),
     PARAM_INT_ROW(uncertainty, repeat, .def = 1, .min = 1, .max = 8, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
@@ -90,7 +90,7 @@ static const param params[] = {
     PARAM_PALETTE_ROW(uncertainty, repeat_colours, .def_palette = {1, {{0.45f, 0.47f, 0.50f, 1}}},
                       .only_if = "repeat>1",
                       .doc = "Colours of the repetitions, in turn; the first time lines have their own."),
-    PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much the weight of lines varies along them."),
     PARAM_COLOUR_ROW(uncertainty, fallback, .can_auto = true, .def_auto = true, .auto_ground = true,
                      .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the "
@@ -148,13 +148,14 @@ static const pass map = {
 
 static void uncertainty_hand(struct stroke_style *style, const void *values)
 {
-    static const float sway_share = 0.4f; /* most places move by much less than the most */
+    static const float sway_fraction = 0.4f; /* most positions move by much less than the most */
     const uncertainty *v = values;
-    hand_draw(style, &(hand){.sway = v->amount * sway_share, .length = v->scale, .pressure = v->pressure, .copies = 1});
+    hand_draw(style,
+              &(hand){.sway = v->amount * sway_fraction, .length = v->scale, .pressure = v->pressure, .copies = 1});
 }
 
 static const perturbation perturbs = {
-    .places = "perturb/uncertainty.glsl",
+    .positions = "perturb/uncertainty.glsl",
     .active = is_active,
     .reach = reach_of,
     .cell = cell_of,

@@ -5,51 +5,51 @@
 #define LINE_COPIES REPEAT
 
 vec3  s_uncertainty;
-vec2  s_place;
+vec2  s_position;
 vec4  s_grain; /* displacement of this grain: of lines, of fill */
 vec2  s_bare;  /* what is left of lines and of fill */
 
 /* To be called first. */
-void find_places(ivec2 pixel)
+void find_positions(ivec2 pixel)
 {
-    s_place = vec2(pixel);
+    s_position = vec2(pixel);
     s_uncertainty = uncertainty_at(pixel);
     s_grain = vec4(0.0);
     s_bare = vec2(1.0);
     int grainy = u_perturb_rough + u_perturb_tooth > 0.0 ? 1 : 0;
     for (int once = 0; once < grainy; once++) {
-        uvec3 place = uvec3(uvec2(vec2(pixel) / u_perturb_grain), 0u);
-        uvec3 hash = uvec3(hash_of(place, u_seed), hash_of(place, u_seed + 1u), hash_of(place, u_seed + 2u));
-        s_grain = (vec4(hash.xy & 65535u, hash.xy >> 16u) * (2.0 / 65535.0) - 1.0) * (u_perturb_rough * border_share(pixel));
+        uvec3 position = uvec3(uvec2(vec2(pixel) / u_perturb_grain), 0u);
+        uvec3 hash = uvec3(hash_of(position, u_seed), hash_of(position, u_seed + 1u), hash_of(position, u_seed + 2u));
+        s_grain = (vec4(hash.xy & 65535u, hash.xy >> 16u) * (2.0 / 65535.0) - 1.0) * (u_perturb_rough * border_fraction(pixel));
         float height = float(hash.z >> 8u) / 16777215.0;
         s_bare = clamp(1.0 + 5.0 * (height - u_perturb_tooth * vec2(0.5, 1.0)), 0.0, 1.0);
     }
 }
 
-float fill_share()
+float fill_fraction()
 {
     return s_bare.y;
 }
 
-vec2 fill_place()
+vec2 fill_position()
 {
     mat2 degree = mat2(u_perturb_shades_xx, u_perturb_shades_yx, u_perturb_shades_xy, u_perturb_shades_yy);
-    return s_place + u_perturb_amount * (degree * s_uncertainty.xy) + s_grain.zw;
+    return s_position + u_perturb_amount * (degree * s_uncertainty.xy) + s_grain.zw;
 }
 
 /* Of the i-th repetition. Section 6.6: each has a degree of uncertainty of its own. */
-vec2 line_place(int i)
+vec2 line_position(int i)
 {
     mat2 degree = mat2(u_perturb_edges_xx, u_perturb_edges_yx, u_perturb_edges_xy, u_perturb_edges_yy);
-    vec2 way = s_uncertainty.xy;
+    vec2 direction = s_uncertainty.xy;
 #if REPEAT > 1
     float angle = 6.2831853 * float(i) / float(REPEAT);
-    way = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * way * pow(u_perturb_repeat_degree, float(i));
+    direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * direction * pow(u_perturb_repeat_degree, float(i));
 #endif
-    return s_place + u_perturb_amount * (degree * way) + s_grain.xy;
+    return s_position + u_perturb_amount * (degree * direction) + s_grain.xy;
 }
 
-/* Share of its ink that a line loses where it is eased most; broad ones thin instead. */
+/* Fraction of its ink that a line loses where it is eased most; broad ones thin instead. */
 #ifdef BROAD_LINES
 #define EASED_AWAY 0.2
 #else

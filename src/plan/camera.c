@@ -76,7 +76,7 @@ static double fitting_depth(const double x[8], const double z[8], double t)
     return -overreach(x, z, 0.0, t, &centre) / (2 * t);
 }
 
-/* The eye's place across, so that the points reach equally far to both sides on the picture. */
+/* The eye's position across, so that the points reach equally far to both sides on the picture. */
 static double fitting_centre(const double x[8], const double z[8], double eye_z, double t)
 {
     double low = 0, high = t, centre = 0;
@@ -91,7 +91,7 @@ static double fitting_centre(const double x[8], const double z[8], double eye_z,
     return centre;
 }
 
-/* Moves the eye so that the projected corners of the box fill the share `fit` of the frame. */
+/* Moves the eye so that the projected corners of the box fill the fraction `fit` of the frame. */
 static void fit_box(view_camera *c, box3 bounds, double fit, const double right[3], const double up[3],
                     const double forward[3])
 {
@@ -167,7 +167,7 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
 {
     const lmn_scene *scene = pose->scene;
     const char      *names[64];
-    char             numbered[64][CAMERA_NAME_ROOM], room[CAMERA_NAME_ROOM];
+    char             numbered[64][CAMERA_NAME_CAPACITY], capacity[CAMERA_NAME_CAPACITY];
     size_t           name_count = 0;
     for (size_t i = 0; i < scene->node_count; i++) {
         const node *n = &scene->nodes[i];
@@ -175,7 +175,7 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
             continue;
         const camera *file = &scene->cameras[n->camera];
         const char   *name =
-            scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : room);
+            scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : capacity);
         if (name_count < 64)
             names[name_count++] = name;
         if (strcmp(name, desc->camera) != 0 && !(n->name && strcmp(n->name, desc->camera) == 0))

@@ -28,9 +28,9 @@ static void add_file_lights(const light_conditions *c, float positions[][4], flo
         const light *l = &scene->lights[scene->nodes[i].light];
         mat4         eye = mat4_multiply(c->view, &c->pose->worlds[i]);
         /* Lights shine along their node's −Z. Physical units are not used: every light counts as fully bright. */
-        double back[3] = {eye.m[8], eye.m[9], eye.m[10]}, place[3] = {eye.m[12], eye.m[13], eye.m[14]};
+        double back[3] = {eye.m[8], eye.m[9], eye.m[10]}, position[3] = {eye.m[12], eye.m[13], eye.m[14]};
         bool   placed = l->type != LIGHT_DIRECTIONAL;
-        add_light(positions, colours, count, placed ? place : back, placed ? 1 : 0, l->colour, scale);
+        add_light(positions, colours, count, placed ? position : back, placed ? 1 : 0, l->colour, scale);
     }
 }
 

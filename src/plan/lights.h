@@ -8,7 +8,7 @@
 #include "pose/pose.h"
 
 typedef struct light_list {
-    float positions[LIGHTS_MAX][4]; /* eye space: a place, 1; or the direction towards the light, 0 */
+    float positions[LIGHTS_MAX][4]; /* eye space: a position, 1; or the direction towards the light, 0 */
     float colours[LIGHTS_MAX][4];   /* linear */
     int   count;                    /* at least 1 */
 } light_list;

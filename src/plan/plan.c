@@ -64,7 +64,7 @@ static bool copy_rule(rule *out, const rule *from, int pixel_scale)
 
 /* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a
  * composition cannot look anything up elsewhere. */
-static void settle_perturbation(rule *r, warnings *notes)
+static void settle_perturbation(rule *r, warnings *warnings)
 {
     const technique_use *compose = rule_use(r, KIND_COMPOSE);
     technique_use       *perturb = r->use_counts[KIND_PERTURB] ? &r->uses[KIND_PERTURB][0] : NULL;
@@ -75,7 +75,7 @@ static void settle_perturbation(rule *r, warnings *notes)
     if (active && able)
         return;
     if (!able)
-        warnings_add(notes, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can",
+        warnings_add(warnings, WARNING_UNUSED, "compose '%s' cannot be perturbed; 'opaque' and those of layers can",
                      compose->technique->name);
     use_release(perturb);
     r->use_counts[KIND_PERTURB] = 0;
@@ -327,7 +327,7 @@ static void share_parts(plan *p)
 }
 
 /* Rules for what solids take away have no parts where that is left to others. */
-static void note_idle_rules(const plan *p, bool without_removed, warnings *notes)
+static void warn_of_idle_rules(const plan *p, bool without_removed, warnings *warnings)
 {
     const lmn_look *look = p->look;
     for (size_t r = 0; r < look->rule_count; r++) {
@@ -338,13 +338,13 @@ static void note_idle_rules(const plan *p, bool without_removed, warnings *notes
         for (size_t i = 0; idle && i < p->part_count; i++)
             idle = p->rule_of[i] != (int32_t)r;
         if (idle)
-            warnings_add(notes, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
+            warnings_add(warnings, WARNING_NO_MATCH, "rule %zu of look '%s' selects no part: '%s'", r, look->name,
                          own->select);
     }
 }
 
 /* One figure a rule that has parts. */
-static lmn_status make_figures(plan *p, const plan_options *options, warnings *notes, lmn_error *error)
+static lmn_status make_figures(plan *p, const plan_options *options, warnings *warnings, lmn_error *error)
 {
     for (size_t r = 0; r < p->look->rule_count; r++) {
         p->rule_count++;
@@ -352,7 +352,7 @@ static lmn_status make_figures(plan *p, const plan_options *options, warnings *n
             return error_memory(error);
         if (options->surfaces_only)
             drop_lines(&p->rules[r]);
-        settle_perturbation(&p->rules[r], notes);
+        settle_perturbation(&p->rules[r], warnings);
         settle_grounds(&p->rules[r], p->ground);
         figure f = {.rule = &p->rules[r], .box = box3_empty(), .unmarked = options->surfaces_only};
         f.designated = mem_calloc(p->part_count, sizeof *f.designated);
@@ -477,7 +477,7 @@ static lmn_status split_focus(plan *p, size_t index, colour highlight, lmn_error
     return LMN_OK;
 }
 
-static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *error)
+static lmn_status find_focus(plan *p, size_t index, warnings *warnings, lmn_error *error)
 {
     figure  *f = &p->figures[index];
     layering how = layering_of(rule_use(f->rule, KIND_LAYERS));
@@ -498,7 +498,7 @@ static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *
     if (!f->focus)
         return error_memory(error);
     if (found == 0) {
-        warnings_add(notes, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", how.focus);
+        warnings_add(warnings, WARNING_NO_MATCH, "layers.focus '%s' selects no part that is drawn", how.focus);
         mem_free(f->focus);
         f->focus = NULL;
     }
@@ -506,12 +506,12 @@ static lmn_status find_focus(plan *p, size_t index, warnings *notes, lmn_error *
 }
 
 /* Layered figures: what is to be uncovered, and the lines of hidden layers. */
-static lmn_status prepare_layers(plan *p, warnings *notes, lmn_error *error)
+static lmn_status prepare_layers(plan *p, warnings *warnings, lmn_error *error)
 {
     for (size_t i = 0, count = p->figure_count; i < count; i++) {
         if (!is_seen_through(p->figures[i].rule))
             continue;
-        lmn_status status = find_focus(p, i, notes, error);
+        lmn_status status = find_focus(p, i, warnings, error);
         if (status != LMN_OK)
             return status;
         if (!add_hidden_rule(p, &p->figures[i]))
@@ -580,13 +580,13 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     return status;
 }
 
-static lmn_status plan_figures(plan *p, const plan_options *options, warnings *notes, lmn_error *error)
+static lmn_status plan_figures(plan *p, const plan_options *options, warnings *warnings, lmn_error *error)
 {
-    lmn_status status = make_figures(p, options, notes, error);
+    lmn_status status = make_figures(p, options, warnings, error);
     if (status == LMN_OK)
         status = split_mirrors(p, error);
     if (status == LMN_OK)
-        status = prepare_layers(p, notes, error);
+        status = prepare_layers(p, warnings, error);
     if (status != LMN_OK)
         return status;
     find_opaque_parts(p);
@@ -596,8 +596,8 @@ static lmn_status plan_figures(plan *p, const plan_options *options, warnings *n
     return LMN_OK;
 }
 
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes,
-                       lmn_error *error)
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options,
+                       warnings *warnings, lmn_error *error)
 {
     lmn_status status = open_plan(out, pose, look, options, error);
     if (status == LMN_OK)
@@ -605,8 +605,8 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
     if (status != LMN_OK)
         return status;
     share_parts(out);
-    note_idle_rules(out, options->parts_only && pose->ghost_count > 0, notes);
-    return options->parts_only ? LMN_OK : plan_figures(out, options, notes, error);
+    warn_of_idle_rules(out, options->parts_only && pose->ghost_count > 0, warnings);
+    return options->parts_only ? LMN_OK : plan_figures(out, options, warnings, error);
 }
 
 const rule *plan_rule(const plan *p, size_t part_index)
@@ -615,14 +615,14 @@ const rule *plan_rule(const plan *p, size_t part_index)
     return index != NONE ? &p->look->rules[index] : NULL;
 }
 
-void plan_camera_range(const plan *p, view_camera *camera, warnings *notes)
+void plan_camera_range(const plan *p, view_camera *camera, warnings *warnings)
 {
     double nearest = INFINITY, farthest = -INFINITY;
     for (size_t i = 0; i < p->part_count; i++)
         if (p->selected[i] && !box3_is_empty(p->pose->part_boxes[i]))
             camera_depth_range(camera, p->pose->part_boxes[i], &nearest, &farthest);
     if (!camera->orthographic && p->selected_count && farthest <= 0)
-        warnings_add(notes, WARNING_UNUSED, "the model is behind the viewer: the page stays empty");
+        warnings_add(warnings, WARNING_UNUSED, "the model is behind the viewer: the page stays empty");
     if (!(farthest >= nearest))
         nearest = farthest = 1;
     camera_set_range(camera, nearest, farthest);

@@ -67,16 +67,16 @@ typedef struct plan_options {
 } plan_options;
 
 /* The pose and the look are lent. Errors: LMN_USAGE (bad selector, colour or section), LMN_FORMAT (nothing to
- * draw), LMN_MEMORY. Warnings (rules that select nothing, settings without effect) go to `notes`. */
-lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options, warnings *notes,
-                       lmn_error *error);
+ * draw), LMN_MEMORY. Warnings (rules that select nothing, settings without effect) go to `warnings`. */
+lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options,
+                       warnings *warnings, lmn_error *error);
 void       plan_release(plan *p);
 
 /* The look's rule that draws a part; NULL: none does. */
 const rule *plan_rule(const plan *p, size_t part_index);
 
 /* The planes between which all that is drawn lies. Warns of a model behind the viewer. */
-void plan_camera_range(const plan *p, view_camera *camera, warnings *notes);
+void plan_camera_range(const plan *p, view_camera *camera, warnings *warnings);
 
 /* Must the surface be shaded while the geometry is drawn? */
 bool shades_with_geometry(const technique_use *surface);

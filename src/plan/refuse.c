@@ -28,8 +28,8 @@ lmn_status refuse(const refusal *r, lmn_status status, warning_code code, const 
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     if (r->lenient) {
-        if (r->notes)
-            warnings_add(r->notes, code, "%s", text);
+        if (r->warnings)
+            warnings_add(r->warnings, code, "%s", text);
         return LMN_OK;
     }
     error_in_file(r->error, status, refuse_file(r->scene), 0, "%s", text);

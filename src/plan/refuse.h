@@ -16,7 +16,7 @@ void refuse_in_file(lmn_error *error, const lmn_scene *scene);
 typedef struct refusal {
     const lmn_scene *scene;
     bool             lenient;
-    warnings        *notes;
+    warnings        *warnings;
     lmn_error       *error;
 } refusal;
 

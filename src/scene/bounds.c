@@ -10,8 +10,8 @@ enum { EXACT_POINTS = 1 << 26, EXACT_LEAST = 64 };
 
 static bool is_affordable(const lmn_scene *s, size_t points, size_t draws)
 {
-    size_t share = EXACT_POINTS / s->node_count;
-    return points <= (share > EXACT_LEAST ? share : EXACT_LEAST) / draws;
+    size_t fraction = EXACT_POINTS / s->node_count;
+    return points <= (fraction > EXACT_LEAST ? fraction : EXACT_LEAST) / draws;
 }
 
 int32_t scene_next_node(const lmn_scene *s, int32_t root, int32_t current)
@@ -130,7 +130,7 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
         return joint_boxes(p->bounds, joints, joint_count);
     vec3 *posed = exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count) : NULL;
     box3  local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
-    /* Skinned vertices are already in the world: the node's own place does not move them. */
+    /* Skinned vertices are already in the world: the node's own position does not move them. */
     if (!skinned || !posed)
         local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
     mem_free(posed);

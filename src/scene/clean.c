@@ -57,44 +57,44 @@ static void drop_triangles(primitive *p, bool keep_closed, clean_counts *counts)
     p->index_count = kept;
 }
 
-/* Moves each kept element to its new place; new places never lie behind old ones. */
-static void compact(void *array, size_t element, const uint32_t *places, uint32_t count)
+/* Moves each kept element to its new position; new positions never lie behind old ones. */
+static void compact(void *array, size_t element, const uint32_t *positions, uint32_t count)
 {
     char *bytes = array;
     for (uint32_t i = 0; bytes && i < count; i++)
-        if (places[i] != UINT32_MAX && places[i] != i)
-            memcpy(bytes + places[i] * element, bytes + i * element, element);
+        if (positions[i] != UINT32_MAX && positions[i] != i)
+            memcpy(bytes + positions[i] * element, bytes + i * element, element);
 }
 
 static bool drop_vertices(primitive *p)
 {
-    uint32_t *places = mem_alloc((size_t)p->vertex_count * sizeof *places);
-    if (!places)
+    uint32_t *positions = mem_alloc((size_t)p->vertex_count * sizeof *positions);
+    if (!positions)
         return false;
-    memset(places, 0xFF, (size_t)p->vertex_count * sizeof *places);
+    memset(positions, 0xFF, (size_t)p->vertex_count * sizeof *positions);
     for (uint32_t i = 0; i < p->index_count; i++)
-        places[p->indices[i]] = 0;
+        positions[p->indices[i]] = 0;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < p->vertex_count; i++)
-        if (places[i] == 0)
-            places[i] = kept++;
+        if (positions[i] == 0)
+            positions[i] = kept++;
     if (kept < p->vertex_count) {
-        compact(p->positions, sizeof *p->positions, places, p->vertex_count);
-        compact(p->normals, sizeof *p->normals, places, p->vertex_count);
+        compact(p->positions, sizeof *p->positions, positions, p->vertex_count);
+        compact(p->normals, sizeof *p->normals, positions, p->vertex_count);
         for (int i = 0; i < UV_SETS; i++)
-            compact(p->uvs[i], sizeof *p->uvs[i], places, p->vertex_count);
-        compact(p->colours, sizeof *p->colours, places, p->vertex_count);
-        compact(p->joints, 4 * sizeof *p->joints, places, p->vertex_count);
-        compact(p->weights, sizeof *p->weights, places, p->vertex_count);
+            compact(p->uvs[i], sizeof *p->uvs[i], positions, p->vertex_count);
+        compact(p->colours, sizeof *p->colours, positions, p->vertex_count);
+        compact(p->joints, 4 * sizeof *p->joints, positions, p->vertex_count);
+        compact(p->weights, sizeof *p->weights, positions, p->vertex_count);
         for (size_t i = 0; i < p->morph_count; i++) {
-            compact(p->morphs[i].positions, sizeof(vec3), places, p->vertex_count);
-            compact(p->morphs[i].normals, sizeof(vec3), places, p->vertex_count);
+            compact(p->morphs[i].positions, sizeof(vec3), positions, p->vertex_count);
+            compact(p->morphs[i].normals, sizeof(vec3), positions, p->vertex_count);
         }
         for (uint32_t i = 0; i < p->index_count; i++)
-            p->indices[i] = places[p->indices[i]];
+            p->indices[i] = positions[p->indices[i]];
         p->vertex_count = kept;
     }
-    mem_free(places);
+    mem_free(positions);
     return true;
 }
 

@@ -315,7 +315,7 @@ static bool is_far(box3 b)
 }
 
 /* Transforms may be finite and still put a part where no camera can look. */
-static lmn_status check_places(const check *c, const part *parts, size_t count)
+static lmn_status check_positions(const check *c, const part *parts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         if (!is_far(parts[i].bounds))
@@ -378,7 +378,7 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     s->parts = list.parts;
     s->part_count = list.part_count;
     s->ghost_count = list.ghost_count;
-    status = check_places(&c, s->parts, s->part_count);
+    status = check_positions(&c, s->parts, s->part_count);
     if (status != LMN_OK)
         return status;
     s->revision = scene_next_revision();

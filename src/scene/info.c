@@ -126,7 +126,7 @@ static json_t *textures_json(const lmn_scene *s)
 static json_t *cameras_json(const lmn_scene *s)
 {
     json_t      *list = json_array();
-    char         numbered[CAMERA_NAME_ROOM];
+    char         numbered[CAMERA_NAME_CAPACITY];
     const char **node_names = mem_calloc(s->camera_count, sizeof *node_names);
     for (size_t i = s->node_count; node_names && i-- > 0;)
         if (s->nodes[i].camera != NONE && s->nodes[i].name)

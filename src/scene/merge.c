@@ -99,7 +99,7 @@ static char *root_name(const lmn_scene *into, const char *file)
     return tried;
 }
 
-static lmn_status check_room(const lmn_scene *into, const lmn_scene *from, const char *file, lmn_error *error)
+static lmn_status check_capacity(const lmn_scene *into, const lmn_scene *from, const char *file, lmn_error *error)
 {
     size_t           vertices = 0, triangles = 0, instances = 0;
     const lmn_scene *both[] = {into, from};
@@ -166,7 +166,7 @@ static void move_parts(lmn_scene *into, lmn_scene *from)
 }
 
 /* Behind this nothing can fail. */
-static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, const mat4 *place)
+static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, const mat4 *position)
 {
     offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,   (int32_t)into->material_count,
                   (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
@@ -176,7 +176,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     node   *n = scene_append_node(into); /* room was reserved */
     n->name = name;
     n->has_matrix = true;
-    n->matrix = *place;
+    n->matrix = *position;
     move_elements(into, from);
     move_parts(into, from);
     for (size_t i = (size_t)by.nodes; i < into->node_count; i++)
@@ -191,15 +191,15 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
 
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
 {
-    lmn_status status = check_room(into, from, file, error);
+    lmn_status status = check_capacity(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4      place = scene_up_rotation(from->up, into->up ? into->up : from->up);
+    mat4      position = scene_up_rotation(from->up, into->up ? into->up : from->up);
     char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part     *grown = NULL;
     bool      good =
-        name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &place, &list);
+        name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &position, &list);
     if (good) {
         size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
         grown = mem_realloc(into->parts, total * sizeof *grown);
@@ -218,6 +218,6 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     from->ghost_count = list.ghost_count;
     if (!into->up)
         into->up = from->up;
-    commit(into, from, name, path, &place);
+    commit(into, from, name, path, &position);
     return LMN_OK;
 }

@@ -174,7 +174,7 @@ static void do_areas(size_t begin, size_t end, void *user)
 /* Sorts the corners by position, keeping their order within one. */
 static void group_corners(const primitive *p, const uint32_t *ids, uint32_t *starts, uint32_t *corners)
 {
-    /* Counting one place further on leaves starts[g] at the group's first corner after the filling below. */
+    /* Counting one position further on leaves starts[g] at the group's first corner after the filling below. */
     for (uint32_t c = 0; c < p->index_count; c++)
         starts[ids[p->indices[c]] + 2]++;
     for (uint32_t v = 0; v < p->vertex_count; v++)
@@ -186,10 +186,10 @@ static void group_corners(const primitive *p, const uint32_t *ids, uint32_t *sta
 typedef struct splitter {
     normals_job     *job;
     render_vertices *out;
-    size_t           normal_room, source_room;
+    size_t           normal_capacity, source_capacity;
     uint32_t        *latest; /* per vertex: its newest render vertex, or UINT32_MAX */
     uint32_t        *older;  /* per render vertex: the one before it of the same vertex */
-    size_t           older_room;
+    size_t           older_capacity;
 } splitter;
 
 static bool same_normal(vec3 a, vec3 b)
@@ -212,9 +212,9 @@ static uint32_t render_vertex(splitter *s, uint32_t vertex, vec3 normal)
         if (same_normal(out->normals[r], normal))
             return r;
     size_t count = (size_t)out->vertex_count + 1;
-    if (count >= UINT32_MAX || !mem_grow((void **)&out->normals, &s->normal_room, count, sizeof *out->normals) ||
-        !mem_grow((void **)&out->source, &s->source_room, count, sizeof *out->source) ||
-        !mem_grow((void **)&s->older, &s->older_room, count, sizeof *s->older))
+    if (count >= UINT32_MAX || !mem_grow((void **)&out->normals, &s->normal_capacity, count, sizeof *out->normals) ||
+        !mem_grow((void **)&out->source, &s->source_capacity, count, sizeof *out->source) ||
+        !mem_grow((void **)&s->older, &s->older_capacity, count, sizeof *s->older))
         return UINT32_MAX;
     r = out->vertex_count++;
     out->normals[r] = normal;
@@ -249,9 +249,9 @@ static bool make_splits(render_vertices *out, normals_job *job)
         return true;
     splitter s = {.job = job,
                   .out = out,
-                  .normal_room = p->vertex_count,
-                  .source_room = p->vertex_count,
-                  .older_room = p->vertex_count};
+                  .normal_capacity = p->vertex_count,
+                  .source_capacity = p->vertex_count,
+                  .older_capacity = p->vertex_count};
     out->source = mem_alloc((size_t)p->vertex_count * sizeof *out->source);
     out->indices = mem_copy(p->indices, (size_t)p->index_count * sizeof *out->indices);
     s.latest = mem_alloc((size_t)p->vertex_count * sizeof *s.latest);

@@ -59,9 +59,9 @@ static const char *own_name(const lmn_scene *s, int32_t index)
 static void append_cut(text *t, const char *step)
 {
     size_t length = strlen(step);
-    size_t room = t->size < PATH_BYTES_MAX ? PATH_BYTES_MAX - t->size : 0;
-    if (length > room) {
-        length = room;
+    size_t capacity = t->size < PATH_BYTES_MAX ? PATH_BYTES_MAX - t->size : 0;
+    if (length > capacity) {
+        length = capacity;
         /* Never cut inside a UTF-8 character. */
         while (length > 0 && ((unsigned char)step[length] & 0xC0) == 0x80)
             length--;
@@ -161,7 +161,7 @@ static bool add_trees(listing *l, bool ghosts)
     return true;
 }
 
-bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *place, part_list *out)
+bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *position, part_list *out)
 {
     size_t count = 0, ghosts = 0;
     for (size_t i = 0; i < s->node_count; i++) {
@@ -176,8 +176,8 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     l.parts = mem_calloc(count, sizeof *l.parts);
     l.worlds = scene_world_matrices(s);
     bool good = l.seen.entries && l.parts && l.worlds;
-    for (size_t i = 0; good && place && i < s->node_count; i++)
-        l.worlds[i] = mat4_multiply(place, &l.worlds[i]);
+    for (size_t i = 0; good && position && i < s->node_count; i++)
+        l.worlds[i] = mat4_multiply(position, &l.worlds[i]);
     good = good && add_trees(&l, false) && (ghosts == 0 || add_trees(&l, true));
     mem_free(l.seen.entries);
     mem_free(l.worlds);

@@ -5,14 +5,14 @@
 #include "scene/scene.h"
 
 /* Numbers the nodes that draw triangles, depth first: names, unique paths, counts and bounds. `prefix` and its
- * slash stand in front of each path (NULL: none), ids start behind `first_id`, `place` moves the bounds (NULL:
+ * slash stand in front of each path (NULL: none), ids start behind `first_id`, `position` moves the bounds (NULL:
  * not). Ghosts come behind the others. The result and its strings belong to the caller. False when memory is gone. */
 typedef struct part_list {
     part  *parts;
     size_t part_count, ghost_count;
 } part_list;
 
-bool parts_list(const lmn_scene *scene, const char *prefix, uint32_t first_id, const mat4 *place, part_list *out);
+bool parts_list(const lmn_scene *scene, const char *prefix, uint32_t first_id, const mat4 *position, part_list *out);
 void parts_release(part *parts, size_t count);
 
 #endif

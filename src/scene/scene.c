@@ -300,12 +300,12 @@ size_t node_draw_count(const node *n)
 }
 
 const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name,
-                              char numbered[CAMERA_NAME_ROOM])
+                              char numbered[CAMERA_NAME_CAPACITY])
 {
     if (scene->cameras[index].name)
         return scene->cameras[index].name;
     if (node_name)
         return node_name;
-    snprintf(numbered, CAMERA_NAME_ROOM, "camera-%zu", index + 1);
+    snprintf(numbered, CAMERA_NAME_CAPACITY, "camera-%zu", index + 1);
     return numbered;
 }

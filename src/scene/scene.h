@@ -270,9 +270,9 @@ mat4 node_local_matrix(const node *n);
 
 /* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted
  * from 1, in `numbered`. */
-enum { CAMERA_NAME_ROOM = 32 };
+enum { CAMERA_NAME_CAPACITY = 32 };
 const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *node_name,
-                              char numbered[CAMERA_NAME_ROOM]);
+                              char numbered[CAMERA_NAME_CAPACITY]);
 
 /* The scene's bounds with these world matrices: skinned and morphed parts as they are drawn. Empty box when
  * nothing. */

@@ -10,10 +10,10 @@ int32_t solid_append(solid *s, int32_t parent, solid_kind kind)
 {
     if (s->id_count >= INT32_MAX - 1 ||
         !mem_grow((void **)&s->nodes, &s->node_capacity, s->node_count + 1, sizeof *s->nodes) ||
-        !mem_grow((void **)&s->places, &s->place_capacity, s->id_count + 1, sizeof *s->places))
+        !mem_grow((void **)&s->positions, &s->position_capacity, s->id_count + 1, sizeof *s->positions))
         return NONE;
     int32_t index = (int32_t)s->node_count++;
-    s->places[s->id_count++] = index;
+    s->positions[s->id_count++] = index;
     s->operand_count += kind == SOLID_OPERAND;
     s->nodes[index] = (solid_node){.kind = kind,
                                    .id = (uint32_t)s->id_count,
@@ -57,7 +57,7 @@ void solid_release(solid *s)
     for (size_t i = 0; i < s->node_count; i++)
         mem_free(s->nodes[i].name);
     mem_free(s->nodes);
-    mem_free(s->places);
+    mem_free(s->positions);
     memset(s, 0, sizeof *s);
 }
 
@@ -82,12 +82,12 @@ static inherited *hand_down(const solid *s)
     return out;
 }
 
-static box3 mesh_box(const mesh *m, const mat4 *place)
+static box3 mesh_box(const mesh *m, const mat4 *position)
 {
     box3 box = box3_empty();
     for (size_t i = 0; i < m->primitive_count; i++)
         for (uint32_t k = 0; k < m->primitives[i].vertex_count; k++)
-            box = box3_with_point(box, mat4_transform_point(place, m->primitives[i].positions[k]));
+            box = box3_with_point(box, mat4_transform_point(position, m->primitives[i].positions[k]));
     return box;
 }
 
@@ -100,12 +100,12 @@ int32_t solid_next(const solid *s, int32_t top, int32_t current)
     return current == top ? NONE : s->nodes[current].next_sibling;
 }
 
-static void measure_operand(const lmn_scene *scene, solid *s, solid_node *n, const mat4 *place)
+static void measure_operand(const lmn_scene *scene, solid *s, solid_node *n, const mat4 *position)
 {
     s->triangles -= n->triangles;
     n->triangles = n->mesh == NONE ? 0 : mesh_triangle_count(&scene->meshes[n->mesh]);
     s->triangles += n->triangles;
-    n->box = n->triangles ? mesh_box(&scene->meshes[n->mesh], place) : box3_empty();
+    n->box = n->triangles ? mesh_box(&scene->meshes[n->mesh], position) : box3_empty();
 }
 
 bool solid_measure(const lmn_scene *scene, solid *s)
@@ -120,7 +120,7 @@ bool solid_measure(const lmn_scene *scene, solid *s)
 }
 
 /* Multiplied from the root on, as hand_down does: the same numbers, bit by bit. */
-static mat4 place_of(const solid *s, int32_t index)
+static mat4 position_of(const solid *s, int32_t index)
 {
     int32_t above[SOLID_DEPTH_MAX];
     size_t  depth = 0;
@@ -128,10 +128,10 @@ static mat4 place_of(const solid *s, int32_t index)
         above[depth++] = i;
     if (depth == 0)
         return s->nodes[index].matrix;
-    mat4 place = s->nodes[above[--depth]].matrix;
+    mat4 position = s->nodes[above[--depth]].matrix;
     while (depth-- > 0)
-        place = mat4_multiply(&place, &s->nodes[above[depth]].matrix);
-    return mat4_multiply(&place, &s->nodes[index].matrix);
+        position = mat4_multiply(&position, &s->nodes[above[depth]].matrix);
+    return mat4_multiply(&position, &s->nodes[index].matrix);
 }
 
 static bool is_within_reach(const solid_node *n)
@@ -149,8 +149,8 @@ bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top)
     for (int32_t i = top; i != NONE; i = solid_next(s, top, i)) {
         if (s->nodes[i].kind != SOLID_OPERAND)
             continue;
-        mat4 place = place_of(s, i);
-        measure_operand(scene, s, &s->nodes[i], &place);
+        mat4 position = position_of(s, i);
+        measure_operand(scene, s, &s->nodes[i], &position);
         good = good && is_within_reach(&s->nodes[i]);
     }
     return good;
@@ -189,9 +189,9 @@ void solid_sum_up_above(solid *s, int32_t node)
 
 bool solid_operands(const solid *s, solid_operand **out, size_t *count)
 {
-    size_t     room = s->operand_count, made = 0;
+    size_t     capacity = s->operand_count, made = 0;
     inherited *from = hand_down(s);
-    *out = mem_calloc(room ? room : 1, sizeof **out);
+    *out = mem_calloc(capacity ? capacity : 1, sizeof **out);
     *count = 0;
     if (!from || !*out) {
         mem_free(from);

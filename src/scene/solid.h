@@ -9,7 +9,7 @@
  * operands is empty, a difference takes all later operands from the first. */
 typedef enum solid_kind { SOLID_OPERAND, SOLID_UNION, SOLID_INTERSECTION, SOLID_DIFFERENCE } solid_kind;
 
-/* One node of the tree. Its place in the solid is parent · matrix. */
+/* One node of the tree. Its position in the solid is parent · matrix. */
 typedef struct solid_node {
     solid_kind kind;
     uint32_t   id; /* stays what it is when the tree is edited; from 1 on, which is the root's */
@@ -27,8 +27,8 @@ typedef struct solid_node {
 typedef struct solid {
     solid_node *nodes; /* 0 is the root; parents come before their children. None: the solid was removed */
     size_t      node_count, node_capacity;
-    int32_t    *places; /* of ids, from 1 on: which node; NONE: removed */
-    size_t      id_count, place_capacity;
+    int32_t    *positions; /* of ids, from 1 on: which node; NONE: removed */
+    size_t      id_count, position_capacity;
     uint64_t    revision, triangles; /* a revision is for one content, as the scene's */
     size_t      operand_count;
     bool        ghost; /* what another one takes away; it follows that one's edits and is not edited itself */
@@ -48,7 +48,7 @@ int32_t solid_append(solid *s, int32_t parent, solid_kind kind);
 void solid_take_back(solid *s);
 void solid_release(solid *s);
 /* Gives the solid of a node a companion, where it takes something away: below it a node "removed", marked as a
- * ghost, whose solid is the union of all that differences take away, whole subtrees, in the same places and
+ * ghost, whose solid is the union of all that differences take away, whole subtrees, in the same positions and
  * colours. Meshes are shared. What is taken away from something that is taken away itself was never there and is
  * none of it. Once the solid is whole; false when memory is gone. */
 bool scene_append_removed(lmn_scene *scene, int32_t node_index);

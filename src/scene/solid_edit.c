@@ -164,8 +164,8 @@ static size_t height_of(const solid *s, int32_t node)
     return height;
 }
 
-static lmn_status check_room(const solid *s, int32_t parent, size_t operands, size_t nodes, size_t levels,
-                             lmn_error *error)
+static lmn_status check_capacity(const solid *s, int32_t parent, size_t operands, size_t nodes, size_t levels,
+                                 lmn_error *error)
 {
     if (s->operand_count + operands > SOLID_OPERANDS_MAX)
         return error_set(error, LMN_LIMIT, "the solid would have more than %d operands", SOLID_OPERANDS_MAX);
@@ -213,7 +213,7 @@ lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const 
     solid     *s = &scene->solids[index];
     size_t     count = s->node_count;
     int32_t    mesh_index = NONE;
-    lmn_status status = check_room(s, parent, what->kind == SOLID_OPERAND, 1, 1, error);
+    lmn_status status = check_capacity(s, parent, what->kind == SOLID_OPERAND, 1, 1, error);
     if (status == LMN_OK && what->mesh)
         status = check_triangles(scene, mesh_triangle_count(what->mesh), error);
     if (status != LMN_OK) {
@@ -248,19 +248,19 @@ lmn_status solid_edit_add(lmn_scene *scene, size_t index, int32_t parent, const 
 static bool append_tree(solid *into, int32_t parent, const solid *from, int32_t source, const int32_t *meshes)
 {
     bool     good = true;
-    int32_t *places = mem_alloc(from->node_count * sizeof *places),
+    int32_t *positions = mem_alloc(from->node_count * sizeof *positions),
             *order = mem_alloc(from->node_count * sizeof *order);
     size_t count = 0;
-    for (int32_t i = source; places && order && i != NONE; i = solid_next(from, source, i))
+    for (int32_t i = source; positions && order && i != NONE; i = solid_next(from, source, i))
         order[count++] = i;
-    good = places && order;
+    good = positions && order;
     for (size_t k = 0; k < count && good; k++) {
         solid_node n = from->nodes[order[k]];
-        int32_t    at = solid_append(into, k == 0 ? parent : places[n.parent], n.kind);
+        int32_t    at = solid_append(into, k == 0 ? parent : positions[n.parent], n.kind);
         good = at != NONE;
         if (!good)
             break;
-        solid_node *made = &into->nodes[places[order[k]] = at];
+        solid_node *made = &into->nodes[positions[order[k]] = at];
         made->matrix = n.matrix;
         made->has_colour = n.has_colour;
         made->colour = n.colour;
@@ -269,7 +269,7 @@ static bool append_tree(solid *into, int32_t parent, const solid *from, int32_t 
         made->name = mem_copy_text(n.name);
         good = !n.name || made->name;
     }
-    mem_free(places);
+    mem_free(positions);
     mem_free(order);
     return good;
 }
@@ -290,7 +290,7 @@ lmn_status solid_edit_copy(lmn_scene *scene, size_t index, int32_t parent, int32
 {
     solid     *s = &scene->solids[index];
     size_t     count = s->node_count, nodes, operands = operands_below(s, source, &nodes);
-    lmn_status status = check_room(s, parent, operands, nodes, height_of(s, source), error);
+    lmn_status status = check_capacity(s, parent, operands, nodes, height_of(s, source), error);
     if (status != LMN_OK)
         return status;
     status = append_tree(s, parent, s, source, NULL) ? settle_below(scene, index, (int32_t)count, error)
@@ -319,7 +319,7 @@ static lmn_status check_graft(const lmn_scene *scene, const solid *s, int32_t pa
     }
     for (size_t i = 0; i < from->mesh_count; i++)
         triangles += mesh_triangle_count(&from->meshes[i]);
-    lmn_status status = check_room(s, parent, operands, nodes, levels, error);
+    lmn_status status = check_capacity(s, parent, operands, nodes, levels, error);
     return status == LMN_OK ? check_triangles(scene, triangles, error) : status;
 }
 
@@ -529,10 +529,10 @@ lmn_status solid_edit_remove(lmn_scene *scene, size_t index, int32_t node, lmn_e
             release_names(&before, node);
             drop_meshes(scene, dropped);
             mem_free(before.nodes);
-            mem_free(before.places);
+            mem_free(before.positions);
         } else {
             mem_free(s->nodes);
-            mem_free(s->places);
+            mem_free(s->positions);
             *s = before;
         }
     }
@@ -571,15 +571,15 @@ lmn_status solid_edit_move(lmn_scene *scene, size_t index, int32_t node, int32_t
     lmn_status status = solid_arrange(s, error);
     bool       arranged = status == LMN_OK;
     if (arranged) /* what it was taken from changes too */
-        status = solid_measure_below(scene, s, s->places[id - 1]) ? settle(scene, index, error) : too_far(error);
+        status = solid_measure_below(scene, s, s->positions[id - 1]) ? settle(scene, index, error) : too_far(error);
     if (status == LMN_OK) {
         mem_free(whole.nodes);
-        mem_free(whole.places);
+        mem_free(whole.positions);
         return LMN_OK;
     }
     if (arranged) {
         mem_free(s->nodes);
-        mem_free(s->places);
+        mem_free(s->positions);
         *s = whole;
     }
     solid_unlink(s, node);

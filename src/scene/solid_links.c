@@ -49,19 +49,19 @@ static void translate(int32_t *link, const int32_t *now)
 lmn_status solid_arrange(solid *s, lmn_error *error)
 {
     solid_node *nodes = mem_alloc(s->node_count * sizeof *nodes);
-    int32_t    *now = mem_alloc(s->node_count * sizeof *now), *places = mem_alloc(s->id_count * sizeof *places);
-    if (!nodes || !now || !places) {
+    int32_t    *now = mem_alloc(s->node_count * sizeof *now), *positions = mem_alloc(s->id_count * sizeof *positions);
+    if (!nodes || !now || !positions) {
         mem_free(nodes);
         mem_free(now);
-        mem_free(places);
+        mem_free(positions);
         return error_memory(error);
     }
     size_t count = 0;
     for (size_t i = 0; i < s->id_count; i++)
-        places[i] = NONE;
+        positions[i] = NONE;
     for (int32_t i = 0; i != NONE; i = solid_next(s, 0, i)) {
         now[i] = (int32_t)count;
-        places[s->nodes[i].id - 1] = (int32_t)count;
+        positions[s->nodes[i].id - 1] = (int32_t)count;
         nodes[count++] = s->nodes[i];
     }
     for (size_t i = 0; i < count; i++) {
@@ -72,9 +72,9 @@ lmn_status solid_arrange(solid *s, lmn_error *error)
     }
     mem_free(now);
     s->node_capacity = s->node_count;
-    s->place_capacity = s->id_count;
+    s->position_capacity = s->id_count;
     s->nodes = nodes;
-    s->places = places;
+    s->positions = positions;
     s->node_count = count;
     return LMN_OK;
 }

@@ -8,9 +8,9 @@
 typedef struct removal {
     const solid *from;
     solid       *into;
-    mat4        *places;  /* per node of `from`: to the solid's space */
-    int32_t     *painter; /* per node: the outermost node on the way to it that has a colour; NONE */
-    int32_t     *copies;  /* per node: its copy in `into`; NONE */
+    mat4        *positions; /* per node of `from`: to the solid's space */
+    int32_t     *painter;   /* per node: the outermost node on the way to it that has a colour; NONE */
+    int32_t     *copies;    /* per node: its copy in `into`; NONE */
 } removal;
 
 /* Is the node's whole subtree taken away by the operation above it? */
@@ -37,7 +37,7 @@ static bool copy_node(removal *r, int32_t index, int32_t parent)
     solid_node *c = &r->into->nodes[copy];
     bool        outermost = parent == 0;
     int32_t     painter = outermost ? r->painter[index] : n->has_colour ? index : NONE;
-    c->matrix = outermost ? r->places[index] : n->matrix;
+    c->matrix = outermost ? r->positions[index] : n->matrix;
     c->has_colour = painter != NONE;
     if (c->has_colour)
         c->colour = r->from->nodes[painter].colour;
@@ -55,7 +55,7 @@ static bool copy_nodes(removal *r)
     for (size_t i = 0; i < r->from->node_count; i++) {
         const solid_node *n = &r->from->nodes[i];
         int32_t           up = n->parent;
-        r->places[i] = up == NONE ? n->matrix : mat4_multiply(&r->places[up], &n->matrix);
+        r->positions[i] = up == NONE ? n->matrix : mat4_multiply(&r->positions[up], &n->matrix);
         r->painter[i] = up != NONE && r->painter[up] != NONE ? r->painter[up] : n->has_colour ? (int32_t)i : NONE;
         r->copies[i] = NONE;
         int32_t parent = up != NONE && r->copies[up] != NONE     ? r->copies[up]
@@ -70,11 +70,11 @@ static bool copy_nodes(removal *r)
 static bool fill(removal *r)
 {
     size_t count = r->from->node_count;
-    r->places = mem_alloc(count * sizeof *r->places);
+    r->positions = mem_alloc(count * sizeof *r->positions);
     r->painter = mem_alloc(count * sizeof *r->painter);
     r->copies = mem_alloc(count * sizeof *r->copies);
-    bool good = r->places && r->painter && r->copies && copy_nodes(r);
-    mem_free(r->places);
+    bool good = r->positions && r->painter && r->copies && copy_nodes(r);
+    mem_free(r->positions);
     mem_free(r->painter);
     mem_free(r->copies);
     return good;

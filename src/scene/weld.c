@@ -133,26 +133,26 @@ uint32_t *mesh_position_ids(const primitive *p)
 
 lmn_status mesh_weld_positions(primitive *p, lmn_error *error)
 {
-    uint32_t *places = mesh_position_ids(p);
-    if (!places)
+    uint32_t *positions = mesh_position_ids(p);
+    if (!positions)
         return error_memory(error);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
-        /* Earlier entries already hold new places; the first at a position gets the next one. */
-        if (places[i] != i) {
-            places[i] = places[places[i]];
+        /* Earlier entries already hold new positions; the first at a position gets the next one. */
+        if (positions[i] != i) {
+            positions[i] = positions[positions[i]];
             continue;
         }
         p->positions[kept] = p->positions[i];
-        places[i] = kept++;
+        positions[i] = kept++;
     }
     if (!p->indices) {
-        p->indices = places;
+        p->indices = positions;
         p->index_count = p->vertex_count;
     } else {
         for (uint32_t i = 0; i < p->index_count; i++)
-            p->indices[i] = places[p->indices[i]];
-        mem_free(places);
+            p->indices[i] = positions[p->indices[i]];
+        mem_free(positions);
     }
     p->vertex_count = kept;
     p->welded = true;

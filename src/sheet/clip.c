@@ -57,7 +57,7 @@ static void clip_dots(clipper *c, const sheet_path *path)
     put_path(c, path, first, 1, false);
 }
 
-/* The part of a straight piece that lies inside, as shares; false: nothing. */
+/* The part of a straight piece that lies inside, as fractions; false: nothing. */
 static bool cut_piece(const clipper *c, const float a[2], const float b[2], float cut[2])
 {
     cut[0] = 0;
@@ -115,8 +115,8 @@ static void clip_area(clipper *c, const sheet_path *path)
             if (before >= 0)
                 put_point(c, a[0], a[1]);
             if ((before < 0) != (after < 0)) {
-                float share = before / (before - after);
-                put_point(c, a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
+                float fraction = before / (before - after);
+                put_point(c, a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1]));
             }
         }
         if (c->failed)

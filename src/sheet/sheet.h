@@ -26,7 +26,7 @@ typedef struct sheet_item {
     colour     ink;          /* linear, straight alpha */
     uint64_t   id;           /* 0: none; in hexadecimal it names the item */
     uint32_t   first, count; /* paths */
-    /* images: PNG bytes, owned; place and size */
+    /* images: PNG bytes, owned; position and size */
     unsigned char *png;
     size_t         png_size;
     double         box[4]; /* x, y, width, height */

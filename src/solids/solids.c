@@ -16,18 +16,18 @@ enum { KEPT = 8, NODE_BYTES = 16, PLANES_A_ROW = 256, BANDS_MAX = 4096 };
 static void eye_plane(const mat4 *to_eye, const csg_plane *p, float out[4])
 {
     const double *m = to_eye->m;
-    double        c[9], n[3], place[3], length = 0, distance = 0;
+    double        c[9], n[3], position[3], length = 0, distance = 0;
     mat4_cofactors(to_eye, c);
     for (int k = 0; k < 3; k++) {
         n[k] = c[k] * p->normal[0] + c[3 + k] * p->normal[1] + c[6 + k] * p->normal[2];
-        place[k] = m[12 + k];
+        position[k] = m[12 + k];
         for (int j = 0; j < 3; j++)
-            place[k] += m[4 * j + k] * p->normal[j] * p->distance;
+            position[k] += m[4 * j + k] * p->normal[j] * p->distance;
         length += n[k] * n[k];
     }
     length = length > 0 ? sqrt(length) : 1;
     for (int k = 0; k < 3; k++) {
-        distance += n[k] / length * place[k];
+        distance += n[k] / length * position[k];
         out[k] = (float)(n[k] / length);
     }
     out[3] = (float)distance;
@@ -283,13 +283,13 @@ static void evaluate(const solid_view *v, solid_layers *s, const bool *wanted, b
 /* By lists; errors stick to the GPU. */
 static void open_lists(const solid_view *v, solid_layers *s, const bool *wanted, bool inside)
 {
-    enum { ROOM = 128 << 20 };
+    enum { CAPACITY = 128 << 20 };
     size_t block = (size_t)gpu_capabilities_of(v->g)->max_storage_mib << 20,
            pixels = (size_t)s->box[2] * (size_t)s->box[3];
-    size_t   room = block < ROOM ? block : ROOM;
-    unsigned limit = (unsigned)(room / NODE_BYTES);
+    size_t   capacity = block < CAPACITY ? block : CAPACITY;
+    unsigned limit = (unsigned)(capacity / NODE_BYTES);
     s->heads = gpu_buffer_acquire(v->g, pixels * sizeof(uint32_t));
-    s->nodes = gpu_buffer_acquire(v->g, room);
+    s->nodes = gpu_buffer_acquire(v->g, capacity);
     s->counter = gpu_buffer_acquire(v->g, 64);
     if (!s->first_only)
         s->chain = gpu_buffer_acquire(v->g, limit * sizeof(uint32_t));

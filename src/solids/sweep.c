@@ -54,7 +54,7 @@ static void add_products(tables *t, const product_list *l, size_t first_bit, con
     }
 }
 
-static bool room_for(const sweep *s, tables *t)
+static bool capacity_for(const sweep *s, tables *t)
 {
     const upload *u = s->v->up;
     size_t        operands = 0, products = 0, bits = 0;
@@ -105,7 +105,7 @@ static bool make_tables(sweep *s)
 {
     tables            t = {.bits = 0};
     const solid_view *v = s->v;
-    if (!room_for(s, &t))
+    if (!capacity_for(s, &t))
         return false;
     size_t *bits = mem_calloc(CSG_OPERANDS_MAX, sizeof *bits);
     t.facts = mem_calloc(t.fact_rows * FACTS_A_ROW, sizeof *t.facts);

@@ -17,7 +17,7 @@ typedef struct ground_job {
 
 void mark_ground_release(mark_ground *g)
 {
-    mem_free(g->places);
+    mem_free(g->positions);
     mem_free(g->normals);
     mem_free(g->uvs);
     mem_free(g->indices);
@@ -31,7 +31,7 @@ static bool make_room(ground_job *j, size_t vertices, size_t triangles)
     mark_ground *g = j->out;
     size_t       v = g->surface.vertex_count + vertices, t = g->surface.triangle_count + triangles;
     return v < UINT32_MAX && t < UINT32_MAX / 3 &&
-           mem_grow((void **)&g->places, &j->vertex_capacity, v, sizeof *g->places) &&
+           mem_grow((void **)&g->positions, &j->vertex_capacity, v, sizeof *g->positions) &&
            mem_grow((void **)&g->normals, &j->normal_capacity, v, sizeof *g->normals) &&
            mem_grow((void **)&g->uvs, &j->uv_capacity, v, sizeof *g->uvs) &&
            mem_grow((void **)&g->indices, &j->index_capacity, 3 * t, sizeof *g->indices) &&
@@ -86,16 +86,16 @@ static void add_vertices(ground_job *j, const vertex_arrays *data, const mat4 *w
     double       cofactors[9], side = mat4_cofactors(world, cofactors) < 0 ? -1 : 1;
     for (uint32_t i = 0; i < data->vertex_count; i++) {
         const float *p = &data->positions[3 * (size_t)i], *n = &data->normals[3 * (size_t)i];
-        double       place[3], normal[3], length = 0;
+        double       position[3], normal[3], length = 0;
         for (int k = 0; k < 3; k++) {
-            place[k] = world->m[k] * (double)p[0] + world->m[4 + k] * (double)p[1] + world->m[8 + k] * (double)p[2] +
-                       world->m[12 + k] - g->origin[k];
+            position[k] = world->m[k] * (double)p[0] + world->m[4 + k] * (double)p[1] + world->m[8 + k] * (double)p[2] +
+                          world->m[12 + k] - g->origin[k];
             normal[k] = side * (cofactors[k] * (double)n[0] + cofactors[3 + k] * (double)n[1] +
                                 cofactors[6 + k] * (double)n[2]);
             length += normal[k] * normal[k];
         }
         length = length > 0 ? sqrt(length) : 1;
-        g->places[first + i] = (vec3){(float)place[0], (float)place[1], (float)place[2]};
+        g->positions[first + i] = (vec3){(float)position[0], (float)position[1], (float)position[2]};
         g->normals[first + i] =
             (vec3){(float)(normal[0] / length), (float)(normal[1] / length), (float)(normal[2] / length)};
         g->uvs[first + i] =
@@ -104,7 +104,7 @@ static void add_vertices(ground_job *j, const vertex_arrays *data, const mat4 *w
     g->surface.vertex_count += data->vertex_count;
 }
 
-/* A primitive at one place. What is mirrored has its triangles turned around. */
+/* A primitive at one position. What is mirrored has its triangles turned around. */
 static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays *data, const mat4 *world,
                           uint32_t part)
 {
@@ -168,7 +168,7 @@ lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *pa
     for (size_t i = 0; i < part_count && status == LMN_OK; i++)
         if (!parts || parts[i])
             status = add_part(&j, i, error);
-    out->surface.places = out->places;
+    out->surface.positions = out->positions;
     out->surface.normals = out->normals;
     out->surface.uvs = j.laid_out ? out->uvs : NULL;
     out->surface.indices = out->indices;
@@ -183,7 +183,7 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
     for (size_t i = 0; status == LMN_OK && i < out->dot_count; i++) {
         mark_dot    *d = &out->dots[i];
         const float *b = &g->brightness[3 * (size_t)d->triangle];
-        d->bright = (1 - d->share[0] - d->share[1]) * b[0] + d->share[0] * b[1] + d->share[1] * b[2];
+        d->bright = (1 - d->fraction[0] - d->fraction[1]) * b[0] + d->fraction[0] * b[1] + d->fraction[1] * b[2];
     }
     for (size_t i = 0; status == LMN_OK && i < out->line_count; i++) {
         /* A stroke has one brightness: of its first piece. */

@@ -14,7 +14,7 @@ typedef struct mark_ground {
     mark_surface surface;
     double       origin[3];
     double       extent; /* diagonal of it all */
-    vec3        *places, *normals;
+    vec3        *positions, *normals;
     vec2        *uvs; /* v upwards; 0 in parts that have none */
     uint32_t    *indices;
     uint32_t    *parts;      /* per triangle: index of its part */
@@ -32,7 +32,7 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
 
 /* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the
  * look's lights (no shadows) and the technique's ink. `surface` must have marks (technique->surface->marks), its
- * lengths in pixels of this page. `hidden` (may be NULL) gets places in the world's axes: stroke_view_count. Needs
+ * lengths in pixels of this page. `hidden` (may be NULL) gets positions in the world's axes: stroke_view_count. Needs
  * no GPU. Errors: LMN_MEMORY, those of the technique. */
 typedef struct mark_page_options {
     const pose          *pose;

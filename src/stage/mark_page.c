@@ -13,13 +13,13 @@ typedef struct asked {
     bool                     full; /* memory was gone: nothing is known to be hidden */
 } asked;
 
-static void ask(void *user, const double (*places)[3], size_t count, uint32_t *out)
+static void ask(void *user, const double (*positions)[3], size_t count, uint32_t *out)
 {
     asked *a = user;
     double(*moved)[3] = mem_alloc(count * sizeof *moved);
     for (size_t i = 0; moved && i < count; i++)
         for (int k = 0; k < 3; k++)
-            moved[i][k] = places[i][k] + a->origin[k];
+            moved[i][k] = positions[i][k] + a->origin[k];
     if (moved)
         a->options->hidden(a->options->user, (const double(*)[3])moved, count, out);
     a->full = a->full || !moved;

@@ -52,7 +52,8 @@ static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
     float(*records)[4] = mem_alloc(m->dot_count * DOT_VECTORS * sizeof *records);
     for (size_t i = 0; records && i < m->dot_count; i++) {
         const mark_dot *d = &m->dots[i];
-        memcpy(records[DOT_VECTORS * i], (float[]){d->place.x, d->place.y, d->place.z, d->priority}, sizeof *records);
+        memcpy(records[DOT_VECTORS * i], (float[]){d->position.x, d->position.y, d->position.z, d->priority},
+               sizeof *records);
         memcpy(records[DOT_VECTORS * i + 1], (float[]){d->normal.x, d->normal.y, d->normal.z, d->bright},
                sizeof *records);
     }

@@ -98,14 +98,14 @@ static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, i
     const mat4  *own = &u->pose->worlds[mover_index], *world = &u->pose->worlds[scene->parts[part_index].node];
     vec3         local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
     const double middle[3] = {(double)local.x, (double)local.y, (double)local.z};
-    double       way[3], out[3];
+    double       offset[3], out[3];
     for (int k = 0; k < 3; k++) {
-        way[k] = world->m[12 + k] - own->m[12 + k];
+        offset[k] = world->m[12 + k] - own->m[12 + k];
         for (int c = 0; c < 3; c++)
-            way[k] += world->m[4 * c + k] * middle[c];
+            offset[k] += world->m[4 * c + k] * middle[c];
     }
     for (int row = 0; row < 3; row++)
-        out[row] = m->turn[3 * row] * way[0] + m->turn[3 * row + 1] * way[1] + m->turn[3 * row + 2] * way[2];
+        out[row] = m->turn[3 * row] * offset[0] + m->turn[3 * row + 1] * offset[1] + m->turn[3 * row + 2] * offset[2];
     return (vec3){(float)out[0], (float)out[1], (float)out[2]};
 }
 
@@ -120,16 +120,16 @@ static void level_axis(const mat4 *world, int up, double out[3])
             length += level[k] * level[k];
             whole += world->m[4 * axis + k] * world->m[4 * axis + k];
         }
-        double share = whole > 0 ? sqrt(length / whole) : 0;
-        if (share <= most + 0.01) /* of axes that are alike the first one */
+        double fraction = whole > 0 ? sqrt(length / whole) : 0;
+        if (fraction <= most + 0.01) /* of axes that are alike the first one */
             continue;
-        most = share;
+        most = fraction;
         for (int k = 0; k < 3; k++)
             out[k] = length > 0 ? level[k] / sqrt(length) : k == (up == 0 ? 1 : 0);
     }
 }
 
-/* Three rows that take a place in the world, measured from `origin`, into the mover's frame, the mover's number,
+/* Three rows that take a position in the world, measured from `origin`, into the mover's frame, the mover's number,
  * and which way is up in it. */
 static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3],
                         float *rows)

@@ -22,22 +22,23 @@ static lmn_status make_by_material(struct figure_textures *out, made_textures *a
 }
 
 /* What was asked for and gives no ink. */
-static void note_textures(const struct figure_textures *t, const technique_use *surface, const plan *p, warnings *notes)
+static void warn_of_textures(const struct figure_textures *t, const technique_use *surface, const plan *p,
+                             warnings *warnings)
 {
     bool none = t->by_material != NULL;
     for (size_t i = 0; i < p->scene->image_count; i++)
         none = none && !p->scene->images[i].strokes;
     if (none)
-        warnings_add(notes, WARNING_UNUSED,
+        warnings_add(warnings, WARNING_UNUSED,
                      "no material has strokes beside its picture (.stx): all are drawn with the standard ones");
     for (size_t i = 0; surface && i < surface->technique->texture_count; i++)
         if (t->surface.textures[i] && t->surface.blank[i])
-            warnings_add(notes, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere",
+            warnings_add(warnings, WARNING_UNUSED, "the %s of surface '%s' has no ink anywhere",
                          surface->technique->textures[i].name, surface->technique->name);
 }
 
 static lmn_status make_of_figure(struct figure_textures *out, made_textures *all, gpu *g, const figure *fig,
-                                 const plan *p, warnings *notes, lmn_error *error)
+                                 const plan *p, warnings *warnings, lmn_error *error)
 {
     const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
     technique_use        plain = {surface ? surface->technique : NULL, NULL};
@@ -48,15 +49,15 @@ static lmn_status make_of_figure(struct figure_textures *out, made_textures *all
     if (status == LMN_OK && differ)
         status = make_by_material(out, all, g, surface, p->scene, error);
     if (status == LMN_OK)
-        note_textures(out, surface, p, notes);
+        warn_of_textures(out, surface, p, warnings);
     if (status == LMN_OK)
         status = made_textures_find(all, g, rule_use(fig->rule, KIND_PERTURB), &out->perturb, error);
     mem_free(plain.values);
     return status;
 }
 
-lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet, warnings *notes,
-                              lmn_error *error)
+lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet,
+                              warnings *warnings, lmn_error *error)
 {
     *out = (plan_textures){.figures = mem_calloc(p->figure_count, sizeof *out->figures), .count = p->figure_count};
     if (!out->figures)
@@ -64,7 +65,7 @@ lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, pl
     made_textures_trim(all, g);
     lmn_status status = made_textures_find(all, g, with_sheet ? &p->look->wide[KIND_FINISH] : NULL, &out->sheet, error);
     for (size_t i = 0; i < p->figure_count && status == LMN_OK; i++) {
-        status = make_of_figure(&out->figures[i], all, g, &p->figures[i], p, notes, error);
+        status = make_of_figure(&out->figures[i], all, g, &p->figures[i], p, warnings, error);
         p->figures[i].textures = &out->figures[i];
     }
     return status;

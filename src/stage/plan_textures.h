@@ -19,8 +19,8 @@ typedef struct plan_textures {
 
 /* Finds or makes them and gives the plan's figures theirs. `with_sheet`: pages are drawn, not maps. Errors: those
  * of the techniques, and the GPU's. Release it also after one, and after the plan. */
-lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet, warnings *notes,
-                              lmn_error *error);
+lmn_status plan_textures_make(plan_textures *out, made_textures *all, gpu *g, plan *p, bool with_sheet,
+                              warnings *warnings, lmn_error *error);
 void       plan_textures_release(plan_textures *t);
 
 #endif

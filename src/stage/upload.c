@@ -56,12 +56,12 @@ static lmn_status add_instances(upload *u, gpu *g, upload_part_job *job, lmn_err
     return status;
 }
 
-/* Where parts overlap, their cut faces lie in the same place: the smaller part's is seen, as within a part. Steps
+/* Where parts overlap, their cut faces lie in the same position: the smaller part's is seen, as within a part. Steps
  * are a few times what interpolated depth is off. */
 static float nearer_of(const upload *u, size_t part_index)
 {
-    double share = u->extent > 0 ? box3_diagonal(u->pose->part_boxes[part_index]) / u->extent : 1;
-    int    level = (int)(6 * (1 - sqrt(fmin(fmax(share, 0), 1))));
+    double fraction = u->extent > 0 ? box3_diagonal(u->pose->part_boxes[part_index]) / u->extent : 1;
+    int    level = (int)(6 * (1 - sqrt(fmin(fmax(fraction, 0), 1))));
     return (float)(8 * level + (int)(part_index % 8)) * 3e-7f;
 }
 
@@ -130,7 +130,7 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a place there and has the
+/* Moves what still holds. A scene never takes anything out of its arrays, and what is at a position there and has the
  * same revision is the same; nodes and images do not change at all. */
 static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 {

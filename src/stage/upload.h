@@ -53,7 +53,7 @@ typedef struct upload_shape {
     signed char      convex, inside_out; /* 1 yes, −1 no, 0 not asked yet */
 } upload_shape;
 
-/* One draw call: a primitive of a part at one place. */
+/* One draw call: a primitive of a part at one position. */
 typedef struct draw_item {
     gpu_mesh *mesh, *lapped; /* lapped: NULL: there is none */
     float     patch_radius;
@@ -128,10 +128,10 @@ gpu_texture *upload_texture(upload *u, gpu *g, const texture_use *use, bool line
 
 enum { PART_FRAME_FLOATS = 20 };
 
-/* Five texels a part, 1024 parts a row: rows of the matrix that takes a place in the world, measured from
+/* Five texels a part, 1024 parts a row: rows of the matrix that takes a position in the world, measured from
  * `frame_origin`, to where it is when nothing has moved, in the scene's unit; in the fourth one a number, and which
  * way is up there; in the fifth a level axis of the part. Parts of one file without animated nodes between have the
- * same frame and number; when what they hang on moves or turns, they keep these places. Made when first asked for;
+ * same frame and number; when what they hang on moves or turns, they keep these positions. Made when first asked for;
  * NULL after an error. */
 gpu_texture *upload_part_frames(upload *u, gpu *g);
 

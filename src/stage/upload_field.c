@@ -56,7 +56,7 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
                                                    .normals = normals,
                                                    .colours = colours,
                                                    .uvs = {uvs[0], uvs[1]},
-                                                   .patches = (const float *)l->places,
+                                                   .patches = (const float *)l->positions,
                                                    .indices = l->indices});
     mem_free(positions);
     mem_free(normals);

@@ -27,8 +27,8 @@ bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
-/* The mesh with the way it bends, and when wished for once more with patches that cover it (else *lapped stays
- * NULL). */
+/* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else *lapped
+ * stays NULL). */
 lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
                              lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
@@ -42,7 +42,7 @@ void       upload_shape_release(upload_shape *s);
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
 
 /* --- upload_solid_cut.c --- */
-/* Takes what is cut away from the form of a solid at this place; `half_space_mesh`: the number that its new
+/* Takes what is cut away from the form of a solid at this position; `half_space_mesh`: the number that its new
  * operands give as their mesh, a box from 0 to 1 in each direction. *bits, one an operand of the form, are 0 or
  * those of a cut face's surface id, and are made here. */
 lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,

@@ -219,7 +219,7 @@ static lmn_status mark_planes(baker *b, const uint16_t *numbers, lmn_error *erro
 }
 
 /* All solids together have CSG_PLANES_MAX. */
-static size_t room_for_planes(const upload *u)
+static size_t plane_capacity(const upload *u)
 {
     return CSG_PLANES_MAX - u->plane_count;
 }
@@ -233,15 +233,15 @@ static double extent_of(const upload_solid *s)
     return box3_is_empty(box) ? 0 : sqrt(x * x + y * y + z * z);
 }
 
-static lmn_status find_planes(upload_solid *s, baker *b, size_t room, lmn_error *error)
+static lmn_status find_planes(upload_solid *s, baker *b, size_t capacity, lmn_error *error)
 {
     csg_soup  soup = {b->positions, b->indices, b->owners, b->index_count / 3, extent_of(s)};
     uint16_t *numbers = NULL;
     if (!csg_find_planes(&soup, &numbers, &s->planes, &s->planes_found))
         return error_memory(error);
-    for (size_t i = 0; s->planes_found > room && i < soup.triangle_count; i++)
-        numbers[i] = numbers[i] > room ? 0 : numbers[i];
-    s->plane_count = s->planes_found < room ? s->planes_found : room;
+    for (size_t i = 0; s->planes_found > capacity && i < soup.triangle_count; i++)
+        numbers[i] = numbers[i] > capacity ? 0 : numbers[i];
+    s->plane_count = s->planes_found < capacity ? s->planes_found : capacity;
     lmn_status status = mark_planes(b, numbers, error);
     mem_free(numbers);
     return status;
@@ -385,12 +385,12 @@ void upload_solids_release(upload *u, gpu *g)
 static lmn_status bake(upload_solid *s, baker *b, lmn_error *error)
 {
     csg_program program = {.operands = NULL};
-    size_t      room = s->count ? s->count : 1;
-    s->runs = mem_calloc(room, sizeof *s->runs);
-    s->boxes = mem_calloc(room, sizeof *s->boxes);
-    s->taken_away = mem_calloc(room, sizeof *s->taken_away);
-    s->in_products = mem_calloc(room, sizeof *s->in_products);
-    s->meets = mem_calloc(room, sizeof *s->meets);
+    size_t      capacity = s->count ? s->count : 1;
+    s->runs = mem_calloc(capacity, sizeof *s->runs);
+    s->boxes = mem_calloc(capacity, sizeof *s->boxes);
+    s->taken_away = mem_calloc(capacity, sizeof *s->taken_away);
+    s->in_products = mem_calloc(capacity, sizeof *s->in_products);
+    s->meets = mem_calloc(capacity, sizeof *s->meets);
     bool good =
         s->runs && s->boxes && s->taken_away && s->in_products && s->meets && csg_program_add(&program, &s->form);
     lmn_status status = good ? LMN_OK : error_memory(error);
@@ -476,7 +476,7 @@ static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene
     if (status == LMN_OK && b.index_count) {
         status = find_products(s, &b, error);
         if (status == LMN_OK)
-            status = find_planes(s, &b, room_for_planes(u), error);
+            status = find_planes(s, &b, plane_capacity(u), error);
         if (status == LMN_OK)
             status = send(s, g, &b, error);
     }
@@ -492,7 +492,7 @@ static bool take_solid(upload *u, upload_solid *s, upload *earlier)
         return false;
     for (size_t i = 0; i < earlier->solid_count; i++) {
         upload_solid *old = &earlier->solids[i];
-        size_t        room = room_for_planes(u), planes = old->planes_found < room ? old->planes_found : room;
+        size_t capacity = plane_capacity(u), planes = old->planes_found < capacity ? old->planes_found : capacity;
         if (old->source != s->source || old->revision != s->revision || old->plane_count != planes)
             continue;
         *s = *old;

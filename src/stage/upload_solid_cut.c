@@ -68,8 +68,8 @@ static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell
     }
     reach = sqrt(reach);
     for (int32_t i = 0; i < cell->count; i++) {
-        mat4 place = half_space(c, &cell->faces[i], middle, reach);
-        operands[i] = (solid_operand){.node = NONE, .mesh = mesh, .matrix = mat4_multiply(inverse, &place)};
+        mat4 position = half_space(c, &cell->faces[i], middle, reach);
+        operands[i] = (solid_operand){.node = NONE, .mesh = mesh, .matrix = mat4_multiply(inverse, &position)};
         operands[i].box = box3_transform(unit, &operands[i].matrix);
     }
     return solid_form_take_away(form, operands, (size_t)cell->count, error);
@@ -80,8 +80,8 @@ lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, cons
 {
     const cut *c = &u->section.cut;
     mat4       inverse;
-    size_t     own = form->operand_count, room = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
-    *bits = mem_calloc(room, sizeof **bits);
+    size_t     own = form->operand_count, capacity = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
+    *bits = mem_calloc(capacity, sizeof **bits);
     if (!*bits)
         return error_memory(error);
     if (c->cell_count == 0 || form->root == NONE || !inverse_of(world, &inverse))

@@ -14,9 +14,9 @@
 #define PI            3.14159265358979323846
 enum { SHORT_BUCKET = 24, FACES_MAX = 1 << 27, FAN_MAX = 1 << 16 };
 
-typedef struct place {
+typedef struct position {
     double x, y, z;
-} place;
+} position;
 
 /* A half-edge in the bucket of its lower vertex. */
 typedef struct bucket_entry {
@@ -25,7 +25,7 @@ typedef struct bucket_entry {
 
 /* What is known while one level is refined. */
 typedef struct refiner {
-    const vec3      *places;
+    const vec3      *positions;
     butterfly_level *level;
     uint32_t        *edges; /* per half-edge: the number of its edge */
     uint32_t         edge_count;
@@ -33,14 +33,14 @@ typedef struct refiner {
     uint8_t *sharp_count; /* per vertex, 3 for more */
 } refiner;
 
-static place place_of(const refiner *r, uint32_t v)
+static position position_of(const refiner *r, uint32_t v)
 {
-    return (place){r->places[v].x, r->places[v].y, r->places[v].z};
+    return (position){r->positions[v].x, r->positions[v].y, r->positions[v].z};
 }
 
-static place add(place sum, double share, place p)
+static position add(position sum, double fraction, position p)
 {
-    return (place){sum.x + share * p.x, sum.y + share * p.y, sum.z + share * p.z};
+    return (position){sum.x + fraction * p.x, sum.y + fraction * p.y, sum.z + fraction * p.z};
 }
 
 static uint32_t begin_of(const butterfly_level *l, uint32_t h)
@@ -127,7 +127,7 @@ static bool find_edges(refiner *r)
     }
     for (uint32_t v = 0; v < l->vertex_count && good; v++)
         starts[v + 2] += starts[v + 1];
-    /* Counted two places on, so that filling, which moves each start to its end, leaves them right. */
+    /* Counted two positions on, so that filling, which moves each start to its end, leaves them right. */
     for (uint32_t h = 0; h < halves && good; h++) {
         uint32_t a = begin_of(l, h), b = end_of(l, h);
         entries[starts[(a < b ? a : b) + 1]++] = (bucket_entry){a < b ? b : a, h};
@@ -169,44 +169,44 @@ static uint32_t goes_on(const refiner *r, uint32_t from, uint32_t v)
     if (r->sharp_count[v] != 2)
         return v;
     uint32_t to = r->along[v][0] == from ? r->along[v][1] : r->along[v][0];
-    place    p = place_of(r, v), in = add(p, -1, place_of(r, from)), out = add(place_of(r, to), -1, p);
+    position p = position_of(r, v), in = add(p, -1, position_of(r, from)), out = add(position_of(r, to), -1, p);
     double   cosine = in.x * out.x + in.y * out.y + in.z * out.z;
     double lengths = sqrt((in.x * in.x + in.y * in.y + in.z * in.z) * (out.x * out.x + out.y * out.y + out.z * out.z));
     return cosine < CORNER_COSINE * lengths ? v : to;
 }
 
 /* Four points of the curve; an end counts twice. */
-static place middle_of_sharp(const refiner *r, uint32_t a, uint32_t b)
+static position middle_of_sharp(const refiner *r, uint32_t a, uint32_t b)
 {
-    place sum = {0, 0, 0};
-    sum = add(sum, 9.0 / 16, place_of(r, a));
-    sum = add(sum, 9.0 / 16, place_of(r, b));
-    sum = add(sum, -1.0 / 16, place_of(r, goes_on(r, b, a)));
-    return add(sum, -1.0 / 16, place_of(r, goes_on(r, a, b)));
+    position sum = {0, 0, 0};
+    sum = add(sum, 9.0 / 16, position_of(r, a));
+    sum = add(sum, 9.0 / 16, position_of(r, b));
+    sum = add(sum, -1.0 / 16, position_of(r, goes_on(r, b, a)));
+    return add(sum, -1.0 / 16, position_of(r, goes_on(r, a, b)));
 }
 
 /* --- smooth edges --------------------------------------------------------------------------------------- */
 
 /* The vertex beyond a half-edge of a triangle, seen from it; a reflected one where nothing is or counts. */
-static place wing(const refiner *r, uint32_t h)
+static position wing(const refiner *r, uint32_t h)
 {
     const butterfly_level *l = r->level;
     if (!l->sharp[h])
-        return place_of(r, third_of(l, l->opposite[h]));
-    place ghost = place_of(r, begin_of(l, h));
-    ghost = add(ghost, 1, place_of(r, end_of(l, h)));
-    return add(ghost, -1, place_of(r, third_of(l, h)));
+        return position_of(r, third_of(l, l->opposite[h]));
+    position ghost = position_of(r, begin_of(l, h));
+    ghost = add(ghost, 1, position_of(r, end_of(l, h)));
+    return add(ghost, -1, position_of(r, third_of(l, h)));
 }
 
-static place middle_of_regular(const refiner *r, uint32_t h)
+static position middle_of_regular(const refiner *r, uint32_t h)
 {
     const butterfly_level *l = r->level;
     uint32_t               o = l->opposite[h];
-    place                  sum = {0, 0, 0};
-    sum = add(sum, 0.5, place_of(r, begin_of(l, h)));
-    sum = add(sum, 0.5, place_of(r, end_of(l, h)));
-    sum = add(sum, 0.125, place_of(r, third_of(l, h)));
-    sum = add(sum, 0.125, place_of(r, third_of(l, o)));
+    position               sum = {0, 0, 0};
+    sum = add(sum, 0.5, position_of(r, begin_of(l, h)));
+    sum = add(sum, 0.5, position_of(r, end_of(l, h)));
+    sum = add(sum, 0.125, position_of(r, third_of(l, h)));
+    sum = add(sum, 0.125, position_of(r, third_of(l, o)));
     sum = add(sum, -0.0625, wing(r, half_edge_next(h)));
     sum = add(sum, -0.0625, wing(r, half_edge_before(h)));
     sum = add(sum, -0.0625, wing(r, half_edge_next(o)));
@@ -228,8 +228,8 @@ static uint32_t valence(const refiner *r, uint32_t h)
     return at == h ? count : 6;
 }
 
-/* The share of the ring's vertex j of k, beginning with the one at the edge's other end. */
-static double ring_share(uint32_t j, uint32_t k)
+/* The fraction of the ring's vertex j of k, beginning with the one at the edge's other end. */
+static double ring_fraction(uint32_t j, uint32_t k)
 {
     static const double three[3] = {5.0 / 12, -1.0 / 12, -1.0 / 12}, four[4] = {3.0 / 8, 0, -1.0 / 8, 0};
     if (k == 3)
@@ -241,22 +241,22 @@ static double ring_share(uint32_t j, uint32_t k)
 }
 
 /* From the ring around the vertex that the half-edge begins at. */
-static place middle_from_ring(const refiner *r, uint32_t h, uint32_t count)
+static position middle_from_ring(const refiner *r, uint32_t h, uint32_t count)
 {
     const butterfly_level *l = r->level;
-    place                  sum = {0, 0, 0};
-    double                 shares = 0;
+    position               sum = {0, 0, 0};
+    double                 fractions = 0;
     uint32_t               at = h;
     for (uint32_t j = 0; j < count; j++) {
-        double share = ring_share(j, count);
-        sum = add(sum, share, place_of(r, end_of(l, at)));
-        shares += share;
+        double fraction = ring_fraction(j, count);
+        sum = add(sum, fraction, position_of(r, end_of(l, at)));
+        fractions += fraction;
         at = l->opposite[half_edge_before(at)];
     }
-    return add(sum, 1 - shares, place_of(r, begin_of(l, h)));
+    return add(sum, 1 - fractions, position_of(r, begin_of(l, h)));
 }
 
-static place middle_of_smooth(const refiner *r, uint32_t h)
+static position middle_of_smooth(const refiner *r, uint32_t h)
 {
     uint32_t o = r->level->opposite[h], here = valence(r, h), there = valence(r, o);
     bool     odd_here = here != 6 && here >= 3, odd_there = there != 6 && there >= 3;
@@ -266,7 +266,7 @@ static place middle_of_smooth(const refiner *r, uint32_t h)
         return middle_from_ring(r, h, here);
     if (!odd_here)
         return middle_from_ring(r, o, there);
-    place sum = {0, 0, 0};
+    position sum = {0, 0, 0};
     sum = add(sum, 0.5, middle_from_ring(r, h, here));
     return add(sum, 0.5, middle_from_ring(r, o, there));
 }
@@ -281,15 +281,15 @@ static bool make_arrays(butterfly_level *l)
     return l->faces && l->opposite && l->sharp;
 }
 
-static void put_middles(const refiner *r, vec3 *places)
+static void put_middles(const refiner *r, vec3 *positions)
 {
     const butterfly_level *l = r->level;
     for (uint32_t h = 0; h < 3 * l->face_count; h++) {
         uint32_t o = l->opposite[h];
         if (o != BUTTERFLY_NONE && o < h)
             continue;
-        place p = l->sharp[h] ? middle_of_sharp(r, begin_of(l, h), end_of(l, h)) : middle_of_smooth(r, h);
-        places[l->vertex_count + r->edges[h]] = (vec3){(float)p.x, (float)p.y, (float)p.z};
+        position p = l->sharp[h] ? middle_of_sharp(r, begin_of(l, h), end_of(l, h)) : middle_of_smooth(r, h);
+        positions[l->vertex_count + r->edges[h]] = (vec3){(float)p.x, (float)p.y, (float)p.z};
     }
 }
 
@@ -318,9 +318,9 @@ static void refiner_release(refiner *r)
     mem_free(r->sharp_count);
 }
 
-static bool refiner_open(refiner *r, const vec3 *places, butterfly_level *l)
+static bool refiner_open(refiner *r, const vec3 *positions, butterfly_level *l)
 {
-    *r = (refiner){.places = places, .level = l};
+    *r = (refiner){.positions = positions, .level = l};
     r->edges = mem_alloc((size_t)l->face_count * 3 * sizeof *r->edges);
     r->along = mem_alloc(((size_t)l->vertex_count + 1) * sizeof *r->along);
     r->sharp_count = mem_calloc((size_t)l->vertex_count + 1, 1);
@@ -335,17 +335,17 @@ static bool refine_once(butterfly *b)
 {
     butterfly_level *l = &b->levels[b->level_count - 1], *finer = l + 1;
     refiner          r;
-    bool             good = refiner_open(&r, b->places, l);
+    bool             good = refiner_open(&r, b->positions, l);
     if (good) {
         *finer = (butterfly_level){.vertex_count = l->vertex_count + r.edge_count, .face_count = 4 * l->face_count};
         b->level_count++;
-        vec3 *places = mem_realloc(b->places, ((size_t)finer->vertex_count + 1) * sizeof *places);
-        b->places = places ? places : b->places;
-        r.places = b->places;
-        good = places && make_arrays(finer);
+        vec3 *positions = mem_realloc(b->positions, ((size_t)finer->vertex_count + 1) * sizeof *positions);
+        b->positions = positions ? positions : b->positions;
+        r.positions = b->positions;
+        good = positions && make_arrays(finer);
     }
     if (good) {
-        put_middles(&r, b->places);
+        put_middles(&r, b->positions);
         put_children(&r, finer);
     }
     refiner_release(&r);
@@ -356,12 +356,12 @@ static bool refine_once(butterfly *b)
 static bool finish_last(butterfly *b)
 {
     refiner r;
-    bool    good = refiner_open(&r, b->places, &b->levels[b->level_count - 1]);
+    bool    good = refiner_open(&r, b->positions, &b->levels[b->level_count - 1]);
     refiner_release(&r);
     return good;
 }
 
-lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3],
+lmn_status butterfly_refine(butterfly *out, const vec3 *positions, uint32_t vertex_count, const uint32_t (*faces)[3],
                             uint32_t face_count, const uint8_t *sharp, int steps, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
@@ -372,10 +372,10 @@ lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_
     butterfly_level *first = &out->levels[0];
     *first = (butterfly_level){.vertex_count = vertex_count, .face_count = face_count};
     out->level_count = 1;
-    out->places = mem_alloc(((size_t)vertex_count + 1) * sizeof *out->places);
-    bool good = out->places && make_arrays(first);
+    out->positions = mem_alloc(((size_t)vertex_count + 1) * sizeof *out->positions);
+    bool good = out->positions && make_arrays(first);
     if (good) {
-        memcpy(out->places, places, vertex_count * sizeof *places);
+        memcpy(out->positions, positions, vertex_count * sizeof *positions);
         memcpy(first->faces, faces, face_count * sizeof *faces);
         if (sharp)
             memcpy(first->sharp, sharp, (size_t)face_count * 3);
@@ -395,6 +395,6 @@ void butterfly_release(butterfly *b)
         mem_free(b->levels[i].opposite);
         mem_free(b->levels[i].sharp);
     }
-    mem_free(b->places);
+    mem_free(b->positions);
     memset(b, 0, sizeof *b);
 }

@@ -21,7 +21,7 @@ typedef struct butterfly_level {
 } butterfly_level;
 
 typedef struct butterfly {
-    vec3           *places; /* of the last level; those of the levels before come first */
+    vec3           *positions; /* of the last level; those of the levels before come first */
     butterfly_level levels[BUTTERFLY_STEPS_MAX + 1];
     uint32_t        level_count; /* levels[0] is the mesh that was given */
 } butterfly;
@@ -29,7 +29,7 @@ typedef struct butterfly {
 /* Refines `steps` times. `sharp` (may be NULL) says per half-edge what stays sharp; one side is enough. Sharp edges
  * are refined as curves of their own, by vertices along them alone, as far as corners: where not exactly two of
  * them meet, or these two turn by more than 75°. Errors: LMN_MEMORY, LMN_LIMIT. End with butterfly_release. */
-lmn_status butterfly_refine(butterfly *out, const vec3 *places, uint32_t vertex_count, const uint32_t (*faces)[3],
+lmn_status butterfly_refine(butterfly *out, const vec3 *positions, uint32_t vertex_count, const uint32_t (*faces)[3],
                             uint32_t face_count, const uint8_t *sharp, int steps, lmn_error *error);
 void       butterfly_release(butterfly *b);
 

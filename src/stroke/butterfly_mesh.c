@@ -28,7 +28,7 @@ static uint8_t said_of(const edge_mesh *m, uint32_t h)
 static lmn_status find_sharp(const edge_mesh *m, double crease_angle, uint8_t *sharp, lmn_error *error)
 {
     butterfly  coarse;
-    lmn_status status = butterfly_refine(&coarse, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+    lmn_status status = butterfly_refine(&coarse, m->positions, m->vertex_count, (const uint32_t(*)[3])m->faces,
                                          m->face_count, NULL, 0, error);
     if (status != LMN_OK)
         return status;
@@ -114,7 +114,7 @@ static lmn_status make_finer(edge_mesh *finer, const edge_mesh *m, edge_refineme
     int32_t               *materials = m->materials ? carry_materials(m, b) : NULL;
     r->faces = mem_alloc(last->face_count * sizeof *r->faces);
     lmn_status   status = said && r->faces && (materials || !m->materials) ? LMN_OK : error_memory(error);
-    edge_faces   in = {b->places,       (const uint32_t(*)[3])last->faces, materials, said, last->vertex_count,
+    edge_faces   in = {b->positions,    (const uint32_t(*)[3])last->faces, materials, said, last->vertex_count,
                        last->face_count};
     const double none_by_angle = 3.14159265358979323846; /* what is sharp has been said */
     if (status == LMN_OK)
@@ -137,7 +137,7 @@ lmn_status edge_mesh_refine(edge_mesh *m, int steps, double crease_angle, lmn_er
     edge_mesh        finer = {0};
     lmn_status       status = r && sharp ? find_sharp(m, crease_angle, sharp, error) : error_memory(error);
     if (status == LMN_OK)
-        status = butterfly_refine(&r->surface, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+        status = butterfly_refine(&r->surface, m->positions, m->vertex_count, (const uint32_t(*)[3])m->faces,
                                   m->face_count, sharp, steps, error);
     if (status == LMN_OK)
         status = make_finer(&finer, m, r, error);

@@ -14,9 +14,9 @@
  * hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK  -0.7
-/* Lines of form must be longer than others by this factor, but no longer than this share of the page. */
+/* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
 #define FORM_SHORTEST 16.0
-#define FORM_SHARE    (1.0 / 64)
+#define FORM_FRACTION (1.0 / 64)
 enum {
     OUTSIDE = -1,
     MEETING_MAX = 24,
@@ -57,7 +57,7 @@ typedef struct chainer {
 
 /* --- joining -------------------------------------------------------------------------------------------- */
 
-static const window_point *end_place(const chainer *c, uint32_t half)
+static const window_point *end_position(const chainer *c, uint32_t half)
 {
     const window_segment *s = &c->lines->segments[half / 2];
     return half & 1 ? &s->b : &s->a;
@@ -71,7 +71,7 @@ static uint32_t end_number(const chainer *c, uint32_t half)
 /* The cosine of the turn from coming in along one half-line to going out along another; both begin at the same end. */
 static double turn_between(const chainer *c, uint32_t in, uint32_t out)
 {
-    const window_point *p = end_place(c, in ^ 1), *q = end_place(c, out), *r = end_place(c, out ^ 1);
+    const window_point *p = end_position(c, in ^ 1), *q = end_position(c, out), *r = end_position(c, out ^ 1);
     double ax = (double)q->x - p->x, ay = (double)q->y - p->y, bx = (double)r->x - q->x, by = (double)r->y - q->y;
     double length = sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
     return length > 0 ? (ax * bx + ay * by) / length : 1;
@@ -196,20 +196,20 @@ static uint32_t first_of(const chainer *c, uint32_t line)
 
 /* --- points --------------------------------------------------------------------------------------------- */
 
-/* At a share of the i-th line of the chain, counted from where the line itself begins. */
-static chain_point point_at(const chainer *c, size_t i, double share, int32_t count)
+/* At a fraction of the i-th line of the chain, counted from where the line itself begins. */
+static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t count)
 {
     const window_segment *s = &c->lines->segments[c->path[i] / 2];
     const float          *weights = c->lines->lines[c->path[i] / 2].weights;
-    double p[3] = {s->a.x + share * ((double)s->b.x - s->a.x), s->a.y + share * ((double)s->b.y - s->a.y),
-                   s->a.z + share * (s->b.z - s->a.z)};
+    double p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
+                   s->a.z + fraction * (s->b.z - s->a.z)};
     if (c->curved)
-        curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - share : share, p);
+        curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - fraction : fraction, p);
     return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width,
                          p[1] / c->v->units + 0.5 * c->v->camera.height,
                          p[2],
                          0,
-                         weights[0] + (float)share * (weights[1] - weights[0]),
+                         weights[0] + (float)fraction * (weights[1] - weights[0]),
                          count};
 }
 
@@ -240,13 +240,13 @@ static bool clip_to_page(const chainer *c, const chain_point *p, const chain_poi
     return cut[0] < cut[1];
 }
 
-static chain_point between(const chain_point *p, const chain_point *q, double share, int32_t count)
+static chain_point between(const chain_point *p, const chain_point *q, double fraction, int32_t count)
 {
-    return (chain_point){p->x + share * (q->x - p->x),
-                         p->y + share * (q->y - p->y),
-                         p->z + share * (q->z - p->z),
+    return (chain_point){p->x + fraction * (q->x - p->x),
+                         p->y + fraction * (q->y - p->y),
+                         p->z + fraction * (q->z - p->z),
                          0,
-                         p->weight + (float)share * (q->weight - p->weight),
+                         p->weight + (float)fraction * (q->weight - p->weight),
                          count};
 }
 
@@ -271,13 +271,13 @@ static bool put_piece(chainer *c, const chain_point *p, const chain_point *q)
     return put_point(c, from) && (cut[1] >= 1 || put_point(c, (between(p, q, cut[1], OUTSIDE))));
 }
 
-/* What lies between two shares of the i-th line; curves have more than one straight piece there. */
+/* What lies between two fractions of the i-th line; curves have more than one straight piece there. */
 static bool put_stretch(chainer *c, size_t i, double from, double to, int32_t count)
 {
-    double pieces = c->curved ? 1 << c->curve.steps : 1, way = to > from ? 1 : -1, at = from;
+    double pieces = c->curved ? 1 << c->curve.steps : 1, heading = to > from ? 1 : -1, at = from;
     while (at != to) {
-        double next = way > 0 ? floor(at * pieces + 1) / pieces : ceil(at * pieces - 1) / pieces;
-        next = (to - next) * way > 0 ? next : to;
+        double next = heading > 0 ? floor(at * pieces + 1) / pieces : ceil(at * pieces - 1) / pieces;
+        next = (to - next) * heading > 0 ? next : to;
         chain_point p = point_at(c, i, at, count), q = point_at(c, i, next, count);
         if (!put_piece(c, &p, &q))
             return false;
@@ -386,7 +386,7 @@ static bool is_crumb(const chainer *c, stroke_class kind)
         if (c->points[i].count == 0 || (c->options->hidden && c->points[i].count > 0))
             ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
     int side = c->v->camera.width > c->v->camera.height ? c->v->camera.width : c->v->camera.height;
-    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->options->shortest, FORM_SHARE * side);
+    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->options->shortest, FORM_FRACTION * side);
 }
 
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
@@ -440,7 +440,7 @@ static void calm(chainer *c)
         int32_t own = c->points[begin].count, after = end + 1 < c->point_count ? c->points[end].count : OUTSIDE;
         double  limit = before == OUTSIDE || after == OUTSIDE
                             ? FLICKER / 2
-                            : FLICKER; /* no place farther than half of it from one that is so */
+                            : FLICKER; /* no position farther than half of it from one that is so */
         bool    brief = own != OUTSIDE && c->points[end].arc - c->points[begin].arc < limit;
         for (size_t i = begin; i < end && brief; i++)
             c->points[i].count = calm_count(own, before, after);
@@ -450,19 +450,19 @@ static void calm(chainer *c)
 
 /* --- simplifying ---------------------------------------------------------------------------------------- */
 
-/* Of what a depth is off, so much counts beside what the place on the page is: depth may be off by less than half a
+/* Of what a depth is off, so much counts beside what the position on the page is: depth may be off by less than half a
  * pixel, so that whoever looks the line up finds it on its surface. */
-#define DEPTH_SHARE 0.25
+#define DEPTH_FRACTION 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
 static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
 {
     double x = b->x - a->x, y = b->y - a->y, length = x * x + y * y;
-    double share = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
-    share = share < 0 ? 0 : share > 1 ? 1 : share;
-    double away_x = p->x - a->x - share * x, away_y = p->y - a->y - share * y;
-    double depth =
-        (p->z - a->z - share * (b->z - a->z)) * (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_SHARE;
+    double fraction = length > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / length : 0;
+    fraction = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    double away_x = p->x - a->x - fraction * x, away_y = p->y - a->y - fraction * y;
+    double depth = (p->z - a->z - fraction * (b->z - a->z)) *
+                   (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_FRACTION;
     return sqrt(away_x * away_x + away_y * away_y + depth * depth);
 }
 

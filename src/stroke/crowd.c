@@ -10,8 +10,8 @@
 
 #include "base/memory.h"
 
-/* Where strokes that stay run is marked in cells of this share of the distance; a place is near one when its own or
- * a neighbouring cell is marked. */
+/* Where strokes that stay run is marked in cells of this fraction of the distance; a position is near one when its own
+ * or a neighbouring cell is marked. */
 #define CELL (2.0f / 3)
 enum { BLOCK = 64 }; /* cells a side of the blocks that marks are kept in */
 
@@ -23,7 +23,7 @@ typedef struct crowd {
     stroke_set *set;
     float       cell;          /* pixels */
     int32_t     columns, rows; /* of blocks */
-    uint32_t   *numbers;       /* per block: 1 + its place in `blocks`, 0: nothing in it is marked */
+    uint32_t   *numbers;       /* per block: 1 + its position in `blocks`, 0: nothing in it is marked */
     block      *blocks;
     size_t      block_count, block_capacity;
 } crowd;
@@ -62,7 +62,7 @@ static bool put_trace(crowd *c, float x, float y)
     return true;
 }
 
-/* Steps along a stroke. Tracing: marks every place; else: asks whether all are near marked ones. False: out of
+/* Steps along a stroke. Tracing: marks every position; else: asks whether all are near marked ones. False: out of
  * memory, or one is not. */
 static bool step_along(crowd *c, const stroke *s, bool trace)
 {
@@ -71,9 +71,9 @@ static bool step_along(crowd *c, const stroke *s, bool trace)
         float x = p[i + 1].x - p[i].x, y = p[i + 1].y - p[i].y, length = sqrtf(x * x + y * y);
         int   steps = (int)(length / c->cell) + 1;
         for (int k = 0; k < steps; k++) {
-            float share = (float)k / (float)steps;
-            if (trace ? !put_trace(c, p[i].x + share * x, p[i].y + share * y)
-                      : !is_traced(c, p[i].x + share * x, p[i].y + share * y))
+            float fraction = (float)k / (float)steps;
+            if (trace ? !put_trace(c, p[i].x + fraction * x, p[i].y + fraction * y)
+                      : !is_traced(c, p[i].x + fraction * x, p[i].y + fraction * y))
                 return false;
         }
     }

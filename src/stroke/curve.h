@@ -12,7 +12,7 @@ static inline size_t curve_count(size_t count, bool closed)
     return closed || count == 0 ? 2 * count : 2 * count - 1;
 }
 
-/* One step. A point has `width` numbers, whatever they are: places in space, places on the page, with depth or
+/* One step. A point has `width` numbers, whatever they are: positions in space, positions on the page, with depth or
  * without. Old points stay, between two of them lies 9/16 of each less 1/16 of their outer neighbours; the end of
  * an open chain is its own neighbour. `out` has room for curve_count points. */
 void curve_refine(double *out, const double *points, size_t count, size_t width, bool closed);

@@ -39,7 +39,7 @@ bool curve_path_open(curve_path *c, const stroke_view *v, const view_lines *line
 void curve_path_close(curve_path *c)
 {
     mem_free(c->sharp);
-    mem_free(c->places);
+    mem_free(c->positions);
     mem_free(c->coarse);
     memset(c, 0, sizeof *c);
 }
@@ -49,7 +49,7 @@ bool curve_path_bends(const curve_path *c, stroke_class kind)
     return c->steps > 0 && (kind == STROKE_CONTOUR || kind == STROKE_BORDER || kind == STROKE_CREASE);
 }
 
-static const window_point *place_of(const curve_path *c, uint32_t half)
+static const window_point *position_of(const curve_path *c, uint32_t half)
 {
     const window_segment *s = &c->lines->segments[half / 2];
     return half & 1 ? &s->b : &s->a;
@@ -64,7 +64,7 @@ static double3 world_of(const curve_path *c, const view_line *line, uint32_t num
 {
     const stroke_scene *s = c->v->scene;
     const stroke_item  *item = &s->items[line->item];
-    return item_place(item, s->meshes[item->mesh].places[number - c->v->items[line->item].first_point]);
+    return item_position(item, s->meshes[item->mesh].positions[number - c->v->items[line->item].first_point]);
 }
 
 /* Do two lines that meet turn too far, in space, to be one curve? Where ends are no vertices, lines are smooth. */
@@ -94,7 +94,7 @@ static bool is_corner(const curve_path *c, uint32_t in, uint32_t out)
 static void fill_coarse(curve_path *c, const uint32_t *path, size_t count, size_t first, size_t last)
 {
     for (size_t i = first; i <= last; i++) {
-        const window_point *p = i < count ? place_of(c, path[i]) : place_of(c, path[count - 1] ^ 1);
+        const window_point *p = i < count ? position_of(c, path[i]) : position_of(c, path[count - 1] ^ 1);
         c->coarse[i - first][0] = p->x;
         c->coarse[i - first][1] = p->y;
         c->coarse[i - first][2] = p->z;
@@ -104,7 +104,7 @@ static void fill_coarse(curve_path *c, const uint32_t *path, size_t count, size_
 /* Refines what is in `coarse` and puts it from `at` on. */
 static void refine(curve_path *c, size_t count, bool closed, size_t at)
 {
-    double(*from)[3] = c->coarse, (*to)[3] = c->places + at;
+    double(*from)[3] = c->coarse, (*to)[3] = c->positions + at;
     if (c->steps % 2 == 0) { /* so that the last step ends where it is wanted */
         memcpy(to, from, count * sizeof *to);
         double(*other)[3] = from;
@@ -123,17 +123,17 @@ static void refine(curve_path *c, size_t count, bool closed, size_t at)
 bool curve_path_take(curve_path *c, const uint32_t *path, size_t count, bool closed)
 {
     size_t pieces = (size_t)1 << c->steps, needed = count * pieces + 2, start = 0;
-    if (!mem_grow((void **)&c->places, &c->place_capacity, needed, sizeof *c->places) ||
+    if (!mem_grow((void **)&c->positions, &c->position_capacity, needed, sizeof *c->positions) ||
         !mem_grow((void **)&c->coarse, &c->coarse_capacity, needed, sizeof *c->coarse))
         return false;
-    c->place_count = count * pieces + 1;
+    c->position_count = count * pieces + 1;
     bool whole = closed && count > 2 && !is_corner(c, path[count - 1], path[0]);
     for (size_t i = 1; i < count && whole; i++)
         whole = !is_corner(c, path[i - 1], path[i]);
     if (whole) {
         fill_coarse(c, path, count, 0, count - 1);
         refine(c, count, true, 0);
-        memcpy(c->places[c->place_count - 1], c->places[0], sizeof *c->places);
+        memcpy(c->positions[c->position_count - 1], c->positions[0], sizeof *c->positions);
         return true;
     }
     for (size_t i = 1; i <= count; i++) {
@@ -146,11 +146,11 @@ bool curve_path_take(curve_path *c, const uint32_t *path, size_t count, bool clo
     return true;
 }
 
-void curve_path_at(const curve_path *c, size_t i, double share, double out[3])
+void curve_path_at(const curve_path *c, size_t i, double fraction, double out[3])
 {
-    double at = ((double)i + share) * (double)((size_t)1 << c->steps),
-           low = fmin(floor(at), (double)(c->place_count - 2));
-    const double *p = c->places[(size_t)low], *q = c->places[(size_t)low + 1];
+    double at = ((double)i + fraction) * (double)((size_t)1 << c->steps),
+           low = fmin(floor(at), (double)(c->position_count - 2));
+    const double *p = c->positions[(size_t)low], *q = c->positions[(size_t)low + 1];
     for (int k = 0; k < 3; k++)
         out[k] = p[k] + (at - low) * (q[k] - p[k]);
 }

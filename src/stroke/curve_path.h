@@ -13,9 +13,9 @@ typedef struct curve_path {
     const view_lines  *lines;
     int                steps; /* 0: chains stay as they are */
     uint8_t           *sharp; /* per vertex of the view: how many sharp lines it has, 3 for more */
-    double (*places)[3];      /* in the window; 2^steps to a line of the chain */
+    double (*positions)[3];   /* in the window; 2^steps to a line of the chain */
     double (*coarse)[3];
-    size_t place_count, place_capacity, coarse_capacity;
+    size_t position_count, position_capacity, coarse_capacity;
 } curve_path;
 
 /* Errors: false when memory is gone. End with curve_path_close. */
@@ -30,7 +30,7 @@ bool curve_path_bends(const curve_path *c, stroke_class kind);
  * three sharp edges meet, two that turn by more than 75°, and where a smooth outline comes to a sharp one. */
 bool curve_path_take(curve_path *c, const uint32_t *path, size_t count, bool closed);
 
-/* The place at a share of the chain's i-th line, counted in the chain's direction. */
-void curve_path_at(const curve_path *c, size_t i, double share, double out[3]);
+/* The position at a fraction of the chain's i-th line, counted in the chain's direction. */
+void curve_path_at(const curve_path *c, size_t i, double fraction, double out[3]);
 
 #endif

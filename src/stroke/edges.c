@@ -12,9 +12,9 @@
 #include "stroke/butterfly_mesh.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
- * share of its distance. */
+ * fraction of its distance. */
 #define FLAT 1e-6f
-/* Nor does it when it is as near to the plane as rounding alone may take it, share of its largest coordinate. */
+/* Nor does it when it is as near to the plane as rounding alone may take it, fraction of its largest coordinate. */
 #define ROUNDED 3e-7f
 
 enum { CONVEX = 1 << 16, SHORT_BUCKET = 24 }; /* CONVEX: a flag while edges are sorted */
@@ -47,9 +47,9 @@ static float dot(vec3 a, vec3 b)
 }
 
 /* In double precision: slivers on large coordinates would lose their direction. */
-static vec3 face_normal(const vec3 *places, const uint32_t corners[3])
+static vec3 face_normal(const vec3 *positions, const uint32_t corners[3])
 {
-    vec3   p = places[corners[0]], q = places[corners[1]], r = places[corners[2]];
+    vec3   p = positions[corners[0]], q = positions[corners[1]], r = positions[corners[2]];
     double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z;
     double bx = (double)r.x - p.x, by = (double)r.y - p.y, bz = (double)r.z - p.z;
     double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
@@ -74,17 +74,17 @@ static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *s
 }
 
 /* All primitives' positions, one after the other. */
-static vec3 *gather_places(const mesh *m, const vec3 *posed, size_t count)
+static vec3 *gather_positions(const mesh *m, const vec3 *posed, size_t count)
 {
-    vec3  *places = mem_alloc(count * sizeof *places);
+    vec3  *positions = mem_alloc(count * sizeof *positions);
     size_t at = 0;
-    for (size_t i = 0; i < m->primitive_count && places; at += m->primitives[i++].vertex_count)
-        memcpy(places + at, posed ? posed + at : m->primitives[i].positions,
-               m->primitives[i].vertex_count * sizeof *places);
-    return places;
+    for (size_t i = 0; i < m->primitive_count && positions; at += m->primitives[i++].vertex_count)
+        memcpy(positions + at, posed ? posed + at : m->primitives[i].positions,
+               m->primitives[i].vertex_count * sizeof *positions);
+    return positions;
 }
 
-/* Keeps one vertex a place, in order of appearance; ids[v] becomes its new number. */
+/* Keeps one vertex a position, in order of appearance; ids[v] becomes its new number. */
 static void weld(edge_mesh *out, uint32_t *ids, uint32_t count)
 {
     uint32_t kept = 0;
@@ -93,7 +93,7 @@ static void weld(edge_mesh *out, uint32_t *ids, uint32_t count)
             ids[i] = ids[ids[i]];
             continue;
         }
-        out->places[kept] = out->places[i];
+        out->positions[kept] = out->positions[i];
         ids[i] = kept++;
     }
     out->vertex_count = kept;
@@ -110,7 +110,7 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
             uint32_t corners[3];
             for (int c = 0; c < 3; c++)
                 corners[c] = ids[base + p->indices[k + (uint32_t)c]];
-            vec3 normal = face_normal(out->places, corners);
+            vec3 normal = face_normal(out->positions, corners);
             if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2] ||
                 dot(normal, normal) == 0)
                 continue;
@@ -131,18 +131,18 @@ static lmn_status take_faces(builder *b, const edge_faces *in, lmn_error *error)
     edge_mesh *out = b->mesh;
     size_t     count = in->face_count;
     out->vertex_count = in->vertex_count;
-    out->places = mem_copy(in->places, (size_t)in->vertex_count * sizeof *out->places);
+    out->positions = mem_copy(in->positions, (size_t)in->vertex_count * sizeof *out->positions);
     out->faces = mem_alloc(count * sizeof *out->faces);
     out->normals = mem_alloc(count * sizeof *out->normals);
     out->materials = in->materials ? mem_alloc(count * sizeof *out->materials) : NULL;
     out->said = in->said ? mem_alloc(3 * count) : NULL;
     b->origins = mem_alloc(count * sizeof *b->origins);
-    if (!out->places || !out->faces || !out->normals || (in->materials && !out->materials) ||
+    if (!out->positions || !out->faces || !out->normals || (in->materials && !out->materials) ||
         (in->said && !out->said) || !b->origins)
         return error_memory(error);
     for (uint32_t i = 0; i < in->face_count; i++) {
         uint32_t f = out->face_count;
-        vec3     normal = face_normal(out->places, in->faces[i]);
+        vec3     normal = face_normal(out->positions, in->faces[i]);
         if (dot(normal, normal) == 0)
             continue;
         out->face_count++;
@@ -174,12 +174,12 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
         return error_set(error, LMN_LIMIT,
                          "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices,
                          corners);
-    out->places = gather_places(m, posed, vertices);
+    out->positions = gather_positions(m, posed, vertices);
     bool      welded = m->primitive_count == 1 && m->primitives[0].welded && !posed;
-    uint32_t *ids = !out->places ? NULL
-                    : welded
-                        ? count_up((uint32_t)vertices)
-                        : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->places});
+    uint32_t *ids =
+        !out->positions ? NULL
+        : welded        ? count_up((uint32_t)vertices)
+                 : mesh_position_ids(&(primitive){.vertex_count = (uint32_t)vertices, .positions = out->positions});
     out->faces = mem_alloc(corners * sizeof **out->faces);
     out->normals = mem_alloc(corners / 3 * sizeof *out->normals);
     bool mixed = false;
@@ -242,7 +242,7 @@ static void fill_buckets(builder *b)
         }
     for (uint32_t v = 0; v < m->vertex_count; v++)
         b->starts[v + 2] += b->starts[v + 1];
-    /* Counted two places on, so that filling, which moves each start to its end, leaves them right. */
+    /* Counted two positions on, so that filling, which moves each start to its end, leaves them right. */
     for (uint32_t f = 0; f < m->face_count; f++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t p = m->faces[f][k], q = m->faces[f][k == 2 ? 0 : k + 1];
@@ -255,8 +255,8 @@ static void fill_buckets(builder *b)
 /* Six times the volume that a face closes off towards a point near it. */
 static double volume_of(const edge_mesh *m, uint32_t f, vec3 from)
 {
-    vec3 p = minus(m->places[m->faces[f][0]], from), q = minus(m->places[m->faces[f][1]], from),
-         r = minus(m->places[m->faces[f][2]], from);
+    vec3 p = minus(m->positions[m->faces[f][0]], from), q = minus(m->positions[m->faces[f][1]], from),
+         r = minus(m->positions[m->faces[f][2]], from);
     return (double)p.x * ((double)q.y * r.z - (double)q.z * r.y) +
            (double)p.y * ((double)q.z * r.x - (double)q.x * r.z) +
            (double)p.z * ((double)q.x * r.y - (double)q.y * r.x);
@@ -292,7 +292,7 @@ static double *number_pieces(builder *b)
     uint32_t count = 0;
     for (uint32_t f = 0; f < m->face_count; f++) { /* a root comes before all others of its piece */
         if (m->pieces[f] == f) {
-            origins[count] = m->places[m->faces[f][0]];
+            origins[count] = m->positions[m->faces[f][0]];
             m->boxes[count] = box3_empty();
             m->closed[count] = true;
             m->pieces[f] = count++;
@@ -302,7 +302,7 @@ static double *number_pieces(builder *b)
         uint32_t piece = m->pieces[f];
         volumes[piece] += volume_of(m, f, origins[piece]);
         for (int k = 0; k < 3; k++)
-            widen(&m->boxes[piece], m->places[m->faces[f][k]]);
+            widen(&m->boxes[piece], m->positions[m->faces[f][k]]);
     }
     mem_free(origins);
     return volumes;
@@ -314,8 +314,8 @@ static double *number_pieces(builder *b)
 static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_corner)
 {
     uint32_t beyond = next_corner(next_corner(neighbour_corner));
-    vec3     free = m->places[corner_vertex(m, beyond)],
-         from_edge = minus(free, m->places[corner_vertex(m, neighbour_corner)]);
+    vec3     free = m->positions[corner_vertex(m, beyond)],
+         from_edge = minus(free, m->positions[corner_vertex(m, neighbour_corner)]);
     float height = dot(from_edge, m->normals[face]),
           rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
     return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) || fabsf(height) <= rounding ? 0 : height;
@@ -327,20 +327,20 @@ static float height_between(const edge_mesh *m, uint32_t first, uint32_t second)
     return height_above(m, second / 3, first) == 0 ? 0 : height_above(m, first / 3, second);
 }
 
-/* Flags of an edge of two faces. `same_way`: both pass it in one direction, so one of them is inside out. */
-static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bool same_way)
+/* Flags of an edge of two faces. `same_direction`: both pass it in one direction, so one of them is inside out. */
+static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bool same_direction)
 {
     const edge_mesh *m = b->mesh;
     uint32_t         f = first / 3, g = second / 3, flags = 0;
     float            turn = dot(m->normals[f], m->normals[g]);
-    if ((same_way ? -turn : turn) < b->crease)
+    if ((same_direction ? -turn : turn) < b->crease)
         flags |= EDGE_CREASE;
     if (m->materials && m->materials[f] != m->materials[g])
         flags |= EDGE_MATERIAL;
     float height = height_between(m, first, second);
     if (!(flags & EDGE_CREASE) && height != 0)
         flags |= EDGE_CANDIDATE;
-    if (flags && same_way)
+    if (flags && same_direction)
         flags |= EDGE_TWISTED;
     return height < 0 ? flags | CONVEX : flags;
 }
@@ -395,8 +395,8 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
     m->all_edges++;
     m->loose_edges += count != 2;
     if (count == 2) {
-        bool same_way = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
-        flags = judge_pair(b, group[0].corner, group[1].corner, same_way);
+        bool same_direction = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
+        flags = judge_pair(b, group[0].corner, group[1].corner, same_direction);
         group_join(b->pieces, group[0].corner / 3, group[1].corner / 3);
         b->has_twins = b->has_twins || have_same_corners(m->faces[group[0].corner / 3], m->faces[group[1].corner / 3]);
     }
@@ -548,11 +548,11 @@ static lmn_status finish(builder *b, lmn_status status, lmn_error *error)
     return status;
 }
 
-lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error)
+lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
-    return finish(&b, make_faces(&b, m, places, error), error);
+    return finish(&b, make_faces(&b, m, positions, error), error);
 }
 
 lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,
@@ -572,7 +572,7 @@ lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double
 
 void edge_mesh_release(edge_mesh *m)
 {
-    mem_free(m->places);
+    mem_free(m->positions);
     mem_free(m->faces);
     mem_free(m->normals);
     mem_free(m->materials);

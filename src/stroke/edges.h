@@ -28,11 +28,11 @@ typedef struct mesh_edge {
     uint32_t flags;   /* of edge_flag, not 0 */
 } mesh_edge;
 
-/* A mesh with all its primitives welded by position: vertices that lie at one place are one. Triangles that were
- * there twice are one, those without area are gone. Places are the mesh's own. */
+/* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
+ * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
     uint32_t vertex_count, face_count, edge_count, piece_count;
-    vec3    *places;
+    vec3    *positions;
     uint32_t (*faces)[3];
     vec3                   *normals;    /* per face, unit, by winding */
     int32_t                *materials;  /* per face; NULL: all alike */
@@ -46,15 +46,16 @@ typedef struct edge_mesh {
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
 
-/* Sorts the edges of a mesh; crease_angle in radians. `places` (may be NULL) replaces the positions of all
+/* Sorts the edges of a mesh; crease_angle in radians. `positions` (may be NULL) replaces the positions of all
  * primitives, one after the other, where the mesh has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
-lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *places, double crease_angle, lmn_error *error);
+lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
+                            lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
 
 /* The same of faces whose vertices are welded already. `numbers` gets each face's number in the mesh, EDGE_NO_FACE
  * where it was dropped. */
 typedef struct edge_faces {
-    const vec3 *places;
+    const vec3 *positions;
     const uint32_t (*faces)[3];
     const int32_t *materials; /* may be NULL, as in edge_mesh */
     const uint8_t *said;      /* likewise */

@@ -23,7 +23,7 @@ typedef struct radial {
 static radial radial_at(const form_view *f, uint32_t knot)
 {
     const surface_bend *b = &f->s->bends[knot];
-    vec3                p = f->m->places[f->s->vertices[knot]], n = f->s->normals[knot], d = b->direction;
+    vec3                p = f->m->positions[f->s->vertices[knot]], n = f->s->normals[knot], d = b->direction;
     double3             to = form_direction(f, (double3){p.x, p.y, p.z});
     double              x = to.x * d.x + to.y * d.y + to.z * d.z;
     double y = to.x * ((double)n.y * d.z - (double)n.z * d.y) + to.y * ((double)n.z * d.x - (double)n.x * d.z) +
@@ -60,12 +60,12 @@ static bool collect_suggestive(form_view *f, double strength)
         form_end ends[2];
         for (uint32_t k = 0; k < 3 && side; k++) {
             uint32_t a = knots[k], b = knots[(k + 1) % 3];
-            double   share;
+            double   fraction;
             if (convex[k] == convex[(k + 1) % 3])
                 continue;
-            ends[count] = form_cross(f, 3 * face + k, radials[a].curvature, radials[b].curvature, &share);
-            double growth = radials[a].growth + share * (radials[b].growth - radials[a].growth),
-                   facing = f->facing[a] + share * (f->facing[b] - f->facing[a]);
+            ends[count] = form_cross(f, 3 * face + k, radials[a].curvature, radials[b].curvature, &fraction);
+            double growth = radials[a].growth + fraction * (radials[b].growth - radials[a].growth),
+                   facing = f->facing[a] + fraction * (f->facing[b] - f->facing[a]);
             ends[count++].weight = suggestive_weight(side * growth, side * facing, unit, limit);
         }
         good = count < 2 || form_put(f, STROKE_SUGGESTIVE, face, ends[0], ends[1], false);

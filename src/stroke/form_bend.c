@@ -1,5 +1,5 @@
 /* Curvature from how normals differ along the edges of each face (Rusinkiewicz 2004), as a tensor of space, which
- * may be averaged where directions may not. What is smoothed is the tensor, not the surface: noise goes, places
+ * may be averaged where directions may not. What is smoothed is the tensor, not the surface: noise goes, positions
  * stay. */
 #include "stroke/form_bend.h"
 
@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-/* Curvature is smoothed over this share of the mesh's size. */
+/* Curvature is smoothed over this fraction of the mesh's size. */
 #define SMOOTHED_OVER 0.01
 enum { SMOOTH_MIN = 2, SMOOTH_MAX = 12 };
 
@@ -102,9 +102,9 @@ static void add_tensor(tensor *sum, const tensor *t, double weight)
         sum->t[k] += weight * t->t[k];
 }
 
-static vector place_at(const bender *b, uint32_t face, uint32_t corner)
+static vector position_at(const bender *b, uint32_t face, uint32_t corner)
 {
-    return vector_of(b->m->places[b->m->faces[face][corner % 3]]);
+    return vector_of(b->m->positions[b->m->faces[face][corner % 3]]);
 }
 
 static vector normal_at(const bender *b, uint32_t face, uint32_t corner)
@@ -115,11 +115,11 @@ static vector normal_at(const bender *b, uint32_t face, uint32_t corner)
 /* Returns twice the face's area. */
 static double frame_of(const bender *b, uint32_t f, frame *out)
 {
-    vector   p = place_at(b, f, 0), n = cross(minus(place_at(b, f, 1), p), minus(place_at(b, f, 2), p));
+    vector   p = position_at(b, f, 0), n = cross(minus(position_at(b, f, 1), p), minus(position_at(b, f, 2), p));
     double   area = sqrt(dot(n, n));
     uint32_t piece = b->m->pieces[f];
     out->n = scaled(unit(n), b->m->closed[piece] && b->m->inward[piece] ? -1 : 1);
-    out->u = unit(minus(place_at(b, f, 1), p));
+    out->u = unit(minus(position_at(b, f, 1), p));
     out->v = cross(out->n, out->u);
     return area;
 }
@@ -149,7 +149,7 @@ static bool face_form(const bender *b, uint32_t f, const frame *t, double out[3]
 {
     double a[3][3] = {{0}}, r[3] = {0};
     for (uint32_t k = 0; k < 3; k++) {
-        vector edge = minus(place_at(b, f, k + 1), place_at(b, f, k)),
+        vector edge = minus(position_at(b, f, k + 1), position_at(b, f, k)),
                turn = minus(normal_at(b, f, k + 1), normal_at(b, f, k));
         double u = dot(edge, t->u), v = dot(edge, t->v), du = dot(turn, t->u), dv = dot(turn, t->v);
         a[0][0] += u * u;
@@ -215,12 +215,12 @@ static void smooth_once(bender *b)
             b->tensors[i].t[k] = 0.5 * b->tensors[i].t[k] + 0.5 * b->sums[i].t[k] / b->weights[i];
 }
 
-/* As often as it takes to reach the share of the size: a step spreads by half an edge, steps add as squares. */
+/* As often as it takes to reach the fraction of the size: a step spreads by half an edge, steps add as squares. */
 static int smoothing_steps(const bender *b)
 {
     double sum = 0;
     for (uint32_t h = 0; h < 3 * b->s->face_count; h++) {
-        vector edge = minus(place_at(b, h / 3, h % 3 + 1), place_at(b, h / 3, h % 3));
+        vector edge = minus(position_at(b, h / 3, h % 3 + 1), position_at(b, h / 3, h % 3));
         sum += sqrt(dot(edge, edge));
     }
     double mean = sum / (3.0 * b->s->face_count + 1),
@@ -254,10 +254,10 @@ static void face_change(const bender *b, uint32_t f, const frame *t, double area
         vector        n = normal_at(b, f, k), u = turned(t->u, t->n, n), v = turned(t->v, t->n, n);
         const tensor *own = &b->tensors[b->s->corners[f][k]];
         const double  form[3] = {apply(own, u, u), apply(own, u, v), apply(own, v, v)};
-        vector        edge = minus(place_at(b, f, k + 2), place_at(b, f, k + 1));
+        vector        edge = minus(position_at(b, f, k + 2), position_at(b, f, k + 1));
         /* The gradient of what is 1 at this corner and 0 at the others: the opposite edge, a quarter turn on. It is
          * the same seen from the back. */
-        vector p = minus(place_at(b, f, k), place_at(b, f, k + 1)),
+        vector p = minus(position_at(b, f, k), position_at(b, f, k + 1)),
                g = minus(p, scaled(edge, dot(p, edge) / dot(edge, edge)));
         g = scaled(g, dot(edge, edge) / (area * area));
         for (int i = 0; i < 3; i++) {
@@ -271,7 +271,7 @@ static void face_change(const bender *b, uint32_t f, const frame *t, double area
     out[3] = along_v[2];
 }
 
-/* A symmetric form of three directions, each given by its shares of u and v. */
+/* A symmetric form of three directions, each given by its fractions of u and v. */
 static double apply_change(const double c[4], const double p[2], const double q[2], const double r[2])
 {
     return c[0] * p[0] * q[0] * r[0] + c[1] * (p[1] * q[0] * r[0] + p[0] * q[1] * r[0] + p[0] * q[0] * r[1]) +

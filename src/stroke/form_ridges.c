@@ -17,7 +17,7 @@
 
 /* At a knot: what is greatest on the line, along which way, and how it changes that way. */
 typedef struct crest {
-    double3 way; /* its sign has no meaning, but that of the change goes with it */
+    double3 direction; /* its sign has no meaning, but that of the change goes with it */
     double  height, change;
     double  edge; /* by how much more it bends this way than across; on a ball no way is better than another */
 } crest;
@@ -69,7 +69,7 @@ static crest apparent_at(const form_view *f, uint32_t knot)
 {
     const surface_bend *b = &f->s->bends[knot];
     double3             n = of_floats(f->s->normals[knot]), d = of_floats(b->direction), e = cross(n, d);
-    double3 to = form_direction(f, of_floats(f->m->places[f->s->vertices[knot]])), w = sum(to, -f->facing[knot], n);
+    double3 to = form_direction(f, of_floats(f->m->positions[f->s->vertices[knot]])), w = sum(to, -f->facing[knot], n);
     double  length = sqrt(dot(w, w)), stretch = 1 / fmax(fabs(f->facing[knot]), STEEPEST);
     double3 a = length > 1e-3 ? (double3){w.x / length, w.y / length, w.z / length} : d, c = cross(n, a);
     double  ad = dot(a, d), ae = dot(a, e), cd = dot(c, d), ce = dot(c, e);
@@ -78,9 +78,9 @@ static crest apparent_at(const form_view *f, uint32_t knot)
     double xx = (aa * aa + ac * ac) * stretch * stretch, xy = ac * (aa + cc) * stretch, yy = ac * ac + cc * cc;
     double angle = 0.5 * atan2(2 * xy, xx - yy), spread = sqrt((xx - yy) * (xx - yy) + 4 * xy * xy),
            most = sqrt(0.5 * (xx + yy + spread)), least = sqrt(fmax(0.5 * (xx + yy - spread), 0));
-    double3 way = {0, 0, 0};
-    way = sum(way, cos(angle) * stretch, a);
-    return (crest){sum(way, sin(angle), c), most, 0, most - least};
+    double3 direction = {0, 0, 0};
+    direction = sum(direction, cos(angle) * stretch, a);
+    return (crest){sum(direction, sin(angle), c), most, 0, most - least};
 }
 
 /* How the height changes along its way, from its slopes over the faces around. */
@@ -91,8 +91,8 @@ static bool find_changes(crest_finder *w)
     double          *weights = mem_calloc((size_t)f->s->knot_count + 1, sizeof *weights);
     for (uint32_t face = 0; face < f->s->face_count && slopes && weights; face++) {
         const uint32_t *knots = f->s->corners[face];
-        double3         p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p),
-                v = sum(form_place(f, face, 2), -1, p), n = cross(u, v);
+        double3         p = form_position(f, face, 0), u = sum(form_position(f, face, 1), -1, p),
+                v = sum(form_position(f, face, 2), -1, p), n = cross(u, v);
         double square = dot(n, n), du = w->crests[knots[1]].height - w->crests[knots[0]].height,
                dv = w->crests[knots[2]].height - w->crests[knots[0]].height;
         if (!(square > 0))
@@ -108,7 +108,7 @@ static bool find_changes(crest_finder *w)
     }
     bool good = slopes && weights;
     for (uint32_t i = 0; i < f->s->knot_count && good; i++)
-        w->crests[i].change = weights[i] > 0 ? dot(slopes[i], w->crests[i].way) / weights[i] : 0;
+        w->crests[i].change = weights[i] > 0 ? dot(slopes[i], w->crests[i].direction) / weights[i] : 0;
     mem_free(slopes);
     mem_free(weights);
     return good;
@@ -120,11 +120,11 @@ static bool find_changes(crest_finder *w)
  * along its way. */
 static bool is_greatest(const form_view *f, uint32_t face, const crest c[3])
 {
-    double3 p = form_place(f, face, 0), u = sum(form_place(f, face, 1), -1, p), v = sum(form_place(f, face, 2), -1, p),
-            n = cross(u, v), slope = {0, 0, 0};
+    double3 p = form_position(f, face, 0), u = sum(form_position(f, face, 1), -1, p),
+            v = sum(form_position(f, face, 2), -1, p), n = cross(u, v), slope = {0, 0, 0};
     slope = sum(slope, c[1].change - c[0].change, cross(v, n));
     slope = sum(slope, c[2].change - c[0].change, cross(n, u));
-    return dot(slope, c[0].way) + dot(slope, c[1].way) + dot(slope, c[2].way) < 0;
+    return dot(slope, c[0].direction) + dot(slope, c[1].direction) + dot(slope, c[2].direction) < 0;
 }
 
 /* An end where the crest crosses a side of a face. */
@@ -133,11 +133,12 @@ static bool find_end(crest_finder *w, uint32_t half, const crest *a, const crest
     form_view *f = w->f;
     if ((a->change >= 0) == (b->change >= 0))
         return false;
-    double share;
-    *out = form_cross(f, half, a->change, b->change, &share);
+    double fraction;
+    *out = form_cross(f, half, a->change, b->change, &fraction);
     double p = f->facing[f->s->corners[half / 3][half % 3]], q = f->facing[f->s->corners[half / 3][(half + 1) % 3]];
-    double rim = (side * (p + share * (q - p)) - RIM) / RIM, edge = (a->edge + share * (b->edge - a->edge)) * w->unit;
-    float  weight = form_fade(edge, w->limit);
+    double rim = (side * (p + fraction * (q - p)) - RIM) / RIM,
+           edge = (a->edge + fraction * (b->edge - a->edge)) * w->unit;
+    float weight = form_fade(edge, w->limit);
     out->weight = weight < 0 || rim > 1 ? weight : rim < 0 ? (float)rim : weight * (float)rim;
     return true;
 }
@@ -154,8 +155,9 @@ static bool take_face(crest_finder *w, uint32_t face, int side)
                                           : crest_of(f->s, knot, (w->kind == STROKE_VALLEY) == (side > 0));
         if (c[k].edge <= 0)
             return true;
-        if (k > 0 && dot(c[k].way, c[0].way) < 0)
-            c[k] = (crest){{-c[k].way.x, -c[k].way.y, -c[k].way.z}, c[k].height, -c[k].change, c[k].edge};
+        if (k > 0 && dot(c[k].direction, c[0].direction) < 0)
+            c[k] = (crest){
+                {-c[k].direction.x, -c[k].direction.y, -c[k].direction.z}, c[k].height, -c[k].change, c[k].edge};
     }
     for (uint32_t k = 0; k < 3; k++)
         count += find_end(w, 3 * face + k, &c[k], &c[(k + 1) % 3], side, &ends[count]);

@@ -22,7 +22,7 @@ static void part_edge(form_surface *s, uint32_t h)
 static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *error)
 {
     butterfly  flat;
-    lmn_status status = butterfly_refine(&flat, m->places, m->vertex_count, (const uint32_t(*)[3])m->faces,
+    lmn_status status = butterfly_refine(&flat, m->positions, m->vertex_count, (const uint32_t(*)[3])m->faces,
                                          m->face_count, NULL, 0, error);
     if (status != LMN_OK)
         return status;
@@ -86,8 +86,8 @@ static bool make_normals(form_surface *s, const edge_mesh *m)
     for (uint32_t f = 0; f < m->face_count && sums && s->normals; f++) {
         double sign = m->closed[m->pieces[f]] && m->inward[m->pieces[f]] ? -1 : 1;
         for (uint32_t k = 0; k < 3; k++) {
-            vec3 p = m->places[m->faces[f][k]], q = m->places[m->faces[f][(k + 1) % 3]],
-                 r = m->places[m->faces[f][(k + 2) % 3]];
+            vec3 p = m->positions[m->faces[f][k]], q = m->positions[m->faces[f][(k + 1) % 3]],
+                 r = m->positions[m->faces[f][(k + 2) % 3]];
             double ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z, bx = (double)r.x - p.x,
                    by = (double)r.y - p.y, bz = (double)r.z - p.z;
             double  weight = sign / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
@@ -119,7 +119,7 @@ static bool make_fans(form_surface *s, const edge_mesh *m)
         s->fan_starts[m->faces[c / 3][c % 3] + 2]++;
     for (uint32_t v = 0; v < m->vertex_count; v++)
         s->fan_starts[v + 2] += s->fan_starts[v + 1];
-    /* Counted two places on, so that filling, which moves each start to its end, leaves them right. */
+    /* Counted two positions on, so that filling, which moves each start to its end, leaves them right. */
     for (uint32_t c = 0; c < 3 * m->face_count; c++)
         s->fan_faces[s->fan_starts[m->faces[c / 3][c % 3] + 1]++] = c / 3;
     return true;

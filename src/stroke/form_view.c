@@ -39,7 +39,7 @@ bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_
         return false;
     memset(f->numbers, 0xFF, (size_t)s->face_count * 3 * sizeof *f->numbers);
     for (uint32_t i = 0; i < s->knot_count; i++) {
-        vec3    p = f->m->places[s->vertices[i]], n = s->normals[i];
+        vec3    p = f->m->positions[s->vertices[i]], n = s->normals[i];
         double3 d = form_direction(f, (double3){p.x, p.y, p.z});
         f->facing[i] = n.x * d.x + n.y * d.y + n.z * d.z;
     }
@@ -53,17 +53,17 @@ void form_view_close(form_view *f)
     memset(f, 0, sizeof *f);
 }
 
-double3 form_direction(const form_view *f, double3 place)
+double3 form_direction(const form_view *f, double3 position)
 {
     bool    parallel = f->v->camera.orthographic;
-    double3 d = parallel ? f->eye : (double3){f->eye.x - place.x, f->eye.y - place.y, f->eye.z - place.z};
+    double3 d = parallel ? f->eye : (double3){f->eye.x - position.x, f->eye.y - position.y, f->eye.z - position.z};
     double  length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
     return length > 0 ? (double3){d.x / length, d.y / length, d.z / length} : (double3){0, 0, 0};
 }
 
-double3 form_place(const form_view *f, uint32_t face, uint32_t corner)
+double3 form_position(const form_view *f, uint32_t face, uint32_t corner)
 {
-    vec3 p = f->m->places[f->m->faces[face][corner % 3]];
+    vec3 p = f->m->positions[f->m->faces[face][corner % 3]];
     return (double3){p.x, p.y, p.z};
 }
 
@@ -71,22 +71,22 @@ int form_side(const form_view *f, uint32_t face)
 {
     uint32_t piece = f->m->pieces[face];
     vec3     n = f->m->normals[face];
-    double3  d = form_direction(f, form_place(f, face, 0));
+    double3  d = form_direction(f, form_position(f, face, 0));
     double   towards = n.x * d.x + n.y * d.y + n.z * d.z;
     if (!f->m->closed[piece])
         return (towards > 0) - (towards < 0);
     return (f->m->inward[piece] ? -towards : towards) > 0;
 }
 
-form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *share)
+form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *fraction)
 {
     uint32_t opposite = f->s->opposite[half], own = opposite < half ? opposite : half; /* NO_HALF is above all */
     double   first = own == half ? begin : end, last = own == half ? end : begin,
            at = first == last ? 0.5 : first / (first - last);
-    double3 a = form_place(f, own / 3, own % 3), b = form_place(f, own / 3, own % 3 + 1);
+    double3 a = form_position(f, own / 3, own % 3), b = form_position(f, own / 3, own % 3 + 1);
     if (f->numbers[own] == NO_VERTEX)
         f->numbers[own] = f->out->end_count++;
-    *share = own == half ? at : 1 - at;
+    *fraction = own == half ? at : 1 - at;
     return (form_end){{a.x + at * (b.x - a.x), a.y + at * (b.y - a.y), a.z + at * (b.z - a.z)}, f->numbers[own], 1};
 }
 
@@ -100,10 +100,11 @@ static double3 to_world(const form_view *f, double3 p)
 /* What is left of an end whose weight is below 0: where it reaches 0. */
 static form_end cut_end(form_view *f, form_end gone, form_end other)
 {
-    double  share = gone.weight / (gone.weight - other.weight);
-    double3 p = gone.place, q = other.place;
-    return (form_end){
-        {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)}, f->out->end_count++, 0};
+    double  fraction = gone.weight / (gone.weight - other.weight);
+    double3 p = gone.position, q = other.position;
+    return (form_end){{p.x + fraction * (q.x - p.x), p.y + fraction * (q.y - p.y), p.z + fraction * (q.z - p.z)},
+                      f->out->end_count++,
+                      0};
 }
 
 bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned)
@@ -124,7 +125,7 @@ bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_e
              {fminf(a.weight, 1), fminf(b.weight, 1)},
              false,
              turned};
-    return lines_put(f->out, f->v, line, to_world(f, a.place), to_world(f, b.place), faces);
+    return lines_put(f->out, f->v, line, to_world(f, a.position), to_world(f, b.position), faces);
 }
 
 float form_fade(double measure, double limit)

@@ -21,7 +21,7 @@ typedef struct form_view {
 
 /* An end of a line across a face. */
 typedef struct form_end {
-    double3  place;
+    double3  position;
     uint32_t number;
     float    weight; /* at most 1; what is below 0 is cut off */
 } form_end;
@@ -32,15 +32,15 @@ bool form_view_open(form_view *f, view_lines *out, const stroke_view *v, uint32_
                     bool *seen);
 void form_view_close(form_view *f);
 
-double3 form_direction(const form_view *f, double3 place); /* unit vector to the eye */
-double3 form_place(const form_view *f, uint32_t face, uint32_t corner);
+double3 form_direction(const form_view *f, double3 position); /* unit vector to the eye */
+double3 form_position(const form_view *f, uint32_t face, uint32_t corner);
 /* 1 when the face is seen from its outside, −1 from its inside, 0 when it is the inside of a closed body or seen
  * edge-on: nobody sees it. */
 int form_side(const form_view *f, uint32_t face);
 
-/* Where a half-edge is crossed by what is `begin` at its begin and `end` at its end: the same place and number from
- * either side. Also the share from its begin. */
-form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *share);
+/* Where a half-edge is crossed by what is `begin` at its begin and `end` at its end: the same position and number from
+ * either side. Also the fraction from its begin. */
+form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *fraction);
 /* Adds a line across a face; `turned` as in view_line. False when memory is gone. */
 bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
 
@@ -51,7 +51,7 @@ bool smooth_collect(form_view *f);
 /* Ridges, valleys and apparent ridges; strengths as in stroke_options. */
 bool ridges_collect(form_view *f, stroke_class kind, double strength);
 
-/* Lengths and curvatures are measured against this share of the size of a mesh. */
+/* Lengths and curvatures are measured against this fraction of the size of a mesh. */
 #define FORM_UNIT 0.1
 /* 0 at the limit, 1 at twice of it, below 0 where there is no line. */
 float form_fade(double measure, double limit);

@@ -103,7 +103,7 @@ static void enter(const grid_level *l, const stroke_view *v, uint32_t number, ui
         }
 }
 
-/* Makes each count where the cell's entries begin, one place on: filling moves it to their end. Returns where those
+/* Makes each count where the cell's entries begin, one position on: filling moves it to their end. Returns where those
  * of the next grid begin. */
 static uint32_t add_up(const grid_level *l, uint32_t total)
 {

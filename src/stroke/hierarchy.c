@@ -9,7 +9,7 @@
 enum { LEAF = 4, CURVE_BITS = 10, RADIX_BITS = 10, RADIX = 1 << RADIX_BITS, DEPTH_MAX = 96 };
 
 typedef struct curve_key {
-    uint32_t place, member;
+    uint32_t position, member;
 } curve_key;
 
 /* Spreads ten bits so that two others fit between each pair. */
@@ -27,7 +27,7 @@ static uint32_t step_along(float at, float low, float scale)
     return step > 0 ? step < (1 << CURVE_BITS) - 1 ? (uint32_t)step : (1 << CURVE_BITS) - 1 : 0;
 }
 
-static void place_on_curve(curve_key *keys, const box3 *boxes, uint32_t count)
+static void position_on_curve(curve_key *keys, const box3 *boxes, uint32_t count)
 {
     box3 all = box3_empty();
     for (uint32_t i = 0; i < count; i++)
@@ -49,11 +49,11 @@ static void sort_keys(curve_key *keys, curve_key *other, uint32_t count)
     for (unsigned shift = 0; shift < 3 * CURVE_BITS; shift += RADIX_BITS) {
         uint32_t starts[RADIX + 1] = {0};
         for (uint32_t i = 0; i < count; i++)
-            starts[(keys[i].place >> shift & (RADIX - 1)) + 1]++;
+            starts[(keys[i].position >> shift & (RADIX - 1)) + 1]++;
         for (int k = 0; k < RADIX; k++)
             starts[k + 1] += starts[k];
         for (uint32_t i = 0; i < count; i++)
-            other[starts[keys[i].place >> shift & (RADIX - 1)]++] = keys[i];
+            other[starts[keys[i].position >> shift & (RADIX - 1)]++] = keys[i];
         memcpy(keys, other, count * sizeof *keys);
     }
 }
@@ -61,13 +61,13 @@ static void sort_keys(curve_key *keys, curve_key *other, uint32_t count)
 /* Where a run of keys is split: at the highest bit in which its ends differ, or in the middle. */
 static uint32_t split_of(const curve_key *keys, uint32_t begin, uint32_t end)
 {
-    uint32_t differ = keys[begin].place ^ keys[end - 1].place;
+    uint32_t differ = keys[begin].position ^ keys[end - 1].position;
     if (!differ)
         return begin + (end - begin) / 2;
     uint32_t bit = 31u - (uint32_t)__builtin_clz(differ), low = begin, high = end - 1;
     while (high - low > 1) { /* the bit is 0 at `low` and 1 at `high` */
         uint32_t middle = low + (high - low) / 2;
-        if (keys[middle].place >> bit & 1)
+        if (keys[middle].position >> bit & 1)
             high = middle;
         else
             low = middle;
@@ -129,7 +129,7 @@ lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *ki
     out->nodes = mem_alloc(2 * (size_t)count * sizeof *out->nodes);
     lmn_status status = LMN_OK;
     if (keys && out->members && out->nodes) {
-        place_on_curve(keys, boxes, count);
+        position_on_curve(keys, boxes, count);
         sort_keys(keys, keys + count, count);
         for (uint32_t i = 0; i < count; i++)
             out->members[i] = keys[i].member;

@@ -148,7 +148,7 @@ static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, ui
 {
     vec3 p[3];
     for (int k = 0; k < 3; k++) {
-        p[k] = m->places[m->faces[face][k]];
+        p[k] = m->positions[m->faces[face][k]];
         p[k] = still ? p[k] : mat4_transform_point(&item->world, p[k]);
     }
     return (box3){{smaller(p[0].x, smaller(p[1].x, p[2].x)), smaller(p[0].y, smaller(p[1].y, p[2].y)),
@@ -196,8 +196,8 @@ static world_face load_face(const crossing_search *s, const near_face *n)
     const edge_mesh   *m = &s->scene->meshes[item->mesh];
     world_face         out = {.vertices = {m->faces[n->face][0], m->faces[n->face][1], m->faces[n->face][2]}};
     for (int k = 0; k < 3; k++) {
-        vec3 p = m->places[out.vertices[k]];
-        out.p[k] = s->still[n->item] ? (double3){p.x, p.y, p.z} : item_place(item, p);
+        vec3 p = m->positions[out.vertices[k]];
+        out.p[k] = s->still[n->item] ? (double3){p.x, p.y, p.z} : item_position(item, p);
     }
     if (s->still[n->item]) { /* rounded, but the same each time */
         out.normal = (double3){m->normals[n->face].x, m->normals[n->face].y, m->normals[n->face].z};
@@ -234,9 +234,9 @@ static double3 edge_at_plane(const world_face *f, int from, int to)
         return f->p[from];
     if (f->heights[to] == 0)
         return f->p[to];
-    double  share = f->heights[from] / (f->heights[from] - f->heights[to]);
+    double  fraction = f->heights[from] / (f->heights[from] - f->heights[to]);
     double3 p = f->p[from], q = f->p[to];
-    return (double3){p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)};
+    return (double3){p.x + fraction * (q.x - p.x), p.y + fraction * (q.y - p.y), p.z + fraction * (q.z - p.z)};
 }
 
 /* The two places where a face's rim passes the other one's plane. */
@@ -256,10 +256,10 @@ static void rim_at_plane(const world_face *f, double3 out[2])
  * arithmetic. */
 static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face, uint32_t plane)
 {
-    vec3  normal = m->normals[plane], origin = m->places[m->faces[plane][0]];
+    vec3  normal = m->normals[plane], origin = m->positions[m->faces[plane][0]];
     float least = INFINITY, most = -INFINITY, margin = (float)(4 * s->same);
     for (int k = 0; k < 3; k++) {
-        vec3  p = m->places[m->faces[face][k]];
+        vec3  p = m->positions[m->faces[face][k]];
         float height = (p.x - origin.x) * normal.x + (p.y - origin.y) * normal.y + (p.z - origin.z) * normal.z;
         least = smaller(least, height);
         most = larger(most, height);
@@ -343,7 +343,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
                          .region = box3_empty(),
                          .progress = progress,
                          .user = user,
-                         .same = SAME_PLACE * scene->reach};
+                         .same = SAME_POSITION * scene->reach};
     lmn_status      status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);

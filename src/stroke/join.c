@@ -55,12 +55,12 @@ static stroke_end end_of(const joiner *j, uint32_t number)
         y = from->y - to->y;
     }
     float length = sqrtf(x * x + y * y);
-    float share = length > 0 ? 1 / length : 0;
+    float fraction = length > 0 ? 1 / length : 0;
     return (stroke_end){from->x,
                         from->y,
                         from->depth,
-                        x * share,
-                        y * share,
+                        x * fraction,
+                        y * fraction,
                         (int32_t)floorf(from->x / GAP),
                         (int32_t)floorf(from->y / GAP)};
 }
@@ -201,7 +201,7 @@ static void put_marks(joined *out, const joiner *j, uint32_t entry, float from, 
 }
 
 /* Appends a stroke's points, the last first when it is entered at its last end. The first one is left out where it
- * only repeats the place that has been reached. */
+ * only repeats the position that has been reached. */
 static void put_points(joined *out, const stroke_set *set, uint32_t entry, bool goes_on)
 {
     const stroke *s = &set->strokes[entry / 2];

@@ -21,9 +21,9 @@ typedef struct collector {
     const stroke_view    *v;
     const stroke_options *options;
     const bool           *parts;
-    double3              *places; /* of the ends that only lines have, from v->vertex_count on */
-    uint32_t             *slots;  /* hash table of them; NO_VERTEX when empty */
-    size_t                place_count, place_capacity, slot_mask;
+    double3              *positions; /* of the ends that only lines have, from v->vertex_count on */
+    uint32_t             *slots;     /* hash table of them; NO_VERTEX when empty */
+    size_t                position_count, position_capacity, slot_mask;
     uint8_t              *outline; /* per edge of a refined mesh: the silhouette that was propagated runs along it */
 } collector;
 
@@ -52,9 +52,9 @@ static bool is_near_page(const stroke_view *v, window_point a, window_point b)
     return !((a.x < -x && b.x < -x) || (a.x > x && b.x > x) || (a.y < -y && b.y < -y) || (a.y > y && b.y > y));
 }
 
-static double3 between(double3 a, double3 b, double share)
+static double3 between(double3 a, double3 b, double fraction)
 {
-    return (double3){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+    return (double3){a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y), a.z + fraction * (b.z - a.z)};
 }
 
 bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a, double3 b, const uint32_t faces[2])
@@ -65,9 +65,9 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
     window_segment s = {.ends = {NO_VERTEX, NO_VERTEX}, .faces = {faces[0], faces[1]}};
     for (int k = 0; k < 2; k++) {
         bool   whole = cut[k] == k; /* nothing is cut off at this end */
-        double share =
+        double fraction =
             whole ? k : cut[k] + (k ? -1e-9 : 1e-9); /* a little inside, where rounding cannot put it outside again */
-        if (!view_place(v, between(a, b, share), k ? &s.b : &s.a))
+        if (!view_position(v, between(a, b, fraction), k ? &s.b : &s.a))
             return true;
         if (!whole)
             line.ends[k] = out->end_count++;
@@ -114,8 +114,8 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])
-        return lines_put(c->out, v, line, item_place(item, m->places[e->vertex[0]]),
-                         item_place(item, m->places[e->vertex[1]]), faces);
+        return lines_put(c->out, v, line, item_position(item, m->positions[e->vertex[0]]),
+                         item_position(item, m->positions[e->vertex[1]]), faces);
     window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
     return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
@@ -135,9 +135,9 @@ static bool is_front(void *user, uint32_t level, uint32_t face)
         return view_is_front(t->v, t->v->items[t->item].first_face + r->faces[face]);
     const uint32_t    *corners = r->surface.levels[level].faces[face];
     const stroke_item *item = &t->v->scene->items[t->item];
-    return view_shows_front(t->v, item_place(item, t->mesh->places[corners[0]]),
-                            item_place(item, t->mesh->places[corners[1]]),
-                            item_place(item, t->mesh->places[corners[2]]));
+    return view_shows_front(t->v, item_position(item, t->mesh->positions[corners[0]]),
+                            item_position(item, t->mesh->positions[corners[1]]),
+                            item_position(item, t->mesh->positions[corners[2]]));
 }
 
 /* Of a mesh that was refined, outlines are looked for only near those of the coarser one. */
@@ -171,24 +171,24 @@ static bool collect_edges(collector *c, uint32_t index)
 
 /* --- intersections -------------------------------------------------------------------------------------- */
 
-/* The number of a place; equal places have one. */
-static bool number_place(collector *c, double3 p, uint32_t *out)
+/* The number of a position; equal positions have one. */
+static bool number_position(collector *c, double3 p, uint32_t *out)
 {
     uint64_t bits[3];
     memcpy(bits, &p, sizeof bits);
     size_t slot = line_id(line_id(bits[0], bits[1]), bits[2]) & c->slot_mask;
     while (c->slots[slot] != NO_VERTEX) {
-        if (memcmp(&c->places[c->slots[slot]], &p, sizeof p) == 0) {
+        if (memcmp(&c->positions[c->slots[slot]], &p, sizeof p) == 0) {
             *out = c->v->vertex_count + c->slots[slot];
             return true;
         }
         slot = (slot + 1) & c->slot_mask;
     }
-    if (!mem_grow((void **)&c->places, &c->place_capacity, c->place_count + 1, sizeof *c->places))
+    if (!mem_grow((void **)&c->positions, &c->position_capacity, c->position_count + 1, sizeof *c->positions))
         return false;
-    c->slots[slot] = (uint32_t)c->place_count;
-    *out = c->v->vertex_count + (uint32_t)c->place_count;
-    c->places[c->place_count++] = p;
+    c->slots[slot] = (uint32_t)c->position_count;
+    *out = c->v->vertex_count + (uint32_t)c->position_count;
+    c->positions[c->position_count++] = p;
     return true;
 }
 
@@ -212,9 +212,9 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
     uint32_t(*numbers)[2] = mem_alloc((crossings->count + 1) * sizeof *numbers);
     bool good = numbers != NULL;
     for (size_t i = 0; i < crossings->count && good; i++)
-        good = number_place(c, crossings->crossings[i].ends[0], &numbers[i][0]) &&
-               number_place(c, crossings->crossings[i].ends[1], &numbers[i][1]);
-    c->out->end_count = v->vertex_count + (uint32_t)c->place_count;
+        good = number_position(c, crossings->crossings[i].ends[0], &numbers[i][0]) &&
+               number_position(c, crossings->crossings[i].ends[1], &numbers[i][1]);
+    c->out->end_count = v->vertex_count + (uint32_t)c->position_count;
     for (size_t i = 0; i < crossings->count && good; i++) {
         const face_crossing *x = &crossings->crossings[i];
         const stroke_item   *item = &v->scene->items[x->items[0]];
@@ -265,7 +265,7 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_opt
     if (status == LMN_OK)
         status = form_collect(out, v, options, parts, progress, user, error);
     mem_free(c.outline);
-    mem_free(c.places);
+    mem_free(c.positions);
     mem_free(c.slots);
     if (status != LMN_OK)
         lines_release(out);

@@ -15,7 +15,7 @@ typedef struct clip_point {
     double x, y, w, d; /* clip space; d: eye depth */
 } clip_point;
 
-double3 item_place(const stroke_item *item, vec3 p)
+double3 item_position(const stroke_item *item, vec3 p)
 {
     const double *m = item->world.m;
     return (double3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
@@ -30,7 +30,7 @@ static clip_point clip_of(const mat4 *whole, const mat4 *view, double3 p)
                         -(e[2] * p.x + e[6] * p.y + e[10] * p.z + e[14])};
 }
 
-static clip_point place_in_clip_space(const stroke_view *v, double3 p)
+static clip_point position_in_clip_space(const stroke_view *v, double3 p)
 {
     return clip_of(&v->whole, &v->camera.view, p);
 }
@@ -78,11 +78,11 @@ double view_tolerance(const stroke_view *v, double z)
     return v->camera.orthographic ? v->same : v->same * z * z;
 }
 
-bool view_place(const stroke_view *v, double3 world, window_point *out)
+bool view_position(const stroke_view *v, double3 world, window_point *out)
 {
     double limits[2];
     guard(v, limits);
-    clip_point p = place_in_clip_space(v, world);
+    clip_point p = position_in_clip_space(v, world);
     if (outside_of(v, limits, p))
         return false;
     *out = window_of(v, p);
@@ -93,7 +93,7 @@ bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2])
 {
     double limits[2];
     guard(v, limits);
-    clip_point p = place_in_clip_space(v, a), q = place_in_clip_space(v, b);
+    clip_point p = position_in_clip_space(v, a), q = position_in_clip_space(v, b);
     cut[0] = 0;
     cut[1] = 1;
     for (int k = 0; k < PLANE_COUNT; k++) {
@@ -126,7 +126,7 @@ static void project_points(size_t begin, size_t end, void *user)
     guard(v, limits);
     uint32_t first = v->items[job->item].first_point;
     for (size_t i = begin; i < end; i++) {
-        vec3       p = m->places[i];
+        vec3       p = m->positions[i];
         clip_point c = clip_of(&whole, &view, (double3){p.x, p.y, p.z});
         uint8_t    outside = outside_of(v, limits, c);
         v->outside[first + i] = outside;
@@ -168,18 +168,18 @@ static bool put_clipped(stroke_view *v, clip_point corners[3], uint32_t face)
 {
     double limits[2];
     guard(v, limits);
-    clip_point rooms[2][POLYGON_MAX];
-    memcpy(rooms[0], corners, 3 * sizeof *corners);
+    clip_point pattern_rows[2][POLYGON_MAX];
+    memcpy(pattern_rows[0], corners, 3 * sizeof *corners);
     int count = 3, now = 0;
     for (int k = 0; k < PLANE_COUNT && count >= 3; k++, now = 1 - now)
-        count = clip_polygon(v, limits, k, rooms[now], count, rooms[1 - now]);
+        count = clip_polygon(v, limits, k, pattern_rows[now], count, pattern_rows[1 - now]);
     if (count < 3)
         return true;
     if (!mem_grow((void **)&v->points, &v->point_capacity, v->point_count + (size_t)count, sizeof *v->points))
         return false;
     uint32_t first = (uint32_t)v->point_count;
     for (int i = 0; i < count; i++)
-        v->points[v->point_count++] = window_of(v, rooms[now][i]);
+        v->points[v->point_count++] = window_of(v, pattern_rows[now][i]);
     for (int i = 1; i + 1 < count; i++)
         if (!put_triangle(v, first, first + (uint32_t)i, first + (uint32_t)i + 1, face))
             return false;
@@ -197,7 +197,7 @@ static bool faces_eye(const clip_point p[3])
 
 bool view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c)
 {
-    const clip_point p[3] = {place_in_clip_space(v, a), place_in_clip_space(v, b), place_in_clip_space(v, c)};
+    const clip_point p[3] = {position_in_clip_space(v, a), position_in_clip_space(v, b), position_in_clip_space(v, c)};
     return faces_eye(p);
 }
 
@@ -243,7 +243,7 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
         if (v->outside[a] | v->outside[b] | v->outside[c]) {
             clip_point p[3];
             for (int k = 0; k < 3; k++)
-                p[k] = place_in_clip_space(v, item_place(item, m->places[corners[k]]));
+                p[k] = position_in_clip_space(v, item_position(item, m->positions[corners[k]]));
             front = faces_eye(p);
             if (unseen[m->pieces[f]] != (front ? 2 : 1) && !(v->outside[a] & v->outside[b] & v->outside[c]) &&
                 !put_clipped(v, p, face))
@@ -259,7 +259,8 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
     return true;
 }
 
-/* What rounding places may change of a depth at most, pixels: faces seen from the edge are steeper than any number. */
+/* What rounding positions may change of a depth at most, pixels: faces seen from the edge are steeper than any number.
+ */
 #define STEEPEST 0.02
 
 static float slope_of(window_point a, window_point b, window_point c)
@@ -360,7 +361,7 @@ lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, cons
     v->camera = *camera;
     v->whole = mat4_multiply(&camera->projection, &camera->view);
     v->units = units_of(camera);
-    v->same = SAME_PLACE * scene->reach;
+    v->same = SAME_POSITION * scene->reach;
     lmn_status status = fill_view(v, progress, user, error);
     if (status != LMN_OK)
         stroke_view_destroy(&v);

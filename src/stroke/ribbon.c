@@ -10,11 +10,11 @@
 /* Numbers of taste, in pixels unless they are shares. */
 static const float pressure_wave = 70; /* how far apart swellings of the pressure are */
 static const float repeat_wave = 90;   /* the same of how repeats wander apart */
-static const float taper_most = 0.45f; /* share of a chain that one of its ends may take to thin out */
+static const float taper_most = 0.45f; /* fraction of a chain that one of its ends may take to thin out */
 static const float taper_end = 0.12f;  /* what is left of the width at the very end */
 static const float straight_over = 8;  /* how far back an end must be straight to run on */
 static const float straight_cosine = 0.985f;
-static const float run_on_most = 0.35f; /* share of a chain that its end may run on */
+static const float run_on_most = 0.35f; /* fraction of a chain that its end may run on */
 static const float crumb = 1.5f;        /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
@@ -97,11 +97,11 @@ float ribbon_width(const ribbon_job *job, const stroke *s)
     return style->width * (is_outline(s->kind) ? 1 : style->crease_width);
 }
 
-float ribbon_depth_between(const ribbon_job *job, float a, float b, float share)
+float ribbon_depth_between(const ribbon_job *job, float a, float b, float fraction)
 {
     if (!job->strokes->perspective || !(a > 0) || !(b > 0))
-        return a + share * (b - a);
-    return 1 / (1 / a + share * (1 / b - 1 / a));
+        return a + fraction * (b - a);
+    return 1 / (1 / a + fraction * (1 / b - 1 / a));
 }
 
 static bool is_wanted(const stroke_style *style, const stroke *s)
@@ -158,9 +158,9 @@ static bool find_chains(ribbon_job *job)
 
 /* --- what is random: noise along chains ----------------------------------------------------------------- */
 
-static float lattice(uint64_t key, int64_t place)
+static float lattice(uint64_t key, int64_t position)
 {
-    uint64_t z = key + (uint64_t)place * UINT64_C(0x9E3779B97F4A7C15);
+    uint64_t z = key + (uint64_t)position * UINT64_C(0x9E3779B97F4A7C15);
     z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
     z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
     z ^= z >> 31;
@@ -212,7 +212,7 @@ typedef struct line {
     int                repeat;
     float              begin, end;    /* of the stroke */
     bool               starts, ends;  /* the chain does so here, and freely */
-    bool               varies, moves; /* width or opacity; place */
+    bool               varies, moves; /* width or opacity; position */
     uint64_t           keys[NOISE_ENDS + 1];
 } line;
 
@@ -276,13 +276,13 @@ static ribbon_point true_point(const builder *b, const line *l, float arc, uint3
         k++;
     *from = k;
     const stroke_point *p = &points[k], *q = p + 1;
-    float length = q->arc - p->arc, t = length > 0 ? (arc - p->arc) / length : 0, share = fminf(fmaxf(t, 0), 1);
+    float length = q->arc - p->arc, t = length > 0 ? (arc - p->arc) / length : 0, fraction = fminf(fmaxf(t, 0), 1);
     return (ribbon_point){p->x + t * (q->x - p->x),
                           p->y + t * (q->y - p->y),
-                          ribbon_depth_between(&b->job, p->depth, q->depth, share),
+                          ribbon_depth_between(&b->job, p->depth, q->depth, fraction),
                           arc,
                           0,
-                          p->weight + share * (q->weight - p->weight)};
+                          p->weight + fraction * (q->weight - p->weight)};
 }
 
 static void displace(const builder *b, const line *l, ribbon_point *p)
@@ -302,15 +302,15 @@ static void displace(const builder *b, const line *l, ribbon_point *p)
 /* 1 but near the ends of the chain. */
 static float taper_at(const builder *b, const line *l, float arc, span where)
 {
-    float reach = fminf(b->job.style->taper, taper_most * fmaxf(l->chain->length, where.to - where.from)), share = 1;
+    float reach = fminf(b->job.style->taper, taper_most * fmaxf(l->chain->length, where.to - where.from)), fraction = 1;
     if (!(reach > 0) || l->chain->closed)
         return 1;
     if (l->starts)
-        share = fminf(share, (arc - fminf(where.from, l->begin)) / reach);
+        fraction = fminf(fraction, (arc - fminf(where.from, l->begin)) / reach);
     if (l->ends)
-        share = fminf(share, (fmaxf(where.to, l->end) - arc) / reach);
-    share = fminf(fmaxf(share, 0), 1);
-    return taper_end + (1 - taper_end) * sqrtf(share * (2 - share));
+        fraction = fminf(fraction, (fmaxf(where.to, l->end) - arc) / reach);
+    fraction = fminf(fmaxf(fraction, 0), 1);
+    return taper_end + (1 - taper_end) * sqrtf(fraction * (2 - fraction));
 }
 
 static void weigh(const builder *b, const line *l, ribbon_point *p, span where, float half, float alpha)

@@ -13,7 +13,7 @@ typedef enum stroke_brush { BRUSH_PEN, BRUSH_BRUSH, BRUSH_PENCIL, BRUSH_CHARCOAL
 typedef struct stroke_style {
     colour  colours[STROKE_CLASS_COUNT]; /* NaN red: not drawn in a colour of its own, takes that of the contour */
     float   width;
-    float   crease_width;          /* of all that is no outline, share of the width */
+    float   crease_width;          /* of all that is no outline, fraction of the width */
     int32_t brush;                 /* stroke_brush */
     float   taper;                 /* length over which ends thin out; 0: none */
     float   pressure;              /* 0 … 1: how much the width varies along */
@@ -58,7 +58,7 @@ typedef struct ribbon_set {
 } ribbon_set;
 
 /* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same
- * ribbons; what is random belongs to a chain's id and place along it, so that it stays from frame to frame. Errors:
+ * ribbons; what is random belongs to a chain's id and position along it, so that it stays from frame to frame. Errors:
  * LMN_MEMORY. */
 lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed,
                         lmn_error *error);

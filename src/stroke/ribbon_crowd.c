@@ -10,10 +10,10 @@
 #include "stroke/ribbon_private.h"
 
 enum { CELLS_MOST = 4096 };
-static const float  samples_apart = 0.5f; /* shares of the distance that is kept */
+static const float  samples_apart = 0.5f; /* fractions of the distance that is kept */
 static const float  own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
 static const float  run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
-static const float  crowded_from = 0.5f;  /* share of crowded samples */
+static const float  crowded_from = 0.5f;  /* fraction of crowded samples */
 static const float  least_apart = 0.5f;   /* pixels */
 static const float  longest = 1e6f;       /* of a segment that anybody draws, pixels */
 static const size_t samples_most = 50000000;
@@ -45,10 +45,10 @@ static bool grid_begin(crowd_grid *g, const ribbon_job *job)
     const stroke_set *set = job->strokes;
     float             low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (size_t i = 0; i < set->point_count; i++) {
-        const float place[2] = {set->points[i].x, set->points[i].y};
-        for (int k = 0; k < 2 && isfinite(place[0]) && isfinite(place[1]); k++) {
-            low[k] = fminf(low[k], place[k]);
-            high[k] = fmaxf(high[k], place[k]);
+        const float position[2] = {set->points[i].x, set->points[i].y};
+        for (int k = 0; k < 2 && isfinite(position[0]) && isfinite(position[1]); k++) {
+            low[k] = fminf(low[k], position[k]);
+            high[k] = fmaxf(high[k], position[k]);
         }
     }
     if (!(high[0] >= low[0]))

@@ -7,7 +7,7 @@
 
 /* Dashes that are all gap or cannot be told apart. */
 static const float shortest_period = 0.5f;
-/* Gaps shorter than this share of a whole one are closed. */
+/* Gaps shorter than this fraction of a whole one are closed. */
 static const float least_gap = 0.5f;
 /* Dashes of one stroke; a line that had more would be longer than any page. */
 static const float dashes_most = 1e6f;

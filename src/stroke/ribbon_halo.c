@@ -8,10 +8,10 @@
 #include "stroke/ribbon_private.h"
 
 enum { CELLS_MOST = 1024 };
-static const float cell_least = 16;     /* pixels */
-static const float beyond = 1.5f;       /* how far beyond its ends a stroke is looked for crossings, pixels */
-static const float depth_share = 1e-3f; /* what is nearer than this share of all depths is at the same place */
-static const float flattest = 0.25f;    /* sine of the angle between two lines below which a gap grows no longer */
+static const float cell_least = 16;        /* pixels */
+static const float beyond = 1.5f;          /* how far beyond its ends a stroke is looked for crossings, pixels */
+static const float depth_fraction = 1e-3f; /* what is nearer than this fraction of all depths is at the same position */
+static const float flattest = 0.25f;       /* sine of the angle between two lines below which a gap grows no longer */
 
 typedef struct segment {
     uint32_t stroke, point;
@@ -100,15 +100,15 @@ static bool build_grid(halo_search *h)
     float             low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < set->point_count; i++) {
         const stroke_point *p = &set->points[i];
-        const float         place[3] = {p->x, p->y, p->depth};
+        const float         position[3] = {p->x, p->y, p->depth};
         for (int k = 0; k < 3 && is_finite_point(p); k++) {
-            low[k] = fminf(low[k], place[k]);
-            high[k] = fmaxf(high[k], place[k]);
+            low[k] = fminf(low[k], position[k]);
+            high[k] = fmaxf(high[k], position[k]);
         }
     }
     if (!(high[0] >= low[0]))
         return false;
-    h->depth_gap = depth_share * (high[2] - low[2]);
+    h->depth_gap = depth_fraction * (high[2] - low[2]);
     g->left = low[0];
     g->top = low[1];
     g->cell = fmaxf(cell_least, fmaxf(high[0] - low[0], high[1] - low[1]) / CELLS_MOST);
@@ -145,9 +145,9 @@ static void cross(halo_search *h, uint32_t own, const stroke_point *a, const str
     float reach = beyond / length, own_reach = beyond / across;
     if (t < (first ? -reach : 0) || t > (last ? 1 + reach : 1) || u < -own_reach || u > 1 + own_reach)
         return;
-    float share = fminf(fmaxf(t, 0), 1), front_share = fminf(fmaxf(u, 0), 1);
-    float depth = ribbon_depth_between(h->job, a->depth, b->depth, share),
-          nearer = ribbon_depth_between(h->job, c->depth, d->depth, front_share);
+    float fraction = fminf(fmaxf(t, 0), 1), front_fraction = fminf(fmaxf(u, 0), 1);
+    float depth = ribbon_depth_between(h->job, a->depth, b->depth, fraction),
+          nearer = ribbon_depth_between(h->job, c->depth, d->depth, front_fraction);
     if (!(nearer < depth - h->depth_gap))
         return;
     float sine = fmaxf(fabsf(area) / (length * across), flattest);

@@ -32,7 +32,7 @@ typedef struct gap_list {
 } gap_list;
 void gap_list_add(gap_list *list, uint32_t stroke, float from, float to);
 void gap_list_release(gap_list *list);
-/* By stroke, then by place. */
+/* By stroke, then by position. */
 void gap_list_sort(gap_list *list);
 
 /* A chain: its strokes follow each other. */
@@ -65,7 +65,7 @@ void ribbon_find_crowds(gap_list *out, const ribbon_job *job);
 void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from,
                  float to);
 
-/* Depth between two depths, at a share of the way on the page. */
-float ribbon_depth_between(const ribbon_job *job, float a, float b, float share);
+/* Depth between two depths, at a fraction of the way on the page. */
+float ribbon_depth_between(const ribbon_job *job, float a, float b, float fraction);
 
 #endif

@@ -55,11 +55,11 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     stroke_scene *s = b->out;
     if (!mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
         return error_memory(error);
-    vec3      *places = posed ? pose_positions(m, pose) : NULL;
-    lmn_status status = posed && !places ? error_memory(error) : LMN_OK;
+    vec3      *positions = posed ? pose_positions(m, pose) : NULL;
+    lmn_status status = posed && !positions ? error_memory(error) : LMN_OK;
     if (status == LMN_OK)
-        status = edge_mesh_create(&s->meshes[s->mesh_count], m, places, b->crease_angle, error);
-    mem_free(places);
+        status = edge_mesh_create(&s->meshes[s->mesh_count], m, positions, b->crease_angle, error);
+    mem_free(positions);
     if (status != LMN_OK)
         return status;
     status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, b->crease_angle, error);

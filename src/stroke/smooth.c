@@ -31,10 +31,10 @@ static double square_apart(double3 a, double3 b)
     return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z);
 }
 
-static bool is_near(const form_view *f, uint32_t face, double3 place, double square)
+static bool is_near(const form_view *f, uint32_t face, double3 position, double square)
 {
     for (uint32_t k = 0; k < 3; k++)
-        if (square_apart(form_place(f, face, k), place) <= square)
+        if (square_apart(form_position(f, face, k), position) <= square)
             return true;
     return false;
 }
@@ -64,13 +64,13 @@ static bool put_ignored(smoother *w, uint32_t face)
 
 /* Lists the faces of the fold behind those that are listed already: all that touch the face, and on from them those
  * that are seen as steeply as these. */
-static bool put_fold(smoother *w, uint32_t face, double3 place, int rings)
+static bool put_fold(smoother *w, uint32_t face, double3 position, int rings)
 {
     const form_view *f = w->f;
     size_t           first = w->count, ring = first;
     double           longest = 0, most = 0;
     for (uint32_t k = 0; k < 3; k++)
-        longest = fmax(longest, square_apart(form_place(f, face, k), form_place(f, face, k + 1)));
+        longest = fmax(longest, square_apart(form_position(f, face, k), form_position(f, face, k + 1)));
     w->stamps[face] = face + 1;
     if (!put_ignored(w, face))
         return false;
@@ -88,7 +88,7 @@ static bool put_fold(smoother *w, uint32_t face, double3 place, int rings)
                         continue;
                     w->stamps[other] = face + 1;
                     bool belongs = r == 0 || (is_grazed(f, other, most) &&
-                                              is_near(f, other, place, FOLD_REACH * FOLD_REACH * longest));
+                                              is_near(f, other, position, FOLD_REACH * FOLD_REACH * longest));
                     if (belongs && !put_ignored(w, other))
                         return false;
                 }
@@ -105,7 +105,7 @@ static double growth_over(const form_view *f, uint32_t face, double3 d)
 {
     double3 p[3];
     for (uint32_t k = 0; k < 3; k++)
-        p[k] = form_place(f, face, k);
+        p[k] = form_position(f, face, k);
     double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z, vx = p[2].x - p[0].x, vy = p[2].y - p[0].y,
            vz = p[2].z - p[0].z;
     double uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz,
@@ -117,9 +117,9 @@ static double growth_over(const form_view *f, uint32_t face, double3 d)
 
 /* Is the surface hollow along the view? There the cosine falls towards the eye. All faces around decide together,
  * because narrow ones are easily mistaken. */
-static bool is_hollow(const form_view *f, uint32_t face, double3 place)
+static bool is_hollow(const form_view *f, uint32_t face, double3 position)
 {
-    double3 d = form_direction(f, place);
+    double3 d = form_direction(f, position);
     double  sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t vertex = f->m->faces[face][k];
@@ -138,7 +138,8 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
         return false;
     if (f->out->count == before)
         return true;
-    double3 middle = {0.5 * (a.place.x + b.place.x), 0.5 * (a.place.y + b.place.y), 0.5 * (a.place.z + b.place.z)};
+    double3 middle = {0.5 * (a.position.x + b.position.x), 0.5 * (a.position.y + b.position.y),
+                      0.5 * (a.position.z + b.position.z)};
     bool    hollow = is_hollow(f, face, middle);
     if (!put_fold(w, face, middle, hollow ? 1 : FOLD_RINGS))
         return false;
@@ -181,11 +182,11 @@ bool smooth_collect(form_view *f)
             continue;
         form_end ends[2]; /* from where the winding passes from the front to the back to where it comes again: what is
                              in front lies to the left */
-        double share;
+        double fraction;
         for (uint32_t k = 0; k < 3; k++)
             if (front[k] != front[(k + 1) % 3])
                 ends[front[k] ? 0 : 1] =
-                    form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &share);
+                    form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &fraction);
         good = put_piece(&w, face, ends[0], ends[1]);
     }
     mem_free(w.stamps);

@@ -70,7 +70,7 @@ void stroke_set_release(stroke_set *s);
 
 /* --- the scene ------------------------------------------------------------------------------------------ */
 
-/* One part at one place. */
+/* One part at one position. */
 typedef struct stroke_item {
     uint32_t part_index; /* id − 1 */
     uint32_t mesh;       /* in the scene's edge meshes */
@@ -87,7 +87,7 @@ typedef struct stroke_scene {
     stroke_item         *items;
     size_t               item_count;
     double extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how
-                             exact places are: where a node puts it is exact */
+                             exact positions are: where a node puts it is exact */
 } stroke_scene;
 
 /* Takes the parts with `parts[index]` (NULL: all) as they are posed. Solids have no triangles and are left out.
@@ -126,9 +126,9 @@ lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, cons
                               lmn_progress_fn progress, void *user, lmn_error *error);
 void       stroke_view_destroy(stroke_view **v);
 
-/* How many surfaces lie in front of each of these places (world axes), of closed bodies those that face the eye,
- * UINT32_MAX for those outside the page. What a place lies on does not count. Any thread. */
-void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out);
+/* How many surfaces lie in front of each of these positions (world axes), of closed bodies those that face the eye,
+ * UINT32_MAX for those outside the page. What a position lies on does not count. Any thread. */
+void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_t count, uint32_t *out);
 
 typedef enum contour_kind {
     CONTOURS_NONE,
@@ -170,7 +170,7 @@ typedef struct stroke_check {
     uint64_t miscounted; /* the same or a wrong number of surfaces in front */
 } stroke_check;
 /* Samples strokes every `apart` pixels and counts surfaces in front by casting rays at the triangles themselves,
- * with other arithmetic. A sample is wrong when no place within half a pixel is as the stroke says. Smooth outlines
+ * with other arithmetic. A sample is wrong when no position within half a pixel is as the stroke says. Smooth outlines
  * are left out: the triangles that they stand for cover them. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_view *v, float apart,
                          lmn_progress_fn progress, void *user, lmn_error *error);

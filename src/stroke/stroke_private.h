@@ -12,9 +12,9 @@
 #define NO_VERTEX UINT32_MAX
 /* Window coordinates stay within this. */
 #define WINDOW_LIMIT 16777216.0
-/* What two places may differ by and still be one, share of the largest coordinate: a few roundings of single
+/* What two positions may differ by and still be one, fraction of the largest coordinate: a few roundings of single
  * precision. */
-#define SAME_PLACE 1e-6
+#define SAME_POSITION 1e-6
 
 typedef struct window_point {
     int32_t x, y;
@@ -50,7 +50,7 @@ typedef struct window_triangle {
 typedef struct window_box {
     int32_t low_x, low_y, high_x, high_y;
     float   near_z; /* or a little less */
-    float   slope;  /* by how much z changes at most over one unit: places are rounded to units */
+    float   slope;  /* by how much z changes at most over one unit: positions are rounded to units */
 } window_box;
 
 /* A grid of cells. */
@@ -81,7 +81,7 @@ struct stroke_view {
     stroke_camera       camera;
     mat4                whole; /* world to clip space */
     double              units; /* window units in a pixel */
-    double              same;  /* SAME_PLACE in file units */
+    double              same;  /* SAME_POSITION in file units */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
@@ -104,21 +104,21 @@ typedef struct window_segment {
     uint32_t        least; /* as many surfaces lie in front at least */
 } window_segment;
 
-/* From `from` on (share of the segment) this many surfaces lie in front. */
+/* From `from` on (fraction of the segment) this many surfaces lie in front. */
 typedef struct visibility_span {
     float    from;
     uint32_t count;
 } visibility_span;
 
 /* --- project.c --- */
-/* Eye space and back: a place of the world in the window, and whether it can be seen (not nearer than the near
+/* Eye space and back: a position of the world in the window, and whether it can be seen (not nearer than the near
  * plane, not far outside). */
-bool view_place(const stroke_view *v, double3 world, window_point *out);
+bool view_position(const stroke_view *v, double3 world, window_point *out);
 /* Cuts a line of the world to what lies in the window; false when nothing does. `cut`: the shares that are left. */
 bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
 /* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
 bool    view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
-double3 item_place(const stroke_item *item, vec3 p);
+double3 item_position(const stroke_item *item, vec3 p);
 double  view_depth(const stroke_view *v, double z);     /* eye depth */
 double  view_tolerance(const stroke_view *v, double z); /* of z */
 /* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye

@@ -1,4 +1,4 @@
-/* Strokes held against rays: places of strokes are looked at along straight lines from the eye through the
+/* Strokes held against rays: positions of strokes are looked at along straight lines from the eye through the
  * triangles as they stand in the world, by other arithmetic than that which found them (no window, no grid, no
  * whole numbers). */
 #include "stroke/stroke_private.h"
@@ -8,15 +8,15 @@
 
 #include "base/memory.h"
 
-/* A place counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what
+/* A position counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what
  * they belong to. */
 static const double near_by[] = {0, 0.25, 0.5};
 enum { DIRECTIONS = 8, RINGS = 3, STACK = 128, TICK = 4096 };
 
 typedef struct ray {
     double3 from, along; /* `along` is a unit vector */
-    double  until;       /* distance of the place that is looked at */
-    double  near;        /* surfaces that pass it at less than this are as good as at the place: half a pixel */
+    double  until;       /* distance of the position that is looked at */
+    double  near;        /* surfaces that pass it at less than this are as good as at the position: half a pixel */
 } ray;
 
 /* Surfaces in front: those that are so beyond doubt, and all. */
@@ -45,7 +45,7 @@ static void load_item(verifier *w, size_t index, const uint8_t *unseen)
         uint32_t face = v->items[index].first_face + f;
         box3     box = box3_empty();
         for (int k = 0; k < 3; k++) {
-            double3 p = item_place(item, m->places[m->faces[f][k]]);
+            double3 p = item_position(item, m->positions[m->faces[f][k]]);
             w->corners[face][k] = p;
             box = box3_with_point(box, (vec3){nextafterf((float)p.x, -INFINITY), nextafterf((float)p.y, -INFINITY),
                                               nextafterf((float)p.z, -INFINITY)});
@@ -103,14 +103,14 @@ static lmn_status prepare(verifier *w, lmn_error *error)
 
 /* --- rays ----------------------------------------------------------------------------------------------- */
 
-static double3 place_of(const verifier *w, double x, double y, double z)
+static double3 position_of(const verifier *w, double x, double y, double z)
 {
     const double *m = w->to_world.m;
     return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
                      m[2] * x + m[6] * y + m[10] * z + m[14]};
 }
 
-/* The line from the eye (parallel: from far before it) to the place at a depth behind a place of the page. */
+/* The line from the eye (parallel: from far before it) to the position at a depth behind a position of the page. */
 static ray ray_to(const verifier *w, double x, double y, double depth)
 {
     const stroke_camera *c = &w->v->camera;
@@ -120,16 +120,16 @@ static ray ray_to(const verifier *w, double x, double y, double depth)
         (1 - 2 * y / c->height + (c->orthographic ? -c->projection.m[13] : c->projection.m[9])) * w->half_height;
     double3 to, from;
     if (c->orthographic) {
-        to = place_of(w, right, up, -depth);
-        from = place_of(w, right, up, -depth + 4 * w->v->scene->extent);
+        to = position_of(w, right, up, -depth);
+        from = position_of(w, right, up, -depth + 4 * w->v->scene->extent);
     } else {
-        to = place_of(w, right * depth, up * depth, -depth);
-        from = place_of(w, right * c->near, up * c->near, -c->near);
+        to = position_of(w, right * depth, up * depth, -depth);
+        from = position_of(w, right * c->near, up * c->near, -c->near);
     }
     double3 along = double3_minus(to, from);
-    double  length = sqrt(double3_dot(along, along)), share = length > 0 ? 1 / length : 0;
+    double  length = sqrt(double3_dot(along, along)), fraction = length > 0 ? 1 / length : 0;
     double  pixel = 2 * w->half_height / c->height * (c->orthographic ? 1 : depth);
-    return (ray){from, {along.x * share, along.y * share, along.z * share}, length, 0.5 * pixel};
+    return (ray){from, {along.x * fraction, along.y * fraction, along.z * fraction}, length, 0.5 * pixel};
 }
 
 static bool passes(const box3 *b, const ray *r)
@@ -189,7 +189,7 @@ static ray_count count_in_front(const verifier *w, const ray *r)
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
 
-static void check_place(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
+static void check_position(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
 {
     bool right = false, counted = false;
     for (int ring = 0; ring < RINGS && !counted; ring++)
@@ -206,11 +206,11 @@ static void check_place(const verifier *w, const stroke *s, double x, double y, 
 }
 
 /* Depth runs evenly along the page in parallel projection, its inverse in perspective. */
-static double depth_between(const stroke_view *v, const stroke_point *p, const stroke_point *q, double share)
+static double depth_between(const stroke_view *v, const stroke_point *p, const stroke_point *q, double fraction)
 {
     if (v->camera.orthographic)
-        return p->depth + share * (q->depth - p->depth);
-    return 1 / (1 / p->depth + share * (1 / q->depth - 1 / p->depth));
+        return p->depth + fraction * (q->depth - p->depth);
+    return 1 / (1 / p->depth + fraction * (1 / q->depth - 1 / p->depth));
 }
 
 static void check_stroke(const verifier *w, const stroke_set *set, const stroke *s, double apart, stroke_check *out)
@@ -221,9 +221,9 @@ static void check_stroke(const verifier *w, const stroke_set *set, const stroke 
         const stroke_point *p = &set->points[s->first + i], *q = p + 1;
         double              length = hypot((double)q->x - p->x, (double)q->y - p->y);
         for (; next < done + length; next += apart) {
-            double share = (next - done) / length;
-            check_place(w, s, p->x + share * (q->x - p->x), p->y + share * (q->y - p->y),
-                        depth_between(w->v, p, q, share), out);
+            double fraction = (next - done) / length;
+            check_position(w, s, p->x + fraction * (q->x - p->x), p->y + fraction * (q->y - p->y),
+                           depth_between(w->v, p, q, fraction), out);
         }
         done += length;
     }

@@ -34,18 +34,18 @@ typedef struct span_job {
     atomic_bool           failed;
 } span_job;
 
-/* A place of the segment and by how many surfaces its cover grows there. Most places are edges between two
+/* A position of the segment and by how many surfaces its cover grows there. Most positions are edges between two
  * triangles, where one cover ends and another one begins at the very same number, so that nothing is left of them. */
-typedef struct place_step {
+typedef struct position_step {
     double  at;
     int32_t step;
-} place_step;
+} position_step;
 
-typedef struct place_slot {
+typedef struct position_slot {
     double   at;
     int32_t  step;
     uint32_t stamp; /* the segment that it was filled for */
-} place_slot;
+} position_slot;
 
 /* One thread's work on one segment. */
 typedef struct worker {
@@ -55,17 +55,17 @@ typedef struct worker {
     int32_t               low_x, low_y, high_x, high_y;
     uint32_t             *stamps; /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
-    place_slot           *table; /* of places where covers begin or end, found by their bits */
+    position_slot        *table; /* of places where covers begin or end, found by their bits */
     size_t                table_size;
     uint32_t             *filled; /* slots of this segment */
     size_t                filled_count, filled_capacity;
-    place_step           *steps;
+    position_step        *steps;
     size_t                step_capacity;
     uint64_t              pairs;
     bool                  failed;
 } worker;
 
-/* Where the segment crosses an edge of a triangle: share of the segment and depth. `from`, `to`: sides of the
+/* Where the segment crosses an edge of a triangle: fraction of the segment and depth. `from`, `to`: sides of the
  * edge's ends of the segment's line. */
 static double cross_edge(const worker *w, window_point p, window_point q, double from, double to, double *z)
 {
@@ -98,8 +98,8 @@ static bool grow_table(worker *w)
     if (!bigger.table)
         return false;
     for (size_t i = 0; i < w->filled_count; i++) {
-        place_slot *from = &w->table[w->filled[i]];
-        size_t      slot = slot_of(&bigger, from->at);
+        position_slot *from = &w->table[w->filled[i]];
+        size_t         slot = slot_of(&bigger, from->at);
         bigger.table[slot] = *from;
         w->filled[i] = (uint32_t)slot;
     }
@@ -116,15 +116,15 @@ static void put_step(worker *w, double at, int32_t step)
         w->failed = true;
         return;
     }
-    place_slot *slot = &w->table[slot_of(w, at)];
+    position_slot *slot = &w->table[slot_of(w, at)];
     if (slot->stamp != w->stamp) {
-        *slot = (place_slot){at, 0, w->stamp};
+        *slot = (position_slot){at, 0, w->stamp};
         w->filled[w->filled_count++] = (uint32_t)(slot - w->table);
     }
     slot->step += step;
 }
 
-/* Between two places of the segment the triangle lies nearer by before … after; what differs by less than `same` is
+/* Between two positions of the segment the triangle lies nearer by before … after; what differs by less than `same` is
  * the same. */
 static void cover_nearer(worker *w, double from, double to, double before, double after, double same)
 {
@@ -212,15 +212,15 @@ static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
 }
 
 /* By insertion with gaps: few are left where the segment is short. */
-static void sort_steps(place_step *steps, size_t count)
+static void sort_steps(position_step *steps, size_t count)
 {
     size_t gap = 1;
     while (gap < count / 6)
         gap = 3 * gap + 1;
     for (; gap > 0; gap /= 3)
         for (size_t i = gap; i < count; i++) {
-            place_step moved = steps[i];
-            size_t     k = i;
+            position_step moved = steps[i];
+            size_t        k = i;
             for (; k >= gap && steps[k - gap].at > moved.at; k -= gap)
                 steps[k] = steps[k - gap];
             steps[k] = moved;
@@ -234,9 +234,9 @@ static bool gather_steps(worker *w, size_t *count)
     if (!mem_grow((void **)&w->steps, &w->step_capacity, w->filled_count + 1, sizeof *w->steps))
         return false;
     for (size_t i = 0; i < w->filled_count; i++) {
-        const place_slot *slot = &w->table[w->filled[i]];
+        const position_slot *slot = &w->table[w->filled[i]];
         if (slot->step != 0)
-            w->steps[(*count)++] = (place_step){slot->at, slot->step};
+            w->steps[(*count)++] = (position_step){slot->at, slot->step};
     }
     sort_steps(w->steps, *count);
     return true;
@@ -253,7 +253,7 @@ static bool put_span(span_block *block, double from, int64_t count, uint32_t lea
     return true;
 }
 
-/* Adds up what covers the segment. Places closer together than a crumb are one; a segment that is no more than a
+/* Adds up what covers the segment. Positions closer together than a crumb are one; a segment that is no more than a
  * speck is as it is in its middle. */
 static bool put_spans(worker *w, span_block *block)
 {
@@ -383,7 +383,7 @@ void visibility_release(visibility *out)
     memset(out, 0, sizeof *out);
 }
 
-/* --- single places -------------------------------------------------------------------------------------- */
+/* --- single positions -------------------------------------------------------------------------------------- */
 
 typedef struct surface_count {
     const stroke_view *v;
@@ -391,7 +391,7 @@ typedef struct surface_count {
     uint32_t           count;
 } surface_count;
 
-/* A place on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of
+/* A position on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of
  * two. */
 static bool is_inside(const window_point p[3], window_point at)
 {
@@ -427,13 +427,13 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
     }
 }
 
-void stroke_view_count(const stroke_view *v, const double (*places)[3], size_t count, uint32_t *out)
+void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_t count, uint32_t *out)
 {
     double half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
     for (size_t i = 0; i < count; i++) {
         surface_count c = {.v = v};
         out[i] = UINT32_MAX;
-        if (!view_place(v, (double3){places[i][0], places[i][1], places[i][2]}, &c.at) ||
+        if (!view_position(v, (double3){positions[i][0], positions[i][1], positions[i][2]}, &c.at) ||
             fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
             continue;
         grid_walk(&v->grid, c.at, c.at, count_nearer, &c);

@@ -4,9 +4,9 @@
 
 #include "stroke_texture/strokes_private.h"
 
-typedef struct place {
+typedef struct position {
     double u, v;
-} place;
+} position;
 
 enum { SWAY_WAVES = 6 };
 
@@ -27,15 +27,15 @@ typedef struct generator {
     bool          failed;
 } generator;
 
-void generate_stroke(generator *g, place from, place to, int32_t layer);
+void generate_stroke(generator *g, position from, position to, int32_t layer);
 /* A curve as chords. */
-void generate_curve(generator *g, const place *points, size_t count, int32_t layer);
-/* Places evenly spread over the torus, every beginning of them too; from `uneven` 0 to 1 ever less evenly. */
-void generate_places(generator *g, place *out, size_t count, double uneven);
+void generate_curve(generator *g, const position *points, size_t count, int32_t layer);
+/* Positions evenly spread over the torus, every beginning of them too; from `uneven` 0 to 1 ever less evenly. */
+void generate_positions(generator *g, position *out, size_t count, double uneven);
 
 /* rough: 1 … 4, the shortest wave's frequency. */
 sway   sway_of(random_source *chance, double amplitude, int rough);
-double sway_at(const sway *s, place at);
+double sway_at(const sway *s, position at);
 
 /* One series of hatching along closed lines of the torus with the direction (along_u, along_v): 1,0 · 0,1 · 1,1 ·
  * 1,−1. */

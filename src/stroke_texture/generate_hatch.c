@@ -27,17 +27,17 @@ static rows rows_of(const generator *g, int along_u, int along_v, size_t count)
     return r;
 }
 
-static place place_on(const rows *r, double along, double across)
+static position position_on(const rows *r, double along, double across)
 {
-    return (place){along * r->along_u + across * r->across_u, along * r->along_v + across * r->across_v};
+    return (position){along * r->along_u + across * r->across_u, along * r->along_v + across * r->across_v};
 }
 
-static place swayed(const rows *r, const sway *s, double along, double across)
+static position swayed(const rows *r, const sway *s, double along, double across)
 {
-    return place_on(r, along, across + sway_at(s, place_on(r, along, across)));
+    return position_on(r, along, across + sway_at(s, position_on(r, along, across)));
 }
 
-/* A stroke's ends on its row: rows begin at different places, so that gaps do not line up. */
+/* A stroke's ends on its row: rows begin at different positions, so that gaps do not line up. */
 static void ends_on_row(generator *g, const rows *r, size_t row, size_t k, double *from, double *to)
 {
     double pitch = r->length / (double)r->strokes, phase = golden * (double)row;
@@ -85,8 +85,8 @@ void pattern_contour(generator *g)
     double phase = random_unit(&g->chance), lean = random_unit(&g->chance);
     for (size_t row = 0; row < r.count; row++)
         for (size_t k = 0; k < r.strokes; k++) {
-            place  points[CONTOUR_CHORDS + 1];
-            double from, to, across = ((double)row + 0.5) * r.spacing;
+            position points[CONTOUR_CHORDS + 1];
+            double   from, to, across = ((double)row + 0.5) * r.spacing;
             ends_on_row(g, &r, row, k, &from, &to);
             across += g->uneven * 0.5 * r.spacing * random_hand(&g->chance);
             for (int i = 0; i <= CONTOUR_CHORDS; i++) {

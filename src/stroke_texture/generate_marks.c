@@ -5,36 +5,37 @@
 
 static const double turn = 6.28318530717958648;
 
-static place *allocate_places(generator *g, size_t count, double uneven)
+static position *allocate_positions(generator *g, size_t count, double uneven)
 {
-    place *places = mem_calloc(count, sizeof *places);
-    if (!places)
+    position *positions = mem_calloc(count, sizeof *positions);
+    if (!positions)
         g->failed = true;
     else
-        generate_places(g, places, count, uneven);
-    return places;
+        generate_positions(g, positions, count, uneven);
+    return positions;
 }
 
 void pattern_stipple(generator *g)
 {
-    place *places = allocate_places(g, g->count, g->uneven);
+    position *positions = allocate_positions(g, g->count, g->uneven);
     for (size_t i = 0; !g->failed && i < g->count; i++)
-        generate_stroke(g, places[i], places[i], 0);
-    mem_free(places);
+        generate_stroke(g, positions[i], positions[i], 0);
+    mem_free(positions);
 }
 
 void pattern_random(generator *g)
 {
-    place *places = allocate_places(g, g->count, g->uneven);
-    double angle = random_unit(&g->chance);
+    position *positions = allocate_positions(g, g->count, g->uneven);
+    double    angle = random_unit(&g->chance);
     for (size_t i = 0; !g->failed && i < g->count; i++) {
         /* Steps of the golden ratio are even in direction whatever is left out at the end. */
         angle += 0.61803398874989485 + 0.1 * g->uneven * random_hand(&g->chance);
         double half = 0.5 * g->length * (1 + 0.6 * g->uneven * random_hand(&g->chance));
         double du = half * cos(0.5 * turn * angle), dv = half * sin(0.5 * turn * angle);
-        generate_stroke(g, (place){places[i].u - du, places[i].v - dv}, (place){places[i].u + du, places[i].v + dv}, 0);
+        generate_stroke(g, (position){positions[i].u - du, positions[i].v - dv},
+                        (position){positions[i].u + du, positions[i].v + dv}, 0);
     }
-    mem_free(places);
+    mem_free(positions);
 }
 
 /* --- scribble --- */
@@ -43,25 +44,26 @@ enum { LOOPS = 9, LOOP_CHORDS = 17, SCRIBBLE_CHORDS = LOOPS * LOOP_CHORDS };
 
 /* A pen that always turns the same way, now tighter, now wider: where it turns slowly it moves on, and so its loops
  * wander, none like another. */
-static void scribble(generator *g, place middle, double heading)
+static void scribble(generator *g, position middle, double heading)
 {
-    place  points[SCRIBBLE_CHORDS + 1] = {{0, 0}};
-    double mean_u = 0, mean_v = 0, uneven = 0.5 + 0.5 * g->uneven, phases[3];
-    double step = g->length / SCRIBBLE_CHORDS * (1 + 0.5 * g->uneven * random_hand(&g->chance));
-    double side = random_unit(&g->chance) < 0.5 ? -1 : 1, pace = 1 + 0.12 * random_hand(&g->chance), way = heading;
+    position points[SCRIBBLE_CHORDS + 1] = {{0, 0}};
+    double   mean_u = 0, mean_v = 0, uneven = 0.5 + 0.5 * g->uneven, phases[3];
+    double   step = g->length / SCRIBBLE_CHORDS * (1 + 0.5 * g->uneven * random_hand(&g->chance));
+    double   side = random_unit(&g->chance) < 0.5 ? -1 : 1, pace = 1 + 0.12 * random_hand(&g->chance),
+           direction = heading;
     for (int k = 0; k < 3; k++)
         phases[k] = turn * random_unit(&g->chance);
     for (int i = 0; i < SCRIBBLE_CHORDS; i++) {
         double t = (double)i / LOOP_CHORDS * pace;
         double swing = 0.8 * sin(0.91 * turn * t + phases[0]) + 0.8 * sin(0.41 * turn * t + phases[1]) +
                        0.5 * sin(1.57 * turn * t + phases[2]);
-        way += side * turn / LOOP_CHORDS * (1 + 0.6 * uneven * swing);
-        points[i + 1] = (place){points[i].u + step * cos(way), points[i].v + step * sin(way)};
+        direction += side * turn / LOOP_CHORDS * (1 + 0.6 * uneven * swing);
+        points[i + 1] = (position){points[i].u + step * cos(direction), points[i].v + step * sin(direction)};
         mean_u += points[i + 1].u / SCRIBBLE_CHORDS;
         mean_v += points[i + 1].v / SCRIBBLE_CHORDS;
     }
     for (int i = 0; i <= SCRIBBLE_CHORDS; i++)
-        points[i] = (place){middle.u + points[i].u - mean_u, middle.v + points[i].v - mean_v};
+        points[i] = (position){middle.u + points[i].u - mean_u, middle.v + points[i].v - mean_v};
     generate_curve(g, points, SCRIBBLE_CHORDS + 1, 0);
 }
 
@@ -69,11 +71,11 @@ void pattern_scribble(generator *g)
 {
     size_t count = (g->count + SCRIBBLE_CHORDS / 2) / SCRIBBLE_CHORDS;
     count = count ? count : 1;
-    place *places = allocate_places(g, count, 0.4 * g->uneven);
-    sway   drift = sway_of(&g->chance, 1.2, 2);
+    position *positions = allocate_positions(g, count, 0.4 * g->uneven);
+    sway      drift = sway_of(&g->chance, 1.2, 2);
     for (size_t i = 0; !g->failed && i < count; i++)
-        scribble(g, places[i], sway_at(&drift, places[i]) + 0.6 * g->uneven * random_hand(&g->chance));
-    mem_free(places);
+        scribble(g, positions[i], sway_at(&drift, positions[i]) + 0.6 * g->uneven * random_hand(&g->chance));
+    mem_free(positions);
 }
 
 /* --- brick --- */
@@ -85,21 +87,21 @@ typedef struct brick {
     double u, v, half_width, half_height;
 } brick;
 
-/* A place in the brick, −1 … 1 both ways. */
-static place in_brick(const brick *b, double x, double y)
+/* A position in the brick, −1 … 1 both ways. */
+static position in_brick(const brick *b, double x, double y)
 {
-    return (place){b->u + x * b->half_width, b->v + y * b->half_height};
+    return (position){b->u + x * b->half_width, b->v + y * b->half_height};
 }
 
-/* A line between two places in a brick, slightly bowed. */
-static void bowed(generator *g, const brick *b, place from, place to, int32_t layer)
+/* A line between two positions in a brick, slightly bowed. */
+static void bowed(generator *g, const brick *b, position from, position to, int32_t layer)
 {
-    place  points[EDGE_CHORDS + 1];
-    double bow = 0.1 * g->uneven * random_hand(&g->chance), du = to.u - from.u, dv = to.v - from.v;
+    position points[EDGE_CHORDS + 1];
+    double   bow = 0.1 * g->uneven * random_hand(&g->chance), du = to.u - from.u, dv = to.v - from.v;
     for (int i = 0; i <= EDGE_CHORDS; i++) {
         double t = (double)i / EDGE_CHORDS, lift = 4 * t * (1 - t) * bow * b->half_height;
         double length = fmax(hypot(du, dv), 1e-9);
-        points[i] = (place){from.u + t * du - lift * dv / length, from.v + t * dv + lift * du / length};
+        points[i] = (position){from.u + t * du - lift * dv / length, from.v + t * dv + lift * du / length};
     }
     generate_curve(g, points, EDGE_CHORDS + 1, layer);
 }
@@ -118,42 +120,42 @@ static void edge(generator *g, const brick *b, double x0, double y0, double x1, 
         double s = cuts[2 * i], t = cuts[2 * i + 1];
         double out_s = a + (c - a) * s, out_t = a + (c - a) * t;
         /* Aside from the edge by as much in the square, whichever way it runs. */
-        double aside = upright ? b->half_height / b->half_width : 1;
-        place  from = in_brick(b, x0 + s * (x1 - x0) + (upright ? aside * out_s : 0),
-                               y0 + s * (y1 - y0) + (upright ? 0 : 2 * out_s));
-        place  to = in_brick(b, x0 + t * (x1 - x0) + (upright ? aside * out_t : 0),
-                             y0 + t * (y1 - y0) + (upright ? 0 : 2 * out_t));
+        double   aside = upright ? b->half_height / b->half_width : 1;
+        position from = in_brick(b, x0 + s * (x1 - x0) + (upright ? aside * out_s : 0),
+                                 y0 + s * (y1 - y0) + (upright ? 0 : 2 * out_s));
+        position to = in_brick(b, x0 + t * (x1 - x0) + (upright ? aside * out_t : 0),
+                               y0 + t * (y1 - y0) + (upright ? 0 : 2 * out_t));
         bowed(g, b, from, to, 0);
     }
 }
 
-/* How much of the way from a place in a brick to another stays at a distance from its edges; 0 … 1. */
-static double share_inside(const brick *b, place from, place to)
+/* How much of the way from a position in a brick to another stays at a distance from its edges; 0 … 1. */
+static double fraction_inside(const brick *b, position from, position to)
 {
-    double share = 1, du = to.u - from.u, dv = to.v - from.v;
+    double fraction = 1, du = to.u - from.u, dv = to.v - from.v;
     double wall_u = b->u + (du < 0 ? -0.93 : 0.93) * b->half_width,
            wall_v = b->v + (dv < 0 ? -0.8 : 0.8) * b->half_height;
     if (du != 0)
-        share = fmin(share, (wall_u - from.u) / du);
+        fraction = fmin(fraction, (wall_u - from.u) / du);
     if (dv != 0)
-        share = fmin(share, (wall_v - from.v) / dv);
-    return fmax(share, 0);
+        fraction = fmin(fraction, (wall_v - from.v) / dv);
+    return fmax(fraction, 0);
 }
 
-/* Short parallel scratches between two places along a brick (−1 … 1), as shade is put on it: slanted, from its
+/* Short parallel scratches between two positions along a brick (−1 … 1), as shade is put on it: slanted, from its
  * lower edge. */
 static void scratches(generator *g, const brick *b, double left, double right, double slant, int32_t layer)
 {
     double low = -0.78 + 0.3 * random_unit(&g->chance) * g->uneven,
            pitch = 0.11 + 0.04 * g->uneven * random_hand(&g->chance);
     for (double x = left; x < right; x += pitch * (1 + 0.6 * g->uneven * random_hand(&g->chance))) {
-        double reach = g->length * (0.95 + 0.4 * g->uneven * random_hand(&g->chance));
-        place  from = in_brick(b, x, low + 0.2 * g->uneven * random_hand(&g->chance));
-        place  to = {from.u + reach * cos(slant), from.v + reach * sin(slant)};
-        double share = share_inside(b, from, to);
-        if (share > 0.4)
-            generate_stroke(g, from, (place){from.u + share * (to.u - from.u), from.v + share * (to.v - from.v)},
-                            layer);
+        double   reach = g->length * (0.95 + 0.4 * g->uneven * random_hand(&g->chance));
+        position from = in_brick(b, x, low + 0.2 * g->uneven * random_hand(&g->chance));
+        position to = {from.u + reach * cos(slant), from.v + reach * sin(slant)};
+        double   fraction = fraction_inside(b, from, to);
+        if (fraction > 0.4)
+            generate_stroke(
+                g, from, (position){from.u + fraction * (to.u - from.u), from.v + fraction * (to.v - from.v)}, layer);
     }
 }
 

@@ -47,10 +47,10 @@ static bool gather_lines(line_list *out, const strokes *s)
     return out->items != NULL;
 }
 
-/* A place at `share` of a line's length. */
-static spread_point point_on(const strokes *s, const line *l, double share)
+/* A position at `fraction` of a line's length. */
+static spread_point point_on(const strokes *s, const line *l, double fraction)
 {
-    double                wanted = share * l->length;
+    double                wanted = fraction * l->length;
     const texture_stroke *t = &s->items[l->first];
     for (size_t i = 0; i < l->count; i++) {
         t = &s->items[l->first + i];
@@ -81,23 +81,23 @@ static bool order_evenly(const strokes *s, line *lines, size_t count, uint32_t s
     size_t points = 0, *order = mem_calloc(count, sizeof *order);
     for (size_t i = 0; i < count; i++)
         points += points_on(&lines[i], count);
-    spread_point *places = mem_calloc(points, sizeof *places);
+    spread_point *positions = mem_calloc(points, sizeof *positions);
     line         *sorted = mem_calloc(count, sizeof *sorted);
     points = 0;
-    for (size_t i = 0; places && i < count; i++) {
+    for (size_t i = 0; positions && i < count; i++) {
         size_t on = points_on(&lines[i], count);
         for (size_t k = 0; k < on; k++) {
-            places[points] = point_on(s, &lines[i], ((double)k + 0.5) / (double)on);
-            places[points++].item = i;
+            positions[points] = point_on(s, &lines[i], ((double)k + 0.5) / (double)on);
+            positions[points++].item = i;
         }
     }
-    bool good = order && places && sorted && spread_order(order, count, places, points, count, seed);
+    bool good = order && positions && sorted && spread_order(order, count, positions, points, count, seed);
     for (size_t i = 0; good && i < count; i++)
         sorted[i] = lines[order[i]];
     if (good && count > 0)
         memcpy(lines, sorted, count * sizeof *lines);
     mem_free(order);
-    mem_free(places);
+    mem_free(positions);
     mem_free(sorted);
     return good;
 }
@@ -168,12 +168,12 @@ static bool measure_areas(const strokes *s, line_list *lines, double covering)
     return a.covered != NULL;
 }
 
-static bool measure_steps(const strokes *s, line_list *lines, priority_share share, double covering)
+static bool measure_steps(const strokes *s, line_list *lines, priority_fraction fraction, double covering)
 {
     double sum = 0;
     for (size_t i = 0; i < lines->count; i++)
-        lines->items[i].step = share == SHARE_LENGTH ? lines->items[i].length : (double)lines->items[i].count;
-    if (share == SHARE_AREA && !measure_areas(s, lines, covering))
+        lines->items[i].step = fraction == FRACTION_LENGTH ? lines->items[i].length : (double)lines->items[i].count;
+    if (fraction == FRACTION_AREA && !measure_areas(s, lines, covering))
         return false;
     for (size_t i = 0; i < lines->count; i++)
         sum += lines->items[i].step;
@@ -199,12 +199,12 @@ static void set_light(strokes *s, const line_list *lines)
     }
 }
 
-lmn_status strokes_set_light(strokes *s, priority_order order, priority_share share, double covering, uint32_t seed,
-                             lmn_error *error)
+lmn_status strokes_set_light(strokes *s, priority_order order, priority_fraction fraction, double covering,
+                             uint32_t seed, lmn_error *error)
 {
     line_list lines;
     bool      good =
-        gather_lines(&lines, s) && order_layers(s, &lines, order, seed) && measure_steps(s, &lines, share, covering);
+        gather_lines(&lines, s) && order_layers(s, &lines, order, seed) && measure_steps(s, &lines, fraction, covering);
     if (good)
         set_light(s, &lines);
     mem_free(lines.items);
@@ -213,7 +213,7 @@ lmn_status strokes_set_light(strokes *s, priority_order order, priority_share sh
 
 /* --- perspective --- */
 
-/* The share of strokes, by number or by length, with at least 1 − t is t at every t, to half a stroke. */
+/* The fraction of strokes, by number or by length, with at least 1 − t is t at every t, to half a stroke. */
 static void set_perspective(strokes *s, const line_list *lines, bool by_length)
 {
     double done = 0, all = 0;

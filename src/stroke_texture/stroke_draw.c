@@ -11,7 +11,7 @@ typedef struct capsule {
     double   x0, y0, dx, dy; /* start and way to the end */
     double   length_square;
     double   width, taper, reach; /* reach: no ink farther from the axis */
-    double   from, to;            /* the stroke's place on the line that it is part of */
+    double   from, to;            /* the stroke's position on the line that it is part of */
     double   grain, length;
     uint32_t key; /* of its streaks */
 } capsule;
@@ -25,12 +25,12 @@ typedef struct span {
 static const double STREAK_LENGTH = 7, STREAK_WIDTH = 0.8; /* texels */
 static const double BARE = 0.85;                           /* of the ink is gone in the barest streak */
 static const double LIFT = 0.4;                            /* of the pressure is gone at the end */
-static const double ROOM =
+static const double CAPACITY =
     20; /* texels that a stroke takes to show all its grain; shorter ones are marks rather than strokes */
 
-static double lane_noise(uint32_t key, int lane, int place)
+static double lane_noise(uint32_t key, int lane, int position)
 {
-    uint32_t h = key + (uint32_t)lane * 0xc2b2ae35u + (uint32_t)place * 0x27d4eb2fu;
+    uint32_t h = key + (uint32_t)lane * 0xc2b2ae35u + (uint32_t)position * 0x27d4eb2fu;
     h = (h ^ (h >> 15)) * 0x2c1b3c6du;
     h = (h ^ (h >> 12)) * 0x297a2d39u;
     return (double)((h ^ (h >> 15)) >> 8) * 0x1p-24;
@@ -39,23 +39,23 @@ static double lane_noise(uint32_t key, int lane, int place)
 /* Along one lane, from one random number to the next. */
 static double lane_at(uint32_t key, int lane, double along)
 {
-    double at = along / STREAK_LENGTH + lane_noise(key, lane, -7), share = at - floor(at);
+    double at = along / STREAK_LENGTH + lane_noise(key, lane, -7), fraction = at - floor(at);
     double before = lane_noise(key, lane, (int)floor(at)), after = lane_noise(key, lane, (int)floor(at) + 1);
-    return before + (after - before) * share * share * (3 - 2 * share);
+    return before + (after - before) * fraction * fraction * (3 - 2 * fraction);
 }
 
-/* The share of ink that graphite leaves at a place of the stroke. */
+/* The fraction of ink that graphite leaves at a position of the stroke. */
 static double grain_at(const capsule *c, double along, double aside)
 {
-    double at = aside / STREAK_WIDTH, share = at - floor(at), t = c->from + along * (c->to - c->from);
-    double streak = lane_at(c->key, (int)floor(at), along * c->length) * (1 - share) +
-                    lane_at(c->key, (int)floor(at) + 1, along * c->length) * share;
+    double at = aside / STREAK_WIDTH, fraction = at - floor(at), t = c->from + along * (c->to - c->from);
+    double streak = lane_at(c->key, (int)floor(at), along * c->length) * (1 - fraction) +
+                    lane_at(c->key, (int)floor(at) + 1, along * c->length) * fraction;
     return (1 - c->grain * BARE * fmin(fmax(2 * streak - 0.5, 0), 1)) * (1 - c->grain * LIFT * t * t);
 }
 
 static double grain_of(double grain, double texels)
 {
-    return grain * fmin(texels / ROOM, 1);
+    return grain * fmin(texels / CAPACITY, 1);
 }
 
 double stroke_grain_mean(double grain, double texels)
@@ -97,8 +97,8 @@ static capsule capsule_of(const texture_stroke *s, int side, const stroke_brush 
 /* A pen that is set down and lifted: quick at first, then full. */
 static double width_at(const capsule *c, double t)
 {
-    double at = c->from + t * (c->to - c->from), share = fmin(at, 1 - at) / c->taper;
-    return share >= 1 ? c->width : c->width * share * (2 - share);
+    double at = c->from + t * (c->to - c->from), fraction = fmin(at, 1 - at) / c->taper;
+    return fraction >= 1 ? c->width : c->width * fraction * (2 - fraction);
 }
 
 static double coverage_at(const capsule *c, double x, double y)
@@ -116,7 +116,7 @@ static double coverage_at(const capsule *c, double x, double y)
     return covered;
 }
 
-/* Texels whose centres lie between two places. */
+/* Texels whose centres lie between two positions. */
 static span span_between(double low, double high)
 {
     return (span){(int)ceil(low - 0.5), (int)floor(high - 0.5)};

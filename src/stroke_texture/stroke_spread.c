@@ -8,10 +8,10 @@
 enum { CELLS_MAX = 512 };
 
 /* Exactly the farthest one each time would halve the widest gaps again and again, and the pattern would become a
- * lattice. So every item's room counts a little less than it is, by a share of its own. */
+ * lattice. So every item's room counts a little less than it is, by a fraction of its own. */
 static const double least_weight = 0.72;
 
-/* No two places of the torus are farther apart. */
+/* No two positions of the torus are farther apart. */
 static const double farthest = 0.70710678118654757;
 
 typedef struct spread {
@@ -84,11 +84,11 @@ static void sort_into_cells(spread *s)
         s->cell_points[--s->cell_start[cell_of(s, &s->points[i - 1])]] = i - 1;
 }
 
-static double shortest(double way)
+static double shortest(double offset)
 {
-    way = fabs(way);
-    way -= floor(way);
-    return way > 0.5 ? 1 - way : way;
+    offset = fabs(offset);
+    offset -= floor(offset);
+    return offset > 0.5 ? 1 - offset : offset;
 }
 
 static double distance_between(const spread_point *a, const spread_point *b)

@@ -10,7 +10,7 @@
 
 #include "base/memory.h"
 
-/* tolerance: of curves, share of the square. */
+/* tolerance: of curves, fraction of the square. */
 static const double curve_tolerance = 0.0008, dot_radius = 0.02, dot_written = 0.003;
 
 enum { SVG_BYTES_MAX = 256 << 20, SVG_DEPTH_MAX = 200 };
@@ -327,7 +327,7 @@ static svg_transform transform_of(svg_reader *r, const xmlNode *node, const svg_
     if (value && !svg_parse_transform(value, &own))
         fail(r, LMN_FORMAT, "transform", value);
     xmlFree(value);
-    /* A drawing within the drawing; the outermost has no place. */
+    /* A drawing within the drawing; the outermost has no position. */
     if (is_named(node, "svg") && is_container(node->parent))
         own = svg_combine(own, (svg_transform){1, 0, 0, 1, x_of(r, node, "x"), y_of(r, node, "y")});
     return svg_combine(*outer, own);
@@ -456,7 +456,7 @@ lmn_status strokes_read_svg(strokes *out, const char *name, const char *bytes, s
     xmlFreeDoc(document);
     xmlFreeParserCtxt(context);
     if (r.status == LMN_OK && !r.all_stated)
-        r.status = strokes_set_light(out, ORDER_DRAWN, SHARE_COUNT, 0, 0, error);
+        r.status = strokes_set_light(out, ORDER_DRAWN, FRACTION_COUNT, 0, 0, error);
     if (r.status == LMN_OK && !r.all_stated)
         r.status = strokes_set_perspective(out, PERSPECTIVE_TIED, 0, error);
     if (r.status == LMN_OK)

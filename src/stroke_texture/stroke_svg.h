@@ -19,7 +19,7 @@ svg_transform svg_combine(svg_transform outer, svg_transform inner);
 svg_point     svg_apply(const svg_transform *t, svg_point p);
 /* A transform attribute. False: it is wrong. */
 bool svg_parse_transform(const char *text, svg_transform *out);
-/* Numbers with blanks or a comma between. Returns the place behind the number, NULL where there is none. */
+/* Numbers with blanks or a comma between. Returns the position behind the number, NULL where there is none. */
 const char *svg_number(const char *at, double *out);
 const char *svg_skip_blanks(const char *at);
 
@@ -44,7 +44,7 @@ void svg_arc(svg_pen *pen, double rx, double ry, double degrees, bool large, boo
 void svg_close(svg_pen *pen);
 /* Ends what was begun: a subpath without extent becomes a dot. */
 void svg_finish(svg_pen *pen);
-/* The d attribute. False: it is wrong from some place on; what stands before it has been drawn, as SVG wants it. */
+/* The d attribute. False: it is wrong from some position on; what stands before it has been drawn, as SVG wants it. */
 bool svg_path(svg_pen *pen, const char *d);
 
 #endif

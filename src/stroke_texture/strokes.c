@@ -56,7 +56,7 @@ int32_t strokes_layer_count(const strokes *s)
 }
 
 /* Wrapping moves whole chords by whole numbers, with a rounding each. */
-static bool same_place(float a, float b)
+static bool same_position(float a, float b)
 {
     float apart = a - b;
     return fabsf(apart - roundf(apart)) < 2e-6f;
@@ -65,7 +65,7 @@ static bool same_place(float a, float b)
 bool stroke_goes_on(const texture_stroke *one, const texture_stroke *next)
 {
     bool dots = (one->u0 == one->u1 && one->v0 == one->v1) || (next->u0 == next->u1 && next->v0 == next->v1);
-    return !dots && one->layer == next->layer && same_place(one->u1, next->u0) && same_place(one->v1, next->v0);
+    return !dots && one->layer == next->layer && same_position(one->u1, next->u0) && same_position(one->v1, next->v0);
 }
 
 lmn_status strokes_too_many(const char *name, int line, lmn_error *error)

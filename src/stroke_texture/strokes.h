@@ -11,7 +11,7 @@
 #include "base/text.h"
 
 /* A straight stroke. The start lies in [0, 1)²; the end may lie outside: the stroke goes on at the opposite side
- * (EX-18). v grows upwards. A dot has both ends at one place. */
+ * (EX-18). v grows upwards. A dot has both ends at one position. */
 typedef struct texture_stroke {
     float u0, v0, u1, v1;
     float light; /* priority: drawn where light < priority; 1 stays longest, above 1 (legal, by indication) even in full
@@ -23,7 +23,7 @@ typedef struct texture_stroke {
 typedef struct strokes {
     texture_stroke *items;
     size_t          count, capacity;
-    float           width; /* of a stroke, share of its usual width; dots: of their diameter. 1 */
+    float           width; /* of a stroke, fraction of its usual width; dots: of their diameter. 1 */
 } strokes;
 
 bool strokes_add(strokes *s, texture_stroke item); /* false: memory is gone */
@@ -99,21 +99,22 @@ typedef enum priority_order {
     ORDER_EVEN      /* within a layer so that what is left is always evenly spread: farthest next, around the corners */
 } priority_order;
 
-typedef enum priority_share {
-    SHARE_COUNT,  /* all strokes take the same step */
-    SHARE_LENGTH, /* a layer's share of 0 … 1 is its share of all lengths (EX-20), a stroke's step its own length */
-    SHARE_AREA    /* equalised: a stroke's step is the area that it covers anew at width `covering` (EX-21) */
-} priority_share;
+typedef enum priority_fraction {
+    FRACTION_COUNT,  /* all strokes take the same step */
+    FRACTION_LENGTH, /* a layer's fraction of 0 … 1 is its fraction of all lengths (EX-20), a stroke's step its own
+                        length */
+    FRACTION_AREA    /* equalised: a stroke's step is the area that it covers anew at width `covering` (EX-21) */
+} priority_fraction;
 
 /* Sets all light priorities: layer by layer, the earliest on top. covering: stroke width in the square, for
- * SHARE_AREA; the ink of all strokes with priority above 1 − t is then t × the ink of all. Errors: LMN_MEMORY. */
-lmn_status strokes_set_light(strokes *s, priority_order order, priority_share share, double covering, uint32_t seed,
-                             lmn_error *error);
+ * FRACTION_AREA; the ink of all strokes with priority above 1 − t is then t × the ink of all. Errors: LMN_MEMORY. */
+lmn_status strokes_set_light(strokes *s, priority_order order, priority_fraction fraction, double covering,
+                             uint32_t seed, lmn_error *error);
 
 typedef enum perspective_order {
     PERSPECTIVE_TIED,   /* equal to the light priority */
     PERSPECTIVE_RANDOM, /* a random permutation of all strokes */
-    PERSPECTIVE_EVEN,   /* every prefix evenly spread, and as long together as its share */
+    PERSPECTIVE_EVEN,   /* every prefix evenly spread, and as long together as its fraction */
     PERSPECTIVE_LAYERS  /* late layers go first, so that what is far keeps strokes of few directions (R-P3) */
 } perspective_order;
 extern const char *const perspective_order_names[5];
@@ -125,20 +126,20 @@ lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t
 /* What is drawn and how wide. */
 typedef struct stroke_brush {
     double width; /* texels */
-    double taper; /* share of the length over which both ends run out to nothing; 0: round ends */
+    double taper; /* fraction of the length over which both ends run out to nothing; 0: round ends */
     double cap; /* above 0: the same in texels, at any length; at most a quarter of it each, so that short strokes have
                    a middle too. `taper` does not count */
     double grain; /* 0 even … 1: streaks along the stroke, as long and as wide on any picture, and less pressure towards
                      its end */
-    double from, to; /* a chord's place on its line of length 1, so that a curve runs out at its ends only; both 0: it
-                        is the whole line */
+    double from, to; /* a chord's position on its line of length 1, so that a curve runs out at its ends only; both 0:
+                        it is the whole line */
 } stroke_brush;
 
-/* The brush for one stroke of a list: with the list's width, and its place on its curve. */
+/* The brush for one stroke of a list: with the list's width, and its position on its curve. */
 stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush *brush);
 
 /* Combines one stroke into a square picture of `side` texels that repeats: calls `texel` for each texel that it
- * touches, row 0 at the bottom, with the share of the texel that it covers: min(1, width, width / 2 + 1/2 −
+ * touches, row 0 at the bottom, with the fraction of the texel that it covers: min(1, width, width / 2 + 1/2 −
  * distance to the axis), above 0. Copies around the border are included; a texel is called once at most. */
 typedef void (*stroke_texel_fn)(void *user, size_t index, float coverage);
 void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user);

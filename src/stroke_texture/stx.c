@@ -53,7 +53,7 @@ static lmn_status read_field(reader *r, int field, texture_stroke *out)
     const char *behind = text_parse_double(word, r->end, &value);
     if (!behind || behind != word + size)
         return refuse(r, field, word, size, "a number");
-    float *const places[] = {&out->u0, &out->v0, &out->u1, &out->v1, &out->light, &out->perspective};
+    float *const positions[] = {&out->u0, &out->v0, &out->u1, &out->v1, &out->light, &out->perspective};
     r->at = behind;
     if (field == FIELDS - 1) {
         if (!(value >= 0 && value < LIMIT_STROKE_LAYERS) || value != floor(value))
@@ -62,11 +62,11 @@ static lmn_status read_field(reader *r, int field, texture_stroke *out)
     } else if (field < 4) {
         if (!(fabs(value) <= LIMIT_STROKE_REACH))
             return refuse(r, field, word, size, "a number from -16 to 16");
-        *places[field] = (float)value;
+        *positions[field] = (float)value;
     } else {
         if (!isfinite((float)value))
             return refuse(r, field, word, size, "a finite number");
-        *places[field] = (float)value;
+        *positions[field] = (float)value;
     }
     return LMN_OK;
 }

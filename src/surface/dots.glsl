@@ -1,22 +1,22 @@
 /* Dots at the corners of a square grid, of one half as wide, and so on, as many as the picture has room for. */
-#include "surface/halftone/place.glsl"
+#include "surface/halftone/position.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/noise.glsl"
 
 surface_point s_point;
-rest_place    s_rest;
+rest_position    s_rest;
 
-/* Share of the pixel that a dot of this radius covers whose middle is this far away. */
+/* Fraction of the pixel that a dot of this radius covers whose middle is this far away. */
 float dot_cover(float radius, float away)
 {
     return clamp(radius + 0.5 - away, 0.0, 1.0) * min(1.0, 4.0 * radius * radius);
 }
 
-/* Pixels from the place to the nearest corner of the grid that is shifted by `shift`. */
+/* Pixels from the position to the nearest corner of the grid that is shifted by `shift`. */
 float to_corner(vec2 cell, vec2 shift, mat2 pixels)
 {
-    vec2 way = cell - shift;
-    return length(pixels * (way - floor(way + 0.5)));
+    vec2 offset = cell - shift;
+    return length(pixels * (offset - floor(offset + 0.5)));
 }
 
 float dots_at(stroke_plane s, float darkness, uint set)
@@ -64,7 +64,7 @@ float cover_of(float darkness, int ink)
     float bare = 1.0;
     for (int i = 0; i < PLANES; i++) {
         stroke_plane s = plane_of(s_point, s_rest, i, turns_added(u_angle, turn_of_ink(ink)));
-        float part = darkness_of_share(darkness, s.weight);
+        float part = darkness_of_fraction(darkness, s.weight);
 #ifdef WITH_UNEVEN
         part *= 1.0 + 4.0 * u_uneven * living_noise(s.at, 1.0 / (sqrt(length(s.right) * length(s.up)) * 40.0 + 1e-30), 9u, u_change).x;
 #endif
@@ -80,6 +80,6 @@ float cover_of(float darkness, int ink)
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
-    s_rest = place_at_rest(p);
+    s_rest = position_at_rest(p);
     return inked(p, tone_of_light(p, light_of(p)));
 }

@@ -9,8 +9,8 @@ typedef struct flat {
 static const param params[] = {
     PARAM_COLOUR_ROW(flat, colour, .def_colour = {1, 1, 1, 1},
                      .doc = "Colour of the surface; a transparent one leaves lines alone."),
-    PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Share of the model's own colour."),
+    PARAM_FLOAT_ROW(flat, model_colour, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of the model's own colour."),
 };
 
 static bool flat_fill(colour *out, const void *values)

@@ -5,18 +5,18 @@
 
 typedef struct gooch {
     colour cool, warm;
-    float  cool_share, warm_share, specular, shininess;
+    float  cool_fraction, warm_fraction, specular, shininess;
 } gooch;
 
 static const param params[] = {
     PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1},
                      .doc = "Tone of places turned away from the light."),
     PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.80f, 0.72f, 0.48f, 1}, .doc = "Tone of places turned to the light."),
-    PARAM_FLOAT_ROW(gooch, cool_share, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(gooch, cool_fraction, .def = 0.2, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much of the model's colour is added to the cool tone."),
-    PARAM_FLOAT_ROW(gooch, warm_share, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(gooch, warm_fraction, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much of the model's colour is added to the warm tone."),
-    PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(gooch, specular, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of the highlight."),
     PARAM_FLOAT_ROW(gooch, shininess, .def = 32, .min = 1, .max = 1000, .soft_max = 200, .logarithmic = true,
                     .doc = "Sharpness of the highlight; Nienhaus (2005) has 32."),

@@ -1,10 +1,10 @@
 /* Lines at every half, quarter, eighth … of a coordinate, as many of them as the picture has room for. */
-#include "surface/halftone/place.glsl"
+#include "surface/halftone/position.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/noise.glsl"
 
 surface_point s_point;
-rest_place    s_rest;
+rest_position    s_rest;
 
 /* What a line keeps at any zoom: where it is as a fraction without common factors, and the octave that brings it. */
 uint line_key(float index, float octave, uint set)
@@ -15,26 +15,26 @@ uint line_key(float index, float octave, uint set)
     return hash_of(uvec3(uint(int(index / max(low, 1.0))), uint(birth), set), 0x51ed27u);
 }
 
-/* Share of a stroke's width that is left at this place along its line: strokes end in tips, and are cut in two when they get too long. `along`: pixels a
- * unit; `grown`: share of its length that a stroke has yet. */
-float stroke_share(float at, float along, uint key, float grown)
+/* Fraction of a stroke's width that is left at this position along its line: strokes end in tips, and are cut in two when they get too long. `along`: pixels a
+ * unit; `grown`: fraction of its length that a stroke has yet. */
+float stroke_fraction(float at, float along, uint key, float grown)
 {
     float scale = 0.7 + 0.6 * number_of(key ^ 0x5bd1e995u);
     float pixels = along / scale;
-    /* Cut in two at places that are even over the octave, strokes are shorter than this by 1.75 in the mean. */
+    /* Cut in two at positions that are even over the octave, strokes are shorter than this by 1.75 in the mean. */
     float wanted = max(pixels / (1.75 * u_length) * power_of_rest(number_of(key * 2654435761u)), 1e-30);
-    float cells = power_below(wanted), share = log_of_rest(wanted / cells - 1.0);
+    float cells = power_below(wanted), fraction = log_of_rest(wanted / cells - 1.0);
     /* A shift that halves of strokes inherit: its binary digits repeat after 32 octaves. */
     int turns = (floatBitsToInt(cells) >> 23) + 1 & 31;
     uint digits = key << turns | key >> (32 - turns & 31);
     float inside = fract(at * scale * cells + number_of(digits)), size = pixels / cells;
     float to_old = min(inside, 1.0 - inside) * size, to_new = abs(inside - 0.5) * size;
-    float to_end = min(to_old - 0.5 * u_gap, mix(size, to_new - 0.5 * u_gap, smoothstep(0.0, 0.5, share)));
-    to_end -= (1.0 - grown) * size * mix(0.5, 0.25, share);
+    float to_end = min(to_old - 0.5 * u_gap, mix(size, to_new - 0.5 * u_gap, smoothstep(0.0, 0.5, fraction)));
+    to_end -= (1.0 - grown) * size * mix(0.5, 0.25, fraction);
     return clamp(to_end / max(u_taper, 0.75), 0.0, 1.0);
 }
 
-/* Share of the ink that gaps and tips leave. */
+/* Fraction of the ink that gaps and tips leave. */
 float stroke_ink()
 {
 #ifdef WITH_LENGTH
@@ -44,20 +44,20 @@ float stroke_ink()
 #endif
 }
 
-/* Share of the pixel that a line of this width covers whose middle is this far away. */
+/* Fraction of the pixel that a line of this width covers whose middle is this far away. */
 float covered(float width, float away)
 {
     return clamp(0.5 * width + 0.5 - away, 0.0, min(width, 1.0));
 }
 
-/* The share of the pixel that a line covers. `grown`: share of their length that its strokes have yet. */
+/* The fraction of the pixel that a line covers. `grown`: fraction of their length that its strokes have yet. */
 float line_cover(float width, float grown, float away, uint key, float at, float along)
 {
 #ifdef WITH_LOOSE
     width *= 1.0 + u_loose * (number_of(key) - 0.5);
 #endif
 #ifdef WITH_LENGTH
-    width *= stroke_share(at, along, key, grown) / max(grown, 1e-3); /* strokes that come grow both ways, in length and in width */
+    width *= stroke_fraction(at, along, key, grown) / max(grown, 1e-3); /* strokes that come grow both ways, in length and in width */
 #endif
     return covered(width, away);
 }
@@ -65,7 +65,7 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 /* By number, lines come no closer than this, pixels: what is darker still has wider ones. */
 const float CLOSEST = 3.0;
 
-/* The lines of one set around a place, of this darkness. */
+/* The lines of one set around a position, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
 {
     vec2 rate = vec2(s.right.y, s.up.y);
@@ -142,12 +142,12 @@ float bare_of_set(float darkness, int set, vec2 turn)
 {
     float whole = set_darkness(darkness, set);
     stroke_plane s = plane_of(s_point, s_rest, 0, turn);
-    float part = darkness_of_share(whole, s.weight);
+    float part = darkness_of_fraction(whole, s.weight);
     float bare = 1.0 - plane_cover(s, set, max(part, LIGHTEST)) * step(LIGHTEST, part);
     int planes = whole > LIGHTEST ? planes_at(s_rest, turn) : 1;
     for (int i = 1; i < planes; i++) {
         s = plane_of(s_point, s_rest, i, turn);
-        part = darkness_of_share(whole, s.weight);
+        part = darkness_of_fraction(whole, s.weight);
         int wanted = part > LIGHTEST ? 1 : 0;
         for (int once = 0; once < wanted; once++)
             bare *= 1.0 - plane_cover(s, set, part);
@@ -179,7 +179,7 @@ float cover_of(float darkness, int ink)
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
-    s_rest = place_at_rest(p);
+    s_rest = position_at_rest(p);
     float tone = tone_of_light(p, light_of(p));
     return inked(p, tone);
 }

@@ -6,7 +6,7 @@ typedef struct lambert {
 } lambert;
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(lambert, ambient, .def = 0.18, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(lambert, ambient, .def = 0.18, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Light that reaches every place."),
 };
 

@@ -7,44 +7,44 @@ uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 
 /* Where a mark's tone is decided. */
-struct mark_place {
+struct mark_position {
     vec3  eye, normal; /* normal: unit, as the surface has it */
     float facing;      /* cosine between normal and view */
 };
 
-mark_place place_of_mark(vec3 place, vec3 normal)
+mark_position position_of_mark(vec3 position, vec3 normal)
 {
-    mark_place m;
-    m.eye = (u_model_view * vec4(place, 1.0)).xyz;
+    mark_position m;
+    m.eye = (u_model_view * vec4(position, 1.0)).xyz;
     m.normal = normalize(u_normal_matrix * normal);
     m.facing = dot(m.normal, towards_viewer(m.eye));
     return m;
 }
 
 /* Page area of a unit of area there. */
-float page_area(mark_place m)
+float page_area(mark_position m)
 {
     float depth = max(-m.eye.z, 1e-20);
     return u_focal * u_focal * (u_perspective > 0.5 ? abs(dot(m.eye, m.normal)) / (depth * depth * depth) : abs(m.normal.z));
 }
 
 /* How dark it shall be; `bright`: of the model's own colour there, linear. */
-float darkness_at(mark_place m, float bright)
+float darkness_at(mark_position m, float bright)
 {
     surface_point p = surface_point(m.eye, m.facing < 0.0 ? -m.normal : m.normal, vec4(vec3(bright), 1.0), false, 0u);
     return focused(p, clamp(darkness_of(tone_of_light(p, light_of(p))), 0.0, 1.0));
 }
 
-/* Share of its size that a mark of this rank has when `share` of all are wanted, and those that are there may grow to `most`. */
-float ink_of_rank(float rank, float share, float most)
+/* Fraction of its size that a mark of this rank has when `fraction` of all are wanted, and those that are there may grow to `most`. */
+float ink_of_rank(float rank, float fraction, float most)
 {
-    float ramp = u_fade * share, low = share - ramp, high = share + ramp;
+    float ramp = u_fade * fraction, low = fraction - ramp, high = fraction + ramp;
     float own = ramp > 0.0 ? clamp((high - rank) / (2.0 * ramp), 0.0, 1.0) : 0.0;
-    float all = low >= 1.0 ? 1.0 : high <= 1.0 ? share : low + (high * (1.0 - low) - 0.5 * (1.0 - low * low)) / (2.0 * ramp);
-    return own * clamp(share / max(all, 1e-20), 1.0, most);
+    float all = low >= 1.0 ? 1.0 : high <= 1.0 ? fraction : low + (high * (1.0 - low) - 0.5 * (1.0 - low * low)) / (2.0 * ramp);
+    return own * clamp(fraction / max(all, 1e-20), 1.0, most);
 }
 
-/* Sum of the areas of evenly spread dots of this diameter that cover this share of the page. */
+/* Sum of the areas of evenly spread dots of this diameter that cover this fraction of the page. */
 float ink_of_cover(float cover, float diameter)
 {
     float c = min(cover, 0.98), over = max(c - 0.311, 0.0), ink = c + 0.156 * over * over / (1.08 - c);
@@ -63,7 +63,7 @@ float pixel_at(vec3 eye)
 }
 
 /* How much the surface gets deeper from one pixel to the next. */
-float steepness(mark_place m)
+float steepness(mark_position m)
 {
     float c = min(abs(m.facing), 1.0);
     return min(sqrt(1.0 - c * c) / max(c, 0.05), 8.0);

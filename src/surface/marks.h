@@ -20,24 +20,25 @@ typedef struct mark_values {
                               "more there are, the nearer one can go."),                                               \
         PARAM_INT_ROW(mark_values, pattern_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100,                  \
                       .cpu_only = true, .doc = "Another set of the same kind."),                                       \
-        PARAM_FLOAT_ROW(mark_values, shadow, .def = 0.05, .min = -1, .max = 1, .soft_min = 0, .unit = UNIT_SHARE,      \
+        PARAM_FLOAT_ROW(mark_values, shadow, .def = 0.05, .min = -1, .max = 1, .soft_min = 0, .unit = UNIT_FRACTION,   \
                         .doc = "Tone without any light: 0 is as black as marks can make it, 1 white."),                \
         PARAM_FLOAT_ROW(mark_values, light, .def = 1.1, .min = -1, .max = 4, .soft_min = 0, .soft_max = 2,             \
-                        .unit = UNIT_SHARE,                                                                            \
+                        .unit = UNIT_FRACTION,                                                                         \
                         .doc = "Tone in full light; above 1 the lit side is free of marks for some way."),             \
         PARAM_FLOAT_ROW(mark_values, contrast, .def = 1, .min = 0.1, .max = 8, .soft_max = 3, .logarithmic = true,     \
                         .doc = "Bends the way from shadow to light: above 1 more is dark."),                           \
-        PARAM_FLOAT_ROW(mark_values, texture, .toggles = true, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_SHARE,     \
-                        .doc = "Share of the model's own brightness, textures too, in the tone."),                     \
-        PARAM_FLOAT_ROW(mark_values, fade, .def = 0.15, .min = 0.001, .max = 1, .soft_max = 0.5, .unit = UNIT_SHARE,   \
-                        .doc = "Marks that come or go grow or shrink over this share of their threshold, so that "     \
+        PARAM_FLOAT_ROW(mark_values, texture, .toggles = true, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_FRACTION,  \
+                        .doc = "Fraction of the model's own brightness, textures too, in the tone."),                  \
+        PARAM_FLOAT_ROW(mark_values, fade, .def = 0.15, .min = 0.001, .max = 1, .soft_max = 0.5,                       \
+                        .unit = UNIT_FRACTION,                                                                         \
+                        .doc = "Marks that come or go grow or shrink over this fraction of their threshold, so that "  \
                                "none appears at once."),                                                               \
         PARAM_COLOUR_ROW(mark_values, ink, .def_colour = {0.09f, 0.09f, 0.11f, 1},                                     \
                          .doc = "Colour of marks. Lighter than the paper, they stand for light instead of shade."),    \
         PARAM_COLOUR_ROW(mark_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,                  \
                          .doc = "Colour between marks; auto takes the page's ground."),                                \
-        PARAM_FLOAT_ROW(mark_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,    \
-                        .doc = "Share of the model's own lit colour in the paper.")
+        PARAM_FLOAT_ROW(mark_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, \
+                        .doc = "Fraction of the model's own lit colour in the paper.")
 
 typedef struct stipple_values {
     mark_values common;

@@ -37,7 +37,8 @@ static const param params[] = {
     MARK_ROWS(30000, "Strokes"),
     PARAM_ENUM_ROW(surface_strokes_values, placed, .names = placed_names, .cpu_only = true,
                    .doc =
-                       "form: each stroke runs along the way the surface bends; planes: where planes through the model "
+                       "form: each stroke runs along the direction in which the surface bends; planes: where planes "
+                       "through the model "
                        "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
     PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 1.3, .min = 0.1, .max = 64, .soft_min = 0.5, .soft_max = 6,
                     .unit = UNIT_PX, .doc = "Width of strokes, wherever they are."),
@@ -46,18 +47,18 @@ static const param params[] = {
                     .doc = "Mean distance of strokes where it is darkest, all sets together: they come no closer, "
                            "however dark it should be."),
     PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2,
-                    .unit = UNIT_SHARE, .cpu_only = true, .only_if = "placed=form,planes",
-                    .doc = "Mean length of strokes, share of the model's diagonal."),
+                    .unit = UNIT_FRACTION, .cpu_only = true, .only_if = "placed=form,planes",
+                    .doc = "Mean length of strokes, fraction of the model's diagonal."),
     PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true,
                   .only_if = "placed=form,planes",
                   .doc = "Sets of strokes that cross each other, later ones where it is darker."),
     PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "series>1", .doc = "Angle between one set of strokes and the next."),
-    PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "placed=form,planes",
                     .doc = "How much strokes differ in length and way."),
-    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_SHARE,
-                    .doc = "Share of its length over which each end of a stroke runs out."),
+    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of its length over which each end of a stroke runs out."),
     PARAM_ENUM_ROW(
         surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
         .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is "
@@ -71,9 +72,9 @@ static const param params[] = {
                     .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there "
                            "are as many strokes as asked for."),
     PARAM_FLOAT_ROW(
-        surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_SHARE,
+        surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_FRACTION,
         .cpu_only = true, .only_if = "placed=uv",
-        .doc = "How far each copy of a stroke is moved, share of the texture, so that it is not seen to repeat."),
+        .doc = "How far each copy of a stroke is moved, fraction of the texture, so that it is not seen to repeat."),
 };
 
 static void describe(text *out, const void *values)
@@ -134,10 +135,10 @@ static lmn_status make_traced(marks *out, const mark_surface *surface, double ex
 }
 
 /* Some of a surface's triangles. */
-typedef struct share_of_surface {
+typedef struct fraction_of_surface {
     mark_surface surface;
     uint32_t    *indices, *triangles; /* triangles: of the whole */
-} share_of_surface;
+} fraction_of_surface;
 
 static bool has_area_of_uvs(const mark_surface *s, uint32_t t)
 {
@@ -147,11 +148,11 @@ static bool has_area_of_uvs(const mark_surface *s, uint32_t t)
     return area_of_uvs(&one) > 0;
 }
 
-static bool take_share(share_of_surface *out, const mark_surface *s, bool laid_out)
+static bool take_fraction(fraction_of_surface *out, const mark_surface *s, bool laid_out)
 {
-    *out = (share_of_surface){.surface = *s,
-                              .indices = mem_alloc(3 * (size_t)s->triangle_count * sizeof *out->indices),
-                              .triangles = mem_alloc((size_t)s->triangle_count * sizeof *out->triangles)};
+    *out = (fraction_of_surface){.surface = *s,
+                                 .indices = mem_alloc(3 * (size_t)s->triangle_count * sizeof *out->indices),
+                                 .triangles = mem_alloc((size_t)s->triangle_count * sizeof *out->triangles)};
     if (!out->indices || !out->triangles)
         return false;
     out->surface.indices = out->indices;
@@ -165,20 +166,21 @@ static bool take_share(share_of_surface *out, const mark_surface *s, bool laid_o
     return true;
 }
 
-/* Adds what lies on a share to what lies on the whole. */
-static bool add_share(marks *out, const marks *share, const uint32_t *triangles)
+/* Adds what lies on a fraction to what lies on the whole. */
+static bool add_fraction(marks *out, const marks *fraction, const uint32_t *triangles)
 {
-    if (!mem_grow((void **)&out->lines, &out->line_capacity, out->line_count + share->line_count, sizeof *out->lines))
+    if (!mem_grow((void **)&out->lines, &out->line_capacity, out->line_count + fraction->line_count,
+                  sizeof *out->lines))
         return false;
-    for (size_t i = 0; i < share->line_count; i++) {
+    for (size_t i = 0; i < fraction->line_count; i++) {
         mark_line *l = &out->lines[out->line_count++];
-        *l = share->lines[i];
+        *l = fraction->lines[i];
         l->triangle = triangles[l->triangle];
         l->stroke += (uint32_t)out->stroke_count;
     }
-    out->stroke_count += share->stroke_count;
-    out->line_length += share->line_length;
-    out->area += share->area;
+    out->stroke_count += fraction->stroke_count;
+    out->line_length += fraction->line_length;
+    out->area += fraction->area;
     return true;
 }
 
@@ -190,21 +192,21 @@ static lmn_status make_both(marks *out, const mark_surface *surface, double exte
     lmn_status status = LMN_OK;
     double     whole = mark_surface_area(surface);
     for (int laid_out = 0; laid_out < 2 && status == LMN_OK; laid_out++) {
-        share_of_surface share;
-        marks            made = {.lines = NULL};
-        if (!take_share(&share, surface, laid_out))
+        fraction_of_surface fraction;
+        marks               made = {.lines = NULL};
+        if (!take_fraction(&fraction, surface, laid_out))
             status = error_memory(error);
         else if (laid_out)
-            status = make_tiled(&made, &share.surface, v, error);
+            status = make_tiled(&made, &fraction.surface, v, error);
         else
             status = make_traced(
-                &made, &share.surface, extent,
-                (size_t)(v->common.count * mark_surface_area(&share.surface) / fmax(whole, 1e-300)) + 1, v, error);
-        if (status == LMN_OK && !add_share(out, &made, share.triangles))
+                &made, &fraction.surface, extent,
+                (size_t)(v->common.count * mark_surface_area(&fraction.surface) / fmax(whole, 1e-300)) + 1, v, error);
+        if (status == LMN_OK && !add_fraction(out, &made, fraction.triangles))
             status = error_memory(error);
         surface_marks_release(&made);
-        mem_free(share.indices);
-        mem_free(share.triangles);
+        mem_free(fraction.indices);
+        mem_free(fraction.triangles);
     }
     if (status != LMN_OK)
         surface_marks_release(out);

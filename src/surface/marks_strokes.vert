@@ -10,7 +10,7 @@ layout(location = 4) in vec4 a_along;  /* where the piece begins and ends, lengt
 uniform float u_near_plane;
 
 flat out vec4 v_ends;   /* of the piece, pixels */
-flat out vec4 v_depths; /* 1 / depth of both ends (or depth), tolerance as share of the depth (or as depth), half the width in pixels */
+flat out vec4 v_depths; /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), half the width in pixels */
 flat out vec4 v_run;    /* arc at both ends, length of the stroke, 1 / length over which an end runs out */
 flat out float v_ink;   /* opacity of what is thinner than a pixel */
 
@@ -20,26 +20,26 @@ bool clip_near(inout vec3 a, inout vec3 b, inout vec2 arcs)
     float from = -a.z - u_near_plane, to = -b.z - u_near_plane;
     if (from <= 0.0 && to <= 0.0)
         return false;
-    float share = from / (from - to);
+    float fraction = from / (from - to);
     if (from < 0.0) {
-        a = mix(a, b, share);
-        arcs.x = mix(arcs.x, arcs.y, share);
+        a = mix(a, b, fraction);
+        arcs.x = mix(arcs.x, arcs.y, fraction);
     } else if (to < 0.0) {
-        b = mix(a, b, share);
-        arcs.y = mix(arcs.x, arcs.y, share);
+        b = mix(a, b, fraction);
+        arcs.y = mix(arcs.x, arcs.y, fraction);
     }
     return true;
 }
 
-/* Share of the strokes that shall be there for where they are: marks/marks_law.c. */
-float share_there(mark_place m, vec3 way, float d)
+/* Fraction of the strokes that shall be there for where they are: marks/marks_law.c. */
+float fraction_there(mark_position m, vec3 direction, float d)
 {
 #if LAW == 0
     return d * (u_perspective > 0.5 ? abs(dot(m.eye, m.normal)) / dot(m.eye, m.eye) : abs(m.normal.z));
 #else
     float depth = u_perspective > 0.5 ? max(-m.eye.z, 1e-20) : 1.0;
     float area = u_perspective > 0.5 ? abs(dot(m.eye, m.normal)) / (depth * depth * depth) : abs(m.normal.z);
-    vec2 seen = u_perspective > 0.5 ? way.xy + m.eye.xy * (way.z / depth) : way.xy;
+    vec2 seen = u_perspective > 0.5 ? direction.xy + m.eye.xy * (direction.z / depth) : direction.xy;
     return d * area * depth / max(length(seen), 0.02);
 #endif
 }
@@ -65,52 +65,52 @@ float ink_of_strokes(float darkness, float darkest)
     return ink;
 }
 
-/* Share of its width that the stroke has; `share`: of strokes that shall be there for where they are. */
-float ink_of_stroke(mark_place m, float share)
+/* Fraction of its width that the stroke has; `fraction`: of strokes that shall be there for where they are. */
+float ink_of_stroke(mark_position m, float fraction)
 {
     float darkest = u_width * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
-    float light_share = clamp(ink_of_strokes(darkness, darkest) / darkest, 0.0, 1.0);
+    float light_fraction = clamp(ink_of_strokes(darkness, darkest) / darkest, 0.0, 1.0);
     if (a_along.w > 0.0)
-        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_share) / a_along.w, 0.0, 1.0) * share, 1.0);
-    float lack = max((1.0 - light_share) * (1.0 + u_fade) - a_from.w, (1.0 - clamp(share, 0.0, 1.0)) * (1.0 + u_fade) - a_to.w);
+        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_fraction) / a_along.w, 0.0, 1.0) * fraction, 1.0);
+    float lack = max((1.0 - light_fraction) * (1.0 + u_fade) - a_from.w, (1.0 - clamp(fraction, 0.0, 1.0)) * (1.0 + u_fade) - a_to.w);
     return clamp(1.0 - lack / u_fade, 0.0, 1.0);
 }
 
 /* Does the stroke turn away where what is seen at its middle does not? Then it is on the far side. */
-bool is_back(mark_place m)
+bool is_back(mark_position m)
 {
     vec2 at = page_of(u_projection * vec4(m.eye, 1.0));
     return m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
 }
 
 /* The corner of a piece that is drawn. */
-void put_corner(mark_place m, vec3 from, vec3 to, float share)
+void put_corner(mark_position m, vec3 from, vec3 to, float fraction)
 {
-    float ink = ink_of_stroke(m, share);
+    float ink = ink_of_stroke(m, fraction);
     vec2 arcs = a_along.xy;
     if (ink <= 0.0 || (u_perspective > 0.5 && !clip_near(from, to, arcs)))
         return;
     vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));
     float size = length(b - a), width = u_width * ink, half_width = 0.5 * max(width, 1.0);
-    vec2 way = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-way.y, way.x);
+    vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
     float tolerance = 1.5 + 1.5 * steepness(m);
     v_ends = vec4(a, b);
     v_depths = u_perspective > 0.5 ? vec4(-1.0 / from.z, -1.0 / to.z, tolerance / u_focal, half_width) : vec4(-from.z, -to.z, tolerance / u_focal, half_width);
     v_run = vec4(arcs, a_along.z, 1.0 / max(u_taper * a_along.z, 1e-20));
     v_ink = min(width, 1.0);
     vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
-    vec2 at = mix(a, b, 0.5 + 0.5 * corner.x) + (way * corner.x + aside * corner.y) * (half_width + 0.5);
+    vec2 at = mix(a, b, 0.5 + 0.5 * corner.x) + (direction * corner.x + aside * corner.y) * (half_width + 0.5);
     gl_Position = vec4(at / u_size * 2.0 - 1.0, 0.0, 1.0);
 }
 
 void main()
 {
     gl_Position = NOWHERE;
-    mark_place m = place_of_mark(a_middle.xyz, a_normal.xyz);
+    mark_position m = position_of_mark(a_middle.xyz, a_normal.xyz);
     vec3 from = (u_model_view * vec4(a_from.xyz, 1.0)).xyz, to = (u_model_view * vec4(a_to.xyz, 1.0)).xyz;
-    float share = share_there(m, normalize(to - from + vec3(1e-30)), u_focal / max(a_normal.w * u_scale, 1e-20));
+    float fraction = fraction_there(m, normalize(to - from + vec3(1e-30)), u_focal / max(a_normal.w * u_scale, 1e-20));
     /* Most are too many wherever they are, whatever the light. Software drivers skip loops that nobody enters, but not branches. */
-    int wanted = 1.0 - a_to.w <= share * (1.0 + u_fade) && !is_back(m) ? 1 : 0;
+    int wanted = 1.0 - a_to.w <= fraction * (1.0 + u_fade) && !is_back(m) ? 1 : 0;
     for (int once = 0; once < wanted; once++)
-        put_corner(m, from, to, share);
+        put_corner(m, from, to, fraction);
 }

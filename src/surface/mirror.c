@@ -9,8 +9,8 @@ typedef struct mirror {
 static const param params[] = {
     PARAM_COLOUR_ROW(mirror, tint, .def_colour = {0.86f, 0.92f, 0.95f, 1},
                      .doc = "Colour of the mirror where it reflects nothing."),
-    PARAM_FLOAT_ROW(mirror, reflectivity, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Share of the reflection."),
+    PARAM_FLOAT_ROW(mirror, reflectivity, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of the reflection."),
 };
 
 const technique surface_mirror = {

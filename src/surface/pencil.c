@@ -21,21 +21,22 @@ static const char *const shading_names[] = {"hatching", "gradation", NULL};
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_FORM),
-    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Share of the model's own colour in the pencil's: with 1 each part has its own."),
+    PARAM_FLOAT_ROW(halftone_values, ink_tint, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of the model's own colour in the pencil's: with 1 each part has its own."),
     PARAM_ENUM_ROW(pencil_values, shading, .names = shading_names, .variant = true,
                    .doc = "hatching: strokes with gaps, in so many tones; gradation: strokes cover each other, and "
                           "tones pass into one another."),
     PARAM_INT_ROW(
         pencil_values, overlays, .def = 2, .min = 1, .max = 6, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
         .doc = "How often the surface is gone over; each time has its part of the darkness and turns a little."),
-    PARAM_FLOAT_ROW(pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES,
-                    .only_if = "overlays>1",
-                    .doc = "How far each time turns besides; on the page each has ways of its own between those of the "
-                           "others, which hides where they meet."),
+    PARAM_FLOAT_ROW(
+        pencil_values, vary, .def = 0, .min = 0, .max = 90, .soft_max = 30, .unit = UNIT_DEGREES,
+        .only_if = "overlays>1",
+        .doc = "How far each time turns besides; on the page each has directions of its own between those of the "
+               "others, which hides where they meet."),
     PARAM_ENUM_ROW(pencil_values, lead, .names = lead_grade_names, .def = LEAD_4B, .cpu_only = true,
                    .doc = "The lead, from hard and light to soft and dark."),
-    PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_SHARE,
+    PARAM_FLOAT_ROW(pencil_values, gloss, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of a small highlight that stays bare."),
     PARAM_PALETTE_ROW(pencil_values, pencils, .def_palette = {1, {{0, 0, 0, 1}}},
                       .doc = "With several colours, each time over takes the next, and they mix as coloured pencils "
@@ -45,12 +46,12 @@ static const param params[] = {
                     .doc = "Pixels that a texel of the strokes takes: how coarse they are."),
     PARAM_FLOAT_ROW(pencil_values, width, .def = 1.6, .min = 0.6, .max = 16, .soft_max = 6, .cpu_only = true,
                     .doc = "Width of strokes in texels."),
-    PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
-                    .doc = "Length of the longest strokes, share of 256 texels."),
-    PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_SHARE, .cpu_only = true,
+    PARAM_FLOAT_ROW(pencil_values, length, .def = 0.6, .min = 0.06, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "Length of the longest strokes, fraction of 256 texels."),
+    PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "How much of what is left of the paper a stroke covers; with gradation half as much."),
     PARAM_FLOAT_ROW(pencil_values, ragged, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 1,
-                    .unit = UNIT_SHARE, .only_if = "shading=hatching",
+                    .unit = UNIT_FRACTION, .only_if = "shading=hatching",
                     .doc = "How far strokes begin and end before and behind the border between two tones, in tones; 0 "
                            "ends all of them there."),
     PARAM_BOOL_ROW(pencil_values, cross, .def = 0, .cpu_only = true,

@@ -1,12 +1,12 @@
-/* Pencil strokes on paper. Müller, section 4.4: the map is looked up along quantised ways, gone over several times with a little variation. */
-#include "surface/halftone/place.glsl"
+/* Pencil strokes on paper. Müller, section 4.4: the map is looked up along quantised directions, gone over several times with a little variation. */
+#include "surface/halftone/position.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/screen.glsl"
 
-uniform vec4 u_numbers[1]; /* x: share of the paper's light that the lead takes at most */
+uniform vec4 u_numbers[1]; /* x: fraction of the paper's light that the lead takes at most */
 
 surface_point s_point;
-rest_place    s_rest;
+rest_position    s_rest;
 
 #define MIXES_TONES SHADING
 #include "surface/halftone/tones.glsl"
@@ -30,18 +30,18 @@ float strokes_at(stroke_plane s, float darkness, vec2 start)
         screen_octave o = octave_of(s, level, k, -1e9, false);
         int used = o.weight > 0.01 ? 1 : 0;
         for (int once = 0; once < used; once++)
-            bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_share(darkness, o.weight));
+            bare *= 1.0 - map_ink(s.at * o.scale + start, o.level, darkness_of_fraction(darkness, o.weight));
     }
     return 1.0 - bare;
 #endif
 }
 
-/* Share of the paper that one time over covers. Row P36: each turns and starts elsewhere, so that what is seen of one's seams others cover. */
+/* Fraction of the paper that one time over covers. Row P36: each turns and starts elsewhere, so that what is seen of one's seams others cover. */
 float cover_of(float darkness, int overlay)
 {
-    float share = OVERLAYS > 1 ? float(overlay) / float(OVERLAYS) : 0.0;
+    float fraction = OVERLAYS > 1 ? float(overlay) / float(OVERLAYS) : 0.0;
 #ifdef HAS_FORM
-    s_between = share;
+    s_between = fraction;
 #endif
     vec2 turn = turns_added(u_angle, turn_of_degrees(u_vary * (OVERLAYS > 1 ? 2.0 * float(overlay) / float(OVERLAYS - 1) - 1.0 : 0.0)));
     float bare = 1.0;
@@ -49,7 +49,7 @@ float cover_of(float darkness, int overlay)
         stroke_plane s = plane_of(s_point, s_rest, i, turn);
         int there = s.weight > 0.01 ? 1 : 0;
         for (int once = 0; once < there; once++)
-            bare *= 1.0 - strokes_at(s, darkness_of_share(min(darkness, u_tones_facts.w), s.weight), vec2(0.37, 0.61) * float(overlay + OVERLAYS * int(s.key & 15u)));
+            bare *= 1.0 - strokes_at(s, darkness_of_fraction(min(darkness, u_tones_facts.w), s.weight), vec2(0.37, 0.61) * float(overlay + OVERLAYS * int(s.key & 15u)));
     }
     return 1.0 - bare;
 }
@@ -68,7 +68,7 @@ float darkness_in(vec3 ink, float tone)
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
-    s_rest = place_at_rest(p);
+    s_rest = position_at_rest(p);
     float tone = tone_of_light(p, light_of(p));
 #ifdef WITH_GLOSS
     tone += u_gloss * highlight(p, 24.0);
@@ -76,7 +76,7 @@ vec4 surface_colour(surface_point p)
     vec3 own = mix(u_ink.rgb, p.albedo.rgb, u_ink_tint);
     float darkness = focused(p, clamp(darkness_in(own, tone), 0.0, 1.0));
     /* Every time over has its part, so that together they are as dark as wanted. */
-    float part = darkness_of_share(darkness, 1.0 / float(OVERLAYS));
+    float part = darkness_of_fraction(darkness, 1.0 / float(OVERLAYS));
     vec4 paper = paper_of(p);
     vec3 left = vec3(1.0);
     float bare = 1.0;

@@ -35,7 +35,7 @@ static const param params[] = {
                    .doc = "Far away: kept leaves out whole strokes and keeps the width of others; minimum and average "
                           "are the textbook's ways, for comparison."),
     PARAM_BOOL_ROW(screen_values, equalised, .def = 1, .cpu_only = true,
-                   .doc = "Makes the share of ink follow the tone, as far as strokes can cover the surface; between "
+                   .doc = "Makes the fraction of ink follow the tone, as far as strokes can cover the surface; between "
                           "levels in sharp schemes."),
     PARAM_FLOAT_ROW(screen_values, relief, .def = 0, .min = -8, .max = 8, .soft_min = -2, .soft_max = 2,
                     .doc = "Lights each stroke by itself, as a groove (or, below 0, a ridge) this steep: those towards "
@@ -58,7 +58,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(screen_values, wobble, .toggles = true, .def = 0, .min = 0, .max = 100, .soft_max = 10,
                     .unit = UNIT_PX, .along = true, .doc = "How far strokes waver."),
     PARAM_FLOAT_ROW(screen_values, uneven, .toggles = true, .def = 0.04, .min = 0, .max = 1, .soft_max = 0.5,
-                    .unit = UNIT_SHARE, .doc = "Unevenness of the tone."),
+                    .unit = UNIT_FRACTION, .doc = "Unevenness of the tone."),
     PARAM_INT_ROW(screen_values, frames, .def = 1, .min = 1, .max = 16, .cpu_only = true, .only_if = "change>0",
                   .unit = UNIT_COUNT,
                   .doc = "Screens that follow each other in time, each drawn anew; of patterns only."),

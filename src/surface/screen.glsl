@@ -1,10 +1,10 @@
-#include "surface/halftone/place.glsl"
+#include "surface/halftone/position.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/noise.glsl"
 #include "surface/halftone/screen.glsl"
 
 surface_point s_point;
-rest_place    s_rest;
+rest_position    s_rest;
 
 float texel_of()
 {
@@ -61,7 +61,7 @@ float level_value(vec2 at, float level)
     return value;
 }
 
-/* Share of ink by the scheme; a value is inked where it is less than the darkness, but 255 is paper whatever the darkness. */
+/* Fraction of ink by the scheme; a value is inked where it is less than the darkness, but 255 is paper whatever the darkness. */
 float ink_of(float value, float darkness)
 {
 #if SCHEME == 0
@@ -79,32 +79,32 @@ float ink_of(float value, float darkness)
 #endif
 }
 
-/* Ink at a place between two levels, whose values mix as a texture unit mixes them. Values that were mixed are no longer even: the curve says which one as many are
+/* Ink at a position between two levels, whose values mix as a texture unit mixes them. Values that were mixed are no longer even: the curve says which one as many are
  * below as shall be inked. */
 float ink_between(vec2 at, float level, float darkness)
 {
 #ifdef NEAREST_SCREEN
     return ink_of(level_value(at, floor(level + 0.5)), darkness);
 #else
-    float low = floor(level), share = level - low;
+    float low = floor(level), fraction = level - low;
 #ifdef HAS_CURVE
-    darkness = textureLod(t_curve, vec3((darkness * 63.0 + 0.5) / 64.0, (share * 16.0 + 0.5) / 17.0, 0.0), 0.0).r;
+    darkness = textureLod(t_curve, vec3((darkness * 63.0 + 0.5) / 64.0, (fraction * 16.0 + 0.5) / 17.0, 0.0), 0.0).r;
 #endif
-    return ink_of(mix(level_value(at, low), level_value(at, low + 1.0), share), darkness);
+    return ink_of(mix(level_value(at, low), level_value(at, low + 1.0), fraction), darkness);
 #endif
 }
 
 #if defined(HAS_WARP) && defined(HAS_UV) && defined(HAS_LIGHT_MAP)
 uniform sampler2D t_light_map;
 
-/* How much darker it is at the middle of the stroke that owns a place of the screen than at this place. Freudenberg 2003, section 6.6; rows IM-18 to IM-20: the way to the
+/* How much darker it is at the middle of the stroke that owns a position of the screen than at this position. Freudenberg 2003, section 6.6; rows IM-18 to IM-20: the way to the
  * middle is relative, so that the screen may repeat, and is taken from the screen's coordinates to those of the light map. */
 float darker_at_middle(stroke_plane s, screen_octave o, vec2 at, float own)
 {
-    vec2 way = textureLod(t_warp, vec3(at * o.scale, 0.0), floor(o.level + 0.5)).rg / o.scale;
+    vec2 offset = textureLod(t_warp, vec3(at * o.scale, 0.0), floor(o.level + 0.5)).rg / o.scale;
     vec2 right = dFdx(s_uv_unique), up = dFdy(s_uv_unique);
     float area = s.right.x * s.up.y - s.right.y * s.up.x;
-    vec2 pixels = vec2(way.x * s.up.y - way.y * s.up.x, way.y * s.right.x - way.x * s.right.y) / (abs(area) > 1e-20 ? area : 1e-20);
+    vec2 pixels = vec2(offset.x * s.up.y - offset.y * s.up.x, offset.y * s.right.x - offset.x * s.right.y) / (abs(area) > 1e-20 ? area : 1e-20);
     vec4 light = texture(t_light_map, s_uv_unique + right * pixels.x + up * pixels.y);
     return light.a > 0.5 ? darkness_of(tone_of_light(s_point, light.r)) - own : 0.0;
 }
@@ -121,14 +121,14 @@ float cover_of(float darkness, int ink)
         float level = screen_level(s, u_screen_facts.x, texel_of());
         for (int k = 0; k < SIZES; k++) {
             screen_octave o = octave_of(s, level, k, least_octave(), SIZES == 1);
-            float share = s.weight * o.weight, wanted = darkness;
+            float fraction = s.weight * o.weight, wanted = darkness;
 #if SCHEME == 3
-            bare -= share * ink_between(at * o.scale, o.level, 1.0);
+            bare -= fraction * ink_between(at * o.scale, o.level, 1.0);
 #else
 #if defined(HAS_WARP) && defined(HAS_UV) && defined(HAS_LIGHT_MAP)
             wanted = clamp(wanted + darker_at_middle(s, o, at, s_darkness), 0.0, 1.0);
 #endif
-            bare *= 1.0 - ink_between(at * o.scale, o.level, darkness_of_share(wanted, share));
+            bare *= 1.0 - ink_between(at * o.scale, o.level, darkness_of_fraction(wanted, fraction));
 #endif
         }
     }
@@ -137,7 +137,7 @@ float cover_of(float darkness, int ink)
 
 #include "surface/halftone/inks.glsl"
 
-/* The plane that a place has most of: others may stand edge on. */
+/* The plane that a position has most of: others may stand edge on. */
 stroke_plane main_plane()
 {
     stroke_plane most = screen_plane(0, 0);
@@ -182,7 +182,7 @@ vec3 relieved_normal()
 vec4 surface_colour(surface_point p)
 {
     s_point = p;
-    s_rest = place_at_rest(p);
+    s_rest = position_at_rest(p);
 #ifdef HAS_RELIEF
     p.normal = relieved_normal();
 #endif

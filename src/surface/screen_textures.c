@@ -319,7 +319,7 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
 
 /* --- the curve of what lies between two levels --- */
 
-enum { CURVE_TONES = 64, CURVE_SHARES = 17, CURVE_SAMPLES = 192 };
+enum { CURVE_TONES = 64, CURVE_FRACTIONS = 17, CURVE_SAMPLES = 192 };
 
 /* As a texture unit finds it, in texels of the level. */
 static double value_at(const mip_chain *c, int level, double u, double v)
@@ -336,7 +336,7 @@ static double value_at(const mip_chain *c, int level, double u, double v)
     return (below * (1 - t) + above * t) / 255;
 }
 
-/* One row: shares of values that were counted in steps of 1 / 256 become the value for each darkness. */
+/* One row: fractions of values that were counted in steps of 1 / 256 become the value for each darkness. */
 static void invert_row(uint8_t *row, const uint32_t *counts, uint32_t total)
 {
     uint32_t below = 0;
@@ -356,21 +356,21 @@ lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *erro
     mip_chain  screen = {0};
     lmn_status status = make_any(&screen, values, error);
     if (status == LMN_OK)
-        status = mip_chain_create(out, CURVE_TONES, CURVE_SHARES, 1, 1, MIP_R8, error);
-    uint32_t *counts = status == LMN_OK ? mem_calloc(CURVE_SHARES, 256 * sizeof *counts) : NULL;
+        status = mip_chain_create(out, CURVE_TONES, CURVE_FRACTIONS, 1, 1, MIP_R8, error);
+    uint32_t *counts = status == LMN_OK ? mem_calloc(CURVE_FRACTIONS, 256 * sizeof *counts) : NULL;
     if (status == LMN_OK && !counts)
         status = error_memory(error);
     for (int i = 0; status == LMN_OK && i < CURVE_SAMPLES * CURVE_SAMPLES; i++) {
-        /* Places that keep to no grid of the screen's. */
+        /* Positions that keep to no grid of the screen's. */
         double u = (i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES,
                v = (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES;
         double near = value_at(&screen, 0, u, v), far = value_at(&screen, screen.levels > 1 ? 1 : 0, u, v);
-        for (int k = 0; k < CURVE_SHARES; k++) {
-            double share = (double)k / (CURVE_SHARES - 1);
-            counts[256 * k + (int)((near + (far - near) * share) * 255 + 0.5)]++;
+        for (int k = 0; k < CURVE_FRACTIONS; k++) {
+            double fraction = (double)k / (CURVE_FRACTIONS - 1);
+            counts[256 * k + (int)((near + (far - near) * fraction) * 255 + 0.5)]++;
         }
     }
-    for (int k = 0; status == LMN_OK && k < CURVE_SHARES; k++)
+    for (int k = 0; status == LMN_OK && k < CURVE_FRACTIONS; k++)
         invert_row((uint8_t *)out->data[0] + k * CURVE_TONES, &counts[256 * k], CURVE_SAMPLES * CURVE_SAMPLES);
     if (status == LMN_OK)
         out->clamped = true;

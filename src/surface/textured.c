@@ -6,8 +6,8 @@ typedef struct textured {
 } textured;
 
 static const param params[] = {
-    PARAM_FLOAT_ROW(textured, light, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_SHARE,
-                    .doc = "Share of the light; 0 shows the colours as they are painted."),
+    PARAM_FLOAT_ROW(textured, light, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of the light; 0 shows the colours as they are painted."),
 };
 
 const technique surface_textured = {

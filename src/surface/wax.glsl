@@ -1,11 +1,11 @@
 #include "light/light.glsl"
 
-/* Share of a light that leaves a place, by colour: none is left where the light is further behind than `reach`. What falls on the place itself can be in
+/* Fraction of a light that leaves a position, by colour: none is left where the light is further behind than `reach`. What falls on the place itself can be in
  * shadow; what comes from beside is not. */
-vec3 wrapped(float turned, float share, vec3 reach)
+vec3 wrapped(float turned, float fraction, vec3 reach)
 {
     float direct = max(turned, 0.0);
-    return max((turned + reach) / (1.0 + reach), 0.0) - direct * (1.0 - share);
+    return max((turned + reach) / (1.0 + reach), 0.0) - direct * (1.0 - fraction);
 }
 
 vec4 surface_colour(surface_point p)
@@ -19,7 +19,7 @@ vec4 surface_colour(surface_point p)
     for (int i = 0; i < LIGHT_COUNT; i++)
         light += u_light_colour[i].rgb * wrapped(dot(p.normal, towards_light(i, p.eye)), i == 0 ? first : 1.0, reach);
     /* Light that has lost its way inside comes from everywhere. */
-    light = mix(min(light * sky_share(p), vec3(1.0)), vec3(1.0), 0.4 * u_depth * glow);
+    light = mix(min(light * sky_fraction(p), vec3(1.0)), vec3(1.0), 0.4 * u_depth * glow);
 
     /* The way through a ball is as long as the cosine says. */
     float facing = max(dot(p.normal, towards_viewer(p.eye)), 0.0);

@@ -27,7 +27,7 @@ const char *param_type_text(param_type type)
 
 const char *param_unit_text(param_unit unit)
 {
-    static const char *const names[] = {"", "px", "deg", "count", "share"};
+    static const char *const names[] = {"", "px", "deg", "count", "fraction"};
     return (size_t)unit < PARAM_COUNT(names) ? names[unit] : "";
 }
 

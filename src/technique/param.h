@@ -37,7 +37,7 @@ typedef enum param_type {
     PARAM_TEXT       /* param_words; no uniform */
 } param_type;
 
-typedef enum param_unit { UNIT_NONE, UNIT_PX, UNIT_DEGREES, UNIT_COUNT, UNIT_SHARE } param_unit;
+typedef enum param_unit { UNIT_NONE, UNIT_PX, UNIT_DEGREES, UNIT_COUNT, UNIT_FRACTION } param_unit;
 
 typedef struct param {
     const char        *key; /* also the struct field, the look key and the uniform u_KEY */

@@ -14,7 +14,7 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_EDGE_BEFORE] = {"t_edge_before", TEXEL_RGBA16F, .owner = OWNER_FIGURE, .empty = {1, 1, 1, 1}},
     /* Of all nearer layers' lines: r = ink, widened by the halo; g = ink around, averaged and added up. */
     [TARGET_NEARER] = {"t_nearer", TEXEL_RGBA16F, .owner = OWNER_FIGURE},
-    /* Share of the lines' ink that stays; not there = all. */
+    /* Fraction of the lines' ink that stays; not there = all. */
     [TARGET_DASH] = {"t_dash", TEXEL_R8, .owner = OWNER_LINES},
     /* Where lines run on beyond their ends: r = bits of ink (profile, inner, id, 8 each); g = eye depth, a float. */
     [TARGET_OVERSHOOT] = {"t_overshoot", TEXEL_RG32UI, .owner = OWNER_ALL_LINES},
@@ -31,8 +31,8 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_REFLECTION] = {"t_reflection", TEXEL_RGBA16F, .owner = OWNER_FIGURE},
     /* Depth from the first light; there when the look has shadows or a pass reads it. */
     [TARGET_SHADOW] = {"t_shadow", TEXEL_DEPTH32F, SCALE_OWN, OWNER_FRAME},
-    /* The way strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure; a: 1 where there is a
-     * surface. */
+    /* The directions strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure; a: 1 where there
+     * is a surface. */
     [TARGET_DIRECTION] = {"t_direction", TEXEL_RGBA16F, SCALE_APART, OWNER_FIGURE, .filtered = true},
 
     /* What the layers so far add up to, front to back; alpha is what still shows through. */

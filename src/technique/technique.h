@@ -57,18 +57,18 @@ typedef struct pass {
 
 /* What a technique wants meshes to have besides positions and normals. */
 typedef struct mesh_needs {
-    bool  field; /* the way surfaces bend */
-    float patch; /* radius of patches that cover them, share of a mesh's diagonal; 0: none */
+    bool  field; /* the direction in which surfaces bend */
+    float patch; /* radius of patches that cover them, fraction of a mesh's diagonal; 0: none */
 } mesh_needs;
 
 struct stroke_style;
 
 /* What a technique that moves lookups must tell. */
 typedef struct perturbation {
-    /* GLSL file with find_places, fill_place, line_place, copy_ink, fill_share and LINE_COPIES; see
-     * compose/places.glsl. With BROAD_LINES also broadening and most_broadening; see lines/ink.glsl and
+    /* GLSL file with find_positions, fill_position, line_position, copy_ink, fill_fraction and LINE_COPIES; see
+     * compose/positions.glsl. With BROAD_LINES also broadening and most_broadening; see lines/ink.glsl and
      * compose/reach.glsl. */
-    const char *places;
+    const char *positions;
     bool (*active)(const void *values); /* false: pictures are what they are without it */
     float (*reach)(const void *values); /* how far it moves anything, pixels */
     float (*cell)(const void *values);  /* side of the texels of coarse pictures, pixels */
@@ -143,7 +143,7 @@ typedef struct compose_row {
     const char *map_when; /* condition on its own parameters under which it needs the map all the same, as any further
                              pass does that reads it */
     bool layered;         /* takes layers, one by one */
-    bool perturbable;     /* its passes onto the page look maps up where compose/places.glsl says */
+    bool perturbable;     /* its passes onto the page look maps up where compose/positions.glsl says */
     bool lines_only;      /* surfaces are not drawn */
 } compose_row;
 

@@ -113,7 +113,7 @@ static void draw_faces(fill_job *j, const stroke_item *item)
     for (uint32_t f = 0; f < m->face_count; f++) {
         double clip[3][4] = {{0}};
         for (int k = 0; k < 3; k++) {
-            vec3         v = m->places[m->faces[f][k]];
+            vec3         v = m->positions[m->faces[f][k]];
             const double from[4] = {(double)v.x, (double)v.y, (double)v.z, 1};
             for (int n = 0; n < 16; n++)
                 clip[k][n % 4] += all.m[n] * from[n / 4];

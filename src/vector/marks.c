@@ -13,7 +13,7 @@
 enum { SIZE_STEPS = 20 /* to the pixel: dots of few sizes are few paths */ };
 static const float bend_most =
     0.08f; /* pixels by which points of a stroke may be moved, and its width changed, for fewer of them */
-static const float surely_there = 0.001f; /* least share over which marks come and go */
+static const float surely_there = 0.001f; /* least fraction over which marks come and go */
 static const float blunt_end = 0.2f;      /* pixels: half a width from which ends are round */
 
 /* A dot or line in the order of the sheet. */
@@ -197,9 +197,9 @@ static void count_marks(vector_marks *m, const marks_page *page, size_t part_cou
     }
 }
 
-static void count_in_front(void *user, const double (*places)[3], size_t count, uint32_t *out)
+static void count_in_front(void *user, const double (*positions)[3], size_t count, uint32_t *out)
 {
-    stroke_view_count(user, places, count, out);
+    stroke_view_count(user, positions, count, out);
 }
 
 /* One pen draws all marks alike: none comes or goes by its size. */

@@ -72,10 +72,10 @@ static const float *end_at(const plotter *p, size_t end)
     return p->page->points[path->first + (end % 2 && !path->closed ? path->count - 1 : 0)];
 }
 
-static size_t cell_of(const plotter *p, const float *place, int out[2])
+static size_t cell_of(const plotter *p, const float *position, int out[2])
 {
     for (int k = 0; k < 2; k++)
-        out[k] = (int)fmin(fmax(floor((double)place[k] / p->cell[k]), 0), p->side - 1);
+        out[k] = (int)fmin(fmax(floor((double)position[k] / p->cell[k]), 0), p->side - 1);
     return (size_t)out[1] * (size_t)p->side + (size_t)out[0];
 }
 
@@ -106,8 +106,8 @@ static void search_cell(plotter *p, size_t at, const float *from, double *best, 
             *link = p->next[end];
             continue;
         }
-        const float *place = end_at(p, end);
-        double       distance = hypot((double)(place[0] - from[0]), (double)(place[1] - from[1]));
+        const float *position = end_at(p, end);
+        double       distance = hypot((double)(position[0] - from[0]), (double)(position[1] - from[1]));
         if (distance < *best || (distance == *best && end < *found)) {
             *best = distance;
             *found = end;

@@ -154,7 +154,7 @@ static double from_series(const double *series, size_t count, double value)
 double vector_usual_scale(double scale)
 {
     static const double standard[] = {1, 2, 5}, larger[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
-    /* Of 1:r, as shares of 10: 1:8, 1:6, 1:5 … 1:1.5. */
+    /* Of 1:r, as fractions of 10: 1:8, 1:6, 1:5 … 1:1.5. */
     static const double smaller[] = {1, 10 / 8.0, 10 / 6.0, 2, 2.5, 10 / 3.0, 4, 5, 10 / 1.5};
     const double        enough = 0.7;
     if (!(scale > 1e-9) || !(scale < 1e9))

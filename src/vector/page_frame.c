@@ -12,9 +12,9 @@ typedef struct block_sizes {
 
 static block_sizes sizes_of(double width, double height)
 {
-    double side = fmin(width, height), share = fmin(side / 210, 1);
-    return (block_sizes){fmax(10 * share, 1), fmax(16 * share, 2), fmin(width * 0.8, 130 * share),
-                         fmax(5 * share, 0.6)};
+    double side = fmin(width, height), fraction = fmin(side / 210, 1);
+    return (block_sizes){fmax(10 * fraction, 1), fmax(16 * fraction, 2), fmin(width * 0.8, 130 * fraction),
+                         fmax(5 * fraction, 0.6)};
 }
 
 void vector_inside_frame(const lmn_sheet_desc *wanted, double width, double height, double out[4])
@@ -71,22 +71,22 @@ static void put_block(sheet *s, const lmn_sheet_desc *wanted, const lmn_sheet *f
     double right = s->width - b->margin, bottom = s->height - b->margin, left = right - b->width,
            top = bottom - b->height, line = b->letter * 0.07;
     /* The last cell is the symbol's. */
-    const double shares[4] = {0, facts->view_count > 1 ? 0.54 : 0.66, facts->view_count > 1 ? 0.7 : 0.86, 0.82};
+    const double fractions[4] = {0, facts->view_count > 1 ? 0.54 : 0.66, facts->view_count > 1 ? 0.7 : 0.86, 0.82};
     const char  *headings[3] = {"Title", "Scale", "Unit"};
     const char  *words[3] = {wanted->title ? wanted->title : "", *facts->scale_text ? facts->scale_text : "–",
                             facts->unit};
     put_line(s, group, ink, left, top, right, top, line * 2);
     put_line(s, group, ink, left, top, left, bottom, line * 2);
     for (int i = 0; i < 3; i++) {
-        double x = left + shares[i] * b->width;
+        double x = left + fractions[i] * b->width;
         if (i > 0)
             put_line(s, group, ink, x, top, x, bottom, line);
         put_cell(s, group, ink, headings[i], words[i], x, top, b);
     }
     if (facts->view_count < 2)
         return;
-    put_line(s, group, ink, left + shares[3] * b->width, top, left + shares[3] * b->width, bottom, line);
-    put_symbol(s, group, ink, left + (shares[3] + 1) / 2 * b->width, (top + bottom) / 2, b->height * 0.42,
+    put_line(s, group, ink, left + fractions[3] * b->width, top, left + fractions[3] * b->width, bottom, line);
+    put_symbol(s, group, ink, left + (fractions[3] + 1) / 2 * b->width, (top + bottom) / 2, b->height * 0.42,
                wanted->angle == LMN_FIRST_ANGLE);
 }
 

@@ -11,9 +11,9 @@
 #include "surface/marks.h"
 
 /* What a picture's lines do not say. */
-static const float hidden_apart = 3;    /* hidden lines nearer than this turn into grey, pixels */
-static const float hidden_share = 0.6f; /* width of hidden lines that have none of their own */
-enum { FILL_SAMPLES = 9973 };           /* of a texture, for its mean; a prime, so that they do not fall on columns */
+static const float hidden_apart = 3;       /* hidden lines nearer than this turn into grey, pixels */
+static const float hidden_fraction = 0.6f; /* width of hidden lines that have none of their own */
+enum { FILL_SAMPLES = 9973 }; /* of a texture, for its mean; a prime, so that they do not fall on columns */
 
 static colour or_else(colour c, colour otherwise)
 {
@@ -32,7 +32,7 @@ static void take_layers(stroke_options *options, stroke_style *style, const rule
     const layering     how = layering_of(rule_use(r, KIND_LAYERS));
     style->hidden_colour = or_else(behind->hidden_colour, style->colours[STROKE_CONTOUR]);
     style->hidden_colour.a *= behind->hidden_opacity;
-    style->hidden_width = isnan(behind->hidden_width) ? style->width * hidden_share : behind->hidden_width;
+    style->hidden_width = isnan(behind->hidden_width) ? style->width * hidden_fraction : behind->hidden_width;
     style->hidden_dash = behind->hidden_dash;
     style->hidden_gap = behind->hidden_gap;
     style->hidden = !(style->hidden_colour.a > 0) ? HIDDEN_NONE

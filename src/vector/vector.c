@@ -35,7 +35,7 @@ typedef struct vector_job {
     bool                 *stroked; /* per part: drawn by some rule, and no solid */
     stroke_scene          strokes;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
-    double                begun, share, reported; /* progress: of the stage at hand, and the most that was told */
+    double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
 } vector_job;
 
 static lmn_status check_cancelled(const vector_job *j, double fraction, const char *stage, lmn_error *error)
@@ -49,7 +49,7 @@ static lmn_status check_cancelled(const vector_job *j, double fraction, const ch
 static bool report_part(double fraction, const char *stage, void *user)
 {
     vector_job *j = user;
-    j->reported = fmax(j->reported, fmin(j->begun + fraction * j->share, 1)); /* each rule begins anew */
+    j->reported = fmax(j->reported, fmin(j->begun + fraction * j->fraction, 1)); /* each rule begins anew */
     return !j->desc->progress || j->desc->progress(j->reported, stage, j->desc->progress_user);
 }
 
@@ -582,12 +582,12 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     lmn_sheet *s = j->out;
     lmn_status status = check_cancelled(j, 0.3, "drawing", error);
     j->begun = 0.3;
-    j->share = 0.2;
+    j->fraction = 0.2;
     if (status == LMN_OK)
         status = make_scene(j, error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
-        j->share = 0.45 / (double)s->view_count;
-        j->begun = 0.5 + j->share * (double)i;
+        j->fraction = 0.45 / (double)s->view_count;
+        j->begun = 0.5 + j->fraction * (double)i;
         status = draw_view(j, &s->views[i], error);
     }
     if (status == LMN_OK)
@@ -600,7 +600,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 }
 
 /* Marks of vector drawings know the look's lights, and no more than these. */
-static void note_marks(vector_job *j)
+static void warn_of_marks(vector_job *j)
 {
     const scene_values *scene = j->look->wide[KIND_SCENE].values;
     bool                any = false, again = false;
@@ -638,7 +638,7 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
     const char *file = j->scene->file_count ? strrchr(j->scene->files[0], '/') : NULL, *title = j->wanted->title;
     file = file ? file + 1 : j->scene->file_count ? j->scene->files[0] : NULL;
     sheet_set_title(&s->page, title && *title ? title : file, description);
-    note_marks(j);
+    warn_of_marks(j);
     refusal r = refusal_of(j, error);
     return refuse_time(&r, j->look, j->desc->time_s, false);
 }

@@ -36,7 +36,7 @@ typedef struct vector_layout {
     lmn_angle angle;
     double    scale; /* 0: as large as fits */
     bool      usual; /* one of the usual scales then */
-    double    fit;   /* share of the area that is filled then */
+    double    fit;   /* fraction of the area that is filled then */
 } vector_layout;
 
 /* Places views of these sizes (width, height of each, model mm) around the front view. Sets their boxes, which have

@@ -66,7 +66,7 @@ static void sprites_interleave(void)
                 wrong += differs;
                 inside += differs && !trace_map_border(&map, i % drawing.width, i / drawing.width, 1);
             }
-            check_at_least("E03", 1 - (double)wrong / count, 0.999, "share of pixels that show the right part%s",
+            check_at_least("E03", 1 - (double)wrong / count, 0.999, "fraction of pixels that show the right part%s",
                            v % 2 ? " (without maps and complement)" : "");
             check_at_most("E03", inside, 0, "wrong pixels away from borders");
             trace_map_release(&map);
@@ -77,7 +77,7 @@ static void sprites_interleave(void)
     }
 }
 
-/* Two plates that cross at a degree: a thousandth of depth moves the line where they change places by many pixels.
+/* Two plates that cross at a degree: a thousandth of depth moves the line where they change positions by many pixels.
  * Without the complement nothing but the sprite's depth decides. */
 static void shallow_crossing(void)
 {
@@ -225,11 +225,11 @@ static void superimposed_colours(void)
     }
 }
 
-static int dark_near(const shot *s, dvec place, double radius)
+static int dark_near(const shot *s, dvec position, double radius)
 {
     int count = 0;
-    for (int y = (int)(place.y - radius); y <= (int)(place.y + radius); y++)
-        for (int x = (int)(place.x - radius); x <= (int)(place.x + radius); x++)
+    for (int y = (int)(position.y - radius); y <= (int)(position.y + radius); y++)
+        for (int x = (int)(position.x - radius); x <= (int)(position.x + radius); x++)
             if (x >= 0 && y >= 0 && x < s->width && y < s->height)
                 count += pixel(s, x, y)[0] < 100 && pixel(s, x, y)[1] < 100;
     return count;
@@ -437,7 +437,7 @@ static void mirror(void)
             found += dark_near(&drawing, dvec_of((double)lines.samples[k].x, (double)lines.samples[k].y, 0), 1) > 0;
         }
         check_at_least("E14", samples, 200, "samples on reflected edges");
-        check_at_least("E14", samples ? (double)found / samples : 0, 0.98, "share of them with a line");
+        check_at_least("E14", samples ? (double)found / samples : 0, 0.98, "fraction of them with a line");
         feature_release(&lines);
         trace_map_release(&seen);
         trace_map_release(&reflected);

@@ -38,7 +38,7 @@ static double darkness(const shot *s, double x, double y)
                : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
 }
 
-/* Ink along an edge in square pixels, from one share of it to another, within three pixels of it. */
+/* Ink along an edge in square pixels, from one fraction of it to another, within three pixels of it. */
 static double ink_along(const shot *s, dvec a, dvec b, double from, double to)
 {
     double       length = hypot(b.x - a.x, b.y - a.y), ux = (b.x - a.x) / length, uy = (b.y - a.y) / length, ink = 0;
@@ -71,7 +71,8 @@ static double length_of_edges(const shot *s, int first, int count)
     return length;
 }
 
-/* All edges are drawn alike, so that ink goes with length; hidden ones have the share of it that their opacity is. */
+/* All edges are drawn alike, so that ink goes with length; hidden ones have the fraction of it that their opacity is.
+ */
 static void hidden_ink(void)
 {
     static const char *const opacities[] = {"0", "0.1", "0.3", "0.6", "1"};
@@ -92,8 +93,9 @@ static void hidden_ink(void)
                 double seen_length = length_of_edges(&drawing, 0, SEEN),
                        hidden_length = length_of_edges(&drawing, SEEN, EDGES - SEEN);
                 double wanted = opacity * hidden_length / (seen_length + opacity * hidden_length);
-                check_near("P35", hidden / (seen + hidden), wanted, 0.01, "hidden share of all ink at opacity %s, %s",
-                           opacities[o], parallel ? "parallel" : "perspective");
+                check_near("P35", hidden / (seen + hidden), wanted, 0.01,
+                           "hidden fraction of all ink at opacity %s, %s", opacities[o],
+                           parallel ? "parallel" : "perspective");
                 check_near("P35", hidden / (hidden_length * seen / seen_length - crossed), opacity, 0.02,
                            "  a hidden edge's ink to a visible one's, by length, between crossings");
             }

@@ -99,7 +99,7 @@ static const char *adaptive_look(double suppress, double blur, const char *groun
     return text;
 }
 
-/* How bright what lies under the lines is around a place: the mean light of shade map and ground, as a value of the
+/* How bright what lies under the lines is around a position: the mean light of shade map and ground, as a value of the
  * screen. */
 static double ground_around(const shot *s, int x, int y, int radius, double page)
 {

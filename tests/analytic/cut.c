@@ -86,7 +86,7 @@ static void a_corner_is_open(void)
     shape_release(&s);
 }
 
-/* Share of the middle that is ink: coverage is blended in linear light. */
+/* Fraction of the middle that is ink: coverage is blended in linear light. */
 static double darkness(const shot *s)
 {
     double sum = 0, count = 0;
@@ -100,11 +100,11 @@ static double darkness(const shot *s)
 }
 
 /* A face from the front: half the picture's middle is cut face. Part 1 has the look's own distance and angle. */
-static void hatch_covers_its_share(void)
+static void hatch_covers_its_fraction(void)
 {
     static const struct {
         const char *apart, *width;
-        double      share;
+        double      fraction;
         int         samples;
     } rows[] = {{"10", "2", 0.2, 1}, {"20", "5", 0.25, 1}, {"6", "1.5", 0.25, 4}, {"0", "2", 0, 1}};
     const shot_view front = {.width = 400, .height = 400, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
@@ -128,8 +128,8 @@ static void hatch_covers_its_share(void)
                                        NULL};
         shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
         if (shot_of_shape(&cut, &s, "hatch.glb", plain_look, changes, &view))
-            check_near("cut", darkness(&cut), rows[i].share, 0.02, "dark share at distance %s, width %s", rows[i].apart,
-                       rows[i].width);
+            check_near("cut", darkness(&cut), rows[i].fraction, 0.02, "dark share at distance %s, width %s",
+                       rows[i].apart, rows[i].width);
         shot_release(&cut);
         shape_release(&s);
     }
@@ -207,7 +207,7 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"a_ball_has_a_disc", a_ball_has_a_disc},
         {"a_corner_is_open", a_corner_is_open},
-        {"hatch_covers_its_share", hatch_covers_its_share},
+        {"hatch_covers_its_fraction", hatch_covers_its_fraction},
         {"outlines_are_lines", outlines_are_lines},
         {"dialects_agree", dialects_agree},
         {"open_parts_are_told", open_parts_are_told},

@@ -51,7 +51,7 @@ static bool draw(shot *out, void (*make)(shape *), const char *dash, const char 
     return good;
 }
 
-static void share_of_ink(void)
+static void fraction_of_ink(void)
 {
     static const char *const styles[][3] = {{"8", "5", "1"},  {"8", "5", "2"},   {"14", "4", "3"},
                                             {"6", "10", "2"}, {"20", "20", "6"}, {"2", "6", "2"}};
@@ -63,14 +63,14 @@ static void share_of_ink(void)
             if (draw(&dashed, shape_index ? torus_of : box_of, styles[i][0], styles[i][1], styles[i][2], &box_view) &&
                 good)
                 check_near("dash", 1 - ink_sum(&dashed) / ink_sum(&whole), gap / (dash + gap), 0.1 * gap / (dash + gap),
-                           "share of the ink of a %s that dash %s, gap %s, width %s take away",
+                           "fraction of the ink of a %s that dash %s, gap %s, width %s take away",
                            shape_index ? "torus" : "box", styles[i][0], styles[i][1], styles[i][2]);
             shot_release(&whole);
             shot_release(&dashed);
         }
 }
 
-/* The darkest of what lies across the line at a place. */
+/* The darkest of what lies across the line at a position. */
 static double across(const shot *s, dvec at, double nx, double ny, double reach)
 {
     double most = 0;
@@ -167,7 +167,7 @@ static void what_stays(void)
         }
         check_at_most("dash", lost, 0, "pixels of an unbroken line that another technique's dashes take away");
         check_at_most("dash", mixed, 0, "pixels of it that are not blue where blue is on top");
-        check_near("dash", red / (double)(red + blue), 9.0 / 13, 0.1, "share of red dashes on a blue line");
+        check_near("dash", red / (double)(red + blue), 9.0 / 13, 0.1, "fraction of red dashes on a blue line");
         shot_release(&two);
     }
     shot_release(&plain);
@@ -200,7 +200,7 @@ static void supersampled(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"share", share_of_ink},
+        {"fraction", fraction_of_ink},
         {"runs", runs_along_edges},
         {"stays", what_stays},
         {"samples", supersampled},

@@ -1,4 +1,4 @@
-/* Dots on surfaces: tone by number and size, diameters, number over distance, places that stay; and the inks of all
+/* Dots on surfaces: tone by number and size, diameters, number over distance, positions that stay; and the inks of all
  * halftones. Requirement R-L3 of seed 001. */
 #include <math.h>
 #include <stdio.h>
@@ -151,7 +151,7 @@ static void dots_stay_in_place(void)
         }
         check_at_least("R-L3", looked, 50, "dots looked for");
         check_at_least("R-L3", (double)found / fmax(looked, 1), 0.9,
-                       "share of them found at the same place of the surface after a turn of 6 degrees");
+                       "fraction of them found at the same place of the surface after a turn of 6 degrees");
         shot_release(&b);
     }
     shot_release(&a);

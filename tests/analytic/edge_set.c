@@ -35,7 +35,7 @@ static void compare(const char *title, const shape *s, const shot *drawing, bool
     tracer_destroy(t);
 }
 
-/* Draws the file from the given places with the look and compares each picture. */
+/* Draws the file from the given positions with the look and compares each picture. */
 static void judge(const char *name, const char *ending, const shape *s, const shot_view *views, size_t count)
 {
     char model[256], title[64];

@@ -131,7 +131,7 @@ static void angles(void)
     }
 }
 
-/* A wall seen at a slant in perspective: octaves change over it. The place and its rate come from rays, not from
+/* A wall seen at a slant in perspective: octaves change over it. The position and its rate come from rays, not from
  * the picture. */
 static void formulas_in_perspective(void)
 {
@@ -152,26 +152,26 @@ static void formulas_in_perspective(void)
         if (wall_shot(&s, 4, 0, even(rows[k].darkness, settings), &view)) {
             for (int y = 0; y < s.height; y++)
                 for (int x = 0; x < s.width; x++) {
-                    double places[5];
+                    double positions[5];
                     bool   on = !isinf(s.depth[y * s.width + x]);
                     for (int i = 0; i < 5 && on; i++) {
                         static const double step[5][2] = {{0, 0}, {0.01, 0}, {-0.01, 0}, {0, 0.01}, {0, -0.01}};
-                        dvec                origin, way;
-                        shot_ray(&s, x + 0.5 + step[i][0], y + 0.5 + step[i][1], &origin, &way);
-                        dvec at = dvec_add(origin, dvec_scale(way, -origin.z / way.z));
-                        on = fabs(dvec_unit(way).z) > 0.13 && fabs(at.x) < 3.9 && fabs(at.y) < 3.9;
-                        places[i] = at.x;
+                        dvec                origin, direction;
+                        shot_ray(&s, x + 0.5 + step[i][0], y + 0.5 + step[i][1], &origin, &direction);
+                        dvec at = dvec_add(origin, dvec_scale(direction, -origin.z / direction.z));
+                        on = fabs(dvec_unit(direction).z) > 0.13 && fabs(at.x) < 3.9 && fabs(at.y) < 3.9;
+                        positions[i] = at.x;
                     }
                     if (!on)
                         continue;
-                    double rate = hypot(places[1] - places[2], places[3] - places[4]) / 0.02;
+                    double rate = hypot(positions[1] - positions[2], positions[3] - positions[4]) / 0.02;
                     inside++;
-                    apart += levels_apart(&s, x, y, hatch_cover(&rule, -places[0], rate, rows[k].darkness)) > 4;
+                    apart += levels_apart(&s, x, y, hatch_cover(&rule, -positions[0], rate, rows[k].darkness)) > 4;
                 }
             check_at_least("IM-21", inside, 20000, "in perspective, by %s, darkness %g: pixels compared",
                            rows[k].by_width ? "width" : "number", rows[k].darkness);
             check_at_most("IM-24", (double)apart / inside, 0.005,
-                          "  share of them more than 4 levels from the formula");
+                          "  fraction of them more than 4 levels from the formula");
         }
         shot_release(&s);
     }
@@ -312,7 +312,7 @@ static void distance_in_perspective(void)
 static void lengths(void)
 {
     shot_view view = hatch_front(320, 1.25);
-    double    way = 0, shortest = INFINITY, longest = 0;
+    double    direction = 0, shortest = INFINITY, longest = 0;
     int       gaps = 0;
     for (int k = 0; k < 8; k++) {
         double length = 40 * pow(2, k / 8.0), covered = 1 - (3 + 0.01) / length;
@@ -330,7 +330,7 @@ static void lengths(void)
                     continue;
                 for (int x = 0; x < 320; x++) {
                     bool inked = hatch_ink(&s, x, y) > 0.5, next = x < 319 && hatch_ink(&s, x + 1, y) > 0.5;
-                    way += inked / length;
+                    direction += inked / length;
                     run = inked && run >= 0 ? run + 1 : run;
                     if (inked && !next) {
                         gaps++;
@@ -344,8 +344,8 @@ static void lengths(void)
         shot_release(&s);
     }
     check_at_least("IM-11", gaps, 1000, "strokes counted");
-    check_near("IM-11", way / (gaps ? gaps : 1), 1, 0.15, "  their mean length over what was asked for (%.2f to %.2f)",
-               shortest, longest);
+    check_near("IM-11", direction / (gaps ? gaps : 1), 1, 0.15,
+               "  their mean length over what was asked for (%.2f to %.2f)", shortest, longest);
 }
 
 /* --- 3: tone -------------------------------------------------------------------------------------------- */
@@ -505,7 +505,7 @@ static void nesting(void)
         }
         shot_release(&now);
         check_at_most("nesting", (double)lost / (pixels ? pixels : 1), 0,
-                      "%s, 25 tones: share of pixels whose ink gets less when it gets darker (by %.3f at most)",
+                      "%s, 25 tones: fraction of pixels whose ink gets less when it gets darker (by %.3f at most)",
                       rows[r].what, worst);
     }
 }
@@ -556,7 +556,7 @@ static void no_octave_border(void)
 /* One line followed over all columns: how far its middle strays, and the mean distance between lines. */
 static double straying(const shot *s, double *spacing)
 {
-    double sum = 0, squares = 0, ways = 0, distances = 0;
+    double sum = 0, squares = 0, directions = 0, distances = 0;
     int    count = 0, gaps = 0;
     for (int x = 0; x < s->width; x++) {
         double ink = 0, moment = 0, first = -1, last = -1, nearest = INFINITY;
@@ -571,14 +571,16 @@ static double straying(const shot *s, double *spacing)
                 double at = moment / ink;
                 first = lines++ ? first : at;
                 last = at;
-                nearest = fabs(at - s->height / 2.0 - ways) < fabs(nearest - s->height / 2.0 - ways) ? at : nearest;
+                nearest = fabs(at - s->height / 2.0 - directions) < fabs(nearest - s->height / 2.0 - directions)
+                              ? at
+                              : nearest;
             }
             ink = moment = 0;
         }
         if (lines > 1) {
             distances += last - first;
             gaps += lines - 1;
-            ways = nearest - s->height / 2.0;
+            directions = nearest - s->height / 2.0;
             sum += nearest;
             squares += nearest * nearest;
             count++;
@@ -590,7 +592,7 @@ static double straying(const shot *s, double *spacing)
 
 /* Mean ink of a tone over several places and times, so that what noise does to one of them evens out; on fine
  * lines, whose waves are short. */
-static double mean_over_places(double darkness, const char *settings, double first_time)
+static double mean_over_positions(double darkness, const char *settings, double first_time)
 {
     double sum = 0;
     for (int k = 0; k < 6; k++) {
@@ -634,8 +636,8 @@ static void unevenness(void)
     }
     check_at_least("IM-26", deviation[1] - deviation[0], 0.15,
                    "uneven 0.8: how much more the width of lines varies than without (%.3f px)", deviation[0]);
-    check_near("IM-26", mean_over_places(0.4, "\"wobble\":0,\"uneven\":0.5", 0), 0.4, 0.02 * 0.4, "  ink of 0.4");
-    check_near("IM-27", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0", 0), 0.4, 0.02 * 0.4,
+    check_near("IM-26", mean_over_positions(0.4, "\"wobble\":0,\"uneven\":0.5", 0), 0.4, 0.02 * 0.4, "  ink of 0.4");
+    check_near("IM-27", mean_over_positions(0.4, "\"wobble\":0.5,\"uneven\":0", 0), 0.4, 0.02 * 0.4,
                "wobble 0.5: ink of 0.4");
     check_at_most("IM-27", stray[0], 0.02, "wobble 0: how far the middle of a line strays, px");
     check_at_least("IM-27", stray[1], 0.5, "wobble 0.5 of 12 px: the same");
@@ -671,9 +673,9 @@ static void change(void)
     check_at_most("IM-31", difference[1], 0.1 * difference[2], "change 0.5: the same; a tenth of that at 60");
     check_at_least("IM-31", correlation[1], 0.95, "  correlation of the two");
     check_at_most("IM-31", correlation[2], 0.4, "change 60: correlation of the two");
-    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":0.5", 1), 0.4, 0.02 * 0.4,
+    check_near("IM-31", mean_over_positions(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":0.5", 1), 0.4, 0.02 * 0.4,
                "  ink of 0.4 at change 0.5");
-    check_near("IM-31", mean_over_places(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":60", 1), 0.4, 0.02 * 0.4,
+    check_near("IM-31", mean_over_positions(0.4, "\"wobble\":0.5,\"uneven\":0.5,\"change\":60", 1), 0.4, 0.02 * 0.4,
                "  at 60");
 }
 

@@ -100,7 +100,8 @@ static void frames(void)
         for (int m = 0; m < (rows[r].limit > 0.003 ? 2 : 3); m++) {
             hatch_change c = largest_change(&motions[m], rows[r].settings, rows[r].frames);
             check_at_most("EX-09", c.changed, m == 2 ? 0.007 : rows[r].limit,
-                          "%s, %s: share of pixels that change by more than a quarter", rows[r].what, motions[m].what);
+                          "%s, %s: fraction of pixels that change by more than a quarter", rows[r].what,
+                          motions[m].what);
             check_at_most("EX-09", c.block, 0.06,
                           "  largest change of the ink of 16 x 16 px (correlation %.3f, %d pixels)", c.correlation,
                           c.pixels);
@@ -119,7 +120,7 @@ static void shower_door(void)
             snprintf(settings, sizeof settings, "\"coordinates\":\"%s\"," WIDE, coordinates[k]);
             hatch_change c = largest_change(&far[m], settings, 2);
             check_at_most("EX-09", c.changed, 0.25 * door.changed,
-                          "%s, %s: share of pixels that change, against a quarter of that on the screen",
+                          "%s, %s: fraction of pixels that change, against a quarter of that on the screen",
                           coordinates[k], far[m].what);
             check_at_least("EX-09", c.correlation, 0.9, "  correlation of the frames (on the screen %.3f)",
                            door.correlation);
@@ -128,7 +129,7 @@ static void shower_door(void)
 }
 
 /* A wall that grows on the page by an octave, one frame at a time: lines and strokes get their names and their
- * places from the octave that brought them, and keep them. Nothing changes all at once where one octave takes over
+ * positions from the octave that brought them, and keep them. Nothing changes all at once where one octave takes over
  * from another. */
 static void octaves(void)
 {
@@ -164,15 +165,16 @@ static void octaves(void)
             shape_release(&s);
         }
         shot_release(&now);
-        check_at_most("EX-09", most, 0.02,
-                      "%s, an octave in %d steps of 2.5 %%: largest share of pixels that change by more than a quarter",
-                      rows[r].what, STEPS);
+        check_at_most(
+            "EX-09", most, 0.02,
+            "%s, an octave in %d steps of 2.5 %%: largest fraction of pixels that change by more than a quarter",
+            rows[r].what, STEPS);
         check_at_most("EX-09", mean, 3 * sum, "  largest mean change, against three times that of all steps");
         check_at_most("EX-09", block, 0.15, "  largest change of the ink of 16 x 16 px, 0.06 a per cent");
     }
 }
 
-/* What wavers and what is uneven goes with the object: seen in parallel, from a place that is a whole number of
+/* What wavers and what is uneven goes with the object: seen in parallel, from a position that is a whole number of
  * pixels aside, the model's picture is the same, moved. */
 static void fixed(void)
 {
@@ -202,12 +204,12 @@ static void fixed(void)
                     inside++;
                     apart += abs(a.picture[4 * then] - b.picture[4 * now]) > 16;
                 }
-        double share = inside ? (double)apart / inside : 1;
+        double fraction = inside ? (double)apart / inside : 1;
         if (strstr(settings[k], "screen"))
-            check_at_least("IM-27", share, 0.05, "%s: share of pixels that are others when the viewer moves aside",
-                           settings[k]);
+            check_at_least("IM-27", fraction, 0.05,
+                           "%s: fraction of pixels that are others when the viewer moves aside", settings[k]);
         else
-            check_at_most("IM-27", share, 0.005, "%s: the same", settings[k]);
+            check_at_most("IM-27", fraction, 0.005, "%s: the same", settings[k]);
         shot_release(&a);
         shot_release(&b);
     }
@@ -215,7 +217,7 @@ static void fixed(void)
 
 /* --- paths ---------------------------------------------------------------------------------------------- */
 
-static double share_apart(const shot *a, const shot *b, int tolerance)
+static double fraction_apart(const shot *a, const shot *b, int tolerance)
 {
     int apart = 0, inside = 0;
     for (int i = 0; i < a->width * a->height; i++) {
@@ -244,9 +246,9 @@ static void paths(void)
         ok = model_shot(&other, forward, &es) && ok;
         ok = model_shot(&later, deferred, &view) && ok;
         if (model_shot(&again, forward, &view) && ok) {
-            check_at_most("deferred", share_apart(&first, &later, 8), 0.003,
-                          "%s, forward against deferred: share of pixels more than 8 levels apart", settings[k]);
-            check_at_most("ES", share_apart(&first, &other, 8), 0.003, "  GL against ES: the same");
+            check_at_most("deferred", fraction_apart(&first, &later, 8), 0.003,
+                          "%s, forward against deferred: fraction of pixels more than 8 levels apart", settings[k]);
+            check_at_most("ES", fraction_apart(&first, &other, 8), 0.003, "  GL against ES: the same");
             check_at_most("same", shot_differing(&first, &again, 0), 0, "  twice: values that differ");
         }
         shot_release(&first);

@@ -57,7 +57,7 @@ static void check_order(const char *title, const shot *s)
         }
     check_at_most("B01", holes, 0, "%s: pixels of a layer behind an empty one", title);
     /* Layers are ordered by window depth; eye depth is written beside it with roundings of its own. */
-    if (!check_at_most("B01", back, 1e-6, "%s: how far a layer lies before the last, as a share (%d pixels)", title,
+    if (!check_at_most("B01", back, 1e-6, "%s: how far a layer lies before the last, as a fraction (%d pixels)", title,
                        turned))
         check_note("worst at %d, %d: layer %d has part %d at %.9g, layer %d part %d at %.9g", at % s->width,
                    at / s->width, layer - 1, s->layers[layer - 1].id[at], (double)s->layers[layer - 1].depth[at], layer,
@@ -69,10 +69,11 @@ static void check_score(const char *title, const stack_score *c)
 {
     double all = (double)c->right / (double)c->pixels,
            sharp = (double)c->right_sharp / (double)(c->sharp ? c->sharp : 1);
-    check_at_least("B01", (double)c->sharp / (double)c->pixels, 0.9, "%s: share of pixels whose answer is sure", title);
+    check_at_least("B01", (double)c->sharp / (double)c->pixels, 0.9, "%s: fraction of pixels whose answer is sure",
+                   title);
     if (!check_at_least(
             "B01", sharp, 0.999,
-            "%s: share of them at which every layer is the surface that the ray finds (of all pixels: %.5f)", title,
+            "%s: fraction of them at which every layer is the surface that the ray finds (of all pixels: %.5f)", title,
             all))
         check_note("first wrong pixel %d, %d in layer %d", c->x, c->y, c->layer);
     if (c->right_sharp < c->sharp)
@@ -148,7 +149,7 @@ static void compare_producers(const char *title, const shot *peeled, const shot 
         worst = difference > worst ? difference : worst;
     }
     check_at_most("B01", pictures / (4.0 * peeled->width * peeled->height), 0.001,
-                  "%s: share of bytes of the picture that differ by more than 2 (at most by %d)", title, worst);
+                  "%s: fraction of bytes of the picture that differ by more than 2 (at most by %d)", title, worst);
 }
 
 /* Without an end, there are as many layers as the deepest pixel has surfaces. */
@@ -311,7 +312,7 @@ static void counts(void)
     }
 }
 
-static double mean_difference(const shot *a, const shot *b, double *share)
+static double mean_difference(const shot *a, const shot *b, double *fraction)
 {
     double sum = 0;
     int    count = a->width * a->height, differ = 0;
@@ -322,7 +323,7 @@ static double mean_difference(const shot *a, const shot *b, double *share)
         differ += worst > 0;
         sum += worst;
     }
-    *share = (double)differ / count;
+    *fraction = (double)differ / count;
     return sum / count;
 }
 
@@ -360,7 +361,7 @@ static void fractions(void)
             for (size_t f = 0; f < sizeof tried / sizeof *tried; f++) {
                 char   layers[80];
                 int    wanted = layers_of_fraction(&map, tried[f]);
-                double share;
+                double fraction;
                 snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"fraction\":%g",
                          kind % 2 ? "lists" : "peeling", tried[f]);
                 if (!wanted ||
@@ -369,8 +370,9 @@ static void fractions(void)
                 judged++;
                 check_near("B05", some.layers_drawn, wanted, 0, "%s, fraction %g: layers drawn of %zu",
                            scene_names[kind], tried[f], map.most);
-                double mean = mean_difference(&all, &some, &share);
-                check_at_most("B05", share, tried[f], "  share of pixels that differ from the picture of all layers");
+                double mean = mean_difference(&all, &some, &fraction);
+                check_at_most("B05", fraction, tried[f],
+                              "  fraction of pixels that differ from the picture of all layers");
                 check_at_most("B05", mean, tried[f] * pow(0.5, some.layers_drawn) + 0.004,
                               "  mean difference of linear colour");
                 shot_release(&some);
@@ -386,7 +388,7 @@ static void fractions(void)
 
 /* --- depth mask ----------------------------------------------------------------------------------------- */
 
-/* Of the mask's pixels, the share at which layer k − 1 does not hide it. */
+/* Of the mask's pixels, the fraction at which layer k − 1 does not hide it. */
 static double uncovered_by(const trace_map *mask, const stack_map *rest, size_t k)
 {
     size_t own = 0, open = 0;
@@ -400,20 +402,20 @@ static double uncovered_by(const trace_map *mask, const stack_map *rest, size_t 
 }
 
 /* 0 when a few pixels could change the answer. */
-static int layers_to_uncover(const trace_map *mask, const stack_map *rest, double share)
+static int layers_to_uncover(const trace_map *mask, const stack_map *rest, double fraction)
 {
     for (size_t k = 1;; k++) {
         double open = uncovered_by(mask, rest, k);
-        if (fabs(open - share) < 0.004)
+        if (fabs(open - fraction) < 0.004)
             return 0;
-        if (open >= share)
+        if (open >= fraction)
             return (int)(k < rest->most ? k : rest->most);
     }
 }
 
 static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const shot_view *view, int *judged)
 {
-    static const double shares[] = {0.2, 0.4, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
+    static const double fractions[] = {0.2, 0.4, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
     shape               s = {0};
     shot                drawing;
     scene_make(&s, kind, seed);
@@ -421,20 +423,20 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
     stack_map map = {0};
     trace_map mask = {0};
     int       last = 0;
-    for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+    for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++) {
         char layers[128], title[64];
-        int  wanted = map.first ? layers_to_uncover(&mask, &map, shares[i]) : -1;
+        int  wanted = map.first ? layers_to_uncover(&mask, &map, fractions[i]) : -1;
         if (wanted == 0 || wanted == last)
             continue;
-        snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"focus\":\"%s*\",\"focus_share\":%g",
-                 i % 2 ? "lists" : "peeling", prefix, shares[i]);
-        snprintf(title, sizeof title, "%s %u, %s to %g", scene_names[kind], seed, prefix, shares[i]);
+        snprintf(layers, sizeof layers, "\"count\":0,\"producer\":\"%s\",\"focus\":\"%s*\",\"focus_fraction\":%g",
+                 i % 2 ? "lists" : "peeling", prefix, fractions[i]);
+        snprintf(title, sizeof title, "%s %u, %s to %g", scene_names[kind], seed, prefix, fractions[i]);
         if (!shot_of_shape(&drawing, &s, "mask.glb", layered_look(layers, NULL), NULL, view))
             break;
         if (!map.first) {
             stack_map_make(&map, rest, &drawing);
             trace_map_make(&mask, named, &drawing);
-            wanted = layers_to_uncover(&mask, &map, shares[i]);
+            wanted = layers_to_uncover(&mask, &map, fractions[i]);
         }
         if (wanted > 0) {
             (*judged)++;
@@ -443,7 +445,7 @@ static void uncover(scene_kind kind, uint32_t seed, const char *prefix, const sh
                        wanted > 1 ? uncovered_by(&mask, &map, (size_t)wanted - 1) : 0);
             stack_score score = stack_compare(&map, rest, &drawing, (size_t)wanted);
             check_at_least("B09", (double)score.right_sharp / (double)score.sharp, 0.999,
-                           "%s: share of pixels with the right layers, without the focus", title);
+                           "%s: fraction of pixels with the right layers, without the focus", title);
             last = wanted;
         }
         shot_release(&drawing);
@@ -673,7 +675,7 @@ static void check_repeated(const char *title, const shot *s, const dvec (*edges)
                 }
             }
         }
-    check_at_least("B13", (double)found[0] / samples, 1, "%s: share of the edge with a line in layer 0", title);
+    check_at_least("B13", (double)found[0] / samples, 1, "%s: fraction of the edge with a line in layer 0", title);
     check_at_least("B13", (double)found[1] / samples, 1, "%s: and in layer 1", title);
     check_at_most("B13", apart, 0, "%s: of %d pixels of ink, those farther than a pixel from ink of the other layer",
                   title, ink);

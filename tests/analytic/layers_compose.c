@@ -68,7 +68,7 @@ static void check_tally(const char *row, const tally *t, const shot *s, int leas
 {
     check_at_least(row, t->sure, least, "%s: pixels whose answer is sure, of %d", what, t->pixels);
     if (!check_at_least(row, (double)t->right_sure / (t->sure ? t->sure : 1), 0.999,
-                        "%s: share of them within 2 levels of the blended colour (of all: %.5f)", what,
+                        "%s: fraction of them within 2 levels of the blended colour (of all: %.5f)", what,
                         (double)t->right / (t->pixels ? t->pixels : 1)) &&
         s->picture)
         check_note("worst at %d, %d: %d levels, drawn %d %d %d", t->x, t->y, t->worst, pixel(s, t->x, t->y)[0],
@@ -299,10 +299,10 @@ static void tint_adds_up(void)
     }
 }
 
-static bool dark_near(const shot *s, dvec place, int radius, int below)
+static bool dark_near(const shot *s, dvec position, int radius, int below)
 {
-    for (int y = (int)floor(place.y) - radius; y <= (int)floor(place.y) + radius; y++)
-        for (int x = (int)floor(place.x) - radius; x <= (int)floor(place.x) + radius; x++)
+    for (int y = (int)floor(position.y) - radius; y <= (int)floor(position.y) + radius; y++)
+        for (int x = (int)floor(position.x) - radius; x <= (int)floor(position.x) + radius; x++)
             if (x >= 0 && y >= 0 && x < s->width && y < s->height && pixel(s, x, y)[0] < below &&
                 pixel(s, x, y)[1] < below)
                 return true;
@@ -321,7 +321,7 @@ static void box_edges(const shape_part *p, dvec edges[12][2])
             }
 }
 
-/* How far a place of the picture is from the nearest of a box's edges. */
+/* How far a position of the picture is from the nearest of a box's edges. */
 static double distance_to_edges(const shot *s, const shape_part *box, double x, double y)
 {
     dvec   edges[12][2];
@@ -336,7 +336,7 @@ static double distance_to_edges(const shot *s, const shape_part *box, double x, 
     return least;
 }
 
-/* The share of a box's edges with a dark pixel beside them, where the edges of `apart` (NULL: none) are not near. */
+/* The fraction of a box's edges with a dark pixel beside them, where the edges of `apart` (NULL: none) are not near. */
 static double edges_seen(const shot *s, const shape_part *box, const shape_part *apart)
 {
     dvec edges[12][2];
@@ -369,8 +369,8 @@ static void hidden_edges(void)
         bool drawn = shot_of_shape(&blueprint, &s, "boxes.glb", deep, NULL, &view);
         if (shot_of_shape(&front, &s, "boxes.glb", flat, NULL, &view) && drawn) {
             check_at_least("B04", edges_seen(&blueprint, &s.parts[0], NULL), 0.99,
-                           "share of the outer box's edges with a line in the blueprint");
-            check_at_least("B04", edges_seen(&blueprint, &s.parts[1], NULL), 0.99, "share of the hidden box's");
+                           "fraction of the outer box's edges with a line in the blueprint");
+            check_at_least("B04", edges_seen(&blueprint, &s.parts[1], NULL), 0.99, "fraction of the hidden box's");
             check_at_most("B04", edges_seen(&front, &s.parts[1], &s.parts[0]), 0,
                           "and in a drawing of the front alone");
         }
@@ -497,7 +497,7 @@ static void focus(void)
     static const uint8_t green[3] = {0x20, 0xc0, 0x40};
 #define FOCUS_RULE(LINES)                                                                                              \
     "{\"select\":\"*\"," OWN_COLOUR LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"focus\":\"closed1\","     \
-    "\"focus_colour\":\"#20c040\",\"focus_share\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}"
+    "\"focus_colour\":\"#20c040\",\"focus_fraction\":0.8},\"compose\":{\"technique\":\"xray\",\"opacity\":0.3}}"
     /* With lines, what is seen through must not hide the part in its own figure's edge detection. */
     static const char *const looks[] = {LOOK(FOCUS_RULE("")), LOOK(FOCUS_RULE("," LINES)), LOOK(FOCUS_RULE(""))};
     for (int v = 0; v < 3; v++) {
@@ -634,12 +634,12 @@ static void hidden_colour_and_dashes(void)
     shape_release(&s);
 }
 
-static double ink_across(const shot *s, dvec place)
+static double ink_across(const shot *s, dvec position)
 {
     double sum = 0;
     for (int x = -8; x < 8; x++)
-        for (int y = (int)place.y - 8; y < (int)place.y + 8; y++)
-            sum += (1 - picture_linear(pixel(s, (int)place.x + x, y)[0]) / picture_linear(ground[0])) / 16;
+        for (int y = (int)position.y - 8; y < (int)position.y + 8; y++)
+            sum += (1 - picture_linear(pixel(s, (int)position.x + x, y)[0]) / picture_linear(ground[0])) / 16;
     return sum;
 }
 
@@ -846,7 +846,7 @@ static void plan_view(int named, const char *what)
         int stray = 0, judged = 0;
         for (size_t part = 0; part < s.count; part++) {
             double seen = edges_seen(&blueprint, &s.parts[part], NULL);
-            check_at_least("B11", seen, 0.99, "%s: share of the edges of %s with a line", what, s.parts[part].name);
+            check_at_least("B11", seen, 0.99, "%s: fraction of the edges of %s with a line", what, s.parts[part].name);
             if (part > 0)
                 check_at_most("B11", edges_seen(&front, &s.parts[part], &s.parts[0]), 0,
                               "  and in a drawing of the front alone");

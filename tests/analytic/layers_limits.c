@@ -51,7 +51,7 @@ static void bad_values(void)
     static const char *const values[][2] = {
         {"layers.count", "-1"},       {"layers.count", "10000"},      {"layers.count", "257"},
         {"layers.count", "2.5"},      {"layers.count", "many"},       {"layers.fraction", "-0.1"},
-        {"layers.fraction", "1.5"},   {"layers.fraction", "nan"},     {"layers.focus_share", "2"},
+        {"layers.fraction", "1.5"},   {"layers.fraction", "nan"},     {"layers.focus_fraction", "2"},
         {"layers.producer", "magic"}, {"compose.opacity", "1.01"},    {"compose.opacity", "-1"},
         {"compose.fade", "2"},        {"compose.halo", "-1"},         {"compose.hidden_gap", "-3"},
         {"compose.tint", "#ff0000"},  {"compose.technique", "xrays"}, {"layers.technique", "peeled"}};
@@ -149,9 +149,10 @@ static void from_inside(void)
                 stack_map map;
                 stack_map_make(&map, rays, &drawing);
                 stack_score score = stack_compare(&map, rays, &drawing, 0);
-                if (!check_at_least("B01", (double)score.right_sharp / (double)score.sharp, 0.999,
-                                    "seen from within, %s: share of sure pixels with the right layers (of all: %.5f)",
-                                    drawing.layer_producer, (double)score.right / (double)score.pixels))
+                if (!check_at_least(
+                        "B01", (double)score.right_sharp / (double)score.sharp, 0.999,
+                        "seen from within, %s: fraction of sure pixels with the right layers (of all: %.5f)",
+                        drawing.layer_producer, (double)score.right / (double)score.pixels))
                     check_note("%zu count, %zu id, %zu depth, %zu normal, %zu holes; first %d, %d in layer %d",
                                score.wrong_count, score.wrong_id, score.wrong_depth, score.wrong_normal, score.holes,
                                score.x, score.y, score.layer);
@@ -204,7 +205,7 @@ static void little_memory(void)
             check_at_most("memory", differing_pixels(&large, &small, 1), 0,
                           "pixels that differ when lists have 1 MiB%s", styles[v]);
             check_at_most("B01", differing_pixels(&large, &peeled, 2) / (256.0 * 256.0), 0.001,
-                          "share of pixels of the picture that differ between lists and peeling");
+                          "fraction of pixels of the picture that differ between lists and peeling");
         }
         shot_release(&large);
         shot_release(&small);

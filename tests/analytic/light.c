@@ -35,15 +35,15 @@ static void plates(shape *s)
                   dvec_of(-1.5, heights[k], -1.8 + 2.6 * k));
 }
 
-/* Between the places, in pixels, where a share grows beyond 0.1 and 0.9. */
-static double width_of(const double *shares, int count)
+/* Between the positions, in pixels, where a fraction grows beyond 0.1 and 0.9. */
+static double width_of(const double *fractions, int count)
 {
     double at[2] = {-1, -1};
     for (int i = 1; i < count; i++)
         for (int k = 0; k < 2; k++) {
             double level = k ? 0.9 : 0.1;
-            if (at[k] < 0 && shares[i - 1] < level && shares[i] >= level)
-                at[k] = i - 1 + (level - shares[i - 1]) / (shares[i] - shares[i - 1]);
+            if (at[k] < 0 && fractions[i - 1] < level && fractions[i] >= level)
+                at[k] = i - 1 + (level - fractions[i - 1]) / (fractions[i] - fractions[i - 1]);
         }
     return at[0] < 0 || at[1] < 0 ? -1 : at[1] - at[0];
 }
@@ -121,8 +121,8 @@ static void court(shape *s)
     shape_box(s, "beam", dvec_of(1.9, 1.1, -1.5), dvec_of(2.6, 1.25, 1.8));
 }
 
-/* The score of one drawing, at a fifth of its places: of some 10000 places the mean difference is then known to
- * 0.0005 and the share of those far off to 0.001. */
+/* The score of one drawing, at a fifth of its positions: of some 10000 places the mean difference is then known to
+ * 0.0005 and the fraction of those far off to 0.001. */
 static bool score_of(const light_scene *l, bool sky, int rays, int step, const char *picture, light_score *out)
 {
     shot      with, without;
@@ -159,10 +159,10 @@ static void shadows_are_a_discs(void)
         char name[32];
         snprintf(name, sizeof name, "shadows-%d.png", k);
         if (score_of(&l, false, 96, 5, name, &score)) {
-            check_at_least("P30", score.places, 8000, "places compared, %s, %g degrees",
+            check_at_least("P30", score.positions, 8000, "places compared, %s, %g degrees",
                            l.view.orthographic ? "parallel rays" : "perspective", l.softness);
             check_at_most("P30", score.mean, means[k % 3], "mean difference of the light that arrives");
-            check_at_most("P30", score.far, 0.01, "share of places that are off by more than 0.25 (worst %.2f)",
+            check_at_most("P30", score.far, 0.01, "fraction of places that are off by more than 0.25 (worst %.2f)",
                           score.worst);
         }
         shape_release(&l.s);
@@ -282,7 +282,7 @@ static void thin_gaps_are_dark(void)
     shape_release(&l.s);
 }
 
-/* Is everything around a place fully lit? A border of light may be three pixels soft. */
+/* Is everything around a position fully lit? A border of light may be three pixels soft. */
 static bool open_around(const light_map *m, int x, int y)
 {
     for (int j = y - 3; j <= y + 3; j++)
@@ -544,11 +544,11 @@ static void corners_are_darker(void)
             char name[32];
             snprintf(name, sizeof name, "sky-%zu-%d.png", r, k);
             if (score_of(&l, true, 128, 5, name, &score)) {
-                check_at_least("P31", score.places, 5000, "%s, %s: places compared", rows[r].name,
+                check_at_least("P31", score.positions, 5000, "%s, %s: places compared", rows[r].name,
                                k ? "parallel rays" : "perspective");
-                check_at_most("P31", score.mean, rows[r].mean, "mean difference of the share of the sky (worst %.2f)",
-                              score.worst);
-                check_at_most("P31", score.far, 0.02, "share of places that are off by more than 0.25");
+                check_at_most("P31", score.mean, rows[r].mean,
+                              "mean difference of the fraction of the sky (worst %.2f)", score.worst);
+                check_at_most("P31", score.far, 0.02, "fraction of places that are off by more than 0.25");
             }
             shape_release(&l.s);
         }
@@ -573,9 +573,9 @@ static void darkness_falls_off(void)
             light_map_drawn(&m, &with, &without);
             for (int k = 0; k < 5; k++) { /* from the foot of the back wall */
                 dvec   at = shot_project(&with, dvec_of(0.6, 0, -2 + apart[k]));
-                double share = (double)m.drawn[(int)at.y * m.width + (int)at.x];
-                check_at_least("P31", share, before - 0.01, "share of the sky %g from the wall", apart[k]);
-                before = share;
+                double fraction = (double)m.drawn[(int)at.y * m.width + (int)at.x];
+                check_at_least("P31", fraction, before - 0.01, "fraction of the sky %g from the wall", apart[k]);
+                before = fraction;
             }
             check_at_least("P31", before, 0.995, "and none is lost beyond the radius");
             light_map_release(&m);
@@ -587,7 +587,7 @@ static void darkness_falls_off(void)
 }
 
 /* Of what the sky does not give, as much is missed as its strength says. */
-static void strength_is_a_share(void)
+static void strength_is_a_fraction(void)
 {
     static const double strengths[] = {0.25, 0.6};
     light_scene         l = {.file = "occluded.glb",
@@ -616,7 +616,7 @@ static void strength_is_a_share(void)
                 }
             check_at_least("P31", missed / all, 0.01, "mean share that a corner misses at a strength of %g",
                            strengths[k]);
-            check_at_most("P31", off, 0.04, "how far from that share of what it misses at 1");
+            check_at_most("P31", off, 0.04, "how far from that fraction of what it misses at 1");
             light_map_release(&some);
             shot_release(&part);
         }
@@ -702,7 +702,7 @@ static void no_halo(void)
 
 /* --- lines around shadows ------------------------------------------------------------------------------- */
 
-/* What a place is, by rays: lit, in a shadow, or nothing that a line is drawn for (empty, turned away, hardly
+/* What a position is, by rays: lit, in a shadow, or nothing that a line is drawn for (empty, turned away, hardly
  * facing the light). */
 typedef enum lit_state { LIT, SHADOWED, NO_MATTER } lit_state;
 
@@ -968,7 +968,7 @@ int main(int argc, char **argv)
         {"motion", light_moves},
         {"corners", corners_are_darker},
         {"falloff", darkness_falls_off},
-        {"strength", strength_is_a_share},
+        {"strength", strength_is_a_fraction},
         {"plane", planes_stay},
         {"halo", no_halo},
         {"outlines", outlines_lie_on_borders},

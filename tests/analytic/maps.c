@@ -246,10 +246,10 @@ static void capture_and_report(void)
             for (int k = 0; k < with.width * with.height; k++)
                 pixels += with.id[k] == 2;
             snprintf(wanted, sizeof wanted, "\"pixels\": %d", pixels);
-            char *place = strstr(with.report, "\"parts_visible\"");
+            char *position = strstr(with.report, "\"parts_visible\"");
             check_that("report",
-                       place &&
-                           (strstr(place, wanted) || (memmove(wanted + 9, wanted + 10, 20), strstr(place, wanted))),
+                       position && (strstr(position, wanted) ||
+                                    (memmove(wanted + 9, wanted + 10, 20), strstr(position, wanted))),
                        "the report counts %d pixels of the second part", pixels);
         }
         shot_release(&with);

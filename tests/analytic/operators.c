@@ -91,7 +91,7 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
         return;
     twin_map map;
     double   worst[3] = {0, 0, 0}, allowed = c->levels > 0 ? c->levels : 1.5;
-    int      place[3] = {0, 0, 0}, off = 0;
+    int      position[3] = {0, 0, 0}, off = 0;
     twin_map_make(&map, &drawing);
     if (fabs(c->sharpen) > 0)
         twin_sharpen(&map, c->sharpen);
@@ -103,7 +103,7 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
             off += error > allowed && !v.doubtful;
             if (error > worst[k] && !v.doubtful) {
                 worst[k] = error;
-                place[k] = i;
+                position[k] = i;
             }
         }
     }
@@ -111,8 +111,8 @@ static void against_twin(const twin_case *c, const shape *s, const char *file, c
     for (int k = 0; k < 3; k++)
         if (!check_at_most(c->row, worst[k], allowed, "%s on %s: levels between %s and its twin", c->lines, file,
                            channel[k]))
-            check_note("worst at %d, %d (got %d); %d values are off", place[k] % map.width, place[k] / map.width,
-                       drawing.edge[4 * place[k] + k], off);
+            check_note("worst at %d, %d (got %d); %d values are off", position[k] % map.width, position[k] / map.width,
+                       drawing.edge[4 * position[k] + k], off);
     twin_map_release(&map);
     shot_release(&drawing);
 }

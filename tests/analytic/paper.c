@@ -50,7 +50,7 @@ static bool take(shot *out, wanted w)
     return ok;
 }
 
-/* A grey whose ink on white is this share, in linear light; its ink as it is rounded. */
+/* A grey whose ink on white is this fraction, in linear light; its ink as it is rounded. */
 static const char *grey(double ink, double *rounded)
 {
     static char texts[8][8];
@@ -493,12 +493,12 @@ static dvec grain_motion(const shot *a, const shot *b, int x, int y)
 /* Where the surface under a pixel has gone. */
 static dvec surface_motion(const shot *a, const shot *b, int x, int y)
 {
-    dvec origin, direction, place = {0};
+    dvec origin, direction, position = {0};
     shot_ray(a, x + 0.5, y + 0.5, &origin, &direction);
     dvec   from = shot_to_eye(a, origin, 1), along = shot_to_eye(a, direction, 0);
     double t = (-(double)a->depth[y * a->width + x] - from.z) / along.z;
-    place = dvec_add(origin, dvec_scale(direction, t));
-    dvec to = shot_project(b, place);
+    position = dvec_add(origin, dvec_scale(direction, t));
+    dvec to = shot_project(b, position);
     return (dvec){to.x - x - 0.5, to.y - y - 0.5, 0};
 }
 
@@ -527,8 +527,8 @@ static void measure(slip *out, const shot *a, const shot *b)
 /* One small move from each of several places. */
 typedef struct sequence {
     const char *name;
-    stand       first, next, move; /* `next` is added from place to place, `move` is what is measured */
-    int         places;
+    stand       first, next, move; /* `next` is added from position to place, `move` is what is measured */
+    int         positions;
 } sequence;
 
 static const sequence sequences[] = {
@@ -555,7 +555,7 @@ static slip run(const shape *model, const sequence *q, const char *motion)
              "\"%s\"},\"rules\":[{\"surface\":{\"technique\":"
              "\"flat\",\"colour\":\"#bbbbbb\"}}]}",
              motion);
-    for (int i = 0; i < q->places; i++) {
+    for (int i = 0; i < q->positions; i++) {
         shot      a, b;
         stand     here = moved_by(q->first, q->next, i);
         shot_view from = view_at(here), to = view_at(moved_by(here, q->move, 1));
@@ -584,14 +584,15 @@ static void paper_goes_with_the_model(void)
         for (int q = 0; q < 6; q++)
             for (int m = 0; m < 3; m++) {
                 slip   s = run(&models[k], &sequences[q], motions[m]);
-                double share = s.off / fmax(s.moved, 1e-9);
+                double fraction = s.off / fmax(s.moved, 1e-9);
                 check_at_least("P28", s.count, 60, "%s, %s, %s: places measured, which moved by %.2f px", names[k],
                                sequences[q].name, motions[m], s.moved / fmax(s.count, 1));
                 if (m == 0)
-                    check_near("P28", share, 1, 1e-9, "slip of the paper over the surface as a share of its motion");
+                    check_near("P28", fraction, 1, 1e-9,
+                               "slip of the paper over the surface as a fraction of its motion");
                 else
-                    check_at_most("P28", share, limits[m - 1][q],
-                                  "slip of the paper over the surface as a share of its motion");
+                    check_at_most("P28", fraction, limits[m - 1][q],
+                                  "slip of the paper over the surface as a fraction of its motion");
             }
     shape_release(&models[0]);
     shape_release(&models[1]);

@@ -1,4 +1,4 @@
-/* Pencil shading: strokes along quantised ways, tones, leads, colours, and what depth focus leaves. Notes:
+/* Pencil shading: strokes along quantised directions, tones, leads, colours, and what depth focus leaves. Notes:
  * seed-pencil-city P20 to P24, P32 to P34, P36, P37. */
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ enum { WALL = 256 };
 
 /* --- tones ---------------------------------------------------------------------------------------------- */
 
-/* Mean ink on a wall of one tone, as share of what the lead takes. */
+/* Mean ink on a wall of one tone, as fraction of what the lead takes. */
 static double wall_ink(const char *keys, double darkness, lead_grade lead)
 {
     char surface[400];
@@ -117,7 +117,7 @@ static void leads(void)
                       "ink that time %d adds, of what the one before added (ink %.3f)", n, ink[n]);
 }
 
-/* How much ink changes along rows, as a share of how much it does along columns: strokes from left to right hardly
+/* How much ink changes along rows, as a fraction of how much it does along columns: strokes from left to right hardly
  * do. */
 static double steps_along(const shot *s)
 {
@@ -182,9 +182,9 @@ static void coloured_leads(void)
     }
 }
 
-/* --- ways ----------------------------------------------------------------------------------------------- */
+/* --- directions ----------------------------------------------------------------------------------------- */
 
-enum { RING = 640, WINDOW = 17, PLACES = 144, MAPS = 6 };
+enum { RING = 640, WINDOW = 17, POSITIONS = 144, MAPS = 6 };
 
 /* Seen along its axis, a ring's tube bends most along the radius: all ways there are, in order. */
 static bool ring(shot *out, const char *keys)
@@ -205,10 +205,10 @@ static bool ring(shot *out, const char *keys)
     return drawn;
 }
 
-typedef struct stroke_way {
+typedef struct stroke_direction {
     double xx, xy, yy, ink, count; /* sums */
     double angle, coherence;       /* radians from the right to the top; how alike directions are, 0 … 1 */
-} stroke_way;
+} stroke_direction;
 
 /* Ink, blurred by four binomial steps: differences of neighbours read slants of thin strokes wrongly. */
 static double *blurred(const shot *s)
@@ -230,7 +230,7 @@ static double *blurred(const shot *s)
 }
 
 /* Adds a round window's structure tensor. */
-static void add_way(stroke_way *out, const shot *s, const double *ink, double cx, double cy)
+static void add_direction(stroke_direction *out, const shot *s, const double *ink, double cx, double cy)
 {
     for (int y = -WINDOW; y <= WINDOW; y++)
         for (int x = -WINDOW; x <= WINDOW; x++) {
@@ -256,9 +256,9 @@ static double turned_by(double a, double b)
 
 /* Around the ring's crest, which lies in the page's plane; several maps of strokes together, so that what single
  * strokes do is averaged. */
-static bool measure_ring(const char *keys, stroke_way out[PLACES], double radial[PLACES])
+static bool measure_ring(const char *keys, stroke_direction out[POSITIONS], double radial[POSITIONS])
 {
-    memset(out, 0, PLACES * sizeof *out);
+    memset(out, 0, POSITIONS * sizeof *out);
     for (int m = 0; m < MAPS; m++) {
         shot s;
         char with_map[300];
@@ -267,17 +267,17 @@ static bool measure_ring(const char *keys, stroke_way out[PLACES], double radial
             return false;
         dvec    centre = shot_project(&s, dvec_of(0, 0, 0));
         double *ink = blurred(&s);
-        for (int i = 0; i < PLACES; i++) {
-            double angle = 2 * PI * (i + 0.5) / PLACES;
+        for (int i = 0; i < POSITIONS; i++) {
+            double angle = 2 * PI * (i + 0.5) / POSITIONS;
             dvec   at = shot_project(&s, dvec_of(1.5 * cos(angle), 1.5 * sin(angle), 0.6));
             radial[i] = atan2(centre.y - at.y, at.x - centre.x);
-            add_way(&out[i], &s, ink, at.x - 0.5, at.y - 0.5);
+            add_direction(&out[i], &s, ink, at.x - 0.5, at.y - 0.5);
         }
         free(ink);
         shot_release(&s);
     }
-    for (int i = 0; i < PLACES; i++) {
-        stroke_way *w = &out[i];
+    for (int i = 0; i < POSITIONS; i++) {
+        stroke_direction *w = &out[i];
         w->angle = 0.5 * atan2(2 * w->xy, w->xx - w->yy) + PI / 2;
         w->coherence = hypot(w->xx - w->yy, 2 * w->xy) / fmax(w->xx + w->yy, 1e-12);
         w->ink /= w->count;
@@ -286,30 +286,30 @@ static bool measure_ring(const char *keys, stroke_way out[PLACES], double radial
 }
 
 /* Rows P23, P24. */
-static void ways_of_strokes(void)
+static void directions_of_strokes(void)
 {
-    static const int    ways[] = {6, 12, 24};
+    static const int    directions[] = {6, 12, 24};
     static const double angles[] = {0, 30, 90, -45};
     for (int k = 0; k < 3; k++)
-        for (int a = 0; a < (ways[k] == 12 ? 4 : 1); a++) {
-            char       keys[160];
-            stroke_way way[PLACES];
-            double     radial[PLACES], worst = 0, mean = 0, least = 1, most = 0;
-            snprintf(keys, sizeof keys, "\"overlays\":1,\"vary\":0,\"ways_on_page\":%d,\"angle\":%g", ways[k],
-                     angles[a]);
-            if (!measure_ring(keys, way, radial))
+        for (int a = 0; a < (directions[k] == 12 ? 4 : 1); a++) {
+            char             keys[160];
+            stroke_direction direction[POSITIONS];
+            double           radial[POSITIONS], worst = 0, mean = 0, least = 1, most = 0;
+            snprintf(keys, sizeof keys, "\"overlays\":1,\"vary\":0,\"directions_on_page\":%d,\"angle\":%g",
+                     directions[k], angles[a]);
+            if (!measure_ring(keys, direction, radial))
                 return;
-            for (int i = 0; i < PLACES; i++) {
-                double off = turned_by(way[i].angle, radial[i] + angles[a] * PI / 180);
+            for (int i = 0; i < POSITIONS; i++) {
+                double off = turned_by(direction[i].angle, radial[i] + angles[a] * PI / 180);
                 worst = fmax(worst, fabs(off));
-                mean += off / PLACES;
-                least = fmin(least, way[i].ink);
-                most = fmax(most, way[i].ink);
+                mean += off / POSITIONS;
+                least = fmin(least, direction[i].ink);
+                most = fmax(most, direction[i].ink);
             }
             check_at_most(
-                "P23", worst, 90.0 / ways[k] + 1.5,
+                "P23", worst, 90.0 / directions[k] + 1.5,
                 "%d ways, angle %g: degrees that strokes lie off, at most (half a step and how well it is measured)",
-                ways[k], angles[a]);
+                directions[k], angles[a]);
             check_near("P24", mean, 0, 1, "degrees off on the mean, the angle taken into account");
             check_at_most("P23", (most - least) / (most + least), 0.2,
                           "ink in windows of %d px: half the range over the mean (%.3f to %.3f)", 2 * WINDOW, least,
@@ -350,31 +350,31 @@ static void strokes_move_along(void)
 }
 
 /* The part of a sequence around the ring that repeats so many times. */
-static double repeating(const stroke_way way[PLACES], int times)
+static double repeating(const stroke_direction direction[POSITIONS], int times)
 {
     double a = 0, b = 0;
-    for (int i = 0; i < PLACES; i++) {
-        a += way[i].coherence * cos(2 * PI * times * (i + 0.5) / PLACES) * 2 / PLACES;
-        b += way[i].coherence * sin(2 * PI * times * (i + 0.5) / PLACES) * 2 / PLACES;
+    for (int i = 0; i < POSITIONS; i++) {
+        a += direction[i].coherence * cos(2 * PI * times * (i + 0.5) / POSITIONS) * 2 / POSITIONS;
+        b += direction[i].coherence * sin(2 * PI * times * (i + 0.5) / POSITIONS) * 2 / POSITIONS;
     }
     return hypot(a, b);
 }
 
-/* Row P36: where two ways meet, strokes cross; that shows in how alike directions are, twice for each way. Gone
+/* Row P36: where two directions meet, strokes cross; that shows in how alike directions are, twice for each way. Gone
  * over three times, it is no more than what any place has. */
 static void seams_vanish(void)
 {
     double seams[2];
     for (int k = 0; k < 2; k++) {
-        stroke_way way[PLACES];
-        double     radial[PLACES], noise = 0;
-        if (!measure_ring(k ? "\"overlays\":3,\"vary\":0,\"ways_on_page\":9"
-                            : "\"overlays\":1,\"vary\":0,\"ways_on_page\":9",
-                          way, radial))
+        stroke_direction direction[POSITIONS];
+        double           radial[POSITIONS], noise = 0;
+        if (!measure_ring(k ? "\"overlays\":3,\"vary\":0,\"directions_on_page\":9"
+                            : "\"overlays\":1,\"vary\":0,\"directions_on_page\":9",
+                          direction, radial))
             return;
         for (int times = 11; times <= 31; times++)
-            noise += times == 18 ? 0 : repeating(way, times) / 20;
-        seams[k] = repeating(way, 18);
+            noise += times == 18 ? 0 : repeating(direction, times) / 20;
+        seams[k] = repeating(direction, 18);
         if (k == 0)
             check_at_least("P36", seams[k] / noise, 3,
                            "once over: what repeats with the ways, over the noise beside it");
@@ -520,7 +520,7 @@ static void light_on_a_ball(void)
     }
     check_at_least("P37", sums[0] / fmax(sums[1], 1e-9), 1.01, "ink without the highlight over that with it");
     check_at_most("P37", sums[0] / fmax(sums[1], 1e-9), 1.2, "which is small beside diffuse light");
-    check_at_least("P37", (bare[1] - bare[0]) / (PI * 200 * 200), 0.002, "share of the ball that stays bare for it");
+    check_at_least("P37", (bare[1] - bare[0]) / (PI * 200 * 200), 0.002, "fraction of the ball that stays bare for it");
     shape_release(&s);
 }
 
@@ -630,7 +630,7 @@ static void focus_curve(void)
         for (int i = 1; i < ROW; i++) {
             double off = 3.0 * i / (3.0 * (ROW - 1) + 0.8);
             check_near("P22", ink[i] / count[i] / (ink[0] / count[0]), 1 - off * off * (3 - 2 * off), 0.07,
-                       "share of its ink that box %d keeps", i);
+                       "fraction of its ink that box %d keeps", i);
         }
         shot_release(&got);
     }
@@ -643,7 +643,7 @@ static const check_case cases[] = {
     {"leads", leads},
     {"repetitions_differ", repetitions_differ},
     {"coloured_leads", coloured_leads},
-    {"ways_of_strokes", ways_of_strokes},
+    {"directions_of_strokes", directions_of_strokes},
     {"strokes_move_along", strokes_move_along},
     {"seams_vanish", seams_vanish},
     {"coloured_pencils", coloured_pencils},

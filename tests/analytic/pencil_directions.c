@@ -1,4 +1,4 @@
-/* The ways strokes take on the page, against the principal directions of surfaces whose equation is known. Notes:
+/* The directions strokes take on the page, against the principal directions of surfaces whose equation is known. Notes:
  * seed-pencil-city P23 to P27, P36. */
 #include <math.h>
 #include <stdio.h>
@@ -132,9 +132,9 @@ static void add_body(shape *s, const body *b, const turn *t)
     shape_part *p = shape_add(s, b->name, columns * rows, (uint32_t)(b->nu * b->nv) * 6, true, false);
     for (uint32_t j = 0; j < rows; j++)
         for (uint32_t i = 0; i < columns; i++) {
-            dvec at = b->at((double)i / b->nu, (double)j / b->nv), place = turned(t, at),
+            dvec at = b->at((double)i / b->nu, (double)j / b->nv), position = turned(t, at),
                  normal = turned(t, dvec_unit(gradient(b, at)));
-            const double values[2][3] = {{place.x, place.y, place.z}, {normal.x, normal.y, normal.z}};
+            const double values[2][3] = {{position.x, position.y, position.z}, {normal.x, normal.y, normal.z}};
             for (int c = 0; c < 3; c++) {
                 p->positions[j * columns + i][c] = (float)values[0][c];
                 p->normals[j * columns + i][c] = (float)values[1][c];
@@ -216,17 +216,17 @@ static size_t errors_of(const shot *s, const body *b, const turn *t, double **ou
     for (int y = s->height - 3; y >= 0;
          y -= 4) /* pixels that the small picture is measured at: the third of four, from the bottom */
         for (int x = 2; x < s->width; x += 4) {
-            dvec p, way;
-            if (!is_inside(s, x, y, 8) || !point_seen(s, b, t, x, y, &p) || !greatest(b, p, &way))
+            dvec p, direction;
+            if (!is_inside(s, x, y, 8) || !point_seen(s, b, t, x, y, &p) || !greatest(b, p, &direction))
                 continue;
             const float *v = s->direction[(size_t)y * (size_t)s->width + (size_t)x];
-            (*out)[count++] = off_by(0.5 * atan2((double)v[1], (double)v[0]), seen_angle(s, t, p, way));
+            (*out)[count++] = off_by(0.5 * atan2((double)v[1], (double)v[0]), seen_angle(s, t, p, direction));
         }
     qsort(*out, count, sizeof **out, by_size);
     return count;
 }
 
-static void ways_on_smooth_bodies(void)
+static void directions_on_smooth_bodies(void)
 {
     static const double turns[3][2] = {{0.3, 0}, {-0.7, 0.9}, {1.2, 2.0}};
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++)
@@ -257,11 +257,11 @@ static void ways_on_smooth_bodies(void)
         }
 }
 
-/* --- no way of their own -------------------------------------------------------------------------------- */
+/* --- no direction of their own -------------------------------------------------------------------------------- */
 
 /* A ball, a box and a plane have no greatest curvature; on walls strokes run up, on level roofs along the house,
  * however it is turned. */
-static void ways_where_nothing_bends(void)
+static void directions_where_nothing_bends(void)
 {
     static const double degrees[] = {0, 20, 45, 77};
     for (int k = 0; k < 4; k++) {
@@ -320,8 +320,9 @@ static void ways_where_nothing_bends(void)
     }
 }
 
-/* A ball bends all ways alike: strokes run up it, though rounding always leaves some way of greatest curvature. */
-static void ways_on_a_ball(void)
+/* A ball bends all directions alike: strokes run up it, though rounding always leaves some direction of greatest
+ * curvature. */
+static void directions_on_a_ball(void)
 {
     const turn none = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int k = 0; k < 2; k++) {
@@ -359,7 +360,7 @@ static void ways_on_a_ball(void)
 }
 
 /* A tube has strokes around it, unless it is as thin as an edge: then they run up, as they do beside it. */
-static void ways_on_thin_tubes(void)
+static void directions_on_thin_tubes(void)
 {
     static const double radii[] = {0.3, 0.04}; /* 31 and 4 pixels */
     for (int k = 0; k < 2; k++) {
@@ -390,10 +391,10 @@ static void ways_on_thin_tubes(void)
 }
 
 static const check_case cases[] = {
-    {"ways_on_smooth_bodies", ways_on_smooth_bodies},
-    {"ways_where_nothing_bends", ways_where_nothing_bends},
-    {"ways_on_a_ball", ways_on_a_ball},
-    {"ways_on_thin_tubes", ways_on_thin_tubes},
+    {"directions_on_smooth_bodies", directions_on_smooth_bodies},
+    {"directions_where_nothing_bends", directions_where_nothing_bends},
+    {"directions_on_a_ball", directions_on_a_ball},
+    {"directions_on_thin_tubes", directions_on_thin_tubes},
 };
 
 int main(int argc, char **argv)

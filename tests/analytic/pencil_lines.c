@@ -67,9 +67,9 @@ static bool draw_numbers(setting *out, const char *keys, int dark, int light)
 /* Where a copy looks, in pixels from the bottom left, centres whole. */
 static void transform(const setting *s, const copy *c, double x, double y, double *to_x, double *to_y)
 {
-    double share_x = (x + 0.5) / s->width, share_y = (y + 0.5) / s->height;
-    *to_x = x + c->sway * sin(c->omega_x * share_y + c->phase_x) - c->jitter_x;
-    *to_y = y + c->sway * cos(c->omega_y * share_x + c->phase_y) - c->jitter_y;
+    double fraction_x = (x + 0.5) / s->width, fraction_y = (y + 0.5) / s->height;
+    *to_x = x + c->sway * sin(c->omega_x * fraction_y + c->phase_x) - c->jitter_x;
+    *to_y = y + c->sway * cos(c->omega_y * fraction_x + c->phase_y) - c->jitter_y;
 }
 
 /* 1 - ink of a class: profile, inner, id. */
@@ -211,7 +211,7 @@ static void equations(void)
 
 /* --- single rows ---------------------------------------------------------------------------------------- */
 
-/* Waves never fold the picture: the map from places to where they look keeps its sense. */
+/* Waves never fold the picture: the map from positions to where they look keeps its sense. */
 static void no_folds(void)
 {
     static const int sizes[][2] = {{16, 16}, {64, 48}, {128, 500}, {1024, 1024}, {4096, 300}};
@@ -223,10 +223,10 @@ static void no_folds(void)
                 return;
             for (int i = 0; i < 32; i++)
                 for (int n = 0; n < 400; n++) {
-                    double      share_y = (n % 20) / 20.0, share_x = (n / 20) / 20.0;
+                    double      fraction_y = (n % 20) / 20.0, fraction_x = (n / 20) / 20.0;
                     const copy *c = &s.copies[i];
-                    double      a = c->sway * c->omega_x / s.height * cos(c->omega_x * share_y + c->phase_x),
-                           b = -c->sway * c->omega_y / s.width * sin(c->omega_y * share_x + c->phase_y);
+                    double      a = c->sway * c->omega_x / s.height * cos(c->omega_x * fraction_y + c->phase_x),
+                           b = -c->sway * c->omega_y / s.width * sin(c->omega_y * fraction_x + c->phase_y);
                     least = fmin(least, 1 - a * b);
                     largest = fmax(largest, c->sway);
                 }
@@ -293,10 +293,10 @@ static void displacement(void)
                 if (own <= 0 || got < 0.05)
                     continue; /* a light line may have faded */
                 /* What is looked up at x' is drawn at x: x' is the border there. The wave depends on the row alone. */
-                double share = (y + 0.5) / s.height,
-                       way = s.copies[0].sway * sin(s.copies[0].omega_x * share + s.copies[0].phase_x) -
-                             s.copies[0].jitter_x;
-                worst = fmax(worst, fabs(got_at / got - (own_at / own - way)));
+                double fraction = (y + 0.5) / s.height,
+                       offset = s.copies[0].sway * sin(s.copies[0].omega_x * fraction + s.copies[0].phase_x) -
+                                s.copies[0].jitter_x;
+                worst = fmax(worst, fabs(got_at / got - (own_at / own - offset)));
                 rows++;
             }
             check_at_least("P7", rows, 140, "rows with a line, %s group", group ? "light" : "dark");

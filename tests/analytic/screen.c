@@ -162,7 +162,7 @@ static void smooth_threshold(void)
         }
 }
 
-/* Between levels: the same formula on the chain as it is sampled by the rates of change, at places that fit
+/* Between levels: the same formula on the chain as it is sampled by the rates of change, at positions that fit
  * nothing. */
 static void between_levels(void)
 {
@@ -193,7 +193,7 @@ static void between_levels(void)
                     }
                 /* Which texel is the nearest is up to rounding at borders. */
                 check_at_most("IM-13", c.nearest ? sum : worst, c.nearest ? 0.01 : 0.03,
-                              "%s at level %.2f: share of ink off the chain sampled by rates of change (mean %.5f)",
+                              "%s at level %.2f: fraction of ink off the chain sampled by rates of change (mean %.5f)",
                               screen_procedure_names[p], level, sum);
                 shot_release(&s);
             }
@@ -274,8 +274,8 @@ static void tones_of(const char *name, double pixels, double limit, double darke
             }
         }
         check_note("%s at %.4g px a unit:%s", name, pixels, line);
-        check_at_most("IM-14", worst, limit, "%s: share of ink off on a ramp of 17 tones (worst where %.3f is wanted)",
-                      name, at);
+        check_at_most("IM-14", worst, limit,
+                      "%s: fraction of ink off on a ramp of 17 tones (worst where %.3f is wanted)", name, at);
         shot_release(&s);
     }
     halftone_release(&scene);
@@ -298,7 +298,7 @@ static void tone_of_screens(void)
             shot_release(&s);
         }
         check_at_most("IM-14", worst, i == 1 || i == 2 ? 0.06 : 0.01,
-                      "%s, a texel a pixel: share of ink off on a ramp of 17 tones", names[i]);
+                      "%s, a texel a pixel: fraction of ink off on a ramp of 17 tones", names[i]);
         tones_of(names[i], 128, between[i], 1);
         tones_of(names[i], 173.3, between[i], 1);
     }
@@ -345,9 +345,10 @@ static void edges_stay_sharp(void)
                 }
             check_at_least("sharp", edges, 100, "edges at %g px a line", scales[i]);
             check_at_least("sharp", thinnest, 0.75, "px from 10 to 90 %%, sharpest");
-            /* Between two levels, new lines come out of a flat place, whose grey is what keeps the tone. */
+            /* Between two levels, new lines come out of a flat position, whose grey is what keeps the tone. */
             check_at_most("sharp", soft / fmax(edges, 1), 0.35,
-                          "share of edges that take more than 2 px from 10 to 90 %% (mean %.3f)", sum / fmax(edges, 1));
+                          "fraction of edges that take more than 2 px from 10 to 90 %% (mean %.3f)",
+                          sum / fmax(edges, 1));
             shot_release(&s);
         }
         halftone_release(&scene);
@@ -370,7 +371,7 @@ static double pixel_contrast(const shot *s)
 
 static void averaged_screens_grey_out(void)
 {
-    static const char *const ways[] = {"kept", "average"};
+    static const char *const modes[] = {"kept", "average"};
     for (int i = 0; i < 2; i++) {
         char   surface[256];
         shot   s;
@@ -378,13 +379,13 @@ static void averaged_screens_grey_out(void)
         snprintf(surface, sizeof surface,
                  "screen\",\"screen\":\"parallel\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,"
                  "\"width\":1.2,\"detail\":\"%s\"",
-                 ways[i]);
+                 modes[i]);
         for (int k = 0; k < 2; k++)
             if (halftone_far(&s, surface, k ? 6 : 2, 128, 0.25)) {
                 got[k] = pixel_contrast(&s);
                 shot_release(&s);
             }
-        check_at_least("IM-01", got[0], 0.1, "detail=%s, near: contrast", ways[i]);
+        check_at_least("IM-01", got[0], 0.1, "detail=%s, near: contrast", modes[i]);
         if (i)
             check_at_most("IM-01", got[1], 0.05, "far away it is grey: contrast");
         else
@@ -450,7 +451,7 @@ static void hatch_map_over_distance(void)
     check_at_most("IM-02", high, 11.7, "px between lines over 1:64, most");
     check_at_least("IM-02", thin, 1, "px of line width, least");
     check_at_most("IM-02", wide, 4, "px of line width, most");
-    check_at_most("IM-03", off, 0.05, "share of brightness off 1 - 2/8");
+    check_at_most("IM-03", off, 0.05, "fraction of brightness off 1 - 2/8");
     check_at_most("IM-03", step, 0.03, "step of the mean ink between neighbouring distances");
     check_at_most("IM-03", swell, 0.1, "step of the lines' strength between neighbouring distances");
 }
@@ -475,9 +476,9 @@ static void hatch_map_in_the_depth(void)
                                     "\"uneven\":0,\"scale\":8"),
                       NULL, &view)) {
         for (int y = 191; y > 0; y--) {
-            dvec origin, way;
-            shot_ray(&s, 128, y + 0.5, &origin, &way);
-            double t = way.y < 0 ? -origin.y / way.y : -1, z = origin.z + t * way.z;
+            dvec origin, mode;
+            shot_ray(&s, 128, y + 0.5, &origin, &mode);
+            double t = mode.y < 0 ? -origin.y / mode.y : -1, z = origin.z + t * mode.z;
             if (t < 0 || z < -60 || z > -1.5)
                 continue;
             dvec a = shot_project(&s, dvec_of(0, 0, z)), b = shot_project(&s, dvec_of(1, 0, z)),
@@ -513,20 +514,20 @@ static void hatch_map_in_the_depth(void)
     check_at_least("IM-02", rows, 40, "rows of the ground looked at");
     check_at_least("IM-02", low, 5, "px between lines, as on a surface that is not foreshortened, least");
     check_at_most("IM-02", high, 11.9, "px between lines, as on a surface that is not foreshortened, most");
-    check_at_most("IM-03", off, 0.05, "share of brightness of a row off 1 - 2/8");
+    check_at_most("IM-03", off, 0.05, "fraction of brightness of a row off 1 - 2/8");
     check_at_most("IM-03", step, 0.05, "step of the mean ink between rows");
 }
 
 static void strokes_over_distance(void)
 {
-    static const char *const places[] = {"uv", "triplanar"};
+    static const char *const positions[] = {"uv", "triplanar"};
     for (int p = 0; p < 2; p++) {
         char   surface[256];
         double first = 0, worst = 0, thin = 1e9, wide = 0, least = 1;
         snprintf(surface, sizeof surface,
                  "screen\",\"screen\":\"parallel\",\"coordinates\":\"%s\",\"scheme\":\"multiply\",\"uneven\":0,"
                  "\"width\":1,\"scale\":12",
-                 places[p]);
+                 positions[p]);
         for (int k = 0; k <= 6; k++) {
             shot   s;
             double within;
@@ -534,7 +535,7 @@ static void strokes_over_distance(void)
                 return;
             double ink = halftone_mean(&s, 0, 0, 256, 256), width = halftone_width(&s, &within);
             shot_release(&s);
-            check_note("%s, 1:%d: ink %.4f, width %.3f px, %.3f of columns within 1 +- 0.5", places[p], 1 << k, ink,
+            check_note("%s, 1:%d: ink %.4f, width %.3f px, %.3f of columns within 1 +- 0.5", positions[p], 1 << k, ink,
                        width, within);
             first = k ? first : ink;
             worst = fmax(worst, fabs(ink / first - 1));
@@ -542,9 +543,9 @@ static void strokes_over_distance(void)
             wide = fmax(wide, width);
             least = fmin(least, within);
         }
-        check_at_least("IM-04", thin, 0.5, "%s: mean px of strokes over 1:64, least", places[p]);
-        check_at_most("IM-04", wide, 1.5, "%s: mean px of strokes over 1:64, most", places[p]);
-        check_at_most("IM-13", worst, 0.15, "%s: share of ink off the nearest's over 1:64", places[p]);
+        check_at_least("IM-04", thin, 0.5, "%s: mean px of strokes over 1:64, least", positions[p]);
+        check_at_most("IM-04", wide, 1.5, "%s: mean px of strokes over 1:64, most", positions[p]);
+        check_at_most("IM-13", worst, 0.15, "%s: fraction of ink off the nearest's over 1:64", positions[p]);
     }
 }
 
@@ -571,7 +572,7 @@ static void far_strokes_are_near_ones(void)
             }
         check_at_least("IM-13", inked, 100, "inked pixels at 1:%d", 1 << k);
         check_at_most("IM-13", (double)alone / fmax(inked, 1), 0.005,
-                      "share of them where the next finer level has no stroke");
+                      "fraction of them where the next finer level has no stroke");
         shot_release(&far);
         shot_release(&near);
     }
@@ -629,8 +630,8 @@ static void colour_times_ink(void)
                 NULL, &view)) {
             for (int k = 0; k < 128 * 128; k++) {
                 const uint8_t *at = &s.picture[4 * k];
-                double         share = i ? 0.25 : 1, cover = 1 - picture_linear(at[0]) / (0.9 * share);
-                const double   own[3] = {0.9 * share, 0.5 * share, 0.4 * share};
+                double         fraction = i ? 0.25 : 1, cover = 1 - picture_linear(at[0]) / (0.9 * fraction);
+                const double   own[3] = {0.9 * fraction, 0.5 * fraction, 0.4 * fraction};
                 paper += fabs(cover) < 0.01;
                 beyond += cover < -0.02;
                 for (int c = 0; c < 3; c++) {
@@ -651,7 +652,7 @@ static void colour_times_ink(void)
 
 /* --- painted screens and files -------------------------------------------------------------------------- */
 
-/* Three layers: lines of grey 0, 85 and 170 on white, each in its own place; the first and darkest is an L that
+/* Three layers: lines of grey 0, 85 and 170 on white, each in its own position; the first and darkest is an L that
  * shows which way is up. */
 static void painted(uint8_t *rgba, int side)
 {
@@ -667,12 +668,12 @@ static void painted(uint8_t *rgba, int side)
         }
 }
 
-static bool write_painted(const char *name, char *path, size_t room)
+static bool write_painted(const char *name, char *path, size_t capacity)
 {
     enum { SIDE = 128 };
     static uint8_t rgba[SIDE * SIDE * 4];
     painted(rgba, SIDE);
-    snprintf(path, room, "%s", check_path("%s", name));
+    snprintf(path, capacity, "%s", check_path("%s", name));
     return check_that("files", picture_write_rgba(path, rgba, SIDE, SIDE), "%s written", name);
 }
 
@@ -868,7 +869,7 @@ static void styles_in_one_picture(void)
 
 static void deferred_is_forward(void)
 {
-    static const char *const places[] = {"axes", "triplanar", "screen"};
+    static const char *const positions[] = {"axes", "triplanar", "screen"};
     static const char *const techniques[] = {"screen", "tonal-art-map", "dots"};
     shape                    ball = {0};
     shape_sphere(&ball, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
@@ -878,7 +879,7 @@ static void deferred_is_forward(void)
         for (int i = 0; i < 3; i++) {
             shot a, b;
             char surface[200];
-            snprintf(surface, sizeof surface, "%s\",\"coordinates\":\"%s\"", techniques[t], places[i]);
+            snprintf(surface, sizeof surface, "%s\",\"coordinates\":\"%s\"", techniques[t], positions[i]);
             if (shot_of_shape(
                     &a, &ball, "ball.glb",
                     halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"forward\"}"),
@@ -888,7 +889,7 @@ static void deferred_is_forward(void)
                     halftone_look_with(surface, "", ",\"layers\":{\"technique\":\"front\",\"shading\":\"deferred\"}"),
                     NULL, &view)) {
                 check_at_most("IM-33", (double)shot_differing(&a, &b, 48) / (4 * 160 * 160), 0.01,
-                              "%s on %s: share of values that differ by more than 48", techniques[t], places[i]);
+                              "%s on %s: fraction of values that differ by more than 48", techniques[t], positions[i]);
                 check_at_most("IM-33", halftone_difference(&a, &b), 0.005, "mean difference of light");
                 shot_release(&b);
             }
@@ -908,12 +909,12 @@ typedef struct bad_input {
 #define LONG_NAME                                                                                                      \
     "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
 
-static int command_with(const char *screen, const char *model, const char *more, char *out, size_t room)
+static int command_with(const char *screen, const char *model, const char *more, char *out, size_t capacity)
 {
     char arguments[4096];
     snprintf(arguments, sizeof arguments, "draw %s -o %s --size 96x96 --quiet --look %s --set surface.screen=%s %s",
              model, check_path("bad.png"), check_path("screen.json"), screen, more);
-    return halftone_command(LIMNER_COMMAND, arguments, out, room);
+    return halftone_command(LIMNER_COMMAND, arguments, out, capacity);
 }
 
 static void bad_inputs(void)

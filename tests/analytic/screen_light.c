@@ -70,7 +70,7 @@ static void indication_shifts_tone(void)
                 worst = fmax(worst, fabs(halftone_mean(&step, i * TILE + 12 + side * 64, 12, 40, 104) - wanted));
             }
         check_at_most("IM-15", worst, 0.025,
-                      "share of ink off what an indication of -0.25 on the left and +0.25 on the right asks for");
+                      "fraction of ink off what an indication of -0.25 on the left and +0.25 on the right asks for");
         shot_release(&step);
     }
     shot_release(&none);
@@ -201,8 +201,8 @@ static const char *whole_keys(const char *scheme, bool whole, double scale)
     return surface;
 }
 
-/* Inked share of the inner part of a stroke on the page; `at` in pixels from the lower left. */
-static double share_inked(const shot *s, double x, double y, double half, int thick)
+/* Inked fraction of the inner part of a stroke on the page; `at` in pixels from the lower left. */
+static double fraction_inked(const shot *s, double x, double y, double half, int thick)
 {
     int inked = 0, count = 0;
     for (int j = (int)y - thick; j < (int)y + thick; j++)
@@ -227,13 +227,13 @@ static void whole_or_not_at_all(void)
                           halftone_look_with(whole_keys("binary", whole, 80), "\"lights\":\"file\"", ""), NULL,
                           &view)) {
             for (int i = 0; i < STROKES; i++) {
-                double share = share_inked(&s, known[i].u * 512, known[i].v * 512, 0.03 * 512, 2),
+                double fraction = fraction_inked(&s, known[i].u * 512, known[i].v * 512, 0.03 * 512, 2),
                        dark = 1 - light_at(known[i].u, known[i].v, scene.lights[0]);
-                cut += share > 0 && share < 1;
-                drawn += share == 1;
-                if (fabs(dark - known[i].value) > 0.008 && share != 0.5) {
+                cut += fraction > 0 && fraction < 1;
+                drawn += fraction == 1;
+                if (fabs(dark - known[i].value) > 0.008 && fraction != 0.5) {
                     clear++;
-                    wrong += (share > 0.5) != (known[i].value <= dark);
+                    wrong += (fraction > 0.5) != (known[i].value <= dark);
                 }
             }
             if (whole) {
@@ -243,7 +243,7 @@ static void whole_or_not_at_all(void)
                               clear);
             } else
                 check_at_least("IM-18", cut / 64.0, 0.2,
-                               "share of 64 strokes in a steep light drawn in part (whole=false)");
+                               "fraction of 64 strokes in a steep light drawn in part (whole=false)");
             shot_release(&s);
         }
         halftone_release(&scene);
@@ -314,12 +314,12 @@ static void tiles_are_lit_apart(void)
             for (int tile = 0; tile < 9; tile++) {
                 double u = (tile % 3 + known[i].u) / 3, v = (tile / 3 + known[i].v) / 3,
                        dark = 1 - light_at(u, v, whole.lights[0]);
-                double share = share_inked(&a, u * 768, v * 768, 0.025 * 256, 1);
-                cut += share > 0 && share < 1;
-                drawn += share > 0.5;
+                double fraction = fraction_inked(&a, u * 768, v * 768, 0.025 * 256, 1);
+                cut += fraction > 0 && fraction < 1;
+                drawn += fraction > 0.5;
                 if (fabs(dark - known[i].value) > 0.02) {
                     clear++;
-                    wrong += (share > 0.5) != (known[i].value <= dark);
+                    wrong += (fraction > 0.5) != (known[i].value <= dark);
                 }
             }
             distinct += drawn > 0 && drawn < 9;
@@ -333,7 +333,7 @@ static void tiles_are_lit_apart(void)
         check_at_most("IM-20", wrong, 0, "of %d with a clear answer not as the light at their own place says", clear);
         check_at_least("IM-20", distinct, 20, "of 64 strokes that are on some tiles and not on others");
         check_at_most("IM-20", differ / (768.0 * 768), 0.001,
-                      "share of pixels that differ from nine parts with light maps of their own");
+                      "fraction of pixels that differ from nine parts with light maps of their own");
         shot_release(&b);
     }
     shot_release(&a);
@@ -383,8 +383,8 @@ static void whole_on_a_cylinder(void)
         }
         halftone_release(&scene);
     }
-    check_at_least("IM-18", lone[0], 0.1, "share of strokes on a cylinder drawn in part (whole=false)");
-    check_at_most("IM-18", lone[1], 0, "share of them drawn in part (whole=true)");
+    check_at_least("IM-18", lone[0], 0.1, "fraction of strokes on a cylinder drawn in part (whole=false)");
+    check_at_most("IM-18", lone[1], 0, "fraction of them drawn in part (whole=true)");
 }
 
 /* --- shadows -------------------------------------------------------------------------------------------- */

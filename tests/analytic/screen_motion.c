@@ -51,7 +51,7 @@ static void frames_follow_each_other(void)
         before = now;
     }
     check_at_least("IM-28", whole, 0.1, "mean difference between two frames");
-    check_at_most("IM-28", step / fmax(whole, 1e-9), 0.35, "share of it in a tenth of the time between them, most");
+    check_at_most("IM-28", step / fmax(whole, 1e-9), 0.35, "fraction of it in a tenth of the time between them, most");
     check_note("tone while frames mix is off by up to %.4f", spread);
     shot_release(&before);
     shot_release(&first);
@@ -77,10 +77,10 @@ static void unevenness_lives(void)
 }
 
 /* Middles of lines in one column, top to bottom. */
-static int middles(const shot *s, int x, double *out, int room)
+static int middles(const shot *s, int x, double *out, int capacity)
 {
     int count = 0;
-    for (int y = 0; y < s->height && count < room; y++) {
+    for (int y = 0; y < s->height && count < capacity; y++) {
         double sum = 0, at = 0;
         int    from = y;
         while (y < s->height && halftone_ink(s, x, y) > 0.05) {
@@ -135,7 +135,7 @@ static void wobble_has_its_size(void)
 
 /* --- motion --------------------------------------------------------------------------------------------- */
 
-/* Blocks of each picture of an approach are compared with the same places of the surface in the next one; a facing
+/* Blocks of each picture of an approach are compared with the same positions of the surface in the next one; a facing
  * wall, so that blocks stay rectangles. */
 static void approaching(const char *technique, const char *keys)
 {

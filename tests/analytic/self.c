@@ -394,7 +394,7 @@ static void stacks_score_can_fail(void)
         }
     }
     stack_score score = stack_compare(&map, t, &view, 0);
-    check_at_least("self", (double)score.sharp / (double)score.pixels, 0.9, "share of sharp pixels");
+    check_at_least("self", (double)score.sharp / (double)score.pixels, 0.9, "fraction of sharp pixels");
     check_near("self", (double)score.right_sharp, (double)score.sharp, 0, "right pixels of layers that are the stacks");
     check_near("self", (double)score.drawn, (double)score.hits, 0, "surfaces in them");
     for (int what = 0; what < 5 && at >= 0; what++) {

@@ -32,7 +32,7 @@ typedef struct truth_edge {
     dvec   ends[2];
     dvec   normals[2]; /* not of unit length */
     int    faces;
-    double height; /* how far the second face rises above the first, share of its reach; below 0: convex */
+    double height; /* how far the second face rises above the first, fraction of its reach; below 0: convex */
 } truth_edge;
 
 typedef struct truth_mesh {
@@ -47,12 +47,12 @@ static dvec corner_of(const shape_part *p, uint32_t i)
     return dvec_from(p->positions[p->indices[i]]);
 }
 
-static bool same_place(dvec a, dvec b)
+static bool same_position(dvec a, dvec b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-static int compare_places(dvec a, dvec b)
+static int compare_positions(dvec a, dvec b)
 {
     return a.x != b.x   ? (a.x < b.x ? -1 : 1)
            : a.y != b.y ? (a.y < b.y ? -1 : 1)
@@ -67,8 +67,8 @@ typedef struct half {
 static int compare_halves(const void *a, const void *b)
 {
     const half *p = a, *q = b;
-    int         first = compare_places(p->low, q->low);
-    return first ? first : compare_places(p->high, q->high);
+    int         first = compare_positions(p->low, q->low);
+    return first ? first : compare_positions(p->high, q->high);
 }
 
 /* All edges of a part with one or two faces. */
@@ -83,7 +83,7 @@ static void truth_make(truth_mesh *out, const shape_part *p)
             continue;
         for (int k = 0; k < 3; k++) {
             dvec a = c[k], b = c[(k + 1) % 3];
-            bool turned = compare_places(a, b) > 0;
+            bool turned = compare_positions(a, b) > 0;
             halves[count++] = (half){turned ? b : a, turned ? a : b, c[(k + 2) % 3], normal};
         }
     }
@@ -92,8 +92,8 @@ static void truth_make(truth_mesh *out, const shape_part *p)
     for (uint32_t i = 0; i < p->index_count; i += 3)
         out->volume += dvec_dot(corner_of(p, i), dvec_cross(corner_of(p, i + 1), corner_of(p, i + 2)));
     for (size_t i = 0, next; i < count; i = next) {
-        for (next = i + 1; next < count && same_place(halves[next].low, halves[i].low) &&
-                           same_place(halves[next].high, halves[i].high);)
+        for (next = i + 1; next < count && same_position(halves[next].low, halves[i].low) &&
+                           same_position(halves[next].high, halves[i].high);)
             next++;
         truth_edge e = {
             .ends = {halves[i].low, halves[i].high}, .faces = (int)(next - i), .normals = {halves[i].normal}};
@@ -166,10 +166,10 @@ typedef struct tally {
     long edges, outlines, wrong, ties, torn, lost;
 } tally;
 
-static double facing(dvec normal, dvec place, const double viewer[4])
+static double facing(dvec normal, dvec position, const double viewer[4])
 {
-    dvec to =
-        dvec_of(viewer[0] - viewer[3] * place.x, viewer[1] - viewer[3] * place.y, viewer[2] - viewer[3] * place.z);
+    dvec to = dvec_of(viewer[0] - viewer[3] * position.x, viewer[1] - viewer[3] * position.y,
+                      viewer[2] - viewer[3] * position.z);
     return dvec_dot(normal, to) / sqrt(dvec_dot(normal, normal) * fmax(dvec_dot(to, to), 1e-300));
 }
 
@@ -189,7 +189,7 @@ static int is_outline(const truth_edge *e, const double viewer[4])
     return (f[0][0] > 0) != (f[0][1] > 0);
 }
 
-/* The record of an edge: its number, or −1. Edges and records have both been sorted by place. */
+/* The record of an edge: its number, or −1. Edges and records have both been sorted by position. */
 typedef struct keyed {
     dvec low, high;
     int  number;
@@ -198,8 +198,8 @@ typedef struct keyed {
 static int compare_keys(const void *a, const void *b)
 {
     const keyed *p = a, *q = b;
-    int          first = compare_places(p->low, q->low);
-    return first ? first : compare_places(p->high, q->high);
+    int          first = compare_positions(p->low, q->low);
+    return first ? first : compare_positions(p->high, q->high);
 }
 
 static keyed *sort_records(const float *records, size_t count)
@@ -207,7 +207,7 @@ static keyed *sort_records(const float *records, size_t count)
     keyed *keys = check_alloc(count, sizeof *keys);
     for (size_t i = 0; i < count; i++) {
         dvec a = dvec_from(&records[EDGE_RECORD_FLOATS * i]), b = dvec_from(&records[EDGE_RECORD_FLOATS * i + 4]);
-        bool turned = compare_places(a, b) > 0;
+        bool turned = compare_positions(a, b) > 0;
         keys[i] = (keyed){turned ? b : a, turned ? a : b, (int)i};
     }
     qsort(keys, count, sizeof *keys, compare_keys);

@@ -127,7 +127,7 @@ static void zero(void)
 
 /* --- displacement --------------------------------------------------------------------------------------- */
 
-/* Without lines the fill is where its place is inside. */
+/* Without lines the fill is where its position is inside. */
 static void fill_masks(void)
 {
     static const struct {
@@ -160,10 +160,10 @@ static void fill_masks(void)
                 for (int x = 0; x < m.width; x++) {
                     bool inside = isfinite(sketch_depth(&m, sketch_moved(&m, x, y, cases[c].amount, cases[c].shades)));
                     right += inside == !is_ground(&drawn, x, y);
-                    moved += inside != isfinite(sketch_depth(&m, (sketch_place){x, y}));
+                    moved += inside != isfinite(sketch_depth(&m, (sketch_position){x, y}));
                 }
         check_at_least("C13", (double)right / (m.width * m.height), 0.999,
-                       "share of pixels with fill where predicted, %s", cases[c].perturb);
+                       "fraction of pixels with fill where predicted, %s", cases[c].perturb);
         check_at_least("C13", moved, 300, "  pixels that the perturbation gives fill or takes it");
         shot_release(&drawn);
     }
@@ -247,7 +247,7 @@ static double fill_begin(const shot *s, int y, int low, int high)
     return high + 0.5 - sum;
 }
 
-/* The place x in row y that an exact edge at `edge` is moved to: x + amount·degree·n(x) = edge. The field is so
+/* The position x in row y that an exact edge at `edge` is moved to: x + amount·degree·n(x) = edge. The field is so
  * slow that there is one. */
 static double moved_edge(const sketch_maps *m, double edge, int y, double amount, double degree)
 {
@@ -489,8 +489,8 @@ static void against_each(const char *what, const char *look, const sketch_style 
         int          together = 0, changed = 0;
         for (int y = 0; y < both.height; y++)
             for (int x = 0; x < both.width; x++) {
-                double depth[2], own = sketch_depth(&m[0], (sketch_place){x, y}),
-                                 other = sketch_depth(&m[1], (sketch_place){x, y});
+                double depth[2], own = sketch_depth(&m[0], (sketch_position){x, y}),
+                                 other = sketch_depth(&m[1], (sketch_position){x, y});
                 sketch_paint p[2], ground = ball->ground;
                 p[0] = sketch_opaque(&m[0], ball, x, y, &depth[0]);
                 if (sharp)
@@ -580,8 +580,9 @@ static void mask_identity(void)
         int missing = 0, more = 0, beside = 0, odd = 0, odd_elsewhere = 0, odd_missing = 0, fill_only = 0, cut_off = 0;
         for (int y = 0; y < drawn.height; y++)
             for (int x = 0; x < drawn.width; x++) {
-                sketch_place e = sketch_moved(&m, x, y, 12, style.edges), f = sketch_moved(&m, x, y, 12, style.shades);
-                bool         line = isfinite(sketch_depth(&m, e)), fill = isfinite(sketch_depth(&m, f)),
+                sketch_position e = sketch_moved(&m, x, y, 12, style.edges),
+                                f = sketch_moved(&m, x, y, 12, style.shades);
+                bool line = isfinite(sketch_depth(&m, e)), fill = isfinite(sketch_depth(&m, f)),
                      there = !is_ground(&drawn, x, y);
                 double edge[4];
                 sketch_edge(&m, e, edge);
@@ -635,12 +636,13 @@ static void patches(void)
                 for (int x = 30; x < drawn.width - 30; x++) {
                     bool constant = true;
                     for (int k = 0; k < 8 && constant; k++) {
-                        static const int way[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                                      {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+                        static const int direction[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                                            {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
                         for (int r = 1; r <= 10; r++)
                             constant =
-                                constant && memcmp(sketch_pixel(&exact, x, y),
-                                                   sketch_pixel(&exact, x + r * way[k][0], y + r * way[k][1]), 4) == 0;
+                                constant &&
+                                memcmp(sketch_pixel(&exact, x, y),
+                                       sketch_pixel(&exact, x + r * direction[k][0], y + r * direction[k][1]), 4) == 0;
                     }
                     if (!constant || is_ground(&exact, x, y))
                         continue;
@@ -677,8 +679,8 @@ static void product(void)
         double      worst = 0;
         for (int y = 0; y < drawn.height; y++)
             for (int x = 0; x < drawn.width; x++) {
-                sketch_place e = sketch_moved(&m, x, y, 6, sketch_scaled(1)),
-                             f = sketch_moved(&m, x, y, 6, sketch_scaled(-0.75));
+                sketch_position e = sketch_moved(&m, x, y, 6, sketch_scaled(1)),
+                                f = sketch_moved(&m, x, y, 6, sketch_scaled(-0.75));
                 if (!isfinite(sketch_depth(&m, e)) || !isfinite(sketch_depth(&m, f)))
                     continue;
                 double edge[4];
@@ -697,7 +699,7 @@ static void product(void)
             }
         check_at_least("C16", judged, 5000, "pixels amid the figure (with half ink: %d)", inked);
         check_at_most("C16", (double)wrong / judged, 0.001,
-                      "share of them that are not the product of the two texels within 1/255 (worst %.4f)", worst);
+                      "fraction of them that are not the product of the two texels within 1/255 (worst %.4f)", worst);
     }
     shot_release(&drawn);
     shape_release(&s);
@@ -798,7 +800,7 @@ static void grains(void)
     }
 }
 
-/* Three outlines in three colours, each at its own place, and no fill; and their depth beside an exact part. */
+/* Three outlines in three colours, each at its own position, and no fill; and their depth beside an exact part. */
 static void repeated(void)
 {
     static const uint8_t colours[2][3] = {{0xd0, 0x20, 0x20}, {0x20, 0x40, 0xd0}};
@@ -868,10 +870,10 @@ static void several(void)
     shape_release(&s);
 }
 
-/* Grains that fill leaves bare: the given share of them, of one grain's size, and half as many of lines. */
+/* Grains that fill leaves bare: the given fraction of them, of one grain's size, and half as many of lines. */
 static void tooth(void)
 {
-    static const double shares[] = {0.2, 0.5};
+    static const double fractions[] = {0.2, 0.5};
     const char         *change[] = {"finish.ground", "#ffffff", NULL};
     for (int k = 0; k < 4; k++) {
         char   perturb[160];
@@ -883,7 +885,7 @@ static void tooth(void)
                                  : "\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
                                    "\"discontinuity\",\"colour\":\"#000000\",\"width\":32}";
         snprintf(perturb, sizeof perturb,
-                 "{\"technique\":\"uncertainty\",\"amount\":0.5,\"lock\":\"screen\",\"tooth\":%g}", shares[k % 2]);
+                 "{\"technique\":\"uncertainty\",\"amount\":0.5,\"lock\":\"screen\",\"tooth\":%g}", fractions[k % 2]);
         shape_quad(&s, "plate", 1.2, 0);
         if (shot_of_shape(&drawn, &s, "tooth.glb", look_of(rule, perturb), change, &front))
             for (int y = 90; y < 210; y++)
@@ -891,8 +893,8 @@ static void tooth(void)
                     bare += sketch_pixel(&drawn, x, y)[1] > 2;
                     count++;
                 }
-        check_near("S08", count > 0 ? bare / count : -1, shares[k % 2] * (k < 2 ? 1 : 0.5), 0.04,
-                   "tooth %.1f: share of grains whose ground shows through the %s", shares[k % 2],
+        check_near("S08", count > 0 ? bare / count : -1, fractions[k % 2] * (k < 2 ? 1 : 0.5), 0.04,
+                   "tooth %.1f: fraction of grains whose ground shows through the %s", fractions[k % 2],
                    k < 2 ? "fill" : "lines");
         shot_release(&drawn);
         shape_release(&s);
@@ -1044,7 +1046,7 @@ static void samples(void)
             }
             check_at_least("S03", moved, 300, "pixels that are perturbed, %s", perturbs[k]);
             check_at_most("S03", (double)apart / moved, 0.1,
-                          "  as a share of them, pixels that sixteen samples turn (%d)", apart);
+                          "  as a fraction of them, pixels that sixteen samples turn (%d)", apart);
         }
         shot_release(&one);
         shot_release(&sixteen);
@@ -1084,7 +1086,7 @@ static void dialects(void)
                     worst = fmax(worst, fabs((double)es.uncertainty[i][c] - (double)desktop.uncertainty[i][c]));
             }
             check_at_most("S03", worst, 0.002, "the field in ES and in desktop GL, %s", perturbs[k]);
-            check_at_most("S03", (double)wrong / count, 0.0005, "  share of pixels that differ");
+            check_at_most("S03", (double)wrong / count, 0.0005, "  fraction of pixels that differ");
         }
         shot_release(&desktop);
         shot_release(&es);

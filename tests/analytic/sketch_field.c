@@ -249,7 +249,7 @@ static double largest_bend(const shot *s)
     return cbrt(sum / (s->width * s->height));
 }
 
-/* No place of the model is at rest whatever the seed: not its middle, nor a plane through it. */
+/* No position of the model is at rest whatever the seed: not its middle, nor a plane through it. */
 static void middle(void)
 {
     static const char *const locks[] = {"screen", "object"};
@@ -327,7 +327,8 @@ static void rim(void)
                     border = 399 - y < border ? 399 - y : border;
                     worst = fmax(worst, fabs(at(&b, x, y, 0) - at(&a, x, y, 0) * fmin(1, border / 45.0)));
                 }
-            check_at_most("C25", worst, 0.02, "%s: the shrunken field against the whole one times its share", locks[l]);
+            check_at_most("C25", worst, 0.02, "%s: the shrunken field against the whole one times its fraction",
+                          locks[l]);
         }
         shot_release(&a);
         shot_release(&b);
@@ -340,7 +341,8 @@ static void rim(void)
 static void distances(void)
 {
     enum { STEPS = 9 };
-    double rms[STEPS] = {0}, length[STEPS] = {0}, low_rms = INFINITY, high_rms = 0, low_way = INFINITY, high_way = 0;
+    double rms[STEPS] = {0}, length[STEPS] = {0}, low_rms = INFINITY, high_rms = 0, low_direction = INFINITY,
+           high_direction = 0;
     for (int k = 0; k < STEPS; k++)
         for (int seed = 0; seed < 3; seed++) {
             char      settings[96];
@@ -360,13 +362,14 @@ static void distances(void)
                    length[k]);
         low_rms = fmin(low_rms, rms[k]);
         high_rms = fmax(high_rms, rms[k]);
-        low_way = fmin(low_way, length[k]);
-        high_way = fmax(high_way, length[k]);
+        low_direction = fmin(low_direction, length[k]);
+        high_direction = fmax(high_direction, length[k]);
     }
     check_at_most("S12", high_rms / low_rms, 1.3,
                   "strength of the field at distances 1 to 16 times: the greatest over the least");
-    check_at_most("S12", high_way / low_way, 1.7, "length of its waves on the page: the greatest over the least");
-    check_near("S12", (high_way + low_way) / 2 / 40, 1, 0.6, "  over the scale");
+    check_at_most("S12", high_direction / low_direction, 1.7,
+                  "length of its waves on the page: the greatest over the least");
+    check_near("S12", (high_direction + low_direction) / 2 / 40, 1, 0.6, "  over the scale");
 }
 
 /* A closed shape with bumps, a ring around it and two boxes. */
@@ -395,11 +398,17 @@ static shot_view frame_view(int frame)
                        .up = {0, 1, 0}};
 }
 
-typedef enum place_class { PLACE_AMID, PLACE_WITHIN, PLACE_BEHIND, PLACE_OUTSIDE, PLACE_CLASSES } place_class;
+typedef enum position_class {
+    POSITION_AMID,
+    POSITION_WITHIN,
+    POSITION_BEHIND,
+    POSITION_OUTSIDE,
+    POSITION_CLASSES
+} position_class;
 
-static const char *const place_names[PLACE_CLASSES] = {"amid surfaces", "up to 6 px within silhouettes",
-                                                       "up to 6 px behind a nearer border",
-                                                       "up to 6 px outside silhouettes"};
+static const char *const position_names[POSITION_CLASSES] = {"amid surfaces", "up to 6 px within silhouettes",
+                                                             "up to 6 px behind a nearer border",
+                                                             "up to 6 px outside silhouettes"};
 
 /* Gives the pixels within six pixels of a step from one pixel to a farther one their class: on the side of which of
  * the two they are. */
@@ -412,7 +421,7 @@ static void classify_around(const shot *s, uint8_t *classes, int near, int far)
                 continue;
             bool behind =
                 isfinite(s->depth[far]) && fabsf(s->depth[i] - s->depth[far]) < fabsf(s->depth[i] - s->depth[near]);
-            uint8_t class = !isfinite(s->depth[i]) ? PLACE_OUTSIDE : behind ? PLACE_BEHIND : PLACE_WITHIN;
+            uint8_t class = !isfinite(s->depth[i]) ? POSITION_OUTSIDE : behind ? POSITION_BEHIND : POSITION_WITHIN;
             classes[i] = class > classes[i] ? class : classes[i];
         }
 }
@@ -422,8 +431,8 @@ static uint8_t *classes_of(const shot *s)
     uint8_t *classes = check_alloc((size_t)s->width * (size_t)s->height, 1);
     for (int y = 0; y + 1 < s->height; y++)
         for (int x = 0; x + 1 < s->width; x++)
-            for (int way = 0; way < 2; way++) {
-                int   a = y * s->width + x, b = way ? a + s->width : a + 1;
+            for (int mode = 0; mode < 2; mode++) {
+                int   a = y * s->width + x, b = mode ? a + s->width : a + 1;
                 float step = s->depth[b] - s->depth[a];
                 if (isinf(s->depth[a]) && isinf(s->depth[b]))
                     continue;
@@ -440,11 +449,11 @@ static bool followed(const shot *from, const shot *to, int x, int y, double *to_
     double depth = (double)from->depth[y * from->width + x];
     dvec   origin, direction;
     shot_ray(from, x + 0.5, y + 0.5, &origin, &direction);
-    dvec   point = dvec_add(origin, dvec_scale(direction, depth)), place = shot_project(to, point);
+    dvec   point = dvec_add(origin, dvec_scale(direction, depth)), position = shot_project(to, point);
     double eye_depth = -shot_to_eye(to, point, 1).z;
-    *to_x = place.x - 0.5;
-    *to_y = place.y - 0.5;
-    int px = (int)floor(place.x), py = (int)floor(place.y);
+    *to_x = position.x - 0.5;
+    *to_y = position.y - 0.5;
+    int px = (int)floor(position.x), py = (int)floor(position.y);
     return px >= 1 && py >= 1 && px < to->width - 1 && py < to->height - 1 &&
            fabs((double)to->depth[py * to->width + px] - eye_depth) < 0.01 * eye_depth;
 }
@@ -456,7 +465,8 @@ static bool nearest_border(const shot *s, const uint8_t *classes, int x, int y, 
     for (int v = -6; v <= 6; v++)
         for (int u = -6; u <= 6; u++)
             if (u * u + v * v < best && x + u >= 0 && y + v >= 0 && x + u < s->width && y + v < s->height &&
-                isfinite(s->depth[(y + v) * s->width + x + u]) && classes[(y + v) * s->width + x + u] < PLACE_BEHIND) {
+                isfinite(s->depth[(y + v) * s->width + x + u]) &&
+                classes[(y + v) * s->width + x + u] < POSITION_BEHIND) {
                 best = u * u + v * v;
                 *nx = x + u;
                 *ny = y + v;
@@ -465,8 +475,8 @@ static bool nearest_border(const shot *s, const uint8_t *classes, int x, int y, 
 }
 
 typedef struct drift {
-    double sum[PLACE_CLASSES], worst[PLACE_CLASSES];
-    size_t count[PLACE_CLASSES], jumps[PLACE_CLASSES];
+    double sum[POSITION_CLASSES], worst[POSITION_CLASSES];
+    size_t count[POSITION_CLASSES], jumps[POSITION_CLASSES];
 } drift;
 
 /* How much the field changes on surfaces that move from one picture to the next. `fields` are where the field is
@@ -478,12 +488,12 @@ static void add_drift(drift *d, const shot *from, const shot *to, const uint8_t 
     for (int y = 8; y < from->height - 8; y += 2)
         for (int x = 8; x < from->width - 8; x++) {
             int i = y * from->width + x, sx = x, sy = y;
-            place_class class = (place_class)classes[i];
+            position_class class = (position_class)classes[i];
             double to_x, to_y;
-            if (class == PLACE_AMID && !isfinite(from->depth[i]))
+            if (class == POSITION_AMID && !isfinite(from->depth[i]))
                 continue;
             /* Outside of a border and behind it the nearer surface has the say. */
-            if (class >= PLACE_BEHIND && !nearest_border(from, classes, x, y, &sx, &sy))
+            if (class >= POSITION_BEHIND && !nearest_border(from, classes, x, y, &sx, &sy))
                 continue;
             if (!followed(from, to, sx, sy, &to_x, &to_y))
                 continue;
@@ -563,7 +573,7 @@ static bool write_moving(const char *name, double right, moved what)
     return fclose(text) == 0 && ok;
 }
 
-/* How the field at places of both parts changes between two drawings; `right` is in pixels. */
+/* How the field at positions of both parts changes between two drawings; `right` is in pixels. */
 static void compare_moved(const shot *before, const shot *after, moved what, int right)
 {
     static const char *const names[2][MOVED_KINDS] = {{"", "rests", "rests", "is turned with all"},
@@ -572,7 +582,7 @@ static void compare_moved(const shot *before, const shot *after, moved what, int
     int                      count[2] = {0};
     for (int y = 8; y < 312; y++)
         for (int x = 8; x < 312; x++) {
-            /* Where the place is afterwards: a quarter about the middle of the page turns right into up. */
+            /* Where the position is afterwards: a quarter about the middle of the page turns right into up. */
             int  id = before->id[y * 320 + x];
             bool own = id == 2 && what != TURNED_ALL, turned = what == TURNED_ALL || (own && what == TURNED_PART);
             int  to_x = (turned ? y : x) + (own ? right : 0), to_y = turned ? 319 - x : y;
@@ -616,7 +626,7 @@ static void moved_part(void)
     shot_release(&before);
 }
 
-static double mean_drift(const drift *d, place_class class)
+static double mean_drift(const drift *d, position_class class)
 {
     return d->count[class] ? d->sum[class] / (double)d->count[class] : INFINITY;
 }
@@ -631,9 +641,9 @@ static void coherence(void)
                                             "\"amount\":4,\"scale\":40,\"lock\":\"screen\"",
                                             "\"amount\":4,\"scale\":40,\"lock\":\"screen\""};
     /* Round silhouettes slide over the surface as fast as it moves on the page: outside of them nothing can be tied
-     * to a place of it. And whoever approaches must see waves fade in and out, or they would not keep their length
+     * to a position of it. And whoever approaches must see waves fade in and out, or they would not keep their length
      * on the page. */
-    static const double      limits[PLACE_CLASSES] = {0.25, 0.4, 0.8, 0.8};
+    static const double      limits[POSITION_CLASSES] = {0.25, 0.4, 0.8, 0.8};
     static const char *const names[3] = {"on the model", "on the page", "new each frame"};
     shape                    s = {0};
     shot                     before[3] = {{0}};
@@ -659,14 +669,14 @@ static void coherence(void)
         }
     }
     check_that("S11", ok, "%d frames are drawn", FRAMES);
-    for (int c = 0; c < PLACE_CLASSES && ok; c++) {
+    for (int c = 0; c < POSITION_CLASSES && ok; c++) {
         for (int k = 0; k < 3; k++)
-            check_note("%-33s %-15s mean change %.4f, greatest %.3f, above 0.25: %.5f of %zu", place_names[c], names[k],
-                       mean_drift(&drifts[k], (place_class)c), drifts[k].worst[c],
+            check_note("%-33s %-15s mean change %.4f, greatest %.3f, above 0.25: %.5f of %zu", position_names[c],
+                       names[k], mean_drift(&drifts[k], (position_class)c), drifts[k].worst[c],
                        (double)drifts[k].jumps[c] / (double)drifts[k].count[c], drifts[k].count[c]);
-        check_at_most("S12", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[1], (place_class)c), limits[c],
-                      "%s: change a frame, on the model over on the page", place_names[c]);
-        check_at_most("S11", mean_drift(&drifts[0], (place_class)c) / mean_drift(&drifts[2], (place_class)c), 0.1,
+        check_at_most("S12", mean_drift(&drifts[0], (position_class)c) / mean_drift(&drifts[1], (position_class)c),
+                      limits[c], "%s: change a frame, on the model over on the page", position_names[c]);
+        check_at_most("S11", mean_drift(&drifts[0], (position_class)c) / mean_drift(&drifts[2], (position_class)c), 0.1,
                       "  on the model over new each frame");
         check_at_most(
             "S11", (double)drifts[0].jumps[c] / (double)drifts[1].jumps[c], 0.4,
@@ -674,7 +684,7 @@ static void coherence(void)
     }
     double all[3] = {0};
     for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < PLACE_OUTSIDE; c++)
+        for (int c = 0; c < POSITION_OUTSIDE; c++)
             all[k] += drifts[k].sum[c];
         shot_release(&before[k]);
     }
@@ -711,7 +721,7 @@ static void standstill(void)
 /* The view moves sideways by whole pixels: the field moves with it. */
 static void panned(void)
 {
-    static const int ways[] = {10, 7, 33};
+    static const int modes[] = {10, 7, 33};
     shape            s = {0};
     model(&s);
     for (int k = 0; k < 3; k++) {
@@ -720,15 +730,15 @@ static void panned(void)
                   moved = view;
         double pixel = 2 * 12 * tan(15 * pi / 180) / 320, worst = 0, sum = 0;
         int    count = 0, far = 0, wx = 0, wy = 0;
-        moved.eye.x -= ways[k] * pixel;
-        moved.target.x -= ways[k] * pixel;
+        moved.eye.x -= modes[k] * pixel;
+        moved.target.x -= modes[k] * pixel;
         bool ok = field_of(&a, &s, "\"lock\":\"object\"", &view);
         if (field_of(&b, &s, "\"lock\":\"object\"", &moved) && ok) {
             for (int y = 10; y < 310; y++)
                 for (int x = 10; x < 270; x++)
                     if (isfinite(a.depth[y * 320 + x])) {
-                        double change = hypot(at(&a, x, y, 0) - at(&b, x + ways[k], y, 0),
-                                              at(&a, x, y, 1) - at(&b, x + ways[k], y, 1));
+                        double change = hypot(at(&a, x, y, 0) - at(&b, x + modes[k], y, 0),
+                                              at(&a, x, y, 1) - at(&b, x + modes[k], y, 1));
                         if (change > worst) {
                             worst = change;
                             wx = x;
@@ -738,10 +748,10 @@ static void panned(void)
                         sum += change;
                         count++;
                     }
-            check_at_most("S12", sum / count, 0.02, "moved by %d px: mean change of the field on the model", ways[k]);
+            check_at_most("S12", sum / count, 0.02, "moved by %d px: mean change of the field on the model", modes[k]);
             check_at_most("S12", (double)far / count, 0.003,
-                          "  share of places where it changes by more than 0.3 (the greatest, %.3f, at %d %d)", worst,
-                          wx, wy);
+                          "  fraction of places where it changes by more than 0.3 (the greatest, %.3f, at %d %d)",
+                          worst, wx, wy);
         }
         shot_release(&a);
         shot_release(&b);
@@ -857,12 +867,13 @@ static void enlarged(void)
                     beyond += far > width + 6;
                     traces += far > width + 6 && there;
                 }
-                check_at_most("S13", (double)empty / band, 0.02,
-                              "enlarged by %d px, distance %g: share of the band outside the silhouette (radius %.0f) "
-                              "without a field",
-                              width, distances[k], radius);
-                check_at_most("S13", (double)holes / inner, 0.02, "  share of what is inside without one");
-                check_at_most("S13", (double)traces / beyond, 0.002, "  share of what is farther outside with one");
+                check_at_most(
+                    "S13", (double)empty / band, 0.02,
+                    "enlarged by %d px, distance %g: fraction of the band outside the silhouette (radius %.0f) "
+                    "without a field",
+                    width, distances[k], radius);
+                check_at_most("S13", (double)holes / inner, 0.02, "  fraction of what is inside without one");
+                check_at_most("S13", (double)traces / beyond, 0.002, "  fraction of what is farther outside with one");
             }
             shot_release(&field);
             shape_release(&s);
@@ -896,7 +907,7 @@ static void outside(void)
             check_near("S13", sqrt(sum[1] / count[1] / (sum[0] / count[0])), 0.9, 0.4,
                        "scale %d: strength of the field up to %d px outside over that inside", cases[k][1],
                        cases[k][0]);
-            check_at_most("S13", (double)missing / count[1], 0.01, "  share of the pixels there without a field");
+            check_at_most("S13", (double)missing / count[1], 0.01, "  fraction of the pixels there without a field");
         }
         shot_release(&field);
         shape_release(&s);

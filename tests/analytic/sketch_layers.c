@@ -37,26 +37,26 @@ typedef struct stack_style {
 /* A layer's colour and depth at a pixel; alpha 0 where it has nothing. */
 static sketch_paint layer_at(const sketch_maps *m, const stack_style *style, int k, int x, int y, double *depth)
 {
-    sketch_style lines = {.amount = style->amount,
-                          .edges = style->edges,
-                          .ink = sketch_colour(ink_bytes, 0xc0 / 255.0),
-                          .repeat = style->repeat,
-                          .repeat_degree = 1};
-    sketch_place s = sketch_moved(m, x, y, style->amount, style->shades);
-    sketch_paint fill = {0, 0, 0, 0}, all = {0, 0, 0, 0};
-    double       line_depth;
+    sketch_style    lines = {.amount = style->amount,
+                             .edges = style->edges,
+                             .ink = sketch_colour(ink_bytes, 0xc0 / 255.0),
+                             .repeat = style->repeat,
+                             .repeat_degree = 1};
+    sketch_position s = sketch_moved(m, x, y, style->amount, style->shades);
+    sketch_paint    fill = {0, 0, 0, 0}, all = {0, 0, 0, 0};
+    double          line_depth;
     *depth = sketch_depth(m, s);
     if (isfinite(*depth) && style->fill == FILL_TINT)
         fill = sketch_colour(tint_bytes, style->opacity);
     else if (isfinite(*depth) && style->fill == FILL_SHADE)
-        fill = sketch_share(sketch_shade(m, s), style->opacity);
+        fill = sketch_fraction(sketch_shade(m, s), style->opacity);
     for (int i = 0; i < 7; i++) /* copies have a colour of their own and the strength of the first */
         lines.repeat_inks[i] = sketch_colour(red_bytes, 0xc0 / 255.0);
     for (int i = style->repeat > 1 ? style->repeat - 1 : 0; i >= 0; i--) {
         sketch_paint ink = sketch_copy_ink(m, &lines, i, x, y, &line_depth);
         if (style->fill == FILL_NONE) /* a threshold leaves lines whole or out */
-            ink = ink.a >= 0.5 ? sketch_share(ink, 1 / ink.a) : (sketch_paint){0, 0, 0, 0};
-        all = sketch_over(sketch_share(ink, k ? style->hidden : 1), all);
+            ink = ink.a >= 0.5 ? sketch_fraction(ink, 1 / ink.a) : (sketch_paint){0, 0, 0, 0};
+        all = sketch_over(sketch_fraction(ink, k ? style->hidden : 1), all);
         *depth = fmin(*depth, line_depth);
     }
     return isfinite(*depth) ? sketch_over(all, fill) : (sketch_paint){0, 0, 0, 0};
@@ -87,7 +87,7 @@ static sketch_tally against_layers(const shot *s, const stack_style *style, cons
 typedef struct layered_case {
     const char *compose, *perturb;
     stack_style style;
-    double      share;
+    double      fraction;
 } layered_case;
 
 static const layered_case cases[] = {
@@ -158,7 +158,7 @@ static void whole_pictures(void)
                 sketch_tally t = against_layers(&drawn, &cases[c].style, NULL),
                              apart = against_layers(&drawn, &cases[c].style, &other);
                 check_at_least("S10", drawn.layer_count, 4, "layers");
-                sketch_check("C20", &t, &drawn, cases[c].share, title);
+                sketch_check("C20", &t, &drawn, cases[c].fraction, title);
                 check_at_least("C21", apart.pixels - apart.right - (t.pixels - t.right), 500,
                                "  more pixels that are wrong when every other layer is given another field");
             }
@@ -292,7 +292,7 @@ static void opaque_amid(void)
             for (int y = 0; y < both.height; y++)
                 for (int x = 0; x < both.width; x++) {
                     sketch_maps  of = sketch_maps_of(&core);
-                    double       own = sketch_depth(&of, (sketch_place){x, y}), depth;
+                    double       own = sketch_depth(&of, (sketch_position){x, y}), depth;
                     sketch_paint sum = isfinite(own) ? sketch_colour(red_bytes, 1) : sketch_colour(ground_bytes, 1);
                     for (int k = layers.layer_count; k-- > 0;) {
                         sketch_maps  m = sketch_maps_of_layer(&layers, k);
@@ -415,7 +415,7 @@ static void inked_once(void)
         check_at_least("C22", twice[k], 150, "%s: pixels that are inked twice when repeated edges are kept",
                        *perturbs[k] ? perturbs[k] + 11 : "exact");
         check_at_most("C22", (double)dark[k] / twice[k], 0.2,
-                      "  share of them (and of crossings) that stay without repeated edges");
+                      "  fraction of them (and of crossings) that stay without repeated edges");
     }
     shape_release(&s);
 }
@@ -493,7 +493,7 @@ static void producers(void)
 static bool near_figure(const shot *s, int pixel)
 {
     sketch_maps m = sketch_maps_of(s);
-    return isfinite(sketch_reach(&m, (sketch_place){pixel % s->width, s->height - 1 - pixel / s->width}, 7));
+    return isfinite(sketch_reach(&m, (sketch_position){pixel % s->width, s->height - 1 - pixel / s->width}, 7));
 }
 
 /* The field is that of what is seen: the same for the figure drawn opaque, for one layer and for all. */

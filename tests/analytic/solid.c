@@ -24,22 +24,22 @@ static const char look_all[] =
     LOOK(FLAT ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":{\"technique\":\"xray\",\"opacity\":0.5}");
 
 /* Ways to find the layers; the first is the engine's own choice. */
-typedef struct way {
+typedef struct mode {
     const char *name, *key, *value;
     bool        layers, front; /* what it is for */
-} way;
+} mode;
 
-static const way ways[] = {
+static const mode modes[] = {
     {"auto", NULL, NULL, true, true},
     {"peeling", "layers.producer", "peeling", true, false},
     {"lists", "layers.evaluation", "lists", true, true},
     {"products", "layers.evaluation", "products", true, true},
 };
 
-enum { WAYS = sizeof ways / sizeof *ways };
+enum { DIRECTIONS = sizeof modes / sizeof *modes };
 
 /* Not every build has a choice. */
-static bool is_there(const way *w, bool front)
+static bool is_there(const mode *w, bool front)
 {
     lmn_look *look = NULL;
     lmn_error error = {0};
@@ -50,7 +50,7 @@ static bool is_there(const way *w, bool front)
     return there;
 }
 
-static bool draw(shot *out, const csg *c, bool front, const way *w, const shot_view *view)
+static bool draw(shot *out, const csg *c, bool front, const mode *w, const shot_view *view)
 {
     const char *changes[] = {w->key, w->value, NULL};
     char        path[512];
@@ -92,7 +92,7 @@ static void check_score(const char *title, const csg_map *m, csg_rays *r, const 
     check_at_most("K02", (double)c.outline_wrong, 0,
                   "%s: pixels farther than a pixel from the outline that are full or empty and should not be", title);
     check_at_least(layers == 1 ? "K02" : "K03", (double)c.right_inner / (double)(c.inner ? c.inner : 1), 0.999,
-                   "  share of %zu pixels farther than a pixel from borders that are right", c.inner);
+                   "  fraction of %zu pixels farther than a pixel from borders that are right", c.inner);
     if (!check_at_most(layers == 1 ? "C1" : "C5", (double)(c.sharp - c.right_sharp), 0,
                        "  wrong pixels, of %zu whose answer is sure%s%s", c.sharp, *wrong ? ":" : "", wrong)) {
         check_note("errors so far: depth %.3g, normal %.3g degrees", c.depth_error, c.normal_error);
@@ -100,7 +100,7 @@ static void check_score(const char *title, const csg_map *m, csg_rays *r, const 
             if (c.wrong[k])
                 csg_explain(m, r, s, c.first[k][0], c.first[k][1]);
     }
-    check_at_least("self", (double)c.sharp / (double)c.pixels, 0.85, "  share of pixels whose answer is sure");
+    check_at_least("self", (double)c.sharp / (double)c.pixels, 0.85, "  fraction of pixels whose answer is sure");
 }
 
 /* Draws in each way, all layers and the front alone; OpenGL ES has no lists for layers. */
@@ -108,13 +108,13 @@ static void against_rays(const char *name, const csg *c, const shot_view *view, 
 {
     csg_rays *r = csg_rays_create(c, 30);
     csg_map   map = {0};
-    for (int e = 0; e < WAYS; e++)
+    for (int e = 0; e < DIRECTIONS; e++)
         for (int front = view->es; front < 2; front++) {
             char title[128];
             shot s;
-            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", ways[e].name,
+            snprintf(title, sizeof title, "%s, %s, %s%s", name, front ? "front" : "all layers", modes[e].name,
                      view->orthographic ? ", parallel" : "");
-            if (!draw(&s, c, front, &ways[e], view))
+            if (!draw(&s, c, front, &modes[e], view))
                 continue;
             if (!map.hits)
                 csg_map_make(&map, r, &s);
@@ -183,7 +183,7 @@ static void from_inside(void)
         bool in_solid = k % 2;
         csg_random(&c, kinds[k / 2], seed);
         csg_rays *r = csg_rays_create(&c, 30);
-        if (csg_find_place(r, in_solid, seed, &eye)) {
+        if (csg_find_position(r, in_solid, seed, &eye)) {
             shot_view view = {.width = 120,
                               .height = 100,
                               .eye = eye,
@@ -431,13 +431,13 @@ static void inner_side(void)
                                        .target = {0.03, 0, 0.02},
                                        .up = {0, 0, 1},
                                        .orthographic = true};
-    for (int e = 0; e < WAYS; e++) {
+    for (int e = 0; e < DIRECTIONS; e++) {
         csg  c = {0};
         shot s;
         int  judged = 0, wrong = 0;
         hollow(&c);
         csg_colour(&c);
-        bool drawn = draw(&s, &c, false, &ways[e], &straight);
+        bool drawn = draw(&s, &c, false, &modes[e], &straight);
         if (drawn && s.layer_count > 1)
             for (int i = 0; i < s.width * s.height; i++) {
                 dvec origin, direction;
@@ -449,7 +449,7 @@ static void inner_side(void)
                 wrong += fabs((double)s.layers[1].depth[i] - 5.3) > 0.001 || (double)s.layers[1].normal[i][2] > -0.99;
             }
         if (drawn) {
-            check_at_least("C6", judged, 500, "%s: pixels through a hollow box", ways[e].name);
+            check_at_least("C6", judged, 500, "%s: pixels through a hollow box", modes[e].name);
             check_at_most("C6", wrong, 0, "  whose second layer is not the inner side of its front wall");
             shot_release(&s);
         }
@@ -460,7 +460,7 @@ static void inner_side(void)
 /* Overlapping unions have no walls inside: behind the front there is only the back. */
 static void no_inner_walls(void)
 {
-    for (int e = 0; e < WAYS; e++) {
+    for (int e = 0; e < DIRECTIONS; e++) {
         csg  c = {0};
         shot s;
         int  more = 0, full = 0;
@@ -475,7 +475,7 @@ static void no_inner_walls(void)
         csg_colour(&c);
         csg_rays *r = csg_rays_create(&c, 30);
         csg_map   map = {0};
-        if (draw(&s, &c, false, &ways[e], &views[0])) {
+        if (draw(&s, &c, false, &modes[e], &views[0])) {
             csg_map_make(&map, r, &s);
             for (int i = 0; i < s.width * s.height; i++) {
                 size_t drawn = 0;
@@ -484,7 +484,7 @@ static void no_inner_walls(void)
                 full += csg_count(&map, i) > 0 && map.sharp[i];
                 more += map.sharp[i] && drawn > csg_count(&map, i);
             }
-            check_at_least("K03", full, 2000, "%s: pixels of ten leaves in each other", ways[e].name);
+            check_at_least("K03", full, 2000, "%s: pixels of ten leaves in each other", modes[e].name);
             check_at_most("K03", more, 0, "  that show a wall inside the union");
             shot_release(&s);
         }

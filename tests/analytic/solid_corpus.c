@@ -1,5 +1,5 @@
 /* OpenSCAD's own examples: a solid drawn pixel by pixel against the drawing of the mesh that OpenSCAD made of it,
- * from the same place. LIMNER_DATA names the folder of the corpora (default: shared/data beside or above the
+ * from the same position. LIMNER_DATA names the folder of the corpora (default: shared/data beside or above the
  * source); where there is none, there is nothing to compare. */
 #include <jansson.h>
 #include <stdio.h>
@@ -45,12 +45,12 @@ static bool stl_bounds(const char *path, dvec *low, dvec *high)
 
 typedef struct comparison {
     double overlap;       /* of the silhouettes: intersection over union */
-    double right[LAYERS]; /* share of the pixels that both have whose depths agree */
+    double right[LAYERS]; /* fraction of the pixels that both have whose depths agree */
     int    common[LAYERS], x, y;
 } comparison;
 
 /* The depths behind a pixel. Where parts nearly meet, OpenSCAD's meshes have clefts and skins without thickness
- * (their places have six digits): two surfaces closer than `hair` are none. */
+ * (their positions have six digits): two surfaces closer than `hair` are none. */
 static int depths_at(const shot *s, int i, double hair, double out[DRAWN])
 {
     int count = 0;
@@ -140,7 +140,7 @@ static void check_file(const char *folder, const char *name, const char *stl)
 
 static void against_meshes(void)
 {
-    static const char *const places[] = {"../shared/data", "../../shared/data", "../../../shared/data"};
+    static const char *const positions[] = {"../shared/data", "../../shared/data", "../../../shared/data"};
     char                     folder[512] = "", path[640];
     const char              *given = getenv("LIMNER_DATA");
     struct stat              unused;
@@ -150,7 +150,7 @@ static void against_meshes(void)
         if (k < 0)
             snprintf(folder, sizeof folder, "%s/csg", given);
         else
-            snprintf(folder, sizeof folder, "%s/../%s/csg", LIMNER_SOURCE, places[k]);
+            snprintf(folder, sizeof folder, "%s/../%s/csg", LIMNER_SOURCE, positions[k]);
         if (stat(folder, &unused) != 0)
             *folder = 0;
     }

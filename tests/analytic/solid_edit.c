@@ -364,7 +364,7 @@ static void add_file(twin *t)
     t->roots[t->root_count++] = (root){.item = -1};
 }
 
-static bool has_room(const twin *t, root r, int parent, int more)
+static bool has_capacity(const twin *t, root r, int parent, int more)
 {
     return t->items[parent].count + 1 < CHILDREN_MAX && t->item_count + more < ITEMS_MAX &&
            shapes_below(t, r.item) + more <= SHAPES_MAX;
@@ -384,7 +384,7 @@ static void add_shape(twin *t, root r)
     int       parent = any_operation(t, r.item);
     uint32_t  id;
     t->last = "add";
-    if (!has_room(t, r, parent, 1))
+    if (!has_capacity(t, r, parent, 1))
         return;
     lmn_shape shape = random_shape(t);
     DO(lmn_solid_add_shape(t->scene, r.solid, t->items[parent].id, &shape, &id, &error));
@@ -401,7 +401,7 @@ static void add_operation(twin *t, root r)
     uint32_t      id;
     lmn_operation operation = (lmn_operation)(1 + roll(t, 3));
     t->last = "add operation";
-    if (!has_room(t, r, parent, 1))
+    if (!has_capacity(t, r, parent, 1))
         return;
     DO(lmn_solid_add_operation(t->scene, r.solid, t->items[parent].id, operation, &id, &error));
     new_item(t, operation, parent, id);
@@ -433,7 +433,7 @@ static void copy(twin *t, root r)
     int       source = any(t, r.item), parent = any_operation(t, r.item);
     uint32_t  id;
     t->last = "copy";
-    if (is_below(t, parent, source) || !has_room(t, r, parent, size_of(t, source)))
+    if (is_below(t, parent, source) || !has_capacity(t, r, parent, size_of(t, source)))
         return;
     DO(lmn_solid_add_copy(t->scene, r.solid, t->items[parent].id, t->items[source].id, &id, &error));
     clone(t, r, source, parent, id);
@@ -479,10 +479,10 @@ static void move(twin *t, root r)
         return;
     take_out(t, at);
     item    *p = &t->items[parent];
-    int      place = (int)roll(t, (uint32_t)p->count + 1);
-    uint32_t before = place < p->count ? t->items[p->children[place]].id : 0;
-    memmove(&p->children[place + 1], &p->children[place], (size_t)(p->count++ - place) * sizeof(int));
-    p->children[place] = at;
+    int      position = (int)roll(t, (uint32_t)p->count + 1);
+    uint32_t before = position < p->count ? t->items[p->children[position]].id : 0;
+    memmove(&p->children[position + 1], &p->children[position], (size_t)(p->count++ - position) * sizeof(int));
+    p->children[position] = at;
     t->items[at].parent = parent;
     DO(lmn_solid_move(t->scene, r.solid, t->items[at].id, p->id, before, &error));
 }

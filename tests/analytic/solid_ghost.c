@@ -61,9 +61,9 @@ static void shelled(csg *whole, csg *gone)
     csg_ball(whole, shell, 0.9, 16, 24);
     csg_box(whole, shell, dvec_of(-0.2, -2, -0.3), dvec_of(0.3, 2, 0.2));
     csg_add(gone, -1, CSG_UNION);
-    int place = csg_add(gone, 0, CSG_UNION);
-    csg_place(gone, place, same(), dvec_of(0, 1, 0), 20, dvec_of(0.1, 0, 0));
-    csg_copy(gone, place, whole, shell);
+    int position = csg_add(gone, 0, CSG_UNION);
+    csg_place(gone, position, same(), dvec_of(0, 1, 0), 20, dvec_of(0.1, 0, 0));
+    csg_copy(gone, position, whole, shell);
 }
 
 /* Cutters that overlap and are not convex, one after the other. */

@@ -67,13 +67,13 @@ static double facet_depth(const field *f, const csg_hit *h, int x, int y, int ot
 {
     dvec origin, direction;
     shot_ray(f->view, x + 0.5, y + 0.5, &origin, &direction);
-    dvec place = dvec_add(origin, dvec_scale(direction, h->t));
+    dvec position = dvec_add(origin, dvec_scale(direction, h->t));
     shot_ray(f->view, other_x + 0.5, other_y + 0.5, &origin, &direction);
-    double t = dvec_dot(h->flat, dvec_sub(place, origin)) / dvec_dot(h->flat, direction);
+    double t = dvec_dot(h->flat, dvec_sub(position, origin)) / dvec_dot(h->flat, direction);
     return -shot_to_eye(f->view, dvec_add(origin, dvec_scale(direction, t)), 1).z;
 }
 
-/* The step that remains between two facets that do not meet between the pixels, as a share of the depth. */
+/* The step that remains between two facets that do not meet between the pixels, as a fraction of the depth. */
 static double step_between(const field *f, const csg_hit *a, const csg_hit *b, int x, int y, int other_x, int other_y)
 {
     double at_a = a->depth - facet_depth(f, b, other_x, other_y, x, y),
@@ -113,7 +113,7 @@ static uint8_t (*classify(const field *f))[2]
     return kinds;
 }
 
-/* The distance from a place (pixels) to the nearest border of such kinds; 9 when there is none near. */
+/* The distance from a position (pixels) to the nearest border of such kinds; 9 when there is none near. */
 static double distance_to(uint8_t (*kinds)[2], int w, int h, double x, double y, unsigned wanted)
 {
     double least = 9;
@@ -193,7 +193,7 @@ static void check_lines(const char *title, csg_rays *r, const csg_map *m, const 
     for (int kind = OUTLINE; kind < KINDS; kind++)
         if (c.samples[kind] >= 20)
             right = check_at_least(rows[kind], 1 - (double)c.missed[kind] / c.samples[kind], kind == RIM ? 0.98 : 0.99,
-                                   "%s, layer %zu: share of %d places at a %s with ink within 1.5 px", title, layer,
+                                   "%s, layer %zu: fraction of %d places at a %s with ink within 1.5 px", title, layer,
                                    c.samples[kind], kind_names[kind]) &&
                     right;
     if (!right) {
@@ -536,7 +536,7 @@ static void bores_seen_through(void)
             shot_release(&plain);
         }
         check_at_least("K06", samples ? (double)seen / samples : 0, 0.98,
-                       "%s: share of the outlines of hidden bores with a line", looks[l]);
+                       "%s: fraction of the outlines of hidden bores with a line", looks[l]);
         check_at_most("K06", seen_plain, 0, "  and of the visible surface alone");
         shot_release(&s);
         csg_release(&c);

@@ -72,11 +72,11 @@ static void leaves(void)
 
 /* --- volumes -------------------------------------------------------------------------------------------- */
 
-static void volume_is(csg *c, double wanted, double share, const char *what)
+static void volume_is(csg *c, double wanted, double fraction, const char *what)
 {
     csg_rays *r = csg_rays_create(c, 30);
     for (int axis = 0; axis < 3; axis++)
-        check_near("self", csg_volume(r, axis, 160), wanted, share * wanted, "%s, along axis %d", what, axis);
+        check_near("self", csg_volume(r, axis, 160), wanted, fraction * wanted, "%s, along axis %d", what, axis);
     csg_rays_destroy(r);
     csg_release(c);
 }
@@ -205,18 +205,18 @@ static int differing_rays(csg_rays *one, csg_rays *other, uint32_t seed, int cou
     uint32_t state = seed;
     int      wrong = 0;
     for (int k = 0; k < count; k++) {
-        csg_hit a[CSG_HITS_MAX], b[CSG_HITS_MAX];
-        csg_way way;
-        double  v[6];
+        csg_hit     a[CSG_HITS_MAX], b[CSG_HITS_MAX];
+        csg_passage passage;
+        double      v[6];
         for (int i = 0; i < 6; i++)
             v[i] = scene_between(&state, -1, 1);
         dvec   origin = dvec_of(v[0], v[1], v[2]), direction = dvec_of(v[3], v[4], v[5]);
-        size_t found = csg_trace(one, origin, direction, a, CSG_HITS_MAX, &way), same = 0;
-        if (csg_trace(other, origin, direction, b, CSG_HITS_MAX, &way) == found)
+        size_t found = csg_trace(one, origin, direction, a, CSG_HITS_MAX, &passage), same = 0;
+        if (csg_trace(other, origin, direction, b, CSG_HITS_MAX, &passage) == found)
             while (same < found && fabs(a[same].t - b[same].t) * dvec_length(direction) < 1e-9 &&
                    a[same].front == b[same].front && dvec_dot(a[same].flat, b[same].flat) > 1 - 1e-9)
                 same++;
-        wrong += same < found || (way.close && !found);
+        wrong += same < found || (passage.close && !found);
     }
     return wrong;
 }
@@ -262,17 +262,17 @@ static void laws(void)
 
 /* --- flush faces by hand -------------------------------------------------------------------------------- */
 
-/* The surfaces along x through (y, z) = (0.1, 0.2): places, owners; the first is a front. */
-static void along_x(csg *c, int count, const double *places, const int *owners, const char *what)
+/* The surfaces along x through (y, z) = (0.1, 0.2): positions, owners; the first is a front. */
+static void along_x(csg *c, int count, const double *positions, const int *owners, const char *what)
 {
-    csg_rays *r = csg_rays_create(c, 30);
-    csg_hit   hits[CSG_HITS_MAX];
-    csg_way   way;
-    int       found = (int)csg_trace(r, dvec_of(-10, 0.1, 0.2), dvec_of(2, 0, 0), hits, CSG_HITS_MAX, &way);
+    csg_rays   *r = csg_rays_create(c, 30);
+    csg_hit     hits[CSG_HITS_MAX];
+    csg_passage passage;
+    int         found = (int)csg_trace(r, dvec_of(-10, 0.1, 0.2), dvec_of(2, 0, 0), hits, CSG_HITS_MAX, &passage);
     check_near("self", found, count, 0, "%s: surfaces", what);
-    check_that("self", !way.close, "  no other order is possible");
+    check_that("self", !passage.close, "  no other order is possible");
     for (int k = 0; k < found && k < count; k++) {
-        check_near("self", hits[k].t * 2 - 10, places[k], 1e-9, "  place of surface %d", k);
+        check_near("self", hits[k].t * 2 - 10, positions[k], 1e-9, "  place of surface %d", k);
         check_near("self", hits[k].leaf, owners[k], 0, "  its owner");
         check_that("self", hits[k].front == (k % 2 == 0) && hits[k].normal.x * (k % 2 ? 1 : -1) > 0.5,
                    "  it faces outwards");
@@ -337,15 +337,15 @@ static void nearly_flush(void)
 {
     static const double gaps[] = {1e-8, 2e-5, 1e-3};
     for (int k = 0; k < 3; k++) {
-        csg     c = {0};
-        csg_hit hits[CSG_HITS_MAX];
-        csg_way way;
+        csg         c = {0};
+        csg_hit     hits[CSG_HITS_MAX];
+        csg_passage passage;
         boxes(&c, CSG_DIFFERENCE, 2, (double[][2]){{0, 2}, {-1, 0}});
         c.nodes[2].mesh.points[1].x += gaps[k]; /* one corner alone: the face leans */
         csg_rays *r = csg_rays_create(&c, 30);
-        size_t    count = csg_trace(r, dvec_of(-10, -0.7, -0.8), dvec_of(1, 0, 0), hits, CSG_HITS_MAX, &way);
+        size_t    count = csg_trace(r, dvec_of(-10, -0.7, -0.8), dvec_of(1, 0, 0), hits, CSG_HITS_MAX, &passage);
         check_near("self", (double)count, 2, 0, "a cut that leans by %g: surfaces", gaps[k]);
-        check_that("self", way.close == (k == 1), "  its order is %s", way.close ? "open" : "sure");
+        check_that("self", passage.close == (k == 1), "  its order is %s", passage.close ? "open" : "sure");
         csg_rays_destroy(r);
         csg_release(&c);
     }
@@ -381,7 +381,7 @@ static void maps(void)
         check_at_most("C5", turned + wrong + back, 0,
                       "  surfaces that do not alternate, face the wrong way or are out of order");
         check_at_least("self", (double)map.sharp_count / (map.width * map.height), 0.9,
-                       "  share of pixels whose answer is sure");
+                       "  fraction of pixels whose answer is sure");
         csg_map_release(&map);
         csg_rays_destroy(r);
         shot_release(&blank);

@@ -160,7 +160,7 @@ typedef struct blob {
 } blob;
 
 /* Pixels with ink that hang together. */
-static int blobs_of(const shot *s, blob *out, int room)
+static int blobs_of(const shot *s, blob *out, int capacity)
 {
     int   count = 0, *stack = check_alloc((size_t)(s->width * s->height), sizeof *stack);
     char *seen = check_alloc((size_t)(s->width * s->height), 1);
@@ -186,7 +186,7 @@ static int blobs_of(const shot *s, blob *out, int room)
                 }
             }
         }
-        if (count < room)
+        if (count < capacity)
             out[count++] = (blob){b.x / b.ink, b.y / b.ink, b.ink};
     }
     free(stack);
@@ -238,7 +238,7 @@ static bool page_of(marks_page *page, const shot *s, const char *model, const st
  * other. */
 static void same_set(void)
 {
-    enum { ROOM = 20000, SIZE = 512 };
+    enum { CAPACITY = 20000, SIZE = 512 };
     static const char *const surface = "stipple\",\"texture\":0,\"count\":3000,\"diameter\":2.5,\"shadow\":0.85,"
                                        "\"light\":1.02,\"fade\":0.001,\"grow\":1";
     stipple_values           values;
@@ -252,7 +252,7 @@ static void same_set(void)
     values.diameter = 2.5f;
     values.grow = 1;
     const float light[3] = {0.48f / 1.0f, 0.6f, 0.64f};
-    blob       *blobs = check_alloc(ROOM, sizeof *blobs);
+    blob       *blobs = check_alloc(CAPACITY, sizeof *blobs);
     shape       ball = {0};
     shape_sphere(&ball, "ball", (dvec){0.2, 0.1, 0}, 1, 60, 90, true);
     for (int k = 0; k < 12; k++) {
@@ -272,7 +272,7 @@ static void same_set(void)
                            &view))
             return;
         if (page_of(&page, &s, "stipple-ball.ply", &values, light)) {
-            int    count = blobs_of(&s, blobs, ROOM), missing = 0, extra = 0, off = 0, alone = 0;
+            int    count = blobs_of(&s, blobs, CAPACITY), missing = 0, extra = 0, off = 0, alone = 0;
             double radius = 0, worst = 0;
             for (size_t i = 0; i < page.dot_count; i++)
                 radius = fmax(radius, hypot((double)page.dots[i].x - SIZE / 2.0, (double)page.dots[i].y - SIZE / 2.0));
@@ -321,14 +321,14 @@ static void same_set(void)
 static void stays_put(void)
 {
     marks m;
-    vec3  places[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+    vec3  positions[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
          normals[4] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     uint32_t     indices[6] = {0, 1, 2, 0, 2, 3};
-    mark_surface wall = {places, normals, NULL, indices, 4, 2};
+    mark_surface wall = {positions, normals, NULL, indices, 4, 2};
     if (!check_that("EX-09", marks_stipple(&m, &wall, 5000, 1, NULL) == LMN_OK, "dots"))
         return;
     mark_style style = {.diameter = 2, .fade = 0.15f, .most = 1, .shadow = 0.5f, .light = 0.5f, .contrast = 1};
-    double     share = 0, most = 0;
+    double     fraction = 0, most = 0;
     int        steps = 0;
     float     *before = check_alloc(m.dot_count, sizeof *before), *now = check_alloc(m.dot_count, sizeof *now);
     for (int k = 0; k <= 40; k++) {
@@ -358,13 +358,14 @@ static void stays_put(void)
             most = fmax(most, fabs((double)(now[i] - before[i])));
         }
         if (k > 0) {
-            share = fmax(share, (double)changed / (double)m.dot_count);
+            fraction = fmax(fraction, (double)changed / (double)m.dot_count);
             steps++;
         }
         memcpy(before, now, m.dot_count * sizeof *now);
     }
-    check_at_most("EX-09", share, 0.02,
-                  "share of dots that change by more than a tenth in a step of half a degree, most of %d steps", steps);
+    check_at_most("EX-09", fraction, 0.02,
+                  "fraction of dots that change by more than a tenth in a step of half a degree, most of %d steps",
+                  steps);
     check_at_most("EX-08", most, 0.1, "change of a dot in such a step");
     free(before);
     free(now);

@@ -151,28 +151,28 @@ static const char *look_of(const subject *s, const char *found, const char *visi
 
 static void in_the_window(void)
 {
-    static const char *const names[KINDS] = {"", "strokes", "lines of the picture"}, *const ways[] = {"exact",
-                                                                                                      "sampled"};
+    static const char *const names[KINDS] = {"", "strokes", "lines of the picture"}, *const modes[] = {"exact",
+                                                                                                       "sampled"};
     for (int i = 0; i < 2; i++)
-        for (int way = 0; way < 2; way++) {
+        for (int mode = 0; mode < 2; mode++) {
             const subject *s = &subjects[i];
             char           model[512];
             snprintf(model, sizeof model, "%s/%s", LIMNER_EXAMPLES, s->model);
             shot_view view = {.width = SIDE, .height = SIDE, .bare = true};
             shot      t;
-            if (shot_take(&t, model, look_of(s, "discontinuity", ways[way]), NULL, &view)) {
+            if (shot_take(&t, model, look_of(s, "discontinuity", modes[mode]), NULL, &view)) {
                 part_kinds k;
                 find_kinds(&k, s, t.report);
                 tally n = count_lines(&t, &k, 0.01 * (t.far_depth - t.near_depth));
                 for (int kind = STROKES; kind <= FOUND; kind++) {
                     check_at_least("C11", (double)k.seen[kind], 3, "%s, %s: parts with %s that are seen", s->model,
-                                   ways[way], names[kind]);
+                                   modes[mode], names[kind]);
                     check_at_least("C11", (double)n.ink[kind], 2000, "%s: pixels of %s", s->model, names[kind]);
                     check_at_most("C11", (double)n.alien[kind], 0, "%s: of which away from their parts", s->model);
                     check_at_least("C11", (double)n.rims[kind], 400, "%s: pixels of outlines of parts with %s",
                                    s->model, names[kind]);
                     check_at_least("C11", (double)n.inked[kind] / (double)n.rims[kind], 0.99,
-                                   "%s: share of them with ink of that kind", s->model);
+                                   "%s: fraction of them with ink of that kind", s->model);
                 }
             }
             shot_release(&t);

@@ -12,10 +12,10 @@
 
 #define PI 3.14159265358979323846
 
-static const char *const ways[] = {"sampled", "exact"};
+static const char *const modes[] = {"sampled", "exact"};
 
 /* Black strokes on white. */
-static const char *look_of(const char *way, double width, const char *more)
+static const char *look_of(const char *mode, double width, const char *more)
 {
     static char texts[4][640];
     static int  next;
@@ -25,7 +25,7 @@ static const char *look_of(const char *way, double width, const char *more)
              "\"flat\",\"colour\":\"#ffffff\"},\"lines\":"
              "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,"
              "\"visibility\":\"%s\",\"width\":%g%s}}]}",
-             way, width, more);
+             mode, width, more);
     return text;
 }
 
@@ -44,7 +44,7 @@ static double darkness_at(const shot *s, double x, double y)
            v * ((1 - u) * darkness(s, column, row + 1) + u * darkness(s, column + 1, row + 1));
 }
 
-/* Width of the ink across a line at a place, as far as `reach` on both sides. */
+/* Width of the ink across a line at a position, as far as `reach` on both sides. */
 static double width_at(const shot *s, dvec at, dvec along, double reach)
 {
     double       sum = 0;
@@ -108,7 +108,7 @@ static void widths(void)
     static const double wanted[] = {0.7, 1, 2, 3.3, 8, 20};
     shape               s = {0};
     sail_of(&s);
-    for (int way = 0; way < 2; way++)
+    for (int mode = 0; mode < 2; mode++)
         for (size_t w = 0; w < sizeof wanted / sizeof *wanted; w++) {
             double worst = 0, mean = 0;
             int    count = 0;
@@ -121,13 +121,13 @@ static void widths(void)
                                   .orthographic = i % 4 == 3,
                                   .without_maps = true};
                 shot      t;
-                if (shot_of_shape(&t, &s, "sail.ply", look_of(ways[way], wanted[w], ""), NULL, &view))
+                if (shot_of_shape(&t, &s, "sail.ply", look_of(modes[mode], wanted[w], ""), NULL, &view))
                     measure_width(&t, wanted[w], &worst, &mean, &count);
                 shot_release(&t);
             }
-            check_at_least("EX-12", count, 300, "%s: places measured", ways[way]);
+            check_at_least("EX-12", count, 300, "%s: places measured", modes[mode]);
             check_at_most("EX-12", worst, 0.25,
-                          "%s: width %g at any angle and aspect, px off at worst (%.3f on average)", ways[way],
+                          "%s: width %g at any angle and aspect, px off at worst (%.3f on average)", modes[mode],
                           wanted[w], mean / count);
         }
     shape_release(&s);
@@ -138,7 +138,7 @@ static void near_plane(void)
 {
     shape s = {0};
     sail_of(&s);
-    for (int way = 0; way < 2; way++) {
+    for (int mode = 0; mode < 2; mode++) {
         double worst = 0, mean = 0;
         int    count = 0;
         for (int i = 0; i < 16; i++) {
@@ -151,12 +151,13 @@ static void near_plane(void)
                               .fov_deg = 70,
                               .without_maps = true};
             shot      t;
-            if (shot_of_shape(&t, &s, "sail.ply", look_of(ways[way], 5, ""), NULL, &view))
+            if (shot_of_shape(&t, &s, "sail.ply", look_of(modes[mode], 5, ""), NULL, &view))
                 measure_width(&t, 5, &worst, &mean, &count);
             shot_release(&t);
         }
-        check_at_least("EX-12", count, 60, "%s: places measured before a near plane that the line crosses", ways[way]);
-        check_at_most("EX-12", worst, 0.25, "%s: width, px off at worst", ways[way]);
+        check_at_least("EX-12", count, 60, "%s: places measured before a near plane that the line crosses",
+                       modes[mode]);
+        check_at_most("EX-12", worst, 0.25, "%s: width, px off at worst", modes[mode]);
     }
     shape_release(&s);
 }
@@ -177,7 +178,7 @@ static void star_of(shape *s)
     memset(p->positions[2 * POINTS], 0, sizeof p->positions[0]);
 }
 
-/* The lightest place within `radius` of a joint. */
+/* The lightest position within `radius` of a joint. */
 static double least_ink(const shot *s, dvec at, double radius)
 {
     double least = 1;
@@ -194,17 +195,17 @@ static void joints(void)
     shape               s = {0};
     star_of(&s);
     shot_view view = {.width = 500, .height = 500, .eye = {1, 0.5, 9}, .up = {0.2, 1, 0}, .without_maps = true};
-    for (int way = 0; way < 2; way++)
+    for (int mode = 0; mode < 2; mode++)
         for (size_t w = 0; w < sizeof wanted / sizeof *wanted; w++) {
             double least = 1;
             shot   t;
-            if (shot_of_shape(&t, &s, "star.ply", look_of(ways[way], wanted[w], ""), NULL, &view))
+            if (shot_of_shape(&t, &s, "star.ply", look_of(modes[mode], wanted[w], ""), NULL, &view))
                 for (uint32_t i = 0; i < s.parts[0].vertex_count - 1; i++)
                     least =
                         fmin(least, least_ink(&t, shot_project(&t, shape_point(&s.parts[0], i)), wanted[w] / 2 - 0.5));
             /* A gap of half a pixel would leave a pixel half as dark. */
             check_at_least("OE-08", least, 0.9, "%s: ink around joints, to half a pixel from the rim, width %g",
-                           ways[way], wanted[w]);
+                           modes[mode], wanted[w]);
             shot_release(&t);
         }
     shape_release(&s);
@@ -224,7 +225,7 @@ static double whole_along(const feature_lines *f, const shot *s, double limit)
     return f->sample_count ? (double)whole / (double)f->sample_count : 0;
 }
 
-/* The share of ink that is farther from every visible line than a stroke is wide. */
+/* The fraction of ink that is farther from every visible line than a stroke is wide. */
 static double stray_ink(const feature_lines *f, const shot *s, double reach)
 {
     size_t ink = 0, stray = 0;
@@ -288,20 +289,20 @@ static void whole_lines(void)
                               .orthographic = k == 2,
                               .without_maps = true};
             for (size_t w = 0; w < sizeof wanted / sizeof *wanted; w++) {
-                const int     way = (int)(w + (size_t)k) % 2;
+                const int     mode = (int)(w + (size_t)k) % 2;
                 shot          picture;
                 feature_lines lines = {0};
-                if (!shot_of_shape(&picture, &s, file, look_of(ways[way], wanted[w], ""), NULL, &view)) {
+                if (!shot_of_shape(&picture, &s, file, look_of(modes[mode], wanted[w], ""), NULL, &view)) {
                     shot_release(&picture);
                     continue;
                 }
                 feature_find(&lines, &s, t, &picture, 30);
                 check_at_least("EX-14", whole_along(&lines, &picture, wanted[w] < 2 ? 0.4 : 0.9), 0.995,
-                               "%s, view %d, %s: share of visible lines with whole ink, width %g", scenes[i].name, k,
-                               ways[way], wanted[w]);
+                               "%s, view %d, %s: fraction of visible lines with whole ink, width %g", scenes[i].name, k,
+                               modes[mode], wanted[w]);
                 if (wanted[w] <= 5)
                     check_at_most("EX-14", stray_ink(&lines, &picture, wanted[w] / 2 + 2), 0.002,
-                                  "%s, view %d, %s: share of ink of hidden lines", scenes[i].name, k, ways[way]);
+                                  "%s, view %d, %s: fraction of ink of hidden lines", scenes[i].name, k, modes[mode]);
                 feature_release(&lines);
                 shot_release(&picture);
             }
@@ -317,7 +318,7 @@ static void full_width(void)
     static const double wanted[] = {2, 4, 8, 16, 32};
     shape               s = {0};
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1.4, 128, 256, false);
-    for (int way = 0; way < 2; way++)
+    for (int mode = 0; mode < 2; mode++)
         for (size_t w = 0; w < sizeof wanted / sizeof *wanted; w++) {
             shot_view view = {.width = 400,
                               .height = 400,
@@ -327,7 +328,7 @@ static void full_width(void)
                               .without_maps = true};
             shot      t;
             double    least = INFINITY, most = 0, radius = 0;
-            if (shot_of_shape(&t, &s, "ball.glb", look_of(ways[way], wanted[w], ",\"creases\":false"), NULL, &view)) {
+            if (shot_of_shape(&t, &s, "ball.glb", look_of(modes[mode], wanted[w], ",\"creases\":false"), NULL, &view)) {
                 dvec middle = shot_project(&t, dvec_of(0, 0, 0));
                 while (radius < 190 && darkness_at(&t, middle.x + radius, middle.y) < 0.5)
                     radius += 0.25;
@@ -341,8 +342,8 @@ static void full_width(void)
                 }
             }
             check_at_least("EX-14", least, wanted[w] - 0.25, "%s: least width around a ball of an outline of width %g",
-                           ways[way], wanted[w]);
-            check_at_most("EX-14", most, wanted[w] + 0.25, "%s: largest", ways[way]);
+                           modes[mode], wanted[w]);
+            check_at_most("EX-14", most, wanted[w] + 0.25, "%s: largest", modes[mode]);
             shot_release(&t);
         }
     shape_release(&s);
@@ -350,7 +351,7 @@ static void full_width(void)
 
 /* --- both ways ------------------------------------------------------------------------------------------ */
 
-/* The share of ink of one picture that has none of the other within a pixel and a half. */
+/* The fraction of ink of one picture that has none of the other within a pixel and a half. */
 static double alone(const shot *a, const shot *b)
 {
     size_t ink = 0, single = 0;
@@ -441,21 +442,21 @@ static size_t count_ink(const shot *s)
 static void limits(void)
 {
     shot_view view = {.width = 200, .height = 160, .eye = {2, 2, 6}, .up = {0, 1, 0}, .without_maps = true};
-    for (int way = 0; way < 2; way++) {
+    for (int mode = 0; mode < 2; mode++) {
         shape s = {0};
         shot  t;
         sphere_scene(&s);
-        if (shot_of_shape(&t, &s, "plain.glb", look_of(ways[way], 2, ",\"contours\":\"none\""), NULL, &view))
+        if (shot_of_shape(&t, &s, "plain.glb", look_of(modes[mode], 2, ",\"contours\":\"none\""), NULL, &view))
             check_at_most("OE-03", (double)count_ink(&t), 0, "%s: a smooth ball without outlines has no line",
-                          ways[way]);
+                          modes[mode]);
         shot_release(&t);
         shape_release(&s);
         sail_of(&s);
-        if (shot_of_shape(&t, &s, "one.glb", look_of(ways[way], 2, ""), NULL, &view))
-            check_at_least("OE-05", (double)count_ink(&t), 200, "%s: one triangle has three borders", ways[way]);
+        if (shot_of_shape(&t, &s, "one.glb", look_of(modes[mode], 2, ""), NULL, &view))
+            check_at_least("OE-05", (double)count_ink(&t), 200, "%s: one triangle has three borders", modes[mode]);
         shot_release(&t);
-        if (shot_of_shape(&t, &s, "one.glb", look_of(ways[way], 2, ",\"borders\":false"), NULL, &view))
-            check_at_most("OE-05", (double)count_ink(&t), 0, "%s: and none where borders are not wanted", ways[way]);
+        if (shot_of_shape(&t, &s, "one.glb", look_of(modes[mode], 2, ",\"borders\":false"), NULL, &view))
+            check_at_most("OE-05", (double)count_ink(&t), 0, "%s: and none where borders are not wanted", modes[mode]);
         shot_release(&t);
         shape_release(&s);
     }
@@ -468,7 +469,7 @@ static void figures(void)
     shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, false);
     shape_box(&s, "plate", dvec_of(-2, -2, 1.2), dvec_of(0, 2, 1.3));
     shape_box(&s, "back", dvec_of(-0.2, -2, -1.5), dvec_of(2, 2, -1.3));
-    for (int way = 0; way < 2; way++) {
+    for (int mode = 0; mode < 2; mode++) {
         char look[900];
         snprintf(look, sizeof look,
                  "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
@@ -476,7 +477,7 @@ static void figures(void)
                  "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},\"lines\":{"
                  "\"operator\":\"strokes\",\"colour\":\"#000000\",\"width\":10,"
                  "\"visibility\":\"%s\"}}]}",
-                 ways[way]);
+                 modes[mode]);
         shot_view view = {.width = 300,
                           .height = 300,
                           .eye = {0, 0, 12},
@@ -491,10 +492,11 @@ static void figures(void)
             for (int y = 0; y < t.height; y++)
                 for (int x = 0; x < (int)middle.x - 1; x++)
                     covered = fmax(covered, darkness(&t, x, y));
-            check_at_most("EX-14", covered, 0, "%s: ink on a plate of another rule in front", ways[way]);
+            check_at_most("EX-14", covered, 0, "%s: ink on a plate of another rule in front", modes[mode]);
             check_near("EX-14", width_at(&t, right, dvec_of(0, 1, 0), 12), 10, 0.25,
-                       "%s: width in front of a plate of another rule", ways[way]);
-            check_near("EX-14", width_at(&t, top, dvec_of(0.8, 0.6, 0), 12), 10, 0.25, "%s: and higher up", ways[way]);
+                       "%s: width in front of a plate of another rule", modes[mode]);
+            check_near("EX-14", width_at(&t, top, dvec_of(0.8, 0.6, 0), 12), 10, 0.25, "%s: and higher up",
+                       modes[mode]);
         }
         shot_release(&t);
     }
@@ -506,10 +508,10 @@ static void samples_and_dialects(void)
 {
     shape s = {0};
     crowd_scene(&s);
-    for (int way = 0; way < 2; way++) {
+    for (int mode = 0; mode < 2; mode++) {
         shot_view   view = {.width = 240, .height = 240, .eye = {4, 3, 6}, .up = {0, 1, 0}, .without_maps = true};
         shot        one, four, es;
-        const char *look = look_of(ways[way], 3, "");
+        const char *look = look_of(modes[mode], 3, "");
         bool        good = shot_of_shape(&one, &s, "crowd.glb", look, NULL, &view);
         view.samples = 4;
         good = shot_of_shape(&four, &s, "crowd.glb", look, NULL, &view) && good;
@@ -523,9 +525,9 @@ static void samples_and_dialects(void)
         }
         if (good) {
             check_near("EX-12", ink[1] / ink[0], 1, 0.03,
-                       "%s: ink with four samples a pixel, as a share of that with one", ways[way]);
+                       "%s: ink with four samples a pixel, as a fraction of that with one", modes[mode]);
             check_at_most("EX-12", shot_differing(&one, &es, 2), 20, "%s: values that differ between desktop GL and ES",
-                          ways[way]);
+                          modes[mode]);
         }
         shot_release(&one);
         shot_release(&four);

@@ -36,8 +36,8 @@ static double luminance(const uint8_t *p)
     return 0.2126 * picture_linear(p[0]) + 0.7152 * picture_linear(p[1]) + 0.0722 * picture_linear(p[2]);
 }
 
-/* Distinct colours inside the figure and how many pixels each has, the most frequent first; at most `room`. */
-static int colours_of(const shot *s, uint32_t *colours, int *pixels, int room)
+/* Distinct colours inside the figure and how many pixels each has, the most frequent first; at most `capacity`. */
+static int colours_of(const shot *s, uint32_t *colours, int *pixels, int capacity)
 {
     int count = 0;
     for (int i = 0; i < s->width * s->height; i++) {
@@ -48,7 +48,7 @@ static int colours_of(const shot *s, uint32_t *colours, int *pixels, int room)
         int k = 0;
         while (k < count && colours[k] != c)
             k++;
-        if (k == room)
+        if (k == capacity)
             continue;
         if (k == count) {
             colours[count] = c;
@@ -173,7 +173,7 @@ static void tone_borders(void)
                        f ? "blurred as the seed" : "softness 1");
         check_at_most("E12", short_runs, 0, "of them without a transition");
         check_at_most("E12", long_runs, 0, "of them with more than 3 px");
-        check_at_least("E12", inside ? (double)flat / inside : 0, 0.9, "share of pixels in one of the flat tones");
+        check_at_least("E12", inside ? (double)flat / inside : 0, 0.9, "fraction of pixels in one of the flat tones");
         shot_release(&s);
     }
 }
@@ -215,8 +215,8 @@ static void gooch_ramp(void)
 {
     static const double cool[3] = {0x52, 0x66, 0xa8}, warm[3] = {0xcc, 0xb8, 0x7a};
     const char         *look =
-        surface_look("{\"technique\":\"gooch\",\"cool\":\"#5266a8\",\"warm\":\"#ccb87a\",\"cool_share\":0.2,"
-                     "\"warm_share\":0.35,\"specular\":0}",
+        surface_look("{\"technique\":\"gooch\",\"cool\":\"#5266a8\",\"warm\":\"#ccb87a\",\"cool_fraction\":0.2,"
+                     "\"warm_fraction\":0.35,\"specular\":0}",
                      "0.7,0.6,0.4", 0);
     dvec   light = dvec_unit(dvec_of(0.7, 0.6, 0.4));
     double worst = 0, darkest = 1, hue[21] = {0};
@@ -282,10 +282,10 @@ static void gooch_lines(void)
 /* --- wax ------------------------------------------------------------------------------------------------ */
 
 /* Without depth, wax is Lambert's law in its colour. With it, a channel is dark only where the light is further
- * behind than it goes, and no place is darker than the opaque one. The border is of the glow's hue. */
+ * behind than it goes, and no position is darker than the opaque one. The border is of the glow's hue. */
 static void wax_wraps(void)
 {
-    static const double share[3] = {1, 0.5, 0.25}, depth[] = {0, 0.4, 1};
+    static const double fraction[3] = {1, 0.5, 0.25}, depth[] = {0, 0.4, 1};
     dvec                light = dvec_unit(dvec_of(0.8, 0.2, 0.4));
     for (int d = 0; d < 3; d++) {
         char   surface[200];
@@ -299,10 +299,10 @@ static void wax_wraps(void)
         if (take_ball(&s, surface_look(surface, "0.8,0.2,0.4", 0), NULL))
             for (int i = 0; i < 256 * 256; i++)
                 for (int k = 0; k < 3 && !isinf(s.depth[i]); k++) {
-                    double reach = depth[d] * sqrt(share[k]), t = dvec_dot(light, dvec_from(s.normal[i]));
+                    double reach = depth[d] * sqrt(fraction[k]), t = dvec_dot(light, dvec_from(s.normal[i]));
                     double lit = fmax((t + reach) / (1 + reach), 0);
-                    worst = fmax(
-                        worst, fabs(s.picture[4 * i + k] - picture_srgb(lit + (1 - lit) * 0.4 * depth[d] * share[k])));
+                    worst = fmax(worst, fabs(s.picture[4 * i + k] -
+                                             picture_srgb(lit + (1 - lit) * 0.4 * depth[d] * fraction[k])));
                 }
         check_at_most("wax", worst, 2, "levels between wax of depth %g and its closed form", depth[d]);
         shot_release(&s);

@@ -97,7 +97,7 @@ static void dots_are_round_and_strokes_grained(void)
             check_near("P39", lying(&s), 1, 0.1, "the same of dots");
         shot_release(&s);
     }
-    check_at_most("P29", solid[2] / solid[0], 0.35, "share of full ink in strokes that grain leaves");
+    check_at_most("P29", solid[2] / solid[0], 0.35, "fraction of full ink in strokes that grain leaves");
 }
 
 /* A wall with a window in its map: its bars are there from near, its frame a little longer, its storey and hatching
@@ -179,7 +179,7 @@ static void widths_over_distance(void)
     }
     check_at_least("P19", thin, 0.5, "mean px of strokes over 1:64, least");
     check_at_most("P19", wide, 1.6, "mean px of strokes over 1:64, most");
-    check_at_most("P19", off, 0.25, "share of ink off the nearest's over 1:64, where octaves hand over as well");
+    check_at_most("P19", off, 0.25, "fraction of ink off the nearest's over 1:64, where octaves hand over as well");
 }
 
 static void plateaus(void)

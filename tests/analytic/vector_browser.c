@@ -50,8 +50,8 @@ static bool *read_ink(const char *path)
     return ink;
 }
 
-/* The share of one picture's ink that has some of the other's within 1.5 pixels. */
-static double share_near(const bool *a, const bool *b)
+/* The fraction of one picture's ink that has some of the other's within 1.5 pixels. */
+static double fraction_near(const bool *a, const bool *b)
 {
     size_t all = 0, near = 0;
     for (int y = 1; y < SIDE - 1; y++)
@@ -73,9 +73,9 @@ static void compare(const char *what, const char *model, const char *look, const
     bool *other = read_ink(path);
     if (!check_that("8", other != NULL, "%s shows %s as %s", what, model, look))
         return;
-    check_at_least("8", share_near(other, own), 0.99, "%s of %s, %s: ink that the picture has within 1.5 px", what,
+    check_at_least("8", fraction_near(other, own), 0.99, "%s of %s, %s: ink that the picture has within 1.5 px", what,
                    look, model);
-    check_at_least("8", share_near(own, other), 0.99, "%s of %s, %s: ink of the picture that it has within 1.5 px",
+    check_at_least("8", fraction_near(own, other), 0.99, "%s of %s, %s: ink of the picture that it has within 1.5 px",
                    what, look, model);
     free(other);
 }

@@ -1,5 +1,5 @@
 /* Dots and strokes of surfaces as vectors, drawn by another program (rsvg-convert), beside the picture that the GPU
- * draws of the same look and view: the same tone everywhere, and ink in the same places. Lines are left out, for
+ * draws of the same look and view: the same tone everywhere, and ink in the same positions. Lines are left out, for
  * those of pictures are others. */
 #include <math.h>
 #include <stdio.h>
@@ -34,12 +34,12 @@ static bool draw(const char *model, const char *look, const char *options, const
     return run(command);
 }
 
-static double share_of(double value, double paper, double ink)
+static double fraction_of(double value, double paper, double ink)
 {
     return fmin(fmax((paper - value) / (paper - ink), 0), 1);
 }
 
-/* The share of each pixel that ink covers. Limner mixes light, other programs mix bytes. */
+/* The fraction of each pixel that ink covers. Limner mixes light, other programs mix bytes. */
 static double *cover_of(const char *path, int finer, bool linear)
 {
     static const uint8_t ink = 0x17;
@@ -53,8 +53,9 @@ static double *cover_of(const char *path, int finer, bool linear)
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             uint8_t v = p[4 * ((size_t)y * (size_t)width + (size_t)x)];
-            double  share = linear ? share_of(picture_linear(v), 1, picture_linear(ink)) : share_of(v, 255, ink);
-            out[y / finer * SIDE + x / finer] += share / (finer * finer);
+            double  fraction =
+                linear ? fraction_of(picture_linear(v), 1, picture_linear(ink)) : fraction_of(v, 255, ink);
+            out[y / finer * SIDE + x / finer] += fraction / (finer * finer);
         }
     free(p);
     return out;
@@ -79,8 +80,8 @@ static double tone_off(const double *a, const double *b)
     return count ? sum / count : 1;
 }
 
-/* The share of one's ink that has some of the other's within 1.5 pixels. */
-static double share_near(const double *a, const double *b)
+/* The fraction of one's ink that has some of the other's within 1.5 pixels. */
+static double fraction_near(const double *a, const double *b)
 {
     size_t all = 0, near = 0;
     for (int y = 1; y < SIDE - 1; y++)
@@ -126,9 +127,9 @@ static void same_as_pictures(void)
                 check_at_most("EX-07", tone_off(own, other), 0.03,
                               "%s, %s: tone of %dx%d pixels off, mean of those with ink", models[m], looks[l], BLOCK,
                               BLOCK);
-                check_at_least("EX-07", share_near(other, own), 0.99, "%s, %s: ink that the picture has within 1.5 px",
-                               models[m], looks[l]);
-                check_at_least("EX-07", share_near(own, other), 0.99,
+                check_at_least("EX-07", fraction_near(other, own), 0.99,
+                               "%s, %s: ink that the picture has within 1.5 px", models[m], looks[l]);
+                check_at_least("EX-07", fraction_near(own, other), 0.99,
                                "%s, %s: ink of the picture that vectors have within 1.5 px", models[m], looks[l]);
             }
             free(own);

@@ -507,7 +507,7 @@ group_strokes() {
     rm -f in-first.png
     row 0 '' 'x.stx' strokes cross -o x.stx && cp x.stx in-cross.stx
     local options
-    for options in '--length 0.1' '--uneven 0' '--order shuffled' '--order drawn' '--share count' '--share area' '--perspective tied' \
+    for options in '--length 0.1' '--uneven 0' '--order shuffled' '--order drawn' '--fraction count' '--fraction area' '--perspective tied' \
                    '--perspective layers' '--perspective random' '--count 100' '--seed 9'; do
         row 0 '' 'x.stx' strokes cross -o x.stx $options
         cmp -s x.stx in-cross.stx && complain "$options changes nothing"

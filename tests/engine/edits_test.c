@@ -64,16 +64,16 @@ static void draw(const fixture *f)
     lmn_drawing_destroy(&drawing);
 }
 
-/* Where things were. A new one is made before the old one goes, so that it never lies in the same place. */
-typedef struct places {
+/* Where things were. A new one is made before the old one goes, so that it never lies in the same position. */
+typedef struct positions {
     const void *parts[2], *solids[2], *normals[4];
     size_t      solid_count;
-} places;
+} positions;
 
-static places places_of(const fixture *f)
+static positions positions_of(const fixture *f)
 {
     const upload *u = &f->renderer->up;
-    places        p = {.solid_count = u->solid_count};
+    positions     p = {.solid_count = u->solid_count};
     for (size_t i = 0; i < 2; i++) {
         p.parts[i] = u->meshes[f->scene->nodes[f->scene->parts[i].node].mesh].primitives[0];
         p.solids[i] = i < u->solid_count ? u->solids[i].mesh : NULL;
@@ -89,7 +89,7 @@ static void one_solid_is_made_anew(void **state)
     const double aside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 1};
     const float  red[4] = {1, 0, 0, 1};
     draw(f);
-    places before = places_of(f);
+    positions before = positions_of(f);
     assert_int_equal(before.solid_count, 2);
     for (int i = 0; i < 4; i++)
         assert_non_null(before.normals[i]);
@@ -101,7 +101,7 @@ static void one_solid_is_made_anew(void **state)
         else
             DO(lmn_solid_set_colour(f->scene, f->solids[1], f->shapes[1], red, &error));
         draw(f);
-        places after = places_of(f);
+        positions after = positions_of(f);
         assert_memory_equal(after.parts, before.parts, sizeof after.parts);
         assert_memory_equal(after.normals, before.normals, sizeof after.normals);
         assert_ptr_equal(after.solids[0], before.solids[0]);
@@ -115,11 +115,11 @@ static void another_shape_makes_its_normals_alone(void **state)
     fixture  *f = *state;
     lmn_shape cone = lmn_shape_cylinder(2, 1, 0);
     draw(f);
-    places before = places_of(f);
+    positions before = positions_of(f);
     DO(lmn_solid_set_shape(f->scene, f->solids[0], f->shapes[0], &cone, &error));
     DO(lmn_solid_set_name(f->scene, f->solids[1], LMN_SOLID_ROOT, "another", &error));
     draw(f);
-    places after = places_of(f);
+    positions after = positions_of(f);
     assert_memory_equal(after.parts, before.parts, sizeof after.parts);
     assert_ptr_not_equal(after.solids[0], before.solids[0]);
     assert_ptr_equal(after.solids[1], before.solids[1]);
@@ -135,10 +135,10 @@ static void emptied_solids_leave_the_rest(void **state)
 {
     fixture *f = *state;
     draw(f);
-    places before = places_of(f);
+    positions before = positions_of(f);
     DO(lmn_solid_remove(f->scene, f->solids[0], LMN_SOLID_ROOT, &error));
     draw(f);
-    places after = places_of(f);
+    positions after = positions_of(f);
     assert_int_equal(after.solid_count, 1);
     assert_memory_equal(after.parts, before.parts, sizeof after.parts);
     assert_ptr_equal(after.solids[0], before.solids[1]);
@@ -149,10 +149,10 @@ static void files_come_later(void **state)
 {
     fixture *f = *state;
     draw(f);
-    places before = places_of(f);
+    positions before = positions_of(f);
     DO(lmn_scene_add_file(f->scene, TEST_DATA "/two-parts.gltf", NULL, &error));
     draw(f);
-    places after = places_of(f);
+    positions after = positions_of(f);
     assert_memory_equal(after.parts, before.parts, sizeof after.parts);
     assert_memory_equal(after.solids, before.solids, sizeof after.solids);
 }

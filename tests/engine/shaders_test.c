@@ -32,7 +32,7 @@ static const char *const dialect_names[DIALECTS] = {[FLOOR] = "GL 3.3", [ES] = "
 /* Ways to draw a figure. */
 static const struct {
     const char *name, *settings[3][2];
-} ways[] = {
+} modes[] = {
     {"as it is", {{NULL}}},
     {"shaded later", {{"0:layers.technique", "front"}, {"0:layers.shading", "deferred"}, {NULL}}},
     {"in layers", {{"0:compose.technique", "xray"}, {NULL}}},
@@ -121,14 +121,14 @@ static void every_technique_in_every_way(void **state)
     fixture *f = *state;
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t n = 0; n < kinds[k]->technique_count; n++)
-            for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+            for (size_t w = 0; w < sizeof modes / sizeof *modes; w++) {
                 char      what[WHAT_SIZE];
                 lmn_look *look = example_look(kinds[k]->techniques[n]);
                 hold_lighter(look, kinds[k], kinds[k]->techniques[n], "");
                 bool fits = true; /* not every way goes together with every technique */
-                for (size_t s = 0; ways[w].settings[s][0]; s++)
-                    fits = lmn_look_set(look, ways[w].settings[s][0], ways[w].settings[s][1], NULL) == LMN_OK && fits;
-                snprintf(what, sizeof what, "%s.%s, %s", kinds[k]->name, kinds[k]->techniques[n]->name, ways[w].name);
+                for (size_t s = 0; modes[w].settings[s][0]; s++)
+                    fits = lmn_look_set(look, modes[w].settings[s][0], modes[w].settings[s][1], NULL) == LMN_OK && fits;
+                snprintf(what, sizeof what, "%s.%s, %s", kinds[k]->name, kinds[k]->techniques[n]->name, modes[w].name);
                 if (fits)
                     draw(f, DIALECTS, f->scene, look, what);
                 lmn_look_destroy(&look);

@@ -111,9 +111,9 @@ __attribute__((destructor)) static void end(void)
 /* Counts a call; true when it is the one to fail. `caller` NULL: of OpenGL, which only Limner calls. */
 static bool fails(int call, const void *caller, int usual)
 {
-    const uintptr_t place = (uintptr_t)caller;
-    const bool      ours = !caller || (place >= state.begin[0] && place < state.end[0]) ||
-                      (place >= state.begin[1] && place < state.end[1]);
+    const uintptr_t position = (uintptr_t)caller;
+    const bool      ours = !caller || (position >= state.begin[0] && position < state.end[0]) ||
+                      (position >= state.begin[1] && position < state.end[1]);
     if (!state.ready || (!ours && !state.all))
         return false;
     const long n = __atomic_add_fetch(&state.counts[call], 1, __ATOMIC_RELAXED);

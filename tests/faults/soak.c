@@ -14,7 +14,7 @@
 
 enum { FILES_MOST = 200, EVERY = 500, FILE_MOST = 300000 /* bytes; larger ones take long */, TRIANGLES_MOST = 3000 };
 
-/* nftw has no place for a user's pointer. */
+/* nftw has no position for a user's pointer. */
 static char *files[FILES_MOST];
 static int   file_count;
 

@@ -68,9 +68,9 @@ size_t fuzz_mutate_draw(uint8_t *bytes, size_t size, size_t most, unsigned seed)
         return size;
     }
     uint8_t     *model = bytes + DRAWING_CHOICES;
-    const size_t length = size - DRAWING_CHOICES, room = most - DRAWING_CHOICES, format = bytes[0] % 5;
-    const size_t now = format == 0   ? fuzz_mutate_gltf(model, length, room, seed + 1)
-                       : format == 1 ? fuzz_mutate_csg(model, length, room, seed + 1)
-                                     : LLVMFuzzerMutate(model, length, room);
+    const size_t length = size - DRAWING_CHOICES, capacity = most - DRAWING_CHOICES, format = bytes[0] % 5;
+    const size_t now = format == 0   ? fuzz_mutate_gltf(model, length, capacity, seed + 1)
+                       : format == 1 ? fuzz_mutate_csg(model, length, capacity, seed + 1)
+                                     : LLVMFuzzerMutate(model, length, capacity);
     return now + DRAWING_CHOICES;
 }

@@ -10,18 +10,18 @@
 enum { VALUES_MOST = 4096, BUFFER_MOST = 16384, DEPTH_MOST = 64 };
 
 /* A value and where it hangs. */
-typedef struct place {
+typedef struct position {
     json_t     *parent, *value;
     const char *key;   /* of objects */
     size_t      index; /* of arrays */
-} place;
+} position;
 
-typedef struct places {
-    place  items[VALUES_MOST];
-    size_t count;
-} places;
+typedef struct positions {
+    position items[VALUES_MOST];
+    size_t   count;
+} positions;
 
-static void collect(places *p, json_t *value, int depth)
+static void collect(positions *p, json_t *value, int depth)
 {
     if (depth > DEPTH_MOST)
         return;
@@ -31,20 +31,20 @@ static void collect(places *p, json_t *value, int depth)
         json_object_foreach(value, key, child)
         {
             if (p->count < VALUES_MOST)
-                p->items[p->count++] = (place){value, child, key, 0};
+                p->items[p->count++] = (position){value, child, key, 0};
             collect(p, child, depth + 1);
         }
     } else if (json_is_array(value)) {
         for (size_t i = 0; i < json_array_size(value); i++) {
             if (p->count < VALUES_MOST)
-                p->items[p->count++] = (place){value, json_array_get(value, i), NULL, i};
+                p->items[p->count++] = (position){value, json_array_get(value, i), NULL, i};
             collect(p, json_array_get(value, i), depth + 1);
         }
     }
 }
 
 /* Takes over the reference to `value`. */
-static void put(const place *at, json_t *value)
+static void put(const position *at, json_t *value)
 {
     if (at->key)
         json_object_set_new(at->parent, at->key, value);
@@ -99,7 +99,7 @@ static void encode(const uint8_t *bytes, size_t size, char *out)
 }
 
 /* Changes what is behind a data URI: as floats and as bytes. */
-static void change_buffer(const place *at, uint32_t *state)
+static void change_buffer(const position *at, uint32_t *state)
 {
     const char *text = json_string_value(at->value), *comma = text ? strchr(text, ',') : NULL;
     if (!comma || strncmp(text, "data:", 5) != 0)
@@ -129,7 +129,7 @@ static void change_buffer(const place *at, uint32_t *state)
 
 /* --- one change ----------------------------------------------------------------------------------------- */
 
-/* Extensions and members that models may have in many places. */
+/* Extensions and members that models may have in many positions. */
 static const char *const members[][2] = {
     {"sparse", "{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}"},
     {"extensions", "{\"KHR_mesh_quantization\":{}}"},
@@ -162,7 +162,7 @@ static const char *const members[][2] = {
     {"name", "\"a/b, \\\"c\\\"\""},
 };
 
-static void add_member(const place *at, uint32_t *state)
+static void add_member(const position *at, uint32_t *state)
 {
     const size_t which = fuzz_random(state, sizeof members / sizeof *members);
     json_t      *value = json_loads(members[which][1], JSON_DECODE_ANY, NULL);
@@ -173,14 +173,14 @@ static void add_member(const place *at, uint32_t *state)
         json_decref(value);
 }
 
-static void change_once(places *p, json_t *root, uint32_t *state)
+static void change_once(positions *p, json_t *root, uint32_t *state)
 {
     p->count = 0;
     collect(p, root, 0);
     if (p->count == 0)
         return;
-    const place at = p->items[fuzz_random(state, (uint32_t)p->count)],
-                other = p->items[fuzz_random(state, (uint32_t)p->count)];
+    const position at = p->items[fuzz_random(state, (uint32_t)p->count)],
+                   other = p->items[fuzz_random(state, (uint32_t)p->count)];
     if (json_is_string(at.value) && strchr(json_string_value(at.value), ',')) {
         change_buffer(&at, state);
         return;
@@ -221,9 +221,9 @@ static void change_once(places *p, json_t *root, uint32_t *state)
 /* Changes a text of JSON a few times. 0 when it is none or does not fit. */
 static size_t change_json(uint8_t *bytes, size_t size, size_t most, uint32_t *state)
 {
-    json_t *root = json_loadb((const char *)bytes, size, JSON_ALLOW_NUL, NULL);
-    places *p = mem_alloc(sizeof *p);
-    size_t  now = 0;
+    json_t    *root = json_loadb((const char *)bytes, size, JSON_ALLOW_NUL, NULL);
+    positions *p = mem_alloc(sizeof *p);
+    size_t     now = 0;
     if (root && p) {
         for (uint32_t n = 1 + fuzz_random(state, 3); n > 0; n--)
             change_once(p, root, state);

@@ -20,12 +20,13 @@ enum { OWNER_LEVELS = 1 };
 
 const char *const csg_verdict_names[CSG_VERDICTS] = {"right", "count", "owner", "depth", "normal", "facing", "hole"};
 
-size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX], csg_way *way)
+size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX],
+                       csg_passage *passage)
 {
     dvec   origin, direction;
     size_t kept = 0;
     shot_ray(view, x, y, &origin, &direction);
-    size_t found = csg_trace(r, origin, direction, out, CSG_HITS_MAX, way);
+    size_t found = csg_trace(r, origin, direction, out, CSG_HITS_MAX, passage);
     for (size_t k = 0; k < found; k++) {
         csg_hit hit = out[k];
         hit.depth = -shot_to_eye(view, dvec_add(origin, dvec_scale(direction, hit.t)), 1).z;
@@ -47,15 +48,15 @@ static bool same_structure(const csg_hit *a, const csg_hit *b, size_t count)
 
 static bool is_sharp(csg_rays *r, const shot *view, int x, int y, const csg_hit *own, size_t count, uint64_t crossings)
 {
-    csg_hit other[CSG_HITS_MAX];
-    csg_way way;
+    csg_hit     other[CSG_HITS_MAX];
+    csg_passage passage;
     for (size_t k = 0; k < count && !view->orthographic; k++)
         if (fabs(own[k].depth - view->near_depth) <= 1e-3 * view->near_depth)
             return false;
     for (int k = 0; k < 4; k++)
-        if (csg_trace_pixel(r, view, x + 0.5 + corners[k][0] * reach, y + 0.5 + corners[k][1] * reach, other, &way) !=
-                count ||
-            way.close || way.crossings != crossings || !same_structure(own, other, count))
+        if (csg_trace_pixel(r, view, x + 0.5 + corners[k][0] * reach, y + 0.5 + corners[k][1] * reach, other,
+                            &passage) != count ||
+            passage.close || passage.crossings != crossings || !same_structure(own, other, count))
             return false;
     return true;
 }
@@ -63,18 +64,18 @@ static bool is_sharp(csg_rays *r, const shot *view, int x, int y, const csg_hit 
 static void make_map(csg_map *out, csg_rays *r, const shot *view, bool judged)
 {
     int    count = view->width * view->height;
-    size_t room = 4096, used = 0;
+    size_t capacity = 4096, used = 0;
     *out = (csg_map){.width = view->width, .height = view->height};
     out->first = check_alloc((size_t)count + 1, sizeof *out->first);
     out->sharp = check_alloc((size_t)count, sizeof *out->sharp);
-    out->hits = check_alloc(room, sizeof *out->hits);
+    out->hits = check_alloc(capacity, sizeof *out->hits);
     for (int i = 0; i < count; i++) {
-        csg_hit own[CSG_HITS_MAX];
-        csg_way way;
-        int     x = i % view->width, y = i / view->width;
-        size_t  found = csg_trace_pixel(r, view, x + 0.5, y + 0.5, own, &way);
-        if (used + found > room) {
-            csg_hit *grown = check_alloc(room = 2 * room + found, sizeof *grown);
+        csg_hit     own[CSG_HITS_MAX];
+        csg_passage passage;
+        int         x = i % view->width, y = i / view->width;
+        size_t      found = csg_trace_pixel(r, view, x + 0.5, y + 0.5, own, &passage);
+        if (used + found > capacity) {
+            csg_hit *grown = check_alloc(capacity = 2 * capacity + found, sizeof *grown);
             memcpy(grown, out->hits, used * sizeof *grown);
             free(out->hits);
             out->hits = grown;
@@ -82,7 +83,7 @@ static void make_map(csg_map *out, csg_rays *r, const shot *view, bool judged)
         memcpy(out->hits + used, own, found * sizeof *own);
         used += found;
         out->first[i + 1] = used;
-        out->sharp[i] = judged && !way.close && is_sharp(r, view, x, y, own, found, way.crossings);
+        out->sharp[i] = judged && !passage.close && is_sharp(r, view, x, y, own, found, passage.crossings);
         out->sharp_count += out->sharp[i];
         out->most = found > out->most ? found : out->most;
         if (out->sharp[i] && found > out->most_sharp)
@@ -151,29 +152,29 @@ static double degrees_between(dvec a, dvec b)
     return 2 * asin(fmin(1, dvec_length(dvec_sub(a, b)) / 2)) * 180 / pi;
 }
 
-/* Depth of a surface's facet, carried on to another place of the picture. */
+/* Depth of a surface's facet, carried on to another position of the picture. */
 static double facet_depth(const shot *s, const csg_hit *h, double from_x, double from_y, double x, double y)
 {
     dvec origin, direction;
     shot_ray(s, from_x, from_y, &origin, &direction);
-    dvec place = dvec_add(origin, dvec_scale(direction, h->t));
+    dvec position = dvec_add(origin, dvec_scale(direction, h->t));
     shot_ray(s, x, y, &origin, &direction);
-    double t = dvec_dot(h->flat, dvec_sub(place, origin)) / dvec_dot(h->flat, direction);
+    double t = dvec_dot(h->flat, dvec_sub(position, origin)) / dvec_dot(h->flat, direction);
     return -shot_to_eye(s, dvec_add(origin, dvec_scale(direction, t)), 1).z;
 }
 
-/* The least errors where the rasteriser may have moved the surface from; its place in the order is the same there.
+/* The least errors where the rasteriser may have moved the surface from; its position in the order is the same there.
  * Near an edge between facets it may carry either on to the pixel's centre. */
 static void judge_again(csg_rays *r, const shot *s, int x, int y, size_t k, double depth, dvec normal,
                         double *depth_error, double *normal_error)
 {
-    csg_hit other[CSG_HITS_MAX];
-    csg_way way;
-    double  low = INFINITY, high = 0;
+    csg_hit     other[CSG_HITS_MAX];
+    csg_passage passage;
+    double      low = INFINITY, high = 0;
     for (int c = 0; c < 5; c++) {
         double shift = c < 4 ? moved : 0, at_x = x + 0.5 + corners[c % 4][0] * shift,
                at_y = y + 0.5 + corners[c % 4][1] * shift;
-        if (k >= csg_trace_pixel(r, s, at_x, at_y, other, &way))
+        if (k >= csg_trace_pixel(r, s, at_x, at_y, other, &passage))
             continue;
         double carried = facet_depth(s, &other[k], at_x, at_y, x + 0.5, y + 0.5);
         low = fmin(low, fmin(carried, other[k].depth));

@@ -5,7 +5,8 @@
 #include "csg_truth.h"
 
 /* The surfaces between the clip planes on the ray through a position of the picture. */
-size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX], csg_way *way);
+size_t csg_trace_pixel(csg_rays *r, const shot *view, double x, double y, csg_hit out[CSG_HITS_MAX],
+                       csg_passage *passage);
 
 /* The surfaces of all pixel centres. A pixel is sharp when rays a hundredth of a pixel around its centre cross the
  * same leaves and meet the same surfaces in the same order and nothing is close: elsewhere a rasteriser may be

@@ -339,10 +339,10 @@ static void grow(maker *m, int parent, int leaves, int depth, bool large)
         csg_place(m->c, node, dvec_of(1, 1, m->lattice ? -1 : 0.9), dvec_of(0, 0, 1), m->lattice ? 90 : 40,
                   dvec_of(0, 0, 0));
     for (int k = 0; k < children; k++) {
-        int share = k == children - 1 ? leaves : 1 + whole(m, 0, 2 * (leaves - children + k) / (children - k));
-        share = share > leaves - (children - 1 - k) ? leaves - (children - 1 - k) : share;
-        leaves -= share;
-        grow(m, node, share, depth - 1, kind == CSG_INTERSECTION || (kind == CSG_DIFFERENCE && k == 0));
+        int fraction = k == children - 1 ? leaves : 1 + whole(m, 0, 2 * (leaves - children + k) / (children - k));
+        fraction = fraction > leaves - (children - 1 - k) ? leaves - (children - 1 - k) : fraction;
+        leaves -= fraction;
+        grow(m, node, fraction, depth - 1, kind == CSG_INTERSECTION || (kind == CSG_DIFFERENCE && k == 0));
     }
 }
 
@@ -388,7 +388,7 @@ void csg_random(csg *c, csg_scene kind, uint32_t seed)
     csg_colour(c);
 }
 
-bool csg_find_place(csg_rays *r, bool in_solid, uint32_t seed, dvec *out)
+bool csg_find_position(csg_rays *r, bool in_solid, uint32_t seed, dvec *out)
 {
     static const dvec around[] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     dvec              low, high;

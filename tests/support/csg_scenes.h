@@ -36,7 +36,7 @@ typedef enum csg_scene {
     CSG_CONCAVE,    /* up to 8 leaves, most of them not convex */
     CSG_DEEP,       /* up to 14 leaves, nested up to six deep */
     CSG_MANY,       /* up to 60 leaves */
-    CSG_COINCIDENT, /* faces in one plane, leaves twice at one place, cuts flush with faces */
+    CSG_COINCIDENT, /* faces in one plane, leaves twice at one position, cuts flush with faces */
     CSG_SCENES
 } csg_scene;
 
@@ -47,6 +47,6 @@ void csg_random(csg *c, csg_scene kind, uint32_t seed);
 
 /* A point inside the solid (or inside some leaf and outside of the solid), some way from all surfaces. False when
  * there is none. */
-bool csg_find_place(csg_rays *r, bool in_solid, uint32_t seed, dvec *out);
+bool csg_find_position(csg_rays *r, bool in_solid, uint32_t seed, dvec *out);
 
 #endif

@@ -8,9 +8,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Shares of the extent: crossings in one plane are one event up to the first; others that are closer than the
+/* Fractions of the extent: crossings in one plane are one event up to the first; others that are closer than the
  * second may have either order in floats; twice the same edge of one leaf. */
-static const double coplanar_share = 1e-6, close_share = 1e-5, twice_share = 1e-10;
+static const double coplanar_fraction = 1e-6, close_fraction = 1e-5, twice_fraction = 1e-10;
 
 enum { CROSSINGS_MAX = 1024 };
 
@@ -377,8 +377,8 @@ typedef struct crossing {
 static bool in_one_plane(const csg_rays *r, const trace_triangle *a, const trace_triangle *b)
 {
     for (int k = 0; k < 3; k++)
-        if (fabs(dvec_dot(a->flat, dvec_sub(b->p[k], a->p[0]))) > coplanar_share * r->extent ||
-            fabs(dvec_dot(b->flat, dvec_sub(a->p[k], b->p[0]))) > coplanar_share * r->extent)
+        if (fabs(dvec_dot(a->flat, dvec_sub(b->p[k], a->p[0]))) > coplanar_fraction * r->extent ||
+            fabs(dvec_dot(b->flat, dvec_sub(a->p[k], b->p[0]))) > coplanar_fraction * r->extent)
             return false;
     return true;
 }
@@ -389,7 +389,7 @@ static bool is_twice(const csg_rays *r, const trace_triangle *f, dvec direction,
                      const trace_hit *hit)
 {
     double length = dvec_length(direction);
-    for (size_t k = count; k-- > 0 && (hit->t - c[k].hit.t) * length <= twice_share * r->extent;)
+    for (size_t k = count; k-- > 0 && (hit->t - c[k].hit.t) * length <= twice_fraction * r->extent;)
         if (c[k].leaf == (int)f[hit->triangle].part &&
             (dvec_dot(f[c[k].hit.triangle].flat, direction) < 0) == (dvec_dot(f[hit->triangle].flat, direction) < 0))
             return true;
@@ -405,7 +405,8 @@ static void find_events(const csg_rays *r, const trace_triangle *f, double lengt
         if (c[k].event >= 0)
             continue;
         c[k].event = (int)k;
-        for (size_t j = k + 1; j < count && (c[j].hit.t - c[k].hit.t) * length <= 100 * coplanar_share * r->extent; j++)
+        for (size_t j = k + 1; j < count && (c[j].hit.t - c[k].hit.t) * length <= 100 * coplanar_fraction * r->extent;
+             j++)
             if (c[j].event < 0 && c[j].leaf != c[k].leaf &&
                 in_one_plane(r, &f[c[k].hit.triangle], &f[c[j].hit.triangle]))
                 c[j].event = (int)k;
@@ -497,24 +498,24 @@ static size_t find_crossings(csg_rays *r, dvec origin, dvec direction, crossing 
 
 static bool any_close(csg_rays *r, const crossing *c, size_t count, size_t k, double length)
 {
-    for (size_t j = k + 1; j < count && (c[j].hit.t - c[k].hit.t) * length <= close_share * r->extent; j++)
+    for (size_t j = k + 1; j < count && (c[j].hit.t - c[k].hit.t) * length <= close_fraction * r->extent; j++)
         if (c[j].event == (int)j && order_matters(r, c, count, (int)k, (int)j))
             return true;
     return false;
 }
 
-size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way)
+size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t capacity, csg_passage *passage)
 {
     crossing              c[CROSSINGS_MAX];
     size_t                triangles, count = find_crossings(r, origin, direction, c), kept = 0;
     double                length = dvec_length(direction);
     const trace_triangle *f = tracer_triangles(r->tracer, &triangles);
-    *way = (csg_way){0};
+    *passage = (csg_passage){0};
     reset(r);
     for (size_t k = 0; k < count; k++) {
         if (c[k].event != (int)k)
             continue;
-        way->close = way->close || any_close(r, c, count, k, length);
+        passage->close = passage->close || any_close(r, c, count, k, length);
         bool     before = r->value[0], shared = false;
         uint64_t together = 0; /* in no order */
         for (size_t j = k; j < count; j++)
@@ -522,27 +523,27 @@ size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t 
                 together += ((uint64_t)c[j].leaf + 1) * 0x9E3779B97F4A7C15u;
                 shared = shared || j > k;
             }
-        way->crossings = way->crossings * 0xD1342543DE82EF95u + (together ^ together >> 29);
+        passage->crossings = passage->crossings * 0xD1342543DE82EF95u + (together ^ together >> 29);
         const crossing *owner = go_through(r, c, count, (int)k);
         if (r->value[0] == before)
             continue;
-        if (kept < room) {
+        if (kept < capacity) {
             out[kept] = hit_of(f, owner, direction, !before);
             out[kept].coplanar = shared;
         }
         kept++;
     }
-    if (kept > room)
+    if (kept > capacity)
         check_that("self", false, "%zu surfaces on a ray: more than the tests have room for", kept);
-    return kept < room ? kept : room;
+    return kept < capacity ? kept : capacity;
 }
 
 bool csg_inside(csg_rays *r, dvec point)
 {
-    csg_hit hits[CSG_HITS_MAX];
-    csg_way way;
-    bool    inside = false;
-    size_t  count = csg_trace(r, point, dvec_of(0.5377, 0.2113, 0.8163), hits, CSG_HITS_MAX, &way);
+    csg_hit     hits[CSG_HITS_MAX];
+    csg_passage passage;
+    bool        inside = false;
+    size_t      count = csg_trace(r, point, dvec_of(0.5377, 0.2113, 0.8163), hits, CSG_HITS_MAX, &passage);
     for (size_t k = 0; k < count && hits[k].t < 0; k++)
         inside = hits[k].front;
     return inside;
@@ -566,13 +567,13 @@ double csg_volume(csg_rays *r, int axis, int cells)
     int    a = (axis + 1) % 3, b = (axis + 2) % 3;
     d[axis] = 1;
     for (int i = 0; i < cells * cells; i++) {
-        csg_hit hits[CSG_HITS_MAX];
-        csg_way way;
-        double  o[3];
+        csg_hit     hits[CSG_HITS_MAX];
+        csg_passage passage;
+        double      o[3];
         o[axis] = low[axis] - 1;
         o[a] = low[a] + size[a] * (i % cells + 0.5) / cells;
         o[b] = low[b] + size[b] * (i / cells + 0.5) / cells;
-        size_t count = csg_trace(r, dvec_of(o[0], o[1], o[2]), dvec_of(d[0], d[1], d[2]), hits, CSG_HITS_MAX, &way);
+        size_t count = csg_trace(r, dvec_of(o[0], o[1], o[2]), dvec_of(d[0], d[1], d[2]), hits, CSG_HITS_MAX, &passage);
         for (size_t k = 0; k < count; k++)
             length += hits[k].front ? -hits[k].t : hits[k].t;
     }

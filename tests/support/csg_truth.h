@@ -8,7 +8,7 @@
 
 typedef enum csg_kind { CSG_LEAF, CSG_UNION, CSG_INTERSECTION, CSG_DIFFERENCE } csg_kind;
 
-/* A closed surface, anticlockwise seen from outside; corners of one place are one point. */
+/* A closed surface, anticlockwise seen from outside; corners of one position are one point. */
 typedef struct csg_mesh {
     dvec     *points;
     uint32_t *faces; /* 3 a triangle */
@@ -64,17 +64,17 @@ typedef struct csg_hit {
 
 enum { CSG_HITS_MAX = 256 };
 
-typedef struct csg_way {
+typedef struct csg_passage {
     bool close; /* somewhere the order of two crossings that are not in one plane matters, and they are closer than 1e-5
                    of the extent */
     uint64_t crossings; /* stands for all crossings in their order, whether the solid changes there or not */
-} csg_way;
+} csg_passage;
 
 /* On a whole line, nearest first. Crossings of different leaves in one plane are one event: there is a surface when
  * the tree's value before all of them is not that after. Within it, ends of the solid come before beginnings; among
  * ends leaves that are kept and then those that are taken away, among beginnings the other way round; then the
  * order of the tree. The one at which the tree's value changes owns the surface. */
-size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t room, csg_way *way);
+size_t csg_trace(csg_rays *r, dvec origin, dvec direction, csg_hit *out, size_t capacity, csg_passage *passage);
 
 bool csg_inside(csg_rays *r, dvec point);
 /* The same from one leaf's surface alone. */

@@ -17,12 +17,12 @@ void feature_release(feature_lines *f)
     *f = (feature_lines){0};
 }
 
-static void *grow(void *items, size_t count, size_t *room, size_t size)
+static void *grow(void *items, size_t count, size_t *capacity, size_t size)
 {
-    if (count < *room)
+    if (count < *capacity)
         return items;
-    *room = *room ? 2 * *room : 1024;
-    void *grown = check_alloc(*room, size);
+    *capacity = *capacity ? 2 * *capacity : 1024;
+    void *grown = check_alloc(*capacity, size);
     if (count)
         memcpy(grown, items, count * size);
     free(items);
@@ -31,7 +31,7 @@ static void *grow(void *items, size_t count, size_t *room, size_t size)
 
 static void add_edge(feature_lines *f, dvec a, dvec b, int64_t first, int64_t second, feature_class kind)
 {
-    f->edges = grow(f->edges, f->edge_count, &f->edge_room, sizeof *f->edges);
+    f->edges = grow(f->edges, f->edge_count, &f->edge_capacity, sizeof *f->edges);
     f->edges[f->edge_count++] = (feature){a, b, {first, second}, kind};
 }
 
@@ -241,7 +241,7 @@ static void sample_edge(feature_lines *out, const tracer *t, const shot *view, c
         if (!is_visible(t, e, dvec_mix(e->a, e->b, t3), viewer, w))
             continue;
         seen = true;
-        out->samples = grow(out->samples, out->sample_count, &out->sample_room, sizeof *out->samples);
+        out->samples = grow(out->samples, out->sample_count, &out->sample_capacity, sizeof *out->samples);
         out->samples[out->sample_count++] = (feature_sample){(float)x, (float)y, e->kind};
     }
     out->visible_edges += seen;

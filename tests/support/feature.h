@@ -29,9 +29,9 @@ typedef struct feature_sample {
 
 typedef struct feature_lines {
     feature        *edges;
-    size_t          edge_count, edge_room, visible_edges; /* an edge is visible when some sample of it is */
+    size_t          edge_count, edge_capacity, visible_edges; /* an edge is visible when some sample of it is */
     feature_sample *samples;
-    size_t          sample_count, sample_room;
+    size_t          sample_count, sample_capacity;
 } feature_lines;
 
 /* All visible lines in the view of the shot. `crease_degrees`: the least angle between normals that is a crease. */
@@ -45,8 +45,9 @@ typedef struct feature_score {
     size_t samples_of[FEATURE_CLASSES];
 } feature_score;
 
-/* Recall: the share of samples with ink within 1.5 px. False ink: the share of ink pixels farther than 2.5 px from
- * every sample. Writes a picture when `path` is not NULL: lines green, ink black, missed lines red, false ink blue. */
+/* Recall: the fraction of samples with ink within 1.5 px. False ink: the fraction of ink pixels farther than 2.5 px
+ * from every sample. Writes a picture when `path` is not NULL: lines green, ink black, missed lines red, false ink
+ * blue. */
 feature_score feature_compare(const feature_lines *f, const shot *s, const char *path);
 
 #endif

@@ -14,7 +14,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place,
+halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place position,
                             const void *user)
 {
     halftone_part *grown = check_alloc(s->count + 1, sizeof *grown);
@@ -28,7 +28,7 @@ halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int
     p->corners = check_alloc((size_t)(across + 1) * (size_t)(up + 1), sizeof *p->corners);
     for (int y = 0; y <= up; y++)
         for (int x = 0; x <= across; x++)
-            place((double)x / across, (double)y / up, user, &p->corners[y * (across + 1) + x]);
+            position((double)x / across, (double)y / up, user, &p->corners[y * (across + 1) + x]);
     return p;
 }
 
@@ -366,9 +366,9 @@ double halftone_box(const shot *s, double x, double y, double width, double heig
         for (int i = (int)floor(x); i < x + width; i++) {
             if (i < 0 || j < 0 || i >= s->width || j >= s->height)
                 continue;
-            double share = overlap(x, x + width, i) * overlap(y, y + height, j);
-            sum += share * halftone_ink(s, i, j);
-            area += share;
+            double fraction = overlap(x, x + width, i) * overlap(y, y + height, j);
+            sum += fraction * halftone_ink(s, i, j);
+            area += fraction;
         }
     return area > 0 ? sum / area : 0;
 }
@@ -401,9 +401,9 @@ double halftone_sample(const mip_chain *chain, int layer, double u, double v, do
         return ((const uint8_t *)mip_layer(chain, k, layer))[y * width + x] / 255.0;
     }
     int    low = (int)floor(level), high = low + 1 < chain->levels ? low + 1 : low;
-    double share = level - low;
-    return bilinear(chain, layer, u, v, low) * (1 - share) +
-           (share > 0 ? bilinear(chain, layer, u, v, high) * share : 0);
+    double fraction = level - low;
+    return bilinear(chain, layer, u, v, low) * (1 - fraction) +
+           (fraction > 0 ? bilinear(chain, layer, u, v, high) * fraction : 0);
 }
 
 bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const char *look, const char *const *changes,
@@ -417,14 +417,14 @@ bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const c
     return shot_take(out, path, look, changes, view);
 }
 
-int halftone_command(const char *command, const char *arguments, char *out, size_t room)
+int halftone_command(const char *command, const char *arguments, char *out, size_t capacity)
 {
     char line[8192];
     snprintf(line, sizeof line, "%s %s 2>&1", command, arguments);
     FILE *pipe = popen(line, "r");
     if (!pipe)
         return -1;
-    size_t got = fread(out, 1, room - 1, pipe);
+    size_t got = fread(out, 1, capacity - 1, pipe);
     out[got] = '\0';
     while (fgetc(pipe) != EOF) {
     }

@@ -16,7 +16,7 @@ typedef struct halftone_corner {
     float at[3], normal[3], uv[2], unique[2];
 } halftone_corner;
 
-/* A grid of across x up cells over the square 0 … 1; `place` says where each corner is. */
+/* A grid of across x up cells over the square 0 … 1; `position` says where each corner is. */
 typedef void (*halftone_place)(double s, double t, const void *user, halftone_corner *out);
 
 typedef struct halftone_part {
@@ -34,13 +34,13 @@ typedef struct halftone_scene {
     int            light_count;
 } halftone_scene;
 
-halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place place,
+halftone_part *halftone_add(halftone_scene *s, const char *name, int across, int up, halftone_place position,
                             const void *user);
 void           halftone_release(halftone_scene *s);
 /* FILE.gltf with its bytes inside, or .obj (one set of coordinates, colours and pictures in a .mtl beside). */
 bool halftone_write(const char *path, const halftone_scene *s);
 
-/* A rectangle in the plane z from a corner, facing +z; texture coordinates are the place times `uv`. */
+/* A rectangle in the plane z from a corner, facing +z; texture coordinates are the position times `uv`. */
 typedef struct halftone_wall {
     double x, y, z, width, height, uv;
 } halftone_wall;
@@ -68,7 +68,7 @@ const char *halftone_look(const char *surface);
 /* The same with a scene's JSON (without braces) as well, and everything after the surface in the rule. */
 const char *halftone_look_with(const char *surface, const char *scene, const char *more);
 
-/* Share of ink at a pixel, row 0 on top. */
+/* Fraction of ink at a pixel, row 0 on top. */
 double halftone_ink(const shot *s, int x, int y);
 /* Mean over a rectangle. */
 double halftone_mean(const shot *s, int x, int y, int width, int height);
@@ -88,12 +88,12 @@ bool halftone_shot(shot *out, const halftone_scene *s, const char *file, const c
 
 /* A wall that fills the picture however far it is: `octave` 0 is 100 px a unit. */
 bool halftone_far(shot *out, const char *surface, double octave, int side, double uv);
-/* Mean height of runs of ink in columns whose middle is dark, and the share of those of 0.5 to 1.5 px. */
+/* Mean height of runs of ink in columns whose middle is dark, and the fraction of those of 0.5 to 1.5 px. */
 double halftone_width(const shot *s, double *within);
 
 /* Runs the command with these arguments; what it says on both streams (at most room - 1 bytes). The exit status, -1
  * when it did not end by itself. */
-int halftone_command(const char *command, const char *arguments, char *out, size_t room);
+int halftone_command(const char *command, const char *arguments, char *out, size_t capacity);
 
 /* Screens are made here and not taken from earlier runs. Call first. */
 void halftone_begin(void);

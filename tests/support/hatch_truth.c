@@ -165,10 +165,10 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double quantile(double *values, int count, double share)
+static double quantile(double *values, int count, double fraction)
 {
     qsort(values, (size_t)count, sizeof *values, by_value);
-    return count ? values[(int)(share * (count - 1) + 0.5)] : 0;
+    return count ? values[(int)(fraction * (count - 1) + 0.5)] : 0;
 }
 
 /* Do lines cross columns more than rows, and by which cosine is a way along those longer than across the lines? */
@@ -189,7 +189,7 @@ static bool crossed_by(const shot *s, double *cosine)
     return turned;
 }
 
-/* Lines of this share of the greatest width are full ones. */
+/* Lines of this fraction of the greatest width are full ones. */
 static const double FULL = 0.96;
 
 enum { LINES_MAX = 1 << 16, ROWS_BETWEEN = 5 };
@@ -302,9 +302,9 @@ bool hatch_was_at(const shot *to, const shot *from, int x, int y, double *from_x
     if (isinf(depth))
         return false;
     shot_ray(to, x + 0.5, y + 0.5, &origin, &direction);
-    dvec point = dvec_add(origin, dvec_scale(direction, depth)), place = shot_project(from, point);
-    *from_x = place.x - 0.5;
-    *from_y = place.y - 0.5;
+    dvec point = dvec_add(origin, dvec_scale(direction, depth)), position = shot_project(from, point);
+    *from_x = position.x - 0.5;
+    *from_y = position.y - 0.5;
     int left = (int)floor(*from_x), top = (int)floor(*from_y);
     if (left < 0 || top < 0 || left + 1 >= from->width || top + 1 >= from->height)
         return false;

@@ -12,7 +12,7 @@ typedef struct hatch_rule {
     double scale, width; /* px; the width matters by number */
 } hatch_rule;
 
-/* The octave of a place: lines lie at whole multiples of 2^-octave, and new ones come halfway between. */
+/* The octave of a position: lines lie at whole multiples of 2^-octave, and new ones come halfway between. */
 typedef struct hatch_octave {
     double period;               /* px between old lines */
     double old_width, new_width; /* px */
@@ -21,7 +21,7 @@ typedef struct hatch_octave {
 
 hatch_octave hatch_octave_of(const hatch_rule *r, double rate, double darkness);
 
-/* The share of a pixel that lines cover: `coordinate` at its middle, which changes by `rate` a pixel across the
+/* The fraction of a pixel that lines cover: `coordinate` at its middle, which changes by `rate` a pixel across the
  * lines. */
 double hatch_cover(const hatch_rule *r, double coordinate, double rate, double darkness);
 
@@ -62,7 +62,7 @@ bool hatch_was_at(const shot *to, const shot *from, int x, int y, double *from_x
 /* What changed from one frame to the next where the same surface is seen, two pixels from its rims, and not too
  * steep (at most 66 degrees), ink smoothed over a pixel. */
 typedef struct hatch_change {
-    double changed; /* share of pixels that differ by more than a quarter */
+    double changed; /* fraction of pixels that differ by more than a quarter */
     double mean;    /* mean absolute difference */
     double block;   /* largest change of the mean ink of 16·16 px that are whole */
     double correlation;

@@ -64,9 +64,9 @@ static void axes_of(dvec along, dvec *a, dvec *b)
     *b = dvec_cross(along, *a);
 }
 
-double light_of_disc(const tracer *t, dvec place, dvec normal, dvec towards, double degrees, int rays)
+double light_of_disc(const tracer *t, dvec position, dvec normal, dvec towards, double degrees, int rays)
 {
-    dvec     along = dvec_unit(towards), a, b, origin = dvec_add(place, dvec_scale(normal, 1e-5));
+    dvec     along = dvec_unit(towards), a, b, origin = dvec_add(position, dvec_scale(normal, 1e-5));
     int      seen = 0;
     uint32_t last = UINT32_MAX;
     double   half = tan(degrees / 2 * pi / 180);
@@ -80,9 +80,9 @@ double light_of_disc(const tracer *t, dvec place, dvec normal, dvec towards, dou
     return (double)seen / rays;
 }
 
-static double sky_of(const tracer *t, dvec place, dvec normal, double radius, int rays)
+static double sky_of(const tracer *t, dvec position, dvec normal, double radius, int rays)
 {
-    dvec      a, b, origin = dvec_add(place, dvec_scale(normal, 1e-5));
+    dvec      a, b, origin = dvec_add(position, dvec_scale(normal, 1e-5));
     double    hidden = 0;
     trace_hit hit;
     axes_of(normal, &a, &b);
@@ -121,7 +121,7 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
     dvec                  viewer = shot_viewer(s, &w);
     for (int y = 0; y < m->height; y++)
         for (int x = 2 * y % step; x < m->width;
-             x += step) { /* shifted from row to row, so that odd places come up as often as even ones */
+             x += step) { /* shifted from row to row, so that odd positions come up as often as even ones */
             dvec      origin, direction;
             trace_hit hit;
             size_t    at = (size_t)y * (size_t)m->width + (size_t)x;
@@ -130,13 +130,13 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
             shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
             if (!tracer_hit(t, origin, direction, s->orthographic ? -INFINITY : 0, INFINITY, NULL, &hit))
                 continue;
-            dvec place = dvec_add(origin, dvec_scale(direction, hit.t)), normal = triangles[hit.triangle].flat;
-            if (dvec_dot(normal, w > 0 ? dvec_sub(viewer, place) : viewer) < 0)
+            dvec position = dvec_add(origin, dvec_scale(direction, hit.t)), normal = triangles[hit.triangle].flat;
+            if (dvec_dot(normal, w > 0 ? dvec_sub(viewer, position) : viewer) < 0)
                 normal = dvec_scale(normal, -1);
             if (!sky && dvec_dot(normal, dvec_unit(l->towards)) < 0.12)
                 continue;
-            m->truth[at] = (float)(sky ? sky_of(t, place, normal, l->radius * diagonal_of(&l->s), rays)
-                                       : light_of_disc(t, place, normal, l->towards, l->softness, rays));
+            m->truth[at] = (float)(sky ? sky_of(t, position, normal, l->radius * diagonal_of(&l->s), rays)
+                                       : light_of_disc(t, position, normal, l->towards, l->softness, rays));
         }
     trace_map_release(&seen);
     tracer_destroy(t);
@@ -169,11 +169,11 @@ light_score light_compare(const light_map *m)
         score.mean += off;
         score.worst = fmax(score.worst, off);
         score.far += off > 0.25;
-        score.places++;
+        score.positions++;
     }
-    if (score.places) {
-        score.mean /= score.places;
-        score.far /= score.places;
+    if (score.positions) {
+        score.mean /= score.positions;
+        score.far /= score.positions;
     }
     return score;
 }

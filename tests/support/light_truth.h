@@ -1,4 +1,4 @@
-/* Light by counting rays: how much of a disc and of a sky is seen from a place, against what a drawing says. It
+/* Light by counting rays: how much of a disc and of a sky is seen from a position, against what a drawing says. It
  * knows nothing of shaders. */
 #ifndef TRUTH_LIGHT_TRUTH_H
 #define TRUTH_LIGHT_TRUTH_H
@@ -7,14 +7,14 @@
 #include "shot.h"
 #include "trace.h"
 
-/* A drawing of a scene with one light and no other, its colours white, and what its places are. */
+/* A drawing of a scene with one light and no other, its colours white, and what its positions are. */
 typedef struct light_scene {
     shape       s;
     const char *file;
     shot_view   view;
     dvec        towards;           /* the light, world axes */
     double      softness;          /* degrees across */
-    double      occlusion, radius; /* strength; share of the box's diagonal */
+    double      occlusion, radius; /* strength; fraction of the box's diagonal */
     const char *layers;            /* the rule's, JSON behind a comma; NULL: none */
     double      fill;              /* strength of a second light */
 } light_scene;
@@ -25,26 +25,26 @@ bool light_shot(shot *out, const light_scene *l, bool kept_off);
 typedef struct light_map {
     int    width, height;
     float *drawn,
-        *truth; /* shares of light, row 0 on top; below 0 where nothing can be told: empty, borders, turned away */
+        *truth; /* fractions of light, row 0 on top; below 0 where nothing can be told: empty, borders, turned away */
 } light_map;
 
 /* What the drawing says, for pixels whose light alone is strong enough: with over without. */
 void light_map_drawn(light_map *out, const shot *with, const shot *without);
-/* The same by rays; `step`: only each such pixel of a row. With 5 the places are a fifth of all, spread evenly. */
+/* The same by rays; `step`: only each such pixel of a row. With 5 the positions are a fifth of all, spread evenly. */
 void light_map_shadows(light_map *m, const light_scene *l, const shot *s, int rays, int step);
 void light_map_occlusion(light_map *m, const light_scene *l, const shot *s, int rays, int step);
 void light_map_release(light_map *m);
 
 typedef struct light_score {
     double mean, worst; /* difference */
-    double far;         /* share of places that are off by more than a quarter */
-    int    places;
+    double far;         /* fraction of positions that are off by more than a quarter */
+    int    positions;
 } light_score;
 light_score light_compare(const light_map *m);
 /* Writes both beside each other. */
 void light_map_write(const light_map *m, const char *name);
 
-/* The share of a disc that many degrees wide that is seen from a place with this normal. */
-double light_of_disc(const tracer *t, dvec place, dvec normal, dvec towards, double degrees, int rays);
+/* The fraction of a disc that many degrees wide that is seen from a position with this normal. */
+double light_of_disc(const tracer *t, dvec position, dvec normal, dvec towards, double degrees, int rays);
 
 #endif

@@ -170,7 +170,7 @@ void scene_reorder(shape *out, const shape *s, const size_t *order)
 }
 
 /* Boxes that touch: a and b share a whole face, c is flush with a's side and lies on part of it. A ball twice at
- * one place; a sheet with two sides; a sheet that lies there twice the same way round, which is one surface. */
+ * one position; a sheet with two sides; a sheet that lies there twice the same way round, which is one surface. */
 static void coincident(shape *s, uint32_t *state)
 {
     double x = scene_between(state, -0.3, 0.3), y = scene_between(state, 0.3, 0.6), z = scene_between(state, 0.3, 0.6);

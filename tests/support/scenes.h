@@ -9,7 +9,8 @@ typedef enum scene_kind {
     SCENE_CLOSED,     /* boxes, spheres and rings, turned and overlapping */
     SCENE_OPEN,       /* plates, hills, spheres with holes */
     SCENE_CROSSING,   /* long parts that all run through the middle and through each other */
-    SCENE_COINCIDENT, /* faces of two parts in one plane, a part twice at one place, sheets that lie in one part twice
+    SCENE_COINCIDENT, /* faces of two parts in one plane, a part twice at one position, sheets that lie in one part
+                       * twice
                        */
     SCENE_KINDS
 } scene_kind;
@@ -38,7 +39,7 @@ void scene_reorder(shape *out, const shape *s, const size_t *order);
 /* Gives each part a colour of its own. */
 void scene_colour(shape *s);
 
-/* One small triangle at each of two places, as one part that stretches the scene's box; to be kept out of the
+/* One small triangle at each of two positions, as one part that stretches the scene's box; to be kept out of the
  * picture. */
 void scene_anchor(shape *s, const char *name, dvec low, dvec high);
 

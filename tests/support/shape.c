@@ -101,7 +101,7 @@ void shape_box(shape *s, const char *name, dvec low, dvec high)
         at = put_quad(p, at, faces[i][0], faces[i][1], faces[i][2], faces[i][3]);
 }
 
-/* Vertices of a staircase are looked up by place, so that neighbouring columns share them and no edge ends inside
+/* Vertices of a staircase are looked up by position, so that neighbouring columns share them and no edge ends inside
  * another. */
 static uint32_t vertex_at(shape_part *p, double x, double y, double z)
 {
@@ -135,8 +135,8 @@ static uint32_t put_wall(shape_part *p, uint32_t at, double x0, double y0, doubl
 
 void shape_steps(shape *s, const char *name, const double *edges, const double *heights, int columns, double depth)
 {
-    uint32_t    room = (uint32_t)columns * 80;
-    shape_part *p = shape_add(s, name, room, room, false, false);
+    uint32_t    capacity = (uint32_t)columns * 80;
+    shape_part *p = shape_add(s, name, capacity, capacity, false, false);
     p->vertex_count = 0;
     uint32_t at = 0;
     for (int i = 0; i < columns; i++) {
@@ -286,11 +286,11 @@ static dvec area_normal(const shape_part *p, uint32_t face)
 static dvec corner_normal(const shape_part *p, uint32_t corner, double limit)
 {
     dvec         own = dvec_unit(area_normal(p, corner / 3)), sum = {0, 0, 0};
-    const float *place = p->positions[p->indices[corner]];
+    const float *position = p->positions[p->indices[corner]];
     for (uint32_t k = 0; k < p->index_count; k++) {
         const float *other = p->positions[p->indices[k]];
-        if (place[0] < other[0] || place[0] > other[0] || place[1] < other[1] || place[1] > other[1] ||
-            place[2] < other[2] || place[2] > other[2])
+        if (position[0] < other[0] || position[0] > other[0] || position[1] < other[1] || position[1] > other[1] ||
+            position[2] < other[2] || position[2] > other[2])
             continue;
         dvec n = area_normal(p, k / 3);
         if (dvec_dot(own, dvec_unit(n)) >= limit)

@@ -59,7 +59,7 @@ void shape_wedge(shape *s, const char *name, double degrees);
 /* A square of side 2·half in the plane z, facing +z, with normals and texture coordinates (v down from the top). */
 void shape_quad(shape *s, const char *name, double half, double z);
 
-/* Gives every part normals: at each corner the area-weighted mean of the faces of the part around its place whose
+/* Gives every part normals: at each corner the area-weighted mean of the faces of the part around its position whose
  * normals are within the crease angle of the corner's own face. Corners are no longer shared. */
 void shape_make_normals(shape *s, double crease_degrees);
 

@@ -41,34 +41,34 @@ static size_t texel(const sketch_maps *m, int x, int y)
     return (size_t)(m->height - 1 - y) * (size_t)m->width + (size_t)x;
 }
 
-sketch_place sketch_moved(const sketch_maps *m, int x, int y, double amount, sketch_degree degree)
+sketch_position sketch_moved(const sketch_maps *m, int x, int y, double amount, sketch_degree degree)
 {
     const float *n = m->uncertainty[texel(m, x, y)];
-    return (sketch_place){x + amount * (degree.xx * (double)n[0] + degree.xy * (double)n[1]),
-                          y + amount * (degree.yx * (double)n[0] + degree.yy * (double)n[1])};
+    return (sketch_position){x + amount * (degree.xx * (double)n[0] + degree.xy * (double)n[1]),
+                             y + amount * (degree.yx * (double)n[0] + degree.yy * (double)n[1])};
 }
 
-bool sketch_inside(const sketch_maps *m, sketch_place p)
+bool sketch_inside(const sketch_maps *m, sketch_position p)
 {
     return p.x >= 0 && p.y >= 0 && p.x <= m->width - 1 && p.y <= m->height - 1;
 }
 
-double sketch_depth(const sketch_maps *m, sketch_place p)
+double sketch_depth(const sketch_maps *m, sketch_position p)
 {
     return (double)m->depth[texel(m, (int)floor(p.x + 0.5), (int)floor(p.y + 0.5))];
 }
 
-double sketch_reach(const sketch_maps *m, sketch_place p, int reach)
+double sketch_reach(const sketch_maps *m, sketch_position p, int reach)
 {
     double least = INFINITY;
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++)
-            least = fmin(least, sketch_depth(m, (sketch_place){p.x + x, p.y + y}));
+            least = fmin(least, sketch_depth(m, (sketch_position){p.x + x, p.y + y}));
     return least;
 }
 
-/* The four texels around a place and their weights. */
-static void around(const sketch_maps *m, sketch_place p, size_t at[4], double weight[4])
+/* The four texels around a position and their weights. */
+static void around(const sketch_maps *m, sketch_position p, size_t at[4], double weight[4])
 {
     int    x = (int)floor(p.x), y = (int)floor(p.y);
     double u = p.x - x, v = p.y - y;
@@ -82,13 +82,13 @@ double sketch_field(const sketch_maps *m, double x, double y, int channel)
 {
     size_t at[4];
     double weight[4], sum = 0;
-    around(m, (sketch_place){x, y}, at, weight);
+    around(m, (sketch_position){x, y}, at, weight);
     for (int k = 0; k < 4; k++)
         sum += weight[k] * (double)m->uncertainty[at[k]][channel];
     return sum;
 }
 
-void sketch_edge(const sketch_maps *m, sketch_place p, double out[4])
+void sketch_edge(const sketch_maps *m, sketch_position p, double out[4])
 {
     size_t at[4];
     double weight[4];
@@ -100,7 +100,7 @@ void sketch_edge(const sketch_maps *m, sketch_place p, double out[4])
     }
 }
 
-sketch_paint sketch_shade(const sketch_maps *m, sketch_place p)
+sketch_paint sketch_shade(const sketch_maps *m, sketch_position p)
 {
     size_t       at[4];
     double       weight[4];
@@ -108,7 +108,7 @@ sketch_paint sketch_shade(const sketch_maps *m, sketch_place p)
     around(m, p, at, weight);
     for (int k = 0; k < 4; k++) {
         const uint8_t *t = &m->shade[4 * at[k]];
-        sketch_paint   own = sketch_share(sketch_colour(t, t[3] / 255.0), weight[k]);
+        sketch_paint   own = sketch_fraction(sketch_colour(t, t[3] / 255.0), weight[k]);
         sum = (sketch_paint){sum.r + own.r, sum.g + own.g, sum.b + own.b, sum.a + own.a};
     }
     return sum;
@@ -120,21 +120,21 @@ sketch_paint sketch_colour(const uint8_t srgb[3], double alpha)
                           alpha * picture_linear(srgb[2]), alpha};
 }
 
-sketch_paint sketch_share(sketch_paint p, double share)
+sketch_paint sketch_fraction(sketch_paint p, double fraction)
 {
-    return (sketch_paint){p.r * share, p.g * share, p.b * share, p.a * share};
+    return (sketch_paint){p.r * fraction, p.g * fraction, p.b * fraction, p.a * fraction};
 }
 
 sketch_paint sketch_over(sketch_paint front, sketch_paint back)
 {
-    back = sketch_share(back, 1 - front.a);
+    back = sketch_fraction(back, 1 - front.a);
     return (sketch_paint){front.r + back.r, front.g + back.g, front.b + back.b, front.a + back.a};
 }
 
 sketch_paint sketch_ink(const double edge[4], sketch_paint colour)
 {
     double clear = (1 - colour.a * (1 - edge[0])) * (1 - colour.a * (1 - edge[1])) * (1 - colour.a * (1 - edge[3]));
-    return colour.a > 0 ? sketch_share(colour, (1 - clear) / colour.a) : colour;
+    return colour.a > 0 ? sketch_fraction(colour, (1 - clear) / colour.a) : colour;
 }
 
 sketch_degree sketch_copy(const sketch_style *style, int i)
@@ -146,8 +146,8 @@ sketch_degree sketch_copy(const sketch_style *style, int i)
 
 sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, int i, int x, int y, double *depth)
 {
-    sketch_place e = sketch_moved(m, x, y, style->amount, sketch_copy(style, i));
-    double       edge[4];
+    sketch_position e = sketch_moved(m, x, y, style->amount, sketch_copy(style, i));
+    double          edge[4];
     sketch_edge(m, e, edge);
     sketch_paint ink = sketch_ink(edge, i ? style->repeat_inks[i - 1] : style->ink);
     *depth = sketch_depth(m, e);
@@ -158,8 +158,8 @@ sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, in
 
 sketch_paint sketch_opaque(const sketch_maps *m, const sketch_style *style, int x, int y, double *depth)
 {
-    sketch_place s = sketch_moved(m, x, y, style->amount, style->shades);
-    double       fill_depth = sketch_depth(m, s), line_depth;
+    sketch_position s = sketch_moved(m, x, y, style->amount, style->shades);
+    double          fill_depth = sketch_depth(m, s), line_depth;
     bool bare = !style->without_lines && isfinite(sketch_depth(m, sketch_moved(m, x, y, style->amount, style->edges)));
     sketch_paint fill = {0, 0, 0, 0}, ink = {0, 0, 0, 0};
     if (isfinite(fill_depth))
@@ -197,10 +197,10 @@ void sketch_judge(sketch_tally *t, const shot *s, int x, int y, sketch_paint wan
     }
 }
 
-bool sketch_check(const char *row, const sketch_tally *t, const shot *s, double share, const char *what)
+bool sketch_check(const char *row, const sketch_tally *t, const shot *s, double fraction, const char *what)
 {
-    bool holds = check_at_least(row, t->pixels ? (double)t->right / t->pixels : 0, share,
-                                "%s: share of %d pixels as predicted", what, t->pixels);
+    bool holds = check_at_least(row, t->pixels ? (double)t->right / t->pixels : 0, fraction,
+                                "%s: fraction of %d pixels as predicted", what, t->pixels);
     if (!holds && s->picture && t->pixels) {
         const uint8_t *p = sketch_pixel(s, t->x, t->y);
         check_note("%d wrong; worst at %d, %d from the lower left: %.1f levels, drawn %d %d %d", t->pixels - t->right,
@@ -209,7 +209,7 @@ bool sketch_check(const char *row, const sketch_tally *t, const shot *s, double 
     return holds;
 }
 
-bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double share,
+bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *style, double levels, double fraction,
                          const char *what)
 {
     sketch_maps  m = sketch_maps_of(s);
@@ -220,5 +220,5 @@ bool sketch_check_opaque(const char *row, const shot *s, const sketch_style *sty
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++)
             sketch_judge(&t, s, x, y, sketch_over(sketch_opaque(&m, style, x, y, &depth), style->ground), levels);
-    return sketch_check(row, &t, s, share, what);
+    return sketch_check(row, &t, s, fraction, what);
 }

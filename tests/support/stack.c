@@ -5,7 +5,7 @@
 
 #include "check.h"
 
-/* Coincident in exact arithmetic: what double precision leaves of a difference of 0, as a share of the depth. */
+/* Coincident in exact arithmetic: what double precision leaves of a difference of 0, as a fraction of the depth. */
 static const double coincident = 1e-9;
 
 /* Coincident for a rasteriser: what single precision makes of the depth of one plane through different triangles. */
@@ -114,17 +114,17 @@ static bool is_sharp(const tracer *t, const shot *view, int x, int y, const stac
 void stack_map_make(stack_map *out, const tracer *t, const shot *view)
 {
     int    count = view->width * view->height;
-    size_t room = 4096, used = 0;
+    size_t capacity = 4096, used = 0;
     *out = (stack_map){.width = view->width, .height = view->height};
     out->first = check_alloc((size_t)count + 1, sizeof *out->first);
     out->sharp = check_alloc((size_t)count, sizeof *out->sharp);
-    out->hits = check_alloc(room, sizeof *out->hits);
+    out->hits = check_alloc(capacity, sizeof *out->hits);
     for (int i = 0; i < count; i++) {
         stack_hit own[STACK_MAX];
         int       x = i % view->width, y = i / view->width;
         size_t    found = stack_trace(t, view, x + 0.5, y + 0.5, own);
-        if (used + found > room) {
-            stack_hit *grown = check_alloc(room = 2 * room + found, sizeof *grown);
+        if (used + found > capacity) {
+            stack_hit *grown = check_alloc(capacity = 2 * capacity + found, sizeof *grown);
             memcpy(grown, out->hits, used * sizeof *grown);
             free(out->hits);
             out->hits = grown;
@@ -158,7 +158,7 @@ size_t stack_covered(const stack_map *m, size_t k)
 
 /* --- comparison ----------------------------------------------------------------------------------------- */
 
-/* How far a depth is outside of what the surface has where the rasteriser may have moved it from, as a share;
+/* How far a depth is outside of what the surface has where the rasteriser may have moved it from, as a fraction;
  * surfaces keep their numbers there because the pixel is sharp. */
 static void judge_again(const tracer *t, const shot *s, int x, int y, size_t k, double depth, dvec normal,
                         double *depth_error, double *normal_error)

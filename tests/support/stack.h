@@ -22,7 +22,7 @@ typedef struct stack_hit {
 size_t stack_trace(const tracer *t, const shot *view, double x, double y, stack_hit out[STACK_MAX]);
 
 /* The stacks of all pixel centres. A pixel is sharp when rays a hundredth of a pixel around its centre meet the
- * same surfaces in the same order: rasterisers place corners on a grid of 1/256 px, so only there is the answer
+ * same surfaces in the same order: rasterisers position corners on a grid of 1/256 px, so only there is the answer
  * sure. */
 typedef struct stack_map {
     int        width, height;

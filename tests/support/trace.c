@@ -265,7 +265,8 @@ static int by_distance(const void *a, const void *b)
     return one->triangle < other->triangle ? -1 : one->triangle > other->triangle;
 }
 
-size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out, size_t room)
+size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out,
+                   size_t capacity)
 {
     double   o[3] = {origin.x, origin.y, origin.z};
     double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
@@ -286,12 +287,12 @@ size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, dou
             trace_hit hit = {.triangle = t->order[i]};
             if (!hit_triangle(&t->triangles[hit.triangle], origin, direction, low, high, &hit))
                 continue;
-            if (found < room)
+            if (found < capacity)
                 out[found] = hit;
             found++;
         }
     }
-    qsort(out, found < room ? found : room, sizeof *out, by_distance);
+    qsort(out, found < capacity ? found : capacity, sizeof *out, by_distance);
     return found;
 }
 
@@ -347,7 +348,7 @@ void trace_map_release(trace_map *m)
     *m = (trace_map){0};
 }
 
-bool trace_map_border(const trace_map *m, int x, int y, double share)
+bool trace_map_border(const trace_map *m, int x, int y, double fraction)
 {
     size_t own = (size_t)y * (size_t)m->width + (size_t)x;
     for (int j = y - 1; j <= y + 1; j++)
@@ -357,7 +358,7 @@ bool trace_map_border(const trace_map *m, int x, int y, double share)
             size_t at = (size_t)j * (size_t)m->width + (size_t)i;
             if (m->id[at] != m->id[own])
                 return true;
-            if (m->id[own] && fabs(m->depth[at] - m->depth[own]) > share * m->depth[own])
+            if (m->id[own] && fabs(m->depth[at] - m->depth[own]) > fraction * m->depth[own])
                 return true;
         }
     return false;

@@ -37,8 +37,10 @@ bool tracer_hit(const tracer *t, dvec origin, dvec direction, double low, double
  * up; to begin with UINT32_MAX. */
 bool tracer_blocked(const tracer *t, dvec origin, dvec direction, double low, double high, uint32_t *last);
 
-/* Every triangle hit with low < t < high, nearest first; at most `room` are written, the number of all is returned. */
-size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out, size_t room);
+/* Every triangle hit with low < t < high, nearest first; at most `capacity` are written, the number of all is returned.
+ */
+size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out,
+                   size_t capacity);
 
 /* What a perfect renderer sees at the pixel centres of a shot. */
 typedef struct trace_map {
@@ -49,14 +51,14 @@ typedef struct trace_map {
 } trace_map;
 
 void trace_map_make(trace_map *out, const tracer *t, const shot *view);
-/* How far a pixel's normal is from the truth. Rasterisers place corners on a grid of 1/256 px, so on the line
+/* How far a pixel's normal is from the truth. Rasterisers position corners on a grid of 1/256 px, so on the line
  * between two facets either facet's normal will do. */
 double trace_normal_error(const tracer *t, const shot *view, int x, int y, dvec normal);
 void   trace_map_release(trace_map *m);
 
 /* Does the map change within the 3x3 pixels around this one: another part, empty against full, or a depth step of
- * more than `share` of the depth? Rasterisers place a border within a fraction of a pixel, so such pixels may
+ * more than `fraction` of the depth? Rasterisers place a border within a fraction of a pixel, so such pixels may
  * differ. */
-bool trace_map_border(const trace_map *m, int x, int y, double share);
+bool trace_map_border(const trace_map *m, int x, int y, double fraction);
 
 #endif

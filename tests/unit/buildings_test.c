@@ -8,7 +8,7 @@ typedef struct corner3 {
     double at[3];
 } corner3;
 
-/* A triangle in the building's place. */
+/* A triangle in the building's position. */
 typedef struct face {
     corner3  corners[3];
     double   normal[3], distance;

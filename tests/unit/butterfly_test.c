@@ -15,7 +15,7 @@ static butterfly refine(const primitive *p, const uint8_t *sharp, int steps)
     return b;
 }
 
-static bool same_place(vec3 a, vec3 b)
+static bool same_position(vec3 a, vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
@@ -31,7 +31,7 @@ static vec3 middle_of(const butterfly *b, uint32_t from, uint32_t to)
             assert_int_equal(l->faces[first / 3][first % 3], p);
             assert_int_equal(l->faces[second / 3][(second + 1) % 3], q);
             assert_int_equal(l->faces[first / 3][(first + 1) % 3], l->faces[second / 3][second % 3]);
-            return b->places[l->faces[first / 3][(first + 1) % 3]];
+            return b->positions[l->faces[first / 3][(first + 1) % 3]];
         }
     }
     fail();
@@ -55,8 +55,8 @@ static place3 flat_at(double u, double v)
     return (place3){u, v, 0};
 }
 
-/* All vertices of a torus of triangles have six neighbours. Whole numbers as places: the shares are sixteenths, so
- * that all sums are exact. */
+/* All vertices of a torus of triangles have six neighbours. Whole numbers as positions: the fractions are sixteenths,
+ * so that all sums are exact. */
 static void the_regular_stencil_is_exact(void **state)
 {
     (void)state;
@@ -65,12 +65,12 @@ static void the_regular_stencil_is_exact(void **state)
         p.positions[v] = (vec3){floorf((float)(1000 * hashed(3 * v))), floorf((float)(1000 * hashed(3 * v + 1))),
                                 floorf((float)(1000 * hashed(3 * v + 2)))};
     butterfly        b = refine(&p, NULL, 1);
-    static const int ways[3][4] = {
+    static const int directions[3][4] = {
         {1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, -1, 0}}; /* an edge and the next one to its left */
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++)
             for (int w = 0; w < 3; w++) {
-                int  ux = ways[w][0], uy = ways[w][1], wx = ways[w][2], wy = ways[w][3];
+                int  ux = directions[w][0], uy = directions[w][1], wx = directions[w][2], wy = directions[w][3];
                 vec3 ends[2] = {lattice(&p, i, j), lattice(&p, i + ux, j + uy)};
                 vec3 sides[2] = {lattice(&p, i + wx, j + wy), lattice(&p, i + ux - wx, j + uy - wy)};
                 vec3 wings[4] = {lattice(&p, i + wx - ux, j + wy - uy), lattice(&p, i + wx + ux, j + wy + uy),
@@ -84,7 +84,7 @@ static void the_regular_stencil_is_exact(void **state)
                                (8 * (ends[0].z + ends[1].z) + 2 * (sides[0].z + sides[1].z) -
                                 (wings[0].z + wings[1].z + wings[2].z + wings[3].z)) /
                                    16};
-                assert_true(same_place(middle_of(&b, lattice_number(i, j), lattice_number(i + ux, j + uy)), wanted));
+                assert_true(same_position(middle_of(&b, lattice_number(i, j), lattice_number(i + ux, j + uy)), wanted));
             }
     butterfly_release(&b);
     primitive_release(&p);
@@ -132,12 +132,12 @@ static void other_vertices_have_stencils_of_their_own(void **state)
             double sum[3] = {0.75 * p.positions[0].x, 0.75 * p.positions[0].y, 0.75 * p.positions[0].z};
             for (uint32_t j = 0; j < k; j++) {
                 vec3   q = p.positions[1 + (to + j) % k];
-                double share = k == 3   ? three[j] / 12
-                               : k == 4 ? four[j] / 8
-                                        : (0.25 + cos(2 * field_pi * j / k) + 0.5 * cos(4 * field_pi * j / k)) / k;
-                sum[0] += share * q.x;
-                sum[1] += share * q.y;
-                sum[2] += share * q.z;
+                double fraction = k == 3   ? three[j] / 12
+                                  : k == 4 ? four[j] / 8
+                                           : (0.25 + cos(2 * field_pi * j / k) + 0.5 * cos(4 * field_pi * j / k)) / k;
+                sum[0] += fraction * q.x;
+                sum[1] += fraction * q.y;
+                sum[2] += fraction * q.z;
             }
             vec3 own = middle_of(&b, 0, 1 + to);
             assert_true(fabs(own.x - sum[0]) < 1e-6 && fabs(own.y - sum[1]) < 1e-6 && fabs(own.z - sum[2]) < 1e-6);
@@ -153,7 +153,7 @@ static void given_vertices_stay(void **state)
     primitive p = grid_surface(torus_at, 9, 7, true, true, 0.3);
     butterfly b = refine(&p, NULL, 3);
     assert_int_equal(b.level_count, 4);
-    assert_memory_equal(b.places, p.positions, p.vertex_count * sizeof *p.positions);
+    assert_memory_equal(b.positions, p.positions, p.vertex_count * sizeof *p.positions);
     for (uint32_t i = 0; i + 1 < b.level_count; i++) {
         const butterfly_level *l = &b.levels[i], *finer = l + 1;
         assert_int_equal(finer->face_count, 4 * l->face_count);
@@ -195,12 +195,12 @@ static void a_cube_with_sharp_edges_stays_a_cube(void **state)
     butterfly              b = refine(&p, sharp, 3);
     const butterfly_level *l = &b.levels[3];
     for (uint32_t v = 0; v < l->vertex_count; v++) {
-        vec3 q = b.places[v];
+        vec3 q = b.positions[v];
         assert_true(fmaxf(fmaxf(fabsf(q.x), fabsf(q.y)), fabsf(q.z)) == 1);
     }
     uint32_t sharp_edges = 0;
     for (uint32_t h = 0; h < 3 * l->face_count; h++) {
-        vec3 a = b.places[l->faces[h / 3][h % 3]], c = b.places[l->faces[h / 3][(h + 1) % 3]];
+        vec3 a = b.positions[l->faces[h / 3][h % 3]], c = b.positions[l->faces[h / 3][(h + 1) % 3]];
         int  shared =
             (fabsf(a.x) == 1 && a.x == c.x) + (fabsf(a.y) == 1 && a.y == c.y) + (fabsf(a.z) == 1 && a.z == c.z);
         assert_int_equal(l->sharp[h], shared == 2); /* sharp edges are those that lie on two sides of the cube */
@@ -253,7 +253,7 @@ static void a_rim_becomes_round_and_caps_stay_flat(void **state)
     for (uint32_t h = 0; h < 3 * l->face_count; h++) {
         if (!l->sharp[h])
             continue;
-        vec3 q = b.places[l->faces[h / 3][h % 3]];
+        vec3 q = b.positions[l->faces[h / 3][h % 3]];
         assert_true(q.z == 0 || q.z == 2); /* the curve of a flat rim lies in its plane */
         most = fmax(most, fabs(hypot(q.x, q.y) - 1));
         rim++;
@@ -261,7 +261,7 @@ static void a_rim_becomes_round_and_caps_stay_flat(void **state)
     assert_int_equal(rim, 2 * 2 * SLICES * 8);
     assert_true(most < 0.003); /* the polygon's own sides are off by 0.034 */
     for (uint32_t v = 0; v < l->vertex_count; v++)
-        assert_true(b.places[v].z >= -1e-3 && b.places[v].z <= 2 + 1e-3); /* nothing bulges over the rims */
+        assert_true(b.positions[v].z >= -1e-3 && b.positions[v].z <= 2 + 1e-3); /* nothing bulges over the rims */
     butterfly_release(&b);
     primitive_release(&p);
 }
@@ -281,7 +281,7 @@ static void sides_of_sharp_edges_do_not_know_each_other(void **state)
     for (uint32_t f = 0; f < l->face_count; f++) {
         uint32_t k = f / 16 % 6;
         for (int c = 0; c < 3 && k >= 1 && k <= 4; c++, same++)
-            assert_true(same_place(before.places[l->faces[f][c]], after.places[l->faces[f][c]]));
+            assert_true(same_position(before.positions[l->faces[f][c]], after.positions[l->faces[f][c]]));
     }
     assert_int_equal(same, SLICES * 4 * 16 * 3);
     butterfly_release(&before);
@@ -300,13 +300,13 @@ static void a_flat_sheet_stays_flat_and_keeps_its_corners(void **state)
     primitive p = grid_surface(sheet_at, 4, 4, false, false, 0);
     butterfly b = refine(&p, NULL, 3);
     for (uint32_t v = 0; v < b.levels[3].vertex_count; v++) {
-        vec3 q = b.places[v];
+        vec3 q = b.positions[v];
         assert_true(fabsf(q.z - q.x / 4) < 1e-6f && q.x >= 0 && q.x <= 4 && q.y >= 0 && q.y <= 4);
     }
     double                 area = 0;
     const butterfly_level *l = &b.levels[3];
     for (uint32_t f = 0; f < l->face_count; f++) {
-        vec3 a = b.places[l->faces[f][0]], c = b.places[l->faces[f][1]], d = b.places[l->faces[f][2]];
+        vec3 a = b.positions[l->faces[f][0]], c = b.positions[l->faces[f][1]], d = b.positions[l->faces[f][2]];
         area += 0.5 * ((double)(c.x - a.x) * (d.y - a.y) - (double)(c.y - a.y) * (d.x - a.x));
     }
     assert_true(fabs(area - 16) < 1e-4);
@@ -327,15 +327,16 @@ static void a_coarse_sphere_becomes_rounder(void **state)
     memcpy(p.indices, faces, sizeof faces);
     butterfly b = refine(&p, NULL, 4);
     for (uint32_t v = 6; v < 18; v++) {
-        vec3 q = b.places[v];
+        vec3 q = b.positions[v];
         assert_true(fmaxf(fmaxf(fabsf(q.x), fabsf(q.y)), fabsf(q.z)) == 0.625f &&
                     fabsf(q.x) + fabsf(q.y) + fabsf(q.z) == 1.25f);
     }
     double most = 0;
     for (uint32_t v = 0; v < b.levels[4].vertex_count; v++)
-        most = fmax(most, fabs(sqrt((double)b.places[v].x * b.places[v].x + (double)b.places[v].y * b.places[v].y +
-                                    (double)b.places[v].z * b.places[v].z) -
-                               1));
+        most = fmax(
+            most, fabs(sqrt((double)b.positions[v].x * b.positions[v].x + (double)b.positions[v].y * b.positions[v].y +
+                            (double)b.positions[v].z * b.positions[v].z) -
+                       1));
     printf("an octahedron after 4 steps: within %.3f of its sphere\n", most);
     assert_true(most < 0.21); /* its own faces are off by 0.42 */
     butterfly_release(&b);
@@ -358,7 +359,7 @@ static void barely_meshes_have_no_cracks(void **state)
         assert_true(b.levels[2].sharp[h] == 1 || b.levels[2].opposite[h] != BUTTERFLY_NONE);
     }
     for (uint32_t v = 0; v < b.levels[2].vertex_count; v++)
-        assert_true(isfinite(b.places[v].x) && isfinite(b.places[v].y) && isfinite(b.places[v].z));
+        assert_true(isfinite(b.positions[v].x) && isfinite(b.positions[v].y) && isfinite(b.positions[v].z));
     butterfly_release(&b);
     b = refine(&(primitive){.positions = p.positions, .indices = p.indices}, NULL, 2); /* nothing */
     butterfly_release(&b);
@@ -386,7 +387,7 @@ static void memory_may_run_out(void **state)
         mem_fail_at(n);
         status = butterfly_refine(&b, p.positions, p.vertex_count, (const corners3 *)p.indices, 12, NULL, 2, NULL);
         mem_fail_at(0);
-        assert_true(status == LMN_OK || (status == LMN_MEMORY && b.places == NULL));
+        assert_true(status == LMN_OK || (status == LMN_MEMORY && b.positions == NULL));
     }
     assert_true(n > 10 && status == LMN_OK);
     butterfly_release(&b);

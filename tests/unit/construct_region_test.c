@@ -287,7 +287,7 @@ static void extrusions_of_other_outlines(void **state)
     region_release(&pair[1]);
 }
 
-/* Edges where two prisms touch have four faces; by places all is closed. */
+/* Edges where two prisms touch have four faces; by positions all is closed. */
 static void extrusions_of_touching_outlines_are_closed(void **state)
 {
     (void)state;

@@ -196,7 +196,7 @@ static void hulls_are_openscads(void **state)
     both[0] = moved_cube(0, 1, 2);
     assert_int_equal(polyhedron_hull(&p, both, 2, NULL), LMN_OK);
     assert_shape(&p, 8, 12, 48); /* flat sides of many points */
-    /* All in a plane, on a line, at one place; nothing at all. */
+    /* All in a plane, on a line, at one position; nothing at all. */
     for (size_t i = 0; i < both[0].point_count; i++)
         both[0].points[i].z = 1;
     assert_int_equal(polyhedron_hull(&p, both, 1, NULL), LMN_OK);

@@ -1,4 +1,4 @@
-/* Outlines of letters. The counts, areas and places are OpenSCAD 2021.01's, with the Liberation fonts; without
+/* Outlines of letters. The counts, areas and positions are OpenSCAD 2021.01's, with the Liberation fonts; without
  * these most is skipped. */
 #include "construct_shapes.h"
 

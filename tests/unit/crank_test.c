@@ -92,7 +92,7 @@ static void pistons_follow_the_cranks(void **state)
     assert_true(height[0] - height[1] > 0.05 && height[0] - height[1] < 0.084);
 }
 
-static int compare_places(const void *a, const void *b)
+static int compare_positions(const void *a, const void *b)
 {
     return memcmp(a, b, 6 * sizeof(float));
 }
@@ -122,22 +122,22 @@ static void knot_is_one_smooth_tube(void **state)
     }
 }
 
-/* Each place of the seams is there with both ends of the texture coordinate, and with one normal. */
+/* Each position of the seams is there with both ends of the texture coordinate, and with one normal. */
 static void knot_comes_round_to_itself(void **state)
 {
     const primitive *p = knot->meshes[0].primitives;
     size_t           doubles = 0;
     (void)state;
-    float(*places)[6] = mem_alloc(p->vertex_count * sizeof *places);
-    assert_non_null(places);
+    float(*positions)[6] = mem_alloc(p->vertex_count * sizeof *positions);
+    assert_non_null(positions);
     for (uint32_t i = 0; i < p->vertex_count; i++) {
-        memcpy(places[i], &p->positions[i], 3 * sizeof(float));
-        memcpy(places[i] + 3, &p->normals[i], 3 * sizeof(float));
+        memcpy(positions[i], &p->positions[i], 3 * sizeof(float));
+        memcpy(positions[i] + 3, &p->normals[i], 3 * sizeof(float));
     }
-    qsort(places, p->vertex_count, sizeof *places, compare_places);
+    qsort(positions, p->vertex_count, sizeof *positions, compare_positions);
     for (uint32_t i = 1; i < p->vertex_count; i++)
-        doubles += compare_places(places[i - 1], places[i]) == 0;
-    mem_free(places);
+        doubles += compare_positions(positions[i - 1], positions[i]) == 0;
+    mem_free(positions);
     assert_int_equal(doubles, 560 + 32 + 1);
 }
 

@@ -1,4 +1,4 @@
-/* Four-point curves: stencils by hand, places on known curves. Rows OE-12, OE-13. */
+/* Four-point curves: stencils by hand, positions on known curves. Rows OE-12, OE-13. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,10 +11,10 @@
 #include "stroke/curve.h"
 
 static const double pi = 3.14159265358979323846;
-enum { ROOM = 4096 };
+enum { CAPACITY = 4096 };
 
-/* Where the number that is asked for is 16 at one point and 0 elsewhere, its shares can be read off. */
-static void shares_of_each_point(void **state)
+/* Where the number that is asked for is 16 at one point and 0 elsewhere, its fractions can be read off. */
+static void fractions_of_each_point(void **state)
 {
     (void)state;
     static const double wanted[6][11] = {
@@ -75,7 +75,7 @@ static void cubics_are_exact(void **state)
 static void twelve_corners_make_a_circle(void **state)
 {
     (void)state;
-    double a[ROOM], b[ROOM], *now = a, *next = b;
+    double a[CAPACITY], b[CAPACITY], *now = a, *next = b;
     size_t count = 12;
     for (size_t i = 0; i < count; i++) {
         now[2 * i] = 100 * cos(2 * pi * (double)i / 12);
@@ -119,7 +119,7 @@ static void projecting_first_or_last_is_the_same(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_of_each_point),         cmocka_unit_test(closed_chains_have_no_ends),
+        cmocka_unit_test(fractions_of_each_point),      cmocka_unit_test(closed_chains_have_no_ends),
         cmocka_unit_test(short_chains_stay_straight),   cmocka_unit_test(cubics_are_exact),
         cmocka_unit_test(twelve_corners_make_a_circle), cmocka_unit_test(projecting_first_or_last_is_the_same),
     };

@@ -167,7 +167,7 @@ static int compare_sides(const void *p, const void *q)
     return memcmp(p, q, sizeof(side));
 }
 
-/* Directed edges without one that runs back, by place. */
+/* Directed edges without one that runs back, by position. */
 static size_t open_edges(const vec3 *corners, size_t count)
 {
     primitive p = {.vertex_count = (uint32_t)count, .positions = mem_copy(corners, count * sizeof *corners)};

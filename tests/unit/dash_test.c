@@ -60,7 +60,7 @@ static chain_set paint(dash_style style)
     return set;
 }
 
-/* The ink that stays at a place, between pixels. */
+/* The ink that stays at a position, between pixels. */
 static double ink_at(double x, double y)
 {
     int    column = (int)floor(x), row = (int)floor(y);
@@ -353,9 +353,9 @@ static void noise_is_harmless(void **state)
     uint32_t seed = 7;
     for (int round = 0; round < 60; round++) {
         int      width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
-        uint32_t share = next_random(&seed) % 256;
+        uint32_t fraction = next_random(&seed) % 256;
         for (int i = 0; i < width * height; i++)
-            ink[i] = next_random(&seed) % 256 < share;
+            ink[i] = next_random(&seed) % 256 < fraction;
         static uint8_t twice[2][SIDE * SIDE];
         for (int k = 0; k < 2; k++) {
             chain_set set;
@@ -412,14 +412,14 @@ static void maps_are_weighed(void **state)
     float   values[W * H * 4];
     uint8_t out[W * H];
     for (int channel = 0; channel < 4; channel++)
-        for (int way = 0; way < 3; way++) {
-            lines_common lines = {.colour = {0, 0, 0, way == 2 ? 0.1f : 1},
+        for (int mode = 0; mode < 3; mode++) {
+            lines_common lines = {.colour = {0, 0, 0, mode == 2 ? 0.1f : 1},
                                   .inner_colour = {.r = NAN},
                                   .id_colour = {.r = NAN},
                                   .width = 2,
-                                  .profile_weight = way != 1,
-                                  .inner_weight = way != 1,
-                                  .id_weight = way != 1,
+                                  .profile_weight = mode != 1,
+                                  .inner_weight = mode != 1,
+                                  .id_weight = mode != 1,
                                   .dash = 8,
                                   .gap = 5};
             for (int i = 0; i < W * H * 4; i++)
@@ -428,7 +428,7 @@ static void maps_are_weighed(void **state)
             int open = 0;
             for (int x = 0; x < W; x++)
                 open += out[4 * W + x] < 128;
-            if (channel == 2 || way == 1)
+            if (channel == 2 || mode == 1)
                 assert_int_equal(open, 0);
             else
                 assert_in_range(open, 20, 36);

@@ -33,7 +33,7 @@ static place3 axis_of(const float *t, place3 n, double *sure)
     return out;
 }
 
-/* What is right at a place: normal and direction of the greatest absolute curvature; false where that is no
+/* What is right at a position: normal and direction of the greatest absolute curvature; false where that is no
  * direction. */
 typedef bool (*truth_fn)(place3 at, place3 *normal, place3 *direction);
 
@@ -349,7 +349,7 @@ static place3 hook_at(double u, double v)
     return (place3){-(s - field_pi), 2, 12 * v};
 }
 
-static void flat_places_take_after_what_bends_beside_them(void **state)
+static void flat_positions_take_after_what_bends_beside_them(void **state)
 {
     (void)state;
     primitive       p = grid_surface(hook_at, 80, 120, false, false, 0);
@@ -369,9 +369,10 @@ static void flat_places_take_after_what_bends_beside_them(void **state)
 
 static primitive with_triangles(const uint32_t *triangles, uint32_t count)
 {
-    static const vec3 places[7] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.2f, 1}, {2, 0, 0}, {3, 0, 0}, {0, 0, 0}};
+    static const vec3 positions[7] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.2f, 1},
+                                      {2, 0, 0}, {3, 0, 0}, {0, 0, 0}};
     primitive         p = empty_primitive(7, count);
-    memcpy(p.positions, places, sizeof places);
+    memcpy(p.positions, positions, sizeof positions);
     memcpy(p.indices, triangles, count * sizeof *triangles);
     return p;
 }
@@ -379,13 +380,13 @@ static primitive with_triangles(const uint32_t *triangles, uint32_t count)
 static void barely_meshes_are_finite(void **state)
 {
     (void)state;
-    const uint32_t one[3] = {0, 1, 2}, flat[3] = {0, 1, 4}, same[3] = {0, 0, 0}, place[3] = {0, 6, 1},
+    const uint32_t one[3] = {0, 1, 2}, flat[3] = {0, 1, 4}, same[3] = {0, 0, 0}, position[3] = {0, 6, 1},
                    copies[9] = {0, 1, 2, 0, 1, 2, 2, 1, 0};
     const uint32_t book[9] = {0, 1, 2, 0, 1, 3, 1, 0, 5}, mixed[12] = {0, 1, 2, 1, 4, 5, 0, 4, 2, 0, 3, 2};
     check_anything(with_triangles(one, 3));
     check_anything(with_triangles(flat, 3));
     check_anything(with_triangles(same, 3));
-    check_anything(with_triangles(place, 3));
+    check_anything(with_triangles(position, 3));
     check_anything(with_triangles(copies, 9));
     check_anything(with_triangles(book, 9));
     check_anything(with_triangles(mixed, 12));
@@ -401,7 +402,7 @@ static void barely_meshes_are_finite(void **state)
     p = with_triangles(mixed, 12);
     scale_primitive(&p, 1e-42, 0);
     check_anything(p);
-    /* Everything at once: random triangles between few places, and a torus whose faces are turned at will. */
+    /* Everything at once: random triangles between few positions, and a torus whose faces are turned at will. */
     p = empty_primitive(20, 900);
     for (uint32_t v = 0; v < 20; v++)
         p.positions[v] =
@@ -461,7 +462,7 @@ static void compare_moved(primitive p, const char *name, double tolerance)
     primitive_release(&p);
 }
 
-static void size_and_place_do_not_matter(void **state)
+static void size_and_position_do_not_matter(void **state)
 {
     (void)state;
     const place3 axes = {3, 2, 1};
@@ -550,10 +551,10 @@ int main(void)
         cmocka_unit_test(a_plane_is_drawn_along_its_longer_side),
         cmocka_unit_test(a_facade_is_drawn_along_its_border),
         cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
-        cmocka_unit_test(flat_places_take_after_what_bends_beside_them),
+        cmocka_unit_test(flat_positions_take_after_what_bends_beside_them),
         cmocka_unit_test(barely_meshes_are_finite),
         cmocka_unit_test(windings_and_copies_do_not_matter),
-        cmocka_unit_test(size_and_place_do_not_matter),
+        cmocka_unit_test(size_and_position_do_not_matter),
         cmocka_unit_test(the_same_twice),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(a_million_triangles_do_not_take_long),

@@ -25,7 +25,7 @@ static uint32_t count_flag(const edge_mesh *e, uint32_t flag)
 static uint32_t flags_between(const edge_mesh *e, vec3 a, vec3 b)
 {
     for (uint32_t i = 0; i < e->edge_count; i++) {
-        vec3 p = e->places[e->edges[i].vertex[0]], q = e->places[e->edges[i].vertex[1]];
+        vec3 p = e->positions[e->edges[i].vertex[0]], q = e->positions[e->edges[i].vertex[1]];
         bool same = p.x == a.x && p.y == a.y && p.z == a.z && q.x == b.x && q.y == b.y && q.z == b.z;
         bool turned = p.x == b.x && p.y == b.y && p.z == b.z && q.x == a.x && q.y == a.y && q.z == a.z;
         if (same || turned)
@@ -34,10 +34,11 @@ static uint32_t flags_between(const edge_mesh *e, vec3 a, vec3 b)
     return 0;
 }
 
-static primitive of_faces(const vec3 *places, uint32_t place_count, const uint32_t *corners, uint32_t corner_count)
+static primitive of_faces(const vec3 *positions, uint32_t position_count, const uint32_t *corners,
+                          uint32_t corner_count)
 {
-    primitive p = empty_primitive(place_count, corner_count);
-    memcpy(p.positions, places, place_count * sizeof *places);
+    primitive p = empty_primitive(position_count, corner_count);
+    memcpy(p.positions, positions, position_count * sizeof *positions);
     memcpy(p.indices, corners, corner_count * sizeof *corners);
     return p;
 }
@@ -134,11 +135,11 @@ static void faces_lie_where_they_should(void **state)
 static uint32_t hinge(double height, double scale, double away, bool closed_below)
 {
     float          s = (float)scale, h = (float)(scale * height), a = (float)away;
-    const vec3     places[5] = {{a, a, a}, {a, a + s, a}, {a - s, a, a}, {a + s, a, a + h}, {a, a, a - 3 * s}};
+    const vec3     positions[5] = {{a, a, a}, {a, a + s, a}, {a - s, a, a}, {a + s, a, a + h}, {a, a, a - 3 * s}};
     const uint32_t corners[18] = {0, 1, 2, 1, 0, 3, 0, 2, 4, 3, 0, 4, 1, 3, 4, 2, 1, 4};
-    primitive      p = of_faces(places, 5, corners, closed_below ? 18 : 6);
+    primitive      p = of_faces(positions, 5, corners, closed_below ? 18 : 6);
     edge_mesh      e = sort(&p, 1, 80 * degree);
-    uint32_t       flags = flags_between(&e, e.places[0], e.places[1]);
+    uint32_t       flags = flags_between(&e, e.positions[0], e.positions[1]);
     if (closed_below)
         assert_true(e.closed[0] && !e.inward[0]);
     edge_mesh_release(&e);
@@ -162,7 +163,7 @@ static void convex_edges_of_bodies_are_candidates(void **state)
     }
 }
 
-/* A plane divided into triangles, turned and far away: its places are rounded, it is flat all the same. */
+/* A plane divided into triangles, turned and far away: its positions are rounded, it is flat all the same. */
 static void flat_faces_have_no_candidates(void **state)
 {
     (void)state;
@@ -186,10 +187,10 @@ static void flat_faces_have_no_candidates(void **state)
 static void borders_are_borders(void **state)
 {
     (void)state;
-    static const vec3     places[6] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}};
+    static const vec3     positions[6] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}};
     static const uint32_t corners[12] = {
         0, 1, 2, 0, 2, 3, /* and below it two that meet it at the middle of its side */ 0, 5, 4, 4, 5, 1};
-    primitive p = of_faces(places, 6, corners, 12);
+    primitive p = of_faces(positions, 6, corners, 12);
     edge_mesh e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.all_edges, 5 + 5);
     assert_int_equal(e.loose_edges, 4 + 4);
@@ -207,13 +208,13 @@ static void borders_are_borders(void **state)
 static void faces_that_are_there_twice_count_once(void **state)
 {
     (void)state;
-    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    static const vec3     positions[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
     static const uint32_t alike[12] = {0, 1, 2, 0, 2, 3, 1, 2, 0, 0, 2, 3},
                           flipped[12] = {0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0}, lone[6] = {0, 1, 2, 2, 1, 0},
                           twice[6] = {0, 1, 2, 1, 2, 0};
     const uint32_t *corners[4] = {alike, flipped, lone, twice}, counts[4] = {12, 12, 6, 6}, faces[4] = {2, 2, 1, 1};
     for (int i = 0; i < 4; i++) {
-        primitive p = of_faces(places, 4, corners[i], counts[i]);
+        primitive p = of_faces(positions, 4, corners[i], counts[i]);
         edge_mesh e = sort(&p, 1, 30 * degree);
         assert_int_equal(e.face_count, faces[i]);
         assert_int_equal(count_flag(&e, EDGE_BORDER), faces[i] == 2 ? 4 : 3);
@@ -245,9 +246,9 @@ static void faces_inside_out_are_told(void **state)
 static void edges_of_three_faces_are_borders(void **state)
 {
     (void)state;
-    static const vec3     places[5] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+    static const vec3     positions[5] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
     static const uint32_t corners[9] = {0, 1, 2, 0, 1, 3, 0, 1, 4};
-    primitive             p = of_faces(places, 5, corners, 9);
+    primitive             p = of_faces(positions, 5, corners, 9);
     edge_mesh             e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.all_edges, 7);
     assert_int_equal(e.loose_edges, 7);
@@ -259,15 +260,15 @@ static void edges_of_three_faces_are_borders(void **state)
 static void materials_part_faces(void **state)
 {
     (void)state;
-    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    static const vec3     positions[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
     static const uint32_t first[3] = {0, 1, 2}, second[3] = {0, 2, 3};
-    primitive             p[2] = {of_faces(places, 4, first, 3), of_faces(places, 4, second, 3)};
+    primitive             p[2] = {of_faces(positions, 4, first, 3), of_faces(positions, 4, second, 3)};
     for (int same = 0; same < 2; same++) {
         p[1].material = same ? NONE : 0;
         edge_mesh e = sort(p, 2, 30 * degree);
         assert_int_equal(e.vertex_count, 4); /* of two primitives, welded */
         assert_int_equal(count_flag(&e, EDGE_MATERIAL), !same);
-        assert_int_equal(flags_between(&e, places[0], places[2]), same ? 0 : EDGE_MATERIAL);
+        assert_int_equal(flags_between(&e, positions[0], positions[2]), same ? 0 : EDGE_MATERIAL);
         assert_int_equal(count_flag(&e, EDGE_BORDER), 4);
         assert_int_equal(e.piece_count, 1);
         edge_mesh_release(&e);
@@ -276,16 +277,16 @@ static void materials_part_faces(void **state)
     primitive_release(&p[1]);
 }
 
-/* Vertices at one place are one, whatever sign their zeros have; edges without length and faces without area
+/* Vertices at one position are one, whatever sign their zeros have; edges without length and faces without area
  * vanish. */
-static void vertices_at_one_place_are_one(void **state)
+static void vertices_at_one_position_are_one(void **state)
 {
     (void)state;
-    static const vec3     places[8] = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {-0.0f, 0, -0.0f},
-                                       {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {0.5f, 0, 0}};
+    static const vec3     positions[8] = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {-0.0f, 0, -0.0f},
+                                          {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {0.5f, 0, 0}};
     static const uint32_t corners[12] = {0, 1, 2, 3, 4, 5, /* an edge without length; three in a line */ 2,
                                          6, 1, 0, 7, 1};
-    primitive             p = of_faces(places, 8, corners, 12);
+    primitive             p = of_faces(positions, 8, corners, 12);
     edge_mesh             e = sort(&p, 1, 30 * degree);
     assert_int_equal(e.face_count, 2);
     assert_int_equal(e.all_edges, 5);
@@ -392,19 +393,19 @@ static void files_have_the_last_word(void **state)
 static void rims_that_are_said_to_be_outlines(void **state)
 {
     (void)state;
-    static const vec3     places[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1}};
+    static const vec3     positions[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1}};
     static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
     static const uint8_t  words[6] = {SAID_SILHOUETTE, SAID_HARD,   SAID_HARD,
                                       SAID_REPEATED,   SAID_HIDDEN, SAID_SILHOUETTE};
-    primitive             p = of_faces(places, 4, corners, 6);
+    primitive             p = of_faces(positions, 4, corners, 6);
     p.edges.values = mem_copy(words, sizeof words);
     edge_mesh e = sort(&p, 1, 30 * degree);
-    assert_int_equal(flags_between(&e, places[0], places[1]), EDGE_BORDER);
-    assert_int_equal(flags_between(&e, places[1], places[2]), EDGE_BORDER | EDGE_CREASE);
-    assert_int_equal(flags_between(&e, places[0], places[2]),
+    assert_int_equal(flags_between(&e, positions[0], positions[1]), EDGE_BORDER);
+    assert_int_equal(flags_between(&e, positions[1], positions[2]), EDGE_BORDER | EDGE_CREASE);
+    assert_int_equal(flags_between(&e, positions[0], positions[2]),
                      EDGE_CREASE); /* hard on one side, repeated on the other */
-    assert_int_equal(flags_between(&e, places[2], places[3]), 0);
-    assert_int_equal(flags_between(&e, places[3], places[0]), EDGE_BORDER);
+    assert_int_equal(flags_between(&e, positions[2], positions[3]), 0);
+    assert_int_equal(flags_between(&e, positions[3], positions[0]), EDGE_BORDER);
     for (uint32_t i = 0; i < e.edge_count; i++)
         assert_true(e.edges[i].face[1] != EDGE_NO_FACE || e.edges[i].flags & EDGE_BORDER);
     edge_mesh_release(&e);
@@ -415,13 +416,13 @@ static void rims_that_are_said_to_be_outlines(void **state)
 static void a_file_is_obeyed(void **state)
 {
     (void)state;
-    static const float    places[12] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
+    static const float    positions[12] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
     static const uint16_t corners[6] = {0, 1, 2, 0, 2, 3};
     const uint8_t         packed[2] = {SAID_HIDDEN | SAID_SILHOUETTE << 2 | SAID_HARD << 4 | SAID_REPEATED << 6,
                                        SAID_HARD | SAID_HIDDEN << 2};
     static glb            g;
     g.bin_size = 0;
-    size_t at = glb_put(&g, places, sizeof places), b = glb_put(&g, corners, sizeof corners),
+    size_t at = glb_put(&g, positions, sizeof positions), b = glb_put(&g, corners, sizeof corners),
            c = glb_put(&g, packed, sizeof packed);
     snprintf(g.json, sizeof g.json,
              "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{"
@@ -460,7 +461,7 @@ static void memory_may_run_out(void **state)
         mem_fail_at(n);
         status = edge_mesh_create(&e, &m, NULL, 1, NULL);
         mem_fail_at(0);
-        assert_true(status == LMN_OK || (status == LMN_MEMORY && e.places == NULL));
+        assert_true(status == LMN_OK || (status == LMN_MEMORY && e.positions == NULL));
         if (status == LMN_OK)
             edge_mesh_release(&e);
     }
@@ -481,7 +482,7 @@ int main(void)
         cmocka_unit_test(faces_inside_out_are_told),
         cmocka_unit_test(edges_of_three_faces_are_borders),
         cmocka_unit_test(materials_part_faces),
-        cmocka_unit_test(vertices_at_one_place_are_one),
+        cmocka_unit_test(vertices_at_one_position_are_one),
         cmocka_unit_test(inside_out_bodies_are_told),
         cmocka_unit_test(nothing_that_is_an_outline_was_dropped),
         cmocka_unit_test(files_have_the_last_word),

@@ -116,12 +116,12 @@ static inline primitive ball(uint32_t cells, double jitter, place3 stretch)
 
 static inline primitive shared_cube(void)
 {
-    static const vec3     places[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const vec3     positions[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     static const uint32_t triangles[36] = {0, 3, 2, 0, 2, 1, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                            1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
     primitive             p = empty_primitive(8, 36);
-    memcpy(p.positions, places, sizeof places);
+    memcpy(p.positions, positions, sizeof positions);
     memcpy(p.indices, triangles, sizeof triangles);
     return p;
 }

@@ -308,15 +308,15 @@ static int store_into_a_vanished_folder(void)
     return file_store("x.png", "x", 1, &error) == LMN_WRITE && strcmp(error.file, "x.png") == 0 ? 0 : 2;
 }
 
-static void places_that_take_nothing_are_named(void **state)
+static void positions_that_take_nothing_are_named(void **state)
 {
     (void)state;
-    static const char *const places[] = {"/dev/full",           "/proc/x.png", "/dev/null/x.png",
-                                         "nosuch-folder/x.png", "/",           "/dev/fd/999"};
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+    static const char *const positions[] = {"/dev/full",           "/proc/x.png", "/dev/null/x.png",
+                                            "nosuch-folder/x.png", "/",           "/dev/fd/999"};
+    for (size_t i = 0; i < sizeof positions / sizeof *positions; i++) {
         lmn_error error = {0};
-        assert_int_equal(file_store(places[i], "x", 1, &error), LMN_WRITE);
-        assert_string_equal(error.file, places[i]);
+        assert_int_equal(file_store(positions[i], "x", 1, &error), LMN_WRITE);
+        assert_string_equal(error.file, positions[i]);
     }
     assert_int_equal(file_store("/dev/null", large, sizeof large, NULL), LMN_OK);
     assert_int_equal(in_child(store_into_a_vanished_folder), 0);
@@ -450,22 +450,22 @@ static long gone_process(void)
 }
 
 /* The name of a temporary file that another process of this host would have. */
-static void name_of_process(char out[TEMPORARY_NAME_ROOM], const char *stem, long process)
+static void name_of_process(char out[TEMPORARY_NAME_CAPACITY], const char *stem, long process)
 {
     char own[32], *found;
-    char name[TEMPORARY_NAME_ROOM];
+    char name[TEMPORARY_NAME_CAPACITY];
     temporary_name(name, stem);
     snprintf(own, sizeof own, "-%ld-", (long)getpid());
     found = strstr(name + strlen(stem), own);
     assert_non_null(found);
-    snprintf(out, TEMPORARY_NAME_ROOM, "%.*s-%ld-%s", (int)(found - name), name, process, found + strlen(own));
+    snprintf(out, TEMPORARY_NAME_CAPACITY, "%.*s-%ld-%s", (int)(found - name), name, process, found + strlen(own));
 }
 
 static void leftovers_go_with_the_next_file(void **state)
 {
     (void)state;
-    char gone[TEMPORARY_NAME_ROOM], alive[TEMPORARY_NAME_ROOM], elsewhere[TEMPORARY_NAME_ROOM],
-        link[TEMPORARY_NAME_ROOM], longer[TEMPORARY_NAME_ROOM];
+    char gone[TEMPORARY_NAME_CAPACITY], alive[TEMPORARY_NAME_CAPACITY], elsewhere[TEMPORARY_NAME_CAPACITY],
+        link[TEMPORARY_NAME_CAPACITY], longer[TEMPORARY_NAME_CAPACITY];
     struct stat facts;
     name_of_process(gone, ".x.png.", gone_process());
     name_of_process(alive, ".x.png.", (long)getppid());
@@ -602,7 +602,7 @@ static void killed_writers_leave_nothing(void **state)
 static void temporary_folders_go(void **state)
 {
     (void)state;
-    char        made[256], left[TEMPORARY_NAME_ROOM], inside[300];
+    char        made[256], left[TEMPORARY_NAME_CAPACITY], inside[300];
     struct stat facts;
     name_of_process(left, "", gone_process());
     assert_int_equal(mkdir(in_folder(left), 0700), 0);
@@ -636,7 +636,7 @@ int main(void)
         CASE(too_large_a_file_is_an_error),
         CASE(closed_pipes_are_an_error),
         CASE(signals_of_others_are_left_alone),
-        CASE(places_that_take_nothing_are_named),
+        CASE(positions_that_take_nothing_are_named),
         CASE(folders_that_may_not_be_written_are_refused),
         CASE(opened_files_are_written_where_they_are),
         CASE(slow_readers_get_all),

@@ -51,7 +51,7 @@ static void a_torus_bends_as_it_should(void **state)
         for (int k = 0; k < 4; k++)
             off[k] = mem_alloc(s.knot_count * sizeof *off[k]);
         for (uint32_t i = 0; i < s.knot_count; i++) {
-            vec3   q = e.places[s.vertices[i]], n = s.normals[i];
+            vec3   q = e.positions[s.vertices[i]], n = s.normals[i];
             double ring = hypot(q.x, q.y), cosine = ring - 3, length = hypot(cosine, q.z), turn = atan2(q.z, cosine);
             const surface_bend *b = &s.bends[i];
             off[0][i] =
@@ -272,7 +272,7 @@ static void outlines_of_balls_are_circles(void **state)
     form_shot_release(&f);
 }
 
-/* Is a place on the torus hidden by it? Steps along the view; what is near the surface does not count. */
+/* Is a position on the torus hidden by it? Steps along the view; what is near the surface does not count. */
 static bool torus_hides(const stroke_camera *c, place3 p, double from)
 {
     place3 d = direction_to_eye(c, p);
@@ -393,8 +393,9 @@ static void noise_makes_few_islands(void **state)
         lmn_scene *s = stroke_scene_begin();
         primitive  p = ball(24, 0, (place3){3, 3, 3});
         for (uint32_t v = 0; v < p.vertex_count; v++) {
-            float share = 1 + 0.011f * (float)(hashed(v + 1000 * i) - 0.5);
-            p.positions[v] = (vec3){p.positions[v].x * share, p.positions[v].y * share, p.positions[v].z * share};
+            float fraction = 1 + 0.011f * (float)(hashed(v + 1000 * i) - 0.5);
+            p.positions[v] =
+                (vec3){p.positions[v].x * fraction, p.positions[v].y * fraction, p.positions[v].z * fraction};
         }
         add_primitive(s, &p);
         form_shot f = take(s, camera_number(i, i % 2), only(CONTOURS_SMOOTH));
@@ -554,9 +555,9 @@ static void suggestive_contours_of_a_torus(void **state)
         lmn_scene *s = stroke_scene_begin();
         primitive  p = grid_surface(torus_at, 160, 60, true, true, 0.3 * (i % 2));
         add_primitive(s, &p);
-        const double   ways[4][3] = {{0.3, 0.2, -1}, {1, 0.3, -1}, {0, 1, -0.7}, {1, 1, -2}};
-        stroke_camera  c = look_along(ways[i / 2][0], ways[i / 2][1], ways[i / 2][2], origin, 20, i % 4 < 2 ? 5 : 0.25,
-                                      i % 4 < 2, PAGE, PAGE);
+        const double   directions[4][3] = {{0.3, 0.2, -1}, {1, 0.3, -1}, {0, 1, -0.7}, {1, 1, -2}};
+        stroke_camera  c = look_along(directions[i / 2][0], directions[i / 2][1], directions[i / 2][2], origin, 20,
+                                     i % 4 < 2 ? 5 : 0.25, i % 4 < 2, PAGE, PAGE);
         stroke_options w = only(CONTOURS_NONE);
         w.suggestive = 0.02f;
         w.shortest = 0.01f; /* crumbs as well */
@@ -814,11 +815,11 @@ static void corners_stay_corners(void **state)
     for (int i = 0; i < 2; i++) { /* six sides: rims turn by 60 degrees only, but three edges meet at each corner */
         const float h = 2.5980762f;
         const vec3  rim[6] = {{3, 0, 0}, {1.5f, h, 0}, {-1.5f, h, 0}, {-3, 0, 0}, {-1.5f, -h, 0}, {1.5f, -h, 0}};
-        vec3        places[12];
+        vec3        positions[12];
         uint32_t    corners[60], at = 0;
         for (uint32_t k = 0; k < 6; k++) {
-            places[k] = (vec3){rim[k].x, rim[k].y, -1};
-            places[k + 6] = (vec3){rim[k].x, rim[k].y, 1};
+            positions[k] = (vec3){rim[k].x, rim[k].y, -1};
+            positions[k + 6] = (vec3){rim[k].x, rim[k].y, 1};
             uint32_t       j = (k + 1) % 6;
             const uint32_t quad[6] = {k, j, j + 6, k, j + 6, k + 6}, caps[6] = {0, k + 1, k, 6, k + 6, k + 7};
             memcpy(corners + at, quad, sizeof quad);
@@ -829,7 +830,7 @@ static void corners_stay_corners(void **state)
             }
         }
         lmn_scene *s = stroke_scene_begin();
-        add_part(s, places, 12, corners, at);
+        add_part(s, positions, 12, corners, at);
         stroke_options w = STROKE_OPTIONS_INIT;
         w.curve = 4 * i;
         stroke_shot f = shoot(s, look_along(0.5, 1, -0.7, origin, 20, 5, true, PAGE, PAGE), w);

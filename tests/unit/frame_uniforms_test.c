@@ -80,7 +80,7 @@ static void test_declared_once(void **state)
     }
 }
 
-/* No guards: a uniform that needs one is declared in two places. */
+/* No guards: a uniform that needs one is declared in two positions. */
 static void test_no_guards(void **state)
 {
     (void)state;

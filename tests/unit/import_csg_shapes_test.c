@@ -388,7 +388,7 @@ typedef struct crossings {
 } crossings;
 
 /* Off the middle, so that no line meets an edge. */
-static double line_place(double low, double high, int i)
+static double line_position(double low, double high, int i)
 {
     return low + (high - low) * (i + 0.5137 + 0.1 * sin(i * 12.9898)) / LINES;
 }
@@ -408,15 +408,17 @@ static void cross_triangle(crossings *c, const lmn_scene_info *info, int32_t nod
     lines_over(low[1], high[1], (double)corner[0].y, (double)corner[1].y, (double)corner[2].y, &first[1], &last[1]);
     for (int i = first[0]; i <= last[0]; i++)
         for (int k = first[1]; k <= last[1]; k++) {
-            double x = line_place(low[0], high[0], i), y = line_place(low[1], high[1], k), share[3], sum = 0, z = 0;
+            double x = line_position(low[0], high[0], i), y = line_position(low[1], high[1], k), fraction[3], sum = 0,
+                   z = 0;
             for (int e = 0; e < 3; e++) {
                 vec3 a = corner[(e + 1) % 3], b = corner[(e + 2) % 3];
-                share[e] =
+                fraction[e] =
                     ((double)b.x - (double)a.x) * (y - (double)a.y) - ((double)b.y - (double)a.y) * (x - (double)a.x);
-                sum += share[e];
-                z += share[e] * (double)corner[e].z;
+                sum += fraction[e];
+                z += fraction[e] * (double)corner[e].z;
             }
-            if (!(share[0] > 0 && share[1] > 0 && share[2] > 0) && !(share[0] < 0 && share[1] < 0 && share[2] < 0))
+            if (!(fraction[0] > 0 && fraction[1] > 0 && fraction[2] > 0) &&
+                !(fraction[0] < 0 && fraction[1] < 0 && fraction[2] < 0))
                 continue;
             assert_true(mem_grow((void **)&c->items, &c->capacity, c->count + 1, sizeof *c->items));
             c->items[c->count++] = (crossing){i * LINES + k, node, z / sum};

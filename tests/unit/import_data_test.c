@@ -66,7 +66,7 @@ static void counts_agree_with_the_index(void **state)
 }
 
 /* Vertices in the world, in the rest pose, without the root's rotation. */
-static size_t world_vertices(const lmn_scene *s, vec3 *out, size_t room)
+static size_t world_vertices(const lmn_scene *s, vec3 *out, size_t capacity)
 {
     mat4  *worlds = scene_world_matrices(s);
     size_t count = 0;
@@ -79,7 +79,7 @@ static size_t world_vertices(const lmn_scene *s, vec3 *out, size_t room)
             matrices[j] = mat4_multiply(&worlds[s->skins[n->skin].joints[j]], &s->skins[n->skin].inverse_binds[j]);
         for (size_t k = 0; k < m->primitive_count; k++) {
             const primitive *p = &m->primitives[k];
-            assert_true(count + p->vertex_count <= room);
+            assert_true(count + p->vertex_count <= capacity);
             mesh_pose(p, NULL, 0, joints ? matrices : NULL, joints, NULL, NULL, p->vertex_count, out + count, NULL);
             for (uint32_t v = 0; !joints && v < p->vertex_count; v++)
                 out[count + v] = mat4_transform_point(&worlds[s->parts[i].node], out[count + v]);
@@ -119,8 +119,8 @@ static void compressed_models_equal_their_originals(void **state)
         {"compressed/BoxMeshopt.glb", "compressed/BoxMeshopt.gltf"},
         {"compressed/BoxDraco.gltf", "static/Box.glb"},
     };
-    enum { ROOM = 8192 };
-    static vec3 plain[ROOM], packed[ROOM];
+    enum { CAPACITY = 8192 };
+    static vec3 plain[CAPACITY], packed[CAPACITY];
     const char *folder = data_folder();
     if (!folder)
         skip();
@@ -138,7 +138,7 @@ static void compressed_models_equal_their_originals(void **state)
         assert_int_equal(x.triangles, y.triangles);
         assert_int_equal(x.parts, y.parts);
         assert_int_equal(x.animations, y.animations);
-        size_t a_count = world_vertices(a, packed, ROOM), b_count = world_vertices(b, plain, ROOM);
+        size_t a_count = world_vertices(a, packed, CAPACITY), b_count = world_vertices(b, plain, CAPACITY);
         double there = farthest(packed, a_count, plain, b_count), back = farthest(plain, b_count, packed, a_count);
         printf("%s: off by %.2g of its size\n", pairs[i][0], (there > back ? there : back) / size);
         assert_true(there <= 1e-3 * size && back <= 1e-3 * size);

@@ -191,8 +191,8 @@ static void instances_are_counted_and_bounded(void **state)
 {
     (void)state;
     put_square();
-    const float places[3][3] = {{0, 0, 0}, {10, 0, 0}, {0, 0, -4}}, scales[3][3] = {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}};
-    size_t      a = glb_put(&g, places, sizeof places), b = glb_put(&g, scales, sizeof scales);
+    const float positions[3][3] = {{0, 0, 0}, {10, 0, 0}, {0, 0, -4}}, scales[3][3] = {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}};
+    size_t      a = glb_put(&g, positions, sizeof positions), b = glb_put(&g, scales, sizeof scales);
     snprintf(
         g.json, sizeof g.json,
         "{" ASSET ",\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"extras\":{\"layer\":\"walls\",\"height\":2.5,"
@@ -256,7 +256,7 @@ static void skins_morphs_and_animations_are_read(void **state)
         g.bin_size, j, w, m, t, c, e);
     lmn_scene     *s = load();
     lmn_scene_info info = lmn_scene_info_of(s);
-    /* The joint moves by 7, the morph by half of 5; the node's own place does not count. */
+    /* The joint moves by 7, the morph by half of 5; the node's own position does not count. */
     assert_true(info.bounds_max[0] == 1 && info.bounds_min[2] == 7 && info.bounds_max[2] == 9.5);
     assert_true(s->meshes[0].primitives[0].weights[0].x == 1);
     const animation *a = &s->animations[0];

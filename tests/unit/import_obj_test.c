@@ -28,7 +28,7 @@ static void sharing_stays_as_it_is(void **state)
     assert_int_equal(s->up, 'y');
     assert_string_equal(s->parts[0].path, "shared/shared");
     lmn_scene_destroy(&s);
-    /* Another texture coordinate at the same place is another vertex. */
+    /* Another texture coordinate at the same position is another vertex. */
     s = load_text("split.obj", "vt 0 0\nvt 1 0\nf 1/1 2/1 3/1\nf 1/2 3/1 4/1\n");
     assert_int_equal(s->meshes[0].primitives[0].vertex_count, 5);
     assert_null(s->meshes[0].primitives[0].normals);

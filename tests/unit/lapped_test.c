@@ -1,4 +1,4 @@
-/* Lapped patches: every point is covered, places are hardly stretched and run along the field, and nothing about it
+/* Lapped patches: every point is covered, positions are hardly stretched and run along the field, and nothing about it
  * is left to chance. */
 #include "field_shapes.h"
 
@@ -56,8 +56,8 @@ static void origins_release(origins *o)
 
 static bool is_inside(const lapped_mesh *m, uint32_t k, double a, double b, double radius)
 {
-    const float *p = m->places[m->indices[3 * k]], *q = m->places[m->indices[3 * k + 1]],
-                *r = m->places[m->indices[3 * k + 2]];
+    const float *p = m->positions[m->indices[3 * k]], *q = m->positions[m->indices[3 * k + 1]],
+                *r = m->positions[m->indices[3 * k + 2]];
     if (p[2] == 1.0f)
         return true;
     double x = (double)p[0] + a * ((double)q[0] - (double)p[0]) + b * ((double)r[0] - (double)p[0]);
@@ -87,13 +87,14 @@ static void check_form(const primitive *p, const lapped_mesh *m)
     bool patches = false;
     assert_true(m->index_count % 3 == 0 && (m->index_count <= 16 * p->index_count || m->index_count <= 3 * 65536));
     for (uint32_t i = 0; i < m->vertex_count; i++) {
-        const float *q = m->places[i];
+        const float *q = m->positions[i];
         assert_true(m->source[i] < p->vertex_count);
         assert_true(isfinite(q[0]) && isfinite(q[1]) && (q[2] == 0.0f || q[2] == 1.0f));
         assert_true(q[3] >= 0 && q[3] < (float)m->patch_count);
     }
     for (uint32_t k = 0; k < m->index_count; k += 3) {
-        const float *a = m->places[m->indices[k]], *b = m->places[m->indices[k + 1]], *c = m->places[m->indices[k + 2]];
+        const float *a = m->positions[m->indices[k]], *b = m->positions[m->indices[k + 1]],
+                    *c = m->positions[m->indices[k + 2]];
         assert_true(a[2] == b[2] && b[2] == c[2] && a[3] == b[3] && b[3] == c[3]);
         patches = patches || a[2] == 0.0f;
         assert_true(!patches || a[2] == 0.0f); /* what ignores outlines comes first */
@@ -104,7 +105,7 @@ static void check_form(const primitive *p, const lapped_mesh *m)
 static double stretch_of(const primitive *p, const lapped_mesh *m, uint32_t k)
 {
     const uint32_t *n = m->indices + 3 * (size_t)k;
-    const float    *a = m->places[n[0]], *b = m->places[n[1]], *c = m->places[n[2]];
+    const float    *a = m->positions[n[0]], *b = m->positions[n[1]], *c = m->positions[n[2]];
     vec3 o = p->positions[m->source[n[0]]], q = p->positions[m->source[n[1]]], r = p->positions[m->source[n[2]]];
     const double u[3] = {(double)q.x - o.x, (double)q.y - o.y, (double)q.z - o.z},
                  v[3] = {(double)r.x - o.x, (double)r.y - o.y, (double)r.z - o.z};
@@ -114,7 +115,7 @@ static double stretch_of(const primitive *p, const lapped_mesh *m, uint32_t k)
     double xx = x * x + y * y, xz = x * z + y * w, zz = z * z + w * w, det = uu * vv - uv * uv;
     if (!(det > 1e-6 * uu * vv))
         return 1; /* a sliver: floats do not tell */
-    /* Eigenvalues of the inverse of the surface's metric times that of the places. */
+    /* Eigenvalues of the inverse of the surface's metric times that of the positions. */
     double trace = (vv * xx - 2 * uv * xz + uu * zz) / det, product = (xx * zz - xz * xz) / det;
     double most = trace / 2 + sqrt(fmax(0, trace * trace / 4 - product)), least = product / most;
     return fmax(sqrt(most), 1 / sqrt(least));
@@ -162,7 +163,7 @@ static void check_coverage(const char *name, primitive p, double radius)
     check_stretch(&p, &m, &mean);
     size_t samples = 0, missing = uncovered(&p, &m, &o, radius, &samples), base = 0;
     for (uint32_t k = 0; k < m.index_count; k += 3)
-        base += m.places[m.indices[k]][2] == 1.0f;
+        base += m.positions[m.indices[k]][2] == 1.0f;
     printf("%-16s radius %-6g %7u triangles %6u patches %5.2f times, %6zu without outline, stretch %.3f (mean %.3f), "
            "%zu of %zu uncovered, %.2f s\n",
            name, radius, p.index_count / 3, m.patch_count, (double)m.index_count / p.index_count, base, m.stretch, mean,
@@ -212,13 +213,13 @@ static void models_are_covered(void **state)
     }
 }
 
-/* cos 2θ times sureness for how the x axis of places runs on a triangle: the surface's direction in which x grows
- * and y does not, as shares of the edges from the first corner. */
+/* cos 2θ times sureness for how the x axis of positions runs on a triangle: the surface's direction in which x grows
+ * and y does not, as fractions of the edges from the first corner. */
 static double along_field(const primitive *p, const lapped_mesh *m, const direction_field *f, uint32_t k,
                           uint32_t origin, double *sure)
 {
-    const float *a = m->places[m->indices[3 * k]], *b = m->places[m->indices[3 * k + 1]],
-                *c = m->places[m->indices[3 * k + 2]];
+    const float *a = m->positions[m->indices[3 * k]], *b = m->positions[m->indices[3 * k + 1]],
+                *c = m->positions[m->indices[3 * k + 2]];
     double ux = (double)b[0] - a[0], uy = (double)b[1] - a[1], vx = (double)c[0] - a[0], vy = (double)c[1] - a[1],
            det = ux * vy - uy * vx;
     double s = vy / det, t = -uy / det;
@@ -266,7 +267,7 @@ static place3 cone_at(double u, double v)
     return (place3){r * cos(a), r * sin(a), 0.5 * v};
 }
 
-static void places_run_along_the_field(void **state)
+static void positions_run_along_the_field(void **state)
 {
     (void)state;
     primitive spot;
@@ -288,10 +289,11 @@ static void a_plane_is_not_stretched(void **state)
         uint32_t i = m.indices[k], j = m.indices[k % 3 == 2 ? k - 2 : k + 1];
         vec3     a = p.positions[m.source[i]], b = p.positions[m.source[j]];
         double   there = sqrt(pow((double)a.x - b.x, 2) + pow((double)a.y - b.y, 2) + pow((double)a.z - b.z, 2));
-        double   here = hypot((double)m.places[i][0] - m.places[j][0], (double)m.places[i][1] - m.places[j][1]);
+        double   here =
+            hypot((double)m.positions[i][0] - m.positions[j][0], (double)m.positions[i][1] - m.positions[j][1]);
         assert_true(fabs(here - there) < 1e-4);
-        /* x of places is ±x of the plane. */
-        assert_true(fabs(fabs((double)m.places[i][0] - m.places[j][0]) - fabs((double)a.x - b.x)) < 1e-3);
+        /* x of positions is ±x of the plane. */
+        assert_true(fabs(fabs((double)m.positions[i][0] - m.positions[j][0]) - fabs((double)a.x - b.x)) < 1e-3);
     }
     lapped_release(&m);
     primitive_release(&p);
@@ -331,10 +333,11 @@ static void the_seed_decides_alone(void **state)
     lapped_mesh  a = lap(&p, 0.5, 7), b = lap(&p, 0.5, 7), c = lap(&p, 0.5, 8);
     assert_int_equal(a.vertex_count, b.vertex_count);
     assert_int_equal(a.index_count, b.index_count);
-    assert_memory_equal(a.places, b.places, a.vertex_count * sizeof *a.places);
+    assert_memory_equal(a.positions, b.positions, a.vertex_count * sizeof *a.positions);
     assert_memory_equal(a.source, b.source, a.vertex_count * sizeof *a.source);
     assert_memory_equal(a.indices, b.indices, a.index_count * sizeof *a.indices);
-    assert_true(a.vertex_count != c.vertex_count || memcmp(a.places, c.places, a.vertex_count * sizeof *a.places) != 0);
+    assert_true(a.vertex_count != c.vertex_count ||
+                memcmp(a.positions, c.positions, a.vertex_count * sizeof *a.positions) != 0);
     lapped_release(&a);
     lapped_release(&b);
     lapped_release(&c);
@@ -356,7 +359,7 @@ static void size_does_not_matter(void **state)
         lapped_mesh b = lap(&q, 0.8 * scales[i], 2);
         assert_int_equal(a.vertex_count, b.vertex_count);
         for (uint32_t v = 0; v < a.vertex_count; v++)
-            assert_true(fabs((double)a.places[v][0] - b.places[v][0] / scales[i]) < 1e-5);
+            assert_true(fabs((double)a.positions[v][0] - b.positions[v][0] / scales[i]) < 1e-5);
         lapped_release(&b);
         primitive_release(&q);
     }
@@ -419,7 +422,7 @@ static void memory_may_run_out(void **state)
             break;
         }
         assert_int_equal(status, LMN_MEMORY);
-        assert_null(m.places);
+        assert_null(m.positions);
     }
     assert_true(n > 30 && n < 100000);
     direction_field_release(&f);
@@ -449,7 +452,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_is_covered),
         cmocka_unit_test(models_are_covered),
-        cmocka_unit_test(places_run_along_the_field),
+        cmocka_unit_test(positions_run_along_the_field),
         cmocka_unit_test(a_plane_is_not_stretched),
         cmocka_unit_test(outlines_have_no_straight_sides),
         cmocka_unit_test(the_seed_decides_alone),

@@ -1,4 +1,4 @@
-/* Looks: parsing, places of errors, setting, printing, the reference, and what happens when memory runs out. */
+/* Looks: parsing, positions of errors, setting, printing, the reference, and what happens when memory runs out. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

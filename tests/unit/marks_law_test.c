@@ -107,36 +107,36 @@ static void test_page_area(void **state)
     const double  SIDE = 1e-4;
     random_source r = random_start(7, 2);
     for (int i = 0; i < 2000; i++) {
-        double n[3], u[3], v[3], focal = 200 + 3000 * random_unit(&r), corners[4][2], way[3];
+        double n[3], u[3], v[3], focal = 200 + 3000 * random_unit(&r), corners[4][2], direction[3];
         bool   flat = i % 3 == 0;
-        double place[3] = {random_signed(&r) * 2, random_signed(&r) * 2, -2 - 8 * random_unit(&r)};
+        double position[3] = {random_signed(&r) * 2, random_signed(&r) * 2, -2 - 8 * random_unit(&r)};
         random_frame(&r, n, u, v);
         for (int c = 0; c < 4; c++) {
             double p[3];
             for (int k = 0; k < 3; k++)
-                p[k] = place[k] + SIDE * ((c == 1 || c == 2 ? 0.5 : -0.5) * u[k] + (c >= 2 ? 0.5 : -0.5) * v[k]);
+                p[k] = position[k] + SIDE * ((c == 1 || c == 2 ? 0.5 : -0.5) * u[k] + (c >= 2 ? 0.5 : -0.5) * v[k]);
             project(p, focal, flat, corners[c]);
         }
         double area = 0;
         for (int c = 0; c < 4; c++)
             area += 0.5 * (corners[c][0] * corners[(c + 1) % 4][1] - corners[c][1] * corners[(c + 1) % 4][0]);
-        double unit = flat ? focal : focal / -place[2];
-        assert_near(mark_page_area(place, n, focal, flat) / (unit * unit), fabs(area) / (SIDE * SIDE) / (unit * unit),
-                    0.003);
-        memcpy(way, u, sizeof way);
+        double unit = flat ? focal : focal / -position[2];
+        assert_near(mark_page_area(position, n, focal, flat) / (unit * unit),
+                    fabs(area) / (SIDE * SIDE) / (unit * unit), 0.003);
+        memcpy(direction, u, sizeof direction);
         double length = hypot(corners[1][0] - corners[0][0], corners[1][1] - corners[0][1]) / SIDE;
-        assert_near(mark_page_length(place, way, focal, flat) / unit, length / unit, 0.003);
+        assert_near(mark_page_length(position, direction, focal, flat) / unit, length / unit, 0.003);
     }
 }
 
 /* --- EX-03 to EX-05 ------------------------------------------------------------------------------------- */
 
-static double share_drawn(double share)
+static double fraction_drawn(double fraction)
 {
     enum { COUNT = 10000 };
     int drawn = 0;
     for (int i = 0; i < COUNT; i++)
-        drawn += mark_is_drawn(1, ((float)i + 0.5f) / COUNT, 0, (float)(1 - share));
+        drawn += mark_is_drawn(1, ((float)i + 0.5f) / COUNT, 0, (float)(1 - fraction));
     return (double)drawn / COUNT;
 }
 
@@ -144,16 +144,16 @@ static void test_distance_and_slope(void **state)
 {
     (void)state;
     for (int k = 0; k < 4; k++) {
-        const double place[3] = {0, 0, -2.0 * (1 << k)};
-        assert_near(share_drawn(mark_share_by_distance(place, 2)), 1.0 / (1 << k), 0.02);
+        const double position[3] = {0, 0, -2.0 * (1 << k)};
+        assert_near(fraction_drawn(mark_fraction_by_distance(position, 2)), 1.0 / (1 << k), 0.02);
     }
-    assert_true(mark_share_by_distance((const double[]){0, 0, -1}, 2) > 1); /* nearer: all */
-    const double angles[] = {0, 60, 90}, shares[] = {1, 0.5, 0};
+    assert_true(mark_fraction_by_distance((const double[]){0, 0, -1}, 2) > 1); /* nearer: all */
+    const double angles[] = {0, 60, 90}, fractions[] = {1, 0.5, 0};
     for (int i = 0; i < 3; i++) {
         double       a = angles[i] * (3.14159265358979 / 180);
-        const double place[3] = {0, 0, -5}, normal[3] = {sin(a), 0, cos(a)}, back[3] = {-sin(a), 0, -cos(a)};
-        assert_near(share_drawn(mark_share_by_slope(place, normal)), shares[i], 0.02);
-        assert_near(mark_share_by_slope(place, back), mark_share_by_slope(place, normal), 1e-12);
+        const double position[3] = {0, 0, -5}, normal[3] = {sin(a), 0, cos(a)}, back[3] = {-sin(a), 0, -cos(a)};
+        assert_near(fraction_drawn(mark_fraction_by_slope(position, normal)), fractions[i], 0.02);
+        assert_near(mark_fraction_by_slope(position, back), mark_fraction_by_slope(position, normal), 1e-12);
     }
 }
 
@@ -163,23 +163,23 @@ static void test_combined(void **state)
     (void)state;
     random_source r = random_start(3, 3);
     for (int i = 0; i < 100; i++) {
-        double n[3], u[3], v[3], place[3] = {random_signed(&r), random_signed(&r), -1 - 4 * random_unit(&r)};
+        double n[3], u[3], v[3], position[3] = {random_signed(&r), random_signed(&r), -1 - 4 * random_unit(&r)};
         random_frame(&r, n, u, v);
-        assert_near(mark_share(MARK_LAW_THESIS, place, n, u, 1.7, false),
-                    mark_share_by_distance(place, 1.7) * mark_share_by_slope(place, n), 1e-12);
+        assert_near(mark_fraction(MARK_LAW_THESIS, position, n, u, 1.7, false),
+                    mark_fraction_by_distance(position, 1.7) * mark_fraction_by_slope(position, n), 1e-12);
         /* What is drawn, times what of it is seen on the page, is the same everywhere for the law that belongs to
          * the mark. */
-        double area = mark_page_area(place, n, 1, false);
-        assert_near(mark_share(MARK_LAW_DOT, place, n, u, 1.7, false) / area, 1.7 * 1.7, 1e-9);
-        double length = mark_page_length(place, u, 1, false);
+        double area = mark_page_area(position, n, 1, false);
+        assert_near(mark_fraction(MARK_LAW_DOT, position, n, u, 1.7, false) / area, 1.7 * 1.7, 1e-9);
+        double length = mark_page_length(position, u, 1, false);
         if (length > 0.05)
-            assert_near(mark_share(MARK_LAW_LINE, place, n, u, 1.7, false) * length / area, 1.7, 1e-9);
+            assert_near(mark_fraction(MARK_LAW_LINE, position, n, u, 1.7, false) * length / area, 1.7, 1e-9);
     }
     /* Lines across the tilt keep their number, those along it need the cosine. */
-    const double place[3] = {0, 0, -1}, tilted[3] = {sin(1.2), 0, cos(1.2)}, along[3] = {0, 1, 0},
+    const double position[3] = {0, 0, -1}, tilted[3] = {sin(1.2), 0, cos(1.2)}, along[3] = {0, 1, 0},
                  across[3] = {cos(1.2), 0, -sin(1.2)};
-    assert_near(mark_share(MARK_LAW_LINE, place, tilted, along, 1, false), cos(1.2), 1e-9);
-    assert_near(mark_share(MARK_LAW_LINE, place, tilted, across, 1, false), 1, 1e-9);
+    assert_near(mark_fraction(MARK_LAW_LINE, position, tilted, along, 1, false), cos(1.2), 1e-9);
+    assert_near(mark_fraction(MARK_LAW_LINE, position, tilted, across, 1, false), 1, 1e-9);
 }
 
 /* --- EX-06 to EX-08 ------------------------------------------------------------------------------------- */
@@ -225,16 +225,16 @@ static void test_dot_ink(void **state)
     (void)state;
     enum { COUNT = 20000 };
     for (int s = 1; s <= 40; s++) {
-        float  share = 0.05f * (float)s;
+        float  fraction = 0.05f * (float)s;
         double sum = 0;
         float  before = INFINITY;
         for (int i = 0; i < COUNT; i++) {
-            float ink = mark_dot_ink(1 - (float)i / COUNT, share, 0.2f, 2.25f);
+            float ink = mark_dot_ink(1 - (float)i / COUNT, fraction, 0.2f, 2.25f);
             assert_true(ink <= before + 1e-6f); /* by rank */
             before = ink;
             sum += (double)ink;
         }
-        assert_near(sum / COUNT, (double)share, 0.002);
+        assert_near(sum / COUNT, (double)fraction, 0.002);
     }
     assert_true(mark_dot_ink(1, 0, 0.2f, 1) == 0);
     mark_line line = {.light = 0.5f, .perspective = 0.7f};

@@ -27,7 +27,7 @@ static void assert_near(double value, double wanted, double off)
 
 typedef struct sheet {
     mark_surface surface;
-    vec3        *places, *normals;
+    vec3        *positions, *normals;
     vec2        *uvs;
     uint32_t    *indices;
 } sheet;
@@ -36,7 +36,7 @@ typedef struct sheet {
  * ball's upper half. */
 static sheet make_sheet(uint32_t n, double width, double height, double repeat, bool bent)
 {
-    sheet s = {.places = malloc(sizeof(vec3) * (n + 1) * (n + 1)),
+    sheet s = {.positions = malloc(sizeof(vec3) * (n + 1) * (n + 1)),
                .normals = malloc(sizeof(vec3) * (n + 1) * (n + 1)),
                .uvs = malloc(sizeof(vec2) * (n + 1) * (n + 1)),
                .indices = malloc(sizeof(uint32_t) * 6 * n * n)};
@@ -45,8 +45,8 @@ static sheet make_sheet(uint32_t n, double width, double height, double repeat, 
             uint32_t i = y * (n + 1) + x;
             double   u = (double)x / n, v = (double)y / n, a = (u - 0.5) * width, b = (v - 0.5) * height,
                    c = bent ? sqrt(1 - a * a - b * b) : 0;
-            s.places[i] = (vec3){(float)a, (float)b, (float)c};
-            s.normals[i] = bent ? s.places[i] : (vec3){0, 0, 1};
+            s.positions[i] = (vec3){(float)a, (float)b, (float)c};
+            s.normals[i] = bent ? s.positions[i] : (vec3){0, 0, 1};
             s.uvs[i] = (vec2){(float)(u * repeat), (float)(v * repeat)};
         }
     for (uint32_t y = 0; y < n; y++)
@@ -54,13 +54,13 @@ static sheet make_sheet(uint32_t n, double width, double height, double repeat, 
             uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
             memcpy(&s.indices[6 * (y * n + x)], (uint32_t[]){a, b, d, a, d, c}, 6 * sizeof(uint32_t));
         }
-    s.surface = (mark_surface){s.places, s.normals, s.uvs, s.indices, (n + 1) * (n + 1), 2 * n * n};
+    s.surface = (mark_surface){s.positions, s.normals, s.uvs, s.indices, (n + 1) * (n + 1), 2 * n * n};
     return s;
 }
 
 static void release_sheet(sheet *s)
 {
-    free(s->places);
+    free(s->positions);
     free(s->normals);
     free(s->uvs);
     free(s->indices);
@@ -82,12 +82,13 @@ static spectrum measure(const marks *m, size_t count)
     double   packed = sqrt(2 / (sqrt(3.0) * (double)count)), within = 0.6 * packed;
     size_t   pairs = 0, inner = 0;
     for (size_t i = 0; i < count; i++) {
-        double x = (double)m->dots[i].place.x, y = (double)m->dots[i].place.y;
+        double x = (double)m->dots[i].position.x, y = (double)m->dots[i].position.y;
         if (fabs(x) > 0.4 || fabs(y) > 0.4)
             continue;
         inner++;
         for (size_t k = 0; k < count; k++) {
-            double away = k == i ? INFINITY : hypot((double)m->dots[k].place.x - x, (double)m->dots[k].place.y - y);
+            double away =
+                k == i ? INFINITY : hypot((double)m->dots[k].position.x - x, (double)m->dots[k].position.y - y);
             pairs += away < within;
             s.closest = fmin(s.closest, away / packed);
         }
@@ -101,7 +102,7 @@ static spectrum measure(const marks *m, size_t count)
                    im = 0;
             double u = floor(f * cos(angle)), v = floor(f * sin(angle));
             for (size_t i = 0; i < count; i++) {
-                double phase = 6.283185307 * (u * (double)m->dots[i].place.x + v * (double)m->dots[i].place.y);
+                double phase = 6.283185307 * (u * (double)m->dots[i].position.x + v * (double)m->dots[i].position.y);
                 re += cos(phase);
                 im += sin(phase);
             }
@@ -138,10 +139,11 @@ static void test_prefixes(void **state)
     for (size_t i = 0; i < COUNT; i++) {
         assert_near((double)m.dots[i].priority, 1 - (double)i / COUNT, 1e-6);
         const uint32_t *c = &s.indices[3 * m.dots[i].triangle];
-        float           a = m.dots[i].share[0], b = m.dots[i].share[1];
+        float           a = m.dots[i].fraction[0], b = m.dots[i].fraction[1];
         assert_true(a >= 0 && b >= 0 && a + b <= 1.00001f);
-        assert_near((double)m.dots[i].place.x,
-                    (double)((1 - a - b) * s.places[c[0]].x + a * s.places[c[1]].x + b * s.places[c[2]].x), 1e-6);
+        assert_near((double)m.dots[i].position.x,
+                    (double)((1 - a - b) * s.positions[c[0]].x + a * s.positions[c[1]].x + b * s.positions[c[2]].x),
+                    1e-6);
     }
     surface_marks_release(&m);
     release_sheet(&s);
@@ -149,14 +151,14 @@ static void test_prefixes(void **state)
 
 /* A ring, closed, whose inner triangles are a third as large as the outer ones: every part of it has as many dots
  * as its area, in every prefix. */
-static void test_shares_of_area(void **state)
+static void test_fractions_of_area(void **state)
 {
     (void)state;
     enum { COUNT = 4000, CELLS = 24 };
     sheet s = make_sheet(CELLS, 1, 1, 1, false);
     for (uint32_t i = 0; i < s.surface.vertex_count; i++) {
         double u = 6.283185307179586 * (double)s.uvs[i].x, v = 6.283185307179586 * (double)s.uvs[i].y;
-        s.places[i] =
+        s.positions[i] =
             (vec3){(float)((1 + 0.5 * cos(v)) * cos(u)), (float)((1 + 0.5 * cos(v)) * sin(u)), (float)(0.5 * sin(v))};
         s.normals[i] = (vec3){(float)(cos(v) * cos(u)), (float)(cos(v) * sin(u)), (float)sin(v)};
     }
@@ -185,13 +187,13 @@ static void test_thin_wall(void **state)
 {
     (void)state;
     enum { COUNT = 2000 };
-    vec3     places[8], normals[8];
+    vec3     positions[8], normals[8];
     uint32_t indices[12] = {0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6};
     for (int i = 0; i < 8; i++) {
-        places[i] = (vec3){i % 4 == 1 || i % 4 == 2 ? 0.5f : -0.5f, i % 4 >= 2 ? 0.5f : -0.5f, i < 4 ? 0 : -1e-4f};
+        positions[i] = (vec3){i % 4 == 1 || i % 4 == 2 ? 0.5f : -0.5f, i % 4 >= 2 ? 0.5f : -0.5f, i < 4 ? 0 : -1e-4f};
         normals[i] = (vec3){0, 0, i < 4 ? 1 : -1};
     }
-    mark_surface wall = {places, normals, NULL, indices, 8, 4};
+    mark_surface wall = {positions, normals, NULL, indices, 8, 4};
     marks        m;
     assert_int_equal(marks_stipple(&m, &wall, COUNT, 1, NULL), LMN_OK);
     marks front = {.dots = malloc(COUNT * sizeof *front.dots)};
@@ -237,10 +239,10 @@ static void test_same_again(void **state)
 static void test_odd_surfaces(void **state)
 {
     (void)state;
-    vec3         places[3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, normals[3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    vec3         positions[3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, normals[3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     vec2         uvs[3] = {{0, 0}, {1, 0}, {2, 0}};
     uint32_t     indices[3] = {0, 1, 2};
-    mark_surface flat = {places, normals, uvs, indices, 3, 1}, empty = {places, normals, uvs, indices, 3, 0};
+    mark_surface flat = {positions, normals, uvs, indices, 3, 1}, empty = {positions, normals, uvs, indices, 3, 0};
     strokes      texture = {NULL, 0, 0, 1};
     strokes_add(&texture, (texture_stroke){0, 0, 1, 1, 1, 1, 0});
     marks               m;
@@ -259,7 +261,7 @@ static void test_odd_surfaces(void **state)
         assert_int_equal(m.line_count, 0);
         surface_marks_release(&m);
     }
-    places[2] = (vec3){0, 1, 0};
+    positions[2] = (vec3){0, 1, 0};
     assert_int_equal(marks_stipple(&m, &flat, LIMIT_MARKS + 1, 1, &error), LMN_LIMIT);
     assert_int_equal(marks_stipple(&m, &flat, 1, 1, &error), LMN_OK);
     assert_int_equal(m.dot_count, 1);
@@ -333,17 +335,17 @@ static void test_tiling(void **state)
                 assert_memory_equal(&before->middle, &l->middle, sizeof l->middle);
             }
             /* Lifted, each end still has the texture coordinates that it had: those of the sheet are linear. */
-            double corners[3][2], share[3];
+            double corners[3][2], fraction[3];
             for (int c = 0; c < 3; c++) {
-                corners[c][0] = (double)s.places[s.indices[3 * l->triangle + (uint32_t)c]].x;
-                corners[c][1] = (double)s.places[s.indices[3 * l->triangle + (uint32_t)c]].y;
+                corners[c][0] = (double)s.positions[s.indices[3 * l->triangle + (uint32_t)c]].x;
+                corners[c][1] = (double)s.positions[s.indices[3 * l->triangle + (uint32_t)c]].y;
             }
             const double end[2] = {(double)l->a.x, (double)l->a.y};
-            assert_true(mark_barycentrics(end, (const double(*)[2])corners, share));
+            assert_true(mark_barycentrics(end, (const double(*)[2])corners, fraction));
             double u = 0;
             for (int c = 0; c < 3; c++) {
-                assert_true(share[c] > -1e-4 && share[c] < 1.0001);
-                u += share[c] * (double)s.uvs[s.indices[3 * l->triangle + (uint32_t)c]].x;
+                assert_true(fraction[c] > -1e-4 && fraction[c] < 1.0001);
+                u += fraction[c] * (double)s.uvs[s.indices[3 * l->triangle + (uint32_t)c]].x;
             }
             assert_near(u, (end[0] / 2 + 0.5) * 3, 1e-5);
             assert_near((double)l->density, m.line_length / 4, 0.1 * m.line_length / 4);
@@ -520,10 +522,12 @@ int main(void)
 {
     setenv("LIMNER_CACHE", "", 1);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_prefixes),      cmocka_unit_test(test_shares_of_area), cmocka_unit_test(test_thin_wall),
-        cmocka_unit_test(test_same_again),    cmocka_unit_test(test_odd_surfaces),   cmocka_unit_test(test_tiling),
-        cmocka_unit_test(test_along_an_edge), cmocka_unit_test(test_indication),     cmocka_unit_test(test_jitter),
-        cmocka_unit_test(test_trace),         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_prefixes),      cmocka_unit_test(test_fractions_of_area),
+        cmocka_unit_test(test_thin_wall),     cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_odd_surfaces),  cmocka_unit_test(test_tiling),
+        cmocka_unit_test(test_along_an_edge), cmocka_unit_test(test_indication),
+        cmocka_unit_test(test_jitter),        cmocka_unit_test(test_trace),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

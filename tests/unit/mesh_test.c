@@ -31,7 +31,7 @@ static void welding_gives_shared_corners(void **state)
 {
     (void)state;
     primitive p = unshared_cube();
-    p.positions[0].x = -0.0f; /* the same place as +0 */
+    p.positions[0].x = -0.0f; /* the same position as +0 */
     assert_int_equal(mesh_weld_positions(&p, NULL), LMN_OK);
     assert_int_equal(p.vertex_count, 8);
     assert_int_equal(p.index_count, 36);

@@ -111,7 +111,7 @@ static const extension *stroke_of(const extension_set *set, const double from[2]
 }
 
 typedef struct worst {
-    double place, degrees;
+    double position, degrees;
 } worst;
 
 /* The line runs on from its end, about as far as was asked for, in its own direction. */
@@ -127,7 +127,7 @@ static void judge(const extension_set *set, const double from[2], const double t
     double wanted = fmin(length, 0.4 * size), off = fabs(((double)s->x - to[0]) * uy - ((double)s->y - to[1]) * ux);
     double turn = degrees_between((double)s->dx, (double)s->dy, ux, uy),
            ends = ((double)s->x - to[0]) * ux + ((double)s->y - to[1]) * uy;
-    w->place = fmax(w->place, fmax(off, fabs(ends)));
+    w->position = fmax(w->position, fmax(off, fabs(ends)));
     w->degrees = fmax(w->degrees, turn);
     if (off > 1 || fabs(ends) > 4 || turn > 3)
         fail_msg("%s: %.2f px beside, %.2f px beyond the corner, %.2f degrees off", what, off, ends, turn);
@@ -164,7 +164,7 @@ static void squares_of_every_slope(void **state)
                 }
                 overshoot_release(&set);
             }
-    print_message("corners at most %.2f px, directions %.2f degrees off\n", w.place, w.degrees);
+    print_message("corners at most %.2f px, directions %.2f degrees off\n", w.position, w.degrees);
 }
 
 static void legs_and_stems(void **state)
@@ -363,7 +363,7 @@ static void noise_is_harmless(void **state)
     uint32_t seed = 3;
     for (int round = 0; round < 60; round++) {
         int         width = 1 + (int)(next_random(&seed) % 90), height = 1 + (int)(next_random(&seed) % 90);
-        uint32_t    share = next_random(&seed) % 256;
+        uint32_t    fraction = next_random(&seed) % 256;
         pass_pixels in = {.values = {edges, surfaces},
                           .width = width,
                           .height = height,
@@ -371,7 +371,7 @@ static void noise_is_harmless(void **state)
                           .scale = 1,
                           .perspective = round % 2};
         for (int i = 0; i < width * height * 4; i++) {
-            edges[i] = next_random(&seed) % 256 < share ? 0 : 1;
+            edges[i] = next_random(&seed) % 256 < fraction ? 0 : 1;
             surfaces[i] = (float)(next_random(&seed) % 5);
         }
         lines_common    lines = lines_of(1 + (float)(round % 4), 64);

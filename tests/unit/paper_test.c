@@ -229,7 +229,7 @@ static void normals_lean_away_from_hills(void **state)
     }
 }
 
-/* Of places alike in height, those that face the stroke are touched first; of places that lean alike, the higher
+/* Of positions alike in height, those that face the stroke are touched first; of positions that lean alike, the higher
  * ones. */
 static void contact_is_of_height_and_of_flanks(void **state)
 {

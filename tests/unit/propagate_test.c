@@ -12,12 +12,12 @@ typedef struct eye_test {
     place3           eye;
 } eye_test;
 
-/* In double precision, from the places alone. */
+/* In double precision, from the positions alone. */
 static bool sees_front(void *user, uint32_t level, uint32_t face)
 {
     const eye_test *t = user;
     const uint32_t *c = t->b->levels[level].faces[face];
-    vec3            p = t->b->places[c[0]], q = t->b->places[c[1]], r = t->b->places[c[2]];
+    vec3            p = t->b->positions[c[0]], q = t->b->positions[c[1]], r = t->b->positions[c[2]];
     double          ax = (double)q.x - p.x, ay = (double)q.y - p.y, az = (double)q.z - p.z, bx = (double)r.x - p.x,
            by = (double)r.y - p.y, bz = (double)r.z - p.z;
     return (ay * bz - az * by) * (t->eye.x - p.x) + (az * bx - ax * bz) * (t->eye.y - p.y) +
@@ -149,8 +149,8 @@ static void what_refining_invents_is_not_asked_for(void **state)
                      LMN_OK);
     uint32_t top = 0;
     for (uint32_t v = p.vertex_count; v < b.levels[2].vertex_count; v++)
-        top = b.places[v].z > b.places[top].z ? v : top;
-    b.places[top].z += 5;
+        top = b.positions[v].z > b.positions[top].z ? v : top;
+    b.positions[top].z += 5;
     score s = {0};
     compare(&b, 0, (place3){0, 0, 40}, true, &s);
     assert_int_equal(s.wrong, 0);
@@ -224,7 +224,7 @@ static void refined_boxes_stay_boxes(void **state)
     assert_int_equal(e.edge_count, 12 * 8);
     double length = 0;
     for (uint32_t i = 0; i < e.edge_count; i++) {
-        vec3 a = e.places[e.edges[i].vertex[0]], b = e.places[e.edges[i].vertex[1]];
+        vec3 a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
         assert_true(e.edges[i].flags & EDGE_CREASE);
         assert_false(e.edges[i].flags & (EDGE_BORDER | EDGE_CANDIDATE));
         length += sqrt((double)(a.x - b.x) * (a.x - b.x) + (double)(a.y - b.y) * (a.y - b.y) +

@@ -8,7 +8,7 @@ typedef struct corner3 {
     double x, y, z;
 } corner3;
 
-/* A part's triangles in the pump's place. */
+/* A part's triangles in the pump's position. */
 typedef struct solid {
     const char *name;
     size_t      count; /* of triangles */
@@ -19,7 +19,7 @@ typedef struct solid {
 static lmn_scene *scene;
 static solid     *solids;
 
-static void place_of(int32_t at, double offset[3])
+static void position_of(int32_t at, double offset[3])
 {
     for (; at != NONE; at = scene->nodes[at].parent)
         for (int k = 0; k < 3; k++)
@@ -31,7 +31,7 @@ static solid solid_of_part(const part *p)
     const primitive *shape = scene->meshes[scene->nodes[p->node].mesh].primitives;
     solid            s = {p->name, shape->index_count / 3, NULL, {1, 1, 1}, {-1, -1, -1}};
     double           offset[3] = {0};
-    place_of(p->node, offset);
+    position_of(p->node, offset);
     s.triangles = mem_alloc(s.count * sizeof *s.triangles);
     assert_non_null(s.triangles);
     for (uint32_t i = 0; i < shape->index_count; i++) {

@@ -1,4 +1,4 @@
-/* Ribbons: how strokes made by hand are drawn. Every expectation is worked out from the lines' places, not from
+/* Ribbons: how strokes made by hand are drawn. Every expectation is worked out from the lines' positions, not from
  * ribbons. */
 #include <math.h>
 #include <setjmp.h>
@@ -46,7 +46,7 @@ static stroke_style plain_style(void)
 }
 
 /* A stroke through points {x, y, depth}; `goes_on`: of the same chain as the one before. */
-static stroke *add(const float (*places)[3], uint32_t count, uint32_t hidden_by, bool goes_on)
+static stroke *add(const float (*positions)[3], uint32_t count, uint32_t hidden_by, bool goes_on)
 {
     stroke *s = &d.strokes[d.set.stroke_count];
     float   arc = goes_on ? d.points[d.set.point_count - 1].arc : 0;
@@ -62,8 +62,8 @@ static stroke *add(const float (*places)[3], uint32_t count, uint32_t hidden_by,
                   .count = count};
     for (uint32_t i = 0; i < count; i++) {
         if (i > 0)
-            arc += hypotf(places[i][0] - places[i - 1][0], places[i][1] - places[i - 1][1]);
-        d.points[d.set.point_count++] = (stroke_point){places[i][0], places[i][1], places[i][2], arc, 1};
+            arc += hypotf(positions[i][0] - positions[i - 1][0], positions[i][1] - positions[i - 1][1]);
+        d.points[d.set.point_count++] = (stroke_point){positions[i][0], positions[i][1], positions[i][2], arc, 1};
     }
     for (size_t k = d.set.stroke_count + 1; k-- > 0 && d.strokes[k].chain == s->chain;)
         d.strokes[k].chain_length = arc;
@@ -79,14 +79,14 @@ static stroke *add_line(float x0, float y0, float x1, float y1, float depth, uin
 
 static stroke *add_circle(float x, float y, float radius, int pieces, uint32_t hidden_by)
 {
-    float places[256][3];
+    float positions[256][3];
     for (int i = 0; i <= pieces; i++) {
         double angle = 2 * 3.14159265358979 * (i % pieces) / pieces;
-        places[i][0] = x + radius * (float)cos(angle);
-        places[i][1] = y + radius * (float)sin(angle);
-        places[i][2] = 5;
+        positions[i][0] = x + radius * (float)cos(angle);
+        positions[i][1] = y + radius * (float)sin(angle);
+        positions[i][2] = 5;
     }
-    stroke *s = add((const float(*)[3])places, (uint32_t)pieces + 1, hidden_by, false);
+    stroke *s = add((const float(*)[3])positions, (uint32_t)pieces + 1, hidden_by, false);
     s->closed = true;
     return s;
 }
@@ -312,7 +312,7 @@ static void test_halo_crumbs(void **state)
     ribbon_set_release(&r);
 }
 
-/* A stroke that ends at what hides it. And the edges of a corner, which meet at one place and leave no gaps. */
+/* A stroke that ends at what hides it. And the edges of a corner, which meet at one position and leave no gaps. */
 static void test_halos_at_ends(void **state)
 {
     const float corner[2][3] = {{200, 200, 5}, {260, 200, 7}}, other[2][3] = {{200, 200, 5}, {200, 260, 7}},
@@ -397,7 +397,7 @@ static void test_crowds(void **state)
     ribbon_set_release(&r);
 }
 
-/* A line that is crowded for a share of its length is left out as a whole, or not at all. */
+/* A line that is crowded for a fraction of its length is left out as a whole, or not at all. */
 static void check_turns(float length, bool stays)
 {
     stroke_style style = plain_style();
@@ -425,17 +425,17 @@ static void test_crowds_in_turns(void **state)
 /* A spring seen from the side: one chain whose windings crowd each other. */
 static void test_spring(void **state)
 {
-    float        places[1200][3];
+    float        positions[1200][3];
     stroke_style style = plain_style();
     (void)state;
     begin();
     for (int i = 0; i < 1200; i++) {
         double angle = i * 0.2;
-        places[i][0] = 100 + 60 * (float)cos(angle);
-        places[i][1] = 50 + 2.0f * (float)(angle / 6.2831853); /* 2 pixels a winding, 38 windings */
-        places[i][2] = 5;
+        positions[i][0] = 100 + 60 * (float)cos(angle);
+        positions[i][1] = 50 + 2.0f * (float)(angle / 6.2831853); /* 2 pixels a winding, 38 windings */
+        positions[i][2] = 5;
     }
-    add((const float(*)[3])places, 1200, 1, false);
+    add((const float(*)[3])positions, 1200, 1, false);
     ribbon_set r = make(&style);
     assert_int_equal(r.ribbon_count, 1);
     ribbon_set_release(&r);
@@ -447,7 +447,7 @@ static void test_spring(void **state)
 
 /* --- the hand ------------------------------------------------------------------------------------------- */
 
-static float place_at(const ribbon_set *r, uint32_t chain, float arc, float *y)
+static float position_at(const ribbon_set *r, uint32_t chain, float arc, float *y)
 {
     for (size_t i = 0; i < r->ribbon_count; i++)
         for (uint32_t k = 0; r->ribbons[i].chain == chain && k + 1 < r->ribbons[i].count; k++) {
@@ -482,10 +482,10 @@ static void test_wobble(void **state)
     ribbon_set cut = make(&style);
     assert_float_equal(end_of(&cut, 0)->y, point_of(&cut, 1, 0)->y, 1e-4);
     for (float arc = 1; arc < 300; arc += 7) {
-        float x = place_at(&whole, 0, arc, &y), cut_x = place_at(&cut, 0, arc, &other_y);
+        float x = position_at(&whole, 0, arc, &y), cut_x = position_at(&cut, 0, arc, &other_y);
         assert_float_equal(x, cut_x, 0.15);
         assert_float_equal(y, other_y, 0.15);
-        place_at(&other, 0, arc, &other_y);
+        position_at(&other, 0, arc, &other_y);
         differ = fmaxf(differ, fabsf(y - other_y));
     }
     assert_true(differ > 0.5f); /* another seed, another hand */
@@ -501,8 +501,8 @@ static void test_wobble(void **state)
     add_line(0, 50, 300, 50, 5, 0);
     ribbon_set usual = make(&style);
     for (float arc = 1; arc < 300; arc += 7) {
-        place_at(&usual, 0, arc, &y);
-        place_at(&longer, 0, arc + 45, &other_y);
+        position_at(&usual, 0, arc, &y);
+        position_at(&longer, 0, arc + 45, &other_y);
         assert_float_equal(y, other_y, 0.15);
     }
     ribbon_set_release(&longer);

@@ -37,7 +37,7 @@ static double mean_ink(const mip_chain *m, int level)
     return sum / 255 / (double)count;
 }
 
-/* Strokes along u at random places; both priorities are even over all of them, the one by a permutation of the
+/* Strokes along u at random positions; both priorities are even over all of them, the one by a permutation of the
  * other. */
 static strokes random_strokes(size_t count, double length, double slope)
 {
@@ -137,7 +137,7 @@ static void hatch_keeps_tone_and_spacing_at_any_distance(void **state)
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
 
-static double share_below(const mip_chain *m, int level, int value)
+static double fraction_below(const mip_chain *m, int level, int value)
 {
     const uint8_t *t = level_of(m, level);
     size_t         count = mip_level_bytes(m, level), below = 0;
@@ -146,9 +146,9 @@ static double share_below(const mip_chain *m, int level, int value)
     return (double)below / (double)count;
 }
 
-/* IM-13, IM-04: what is on a level is the strokes that are kept, each at its place, grey by priority, as wide as on
+/* IM-13, IM-04: what is on a level is the strokes that are kept, each at its position, grey by priority, as wide as on
  * the others. */
-static void strokes_stay_at_their_place(void **state)
+static void strokes_stay_at_their_position(void **state)
 {
     (void)state;
     strokes s = {.width = 1};
@@ -215,7 +215,7 @@ static void levels_are_what_is_drawn_explicitly(void **state)
     strokes_release(&s);
 }
 
-/* Ink covers the same share at any distance as long as levels have room, and levels are not means of the finer ones
+/* Ink covers the same fraction at any distance as long as levels have room, and levels are not means of the finer ones
  * (IM-01, IM-02). */
 static void density_stays_over_distance(void **state)
 {
@@ -232,7 +232,8 @@ static void density_stays_over_distance(void **state)
         assert_true(fabs(mean_ink(&m, k) / mean_ink(&m, 0) - 1) < 0.15);
         /* Averaged, no texel of a far level is black any more; drawn, as many are as near. */
         if (k >= 3 && k <= 5)
-            assert_true(share_below(&m, k, 64) > 0.06 && share_below(&mean, k, 64) < 0.3 * share_below(&m, k, 64));
+            assert_true(fraction_below(&m, k, 64) > 0.06 &&
+                        fraction_below(&mean, k, 64) < 0.3 * fraction_below(&m, k, 64));
     }
     printf("\n");
     mip_chain_release(&m);
@@ -279,7 +280,7 @@ static void minimum_gets_dark(void **state)
     strokes_release(&s);
 }
 
-/* IM-14: the tone of every level follows the light, up to the share of its strokes. */
+/* IM-14: the tone of every level follows the light, up to the fraction of its strokes. */
 static void equalised_screens_are_linear(void **state)
 {
     (void)state;
@@ -289,9 +290,9 @@ static void equalised_screens_are_linear(void **state)
     assert_int_equal(screen_of_strokes(&m, &s, &w, NULL), LMN_OK);
     printf("    largest error of tone by level:");
     for (int k = 0; k <= 4; k++) {
-        double all = share_below(&m, k, 255), worst = 0;
+        double all = fraction_below(&m, k, 255), worst = 0;
         for (int v = 0; v <= 255; v++)
-            worst = fmax(worst, fabs(share_below(&m, k, v) - fmin(v / 255.0, all)));
+            worst = fmax(worst, fabs(fraction_below(&m, k, v) - fmin(v / 255.0, all)));
         for (int v = 0; v <= 255; v++)
             worst = fmax(worst, fabs(screen_ink(&m, k, 1 - v / 255.0, 0, false) - fmin(v / 255.0, all)));
         printf(" %.4f", worst);
@@ -326,7 +327,7 @@ static void equalising_keeps_the_order(void **state)
     strokes_release(&s);
 }
 
-/* A group of equal texels takes the middle of its share; paper stays paper. */
+/* A group of equal texels takes the middle of its fraction; paper stays paper. */
 static void equal_texels_take_the_middle(void **state)
 {
     (void)state;
@@ -547,7 +548,7 @@ static void procedures_are_linear_on_every_level(void **state)
         for (int k = 0; k < m.levels; k++) {
             double worst = 0, texels = (double)mip_level_bytes(&m, k);
             for (int v = 0; v <= 255; v++)
-                worst = fmax(worst, fabs(share_below(&m, k, v) - v / 255.0));
+                worst = fmax(worst, fabs(fraction_below(&m, k, v) - v / 255.0));
             printf(" %.3f", worst);
             /* Straight lines have as many tones as rows; levels of few texels as many as texels. */
             double allowed = p == PROCEDURE_LINES && mip_width(&m, k) < 64 ? 0.5 / sqrt(texels) : 0.5 / texels;
@@ -677,7 +678,7 @@ static void light_takes_layers_away_from_the_last(void **state)
 }
 
 /* Painted marks stay whole or go, on every level; ink stays about what it was. Dashes of 12 x 2 texels, all in the
- * same place of squares of 16. */
+ * same position of squares of 16. */
 static void painted_marks_go_as_a_whole(void **state)
 {
     (void)state;
@@ -799,7 +800,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hatch_lines_lie_on_every_second),
         cmocka_unit_test(hatch_keeps_tone_and_spacing_at_any_distance),
-        cmocka_unit_test(strokes_stay_at_their_place),
+        cmocka_unit_test(strokes_stay_at_their_position),
         cmocka_unit_test(levels_are_what_is_drawn_explicitly),
         cmocka_unit_test(density_stays_over_distance),
         cmocka_unit_test(dots_keep_density_too),

@@ -156,7 +156,7 @@ static void test_scale(void **state)
     unlink(path);
     for (at = strstr((const char *)file.data, "ENTITIES"); at; at = strchr(at + 1, '\n'))
         if ((sscanf(at, "\n10\n%lf", &x) == 1 || sscanf(at, "\n11\n%lf", &x) == 1) &&
-            x != 0) { /* a polyline's own place is 0 */
+            x != 0) { /* a polyline's own position is 0 */
             low = fmin(low, x);
             high = fmax(high, x);
         }

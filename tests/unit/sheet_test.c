@@ -231,16 +231,16 @@ static void test_layout(void **state)
 
 static double travel(const sheet *s)
 {
-    double way = 0;
+    double distance = 0;
     float  pen[2] = {0, 0};
     for (size_t i = 0; i < s->item_count; i++)
         for (uint32_t k = 0; k < s->items[i].count; k++) {
             const sheet_path *p = &s->paths[s->items[i].first + k];
             const float      *from = s->points[p->first], *to = s->points[p->first + (p->closed ? 0 : p->count - 1)];
-            way += hypot((double)(from[0] - pen[0]), (double)(from[1] - pen[1]));
+            distance += hypot((double)(from[0] - pen[0]), (double)(from[1] - pen[1]));
             memcpy(pen, to, sizeof pen);
         }
-    return way;
+    return distance;
 }
 
 static void test_plotter(void **state)

@@ -28,7 +28,7 @@ static const solid *removed_of(const lmn_scene *s)
     return &s->solids[n->solid];
 }
 
-/* Each operand of the ghost is one of the solid's: the same mesh in the same place and colour. Returns how many it
+/* Each operand of the ghost is one of the solid's: the same mesh in the same position and colour. Returns how many it
  * has. */
 static size_t check_operands(const lmn_scene *s)
 {

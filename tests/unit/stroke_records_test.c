@@ -12,8 +12,8 @@
 #include "scene/scene.h"
 #include "stroke_shapes.h"
 
-static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
-                                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+static const float positions[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                                      {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 /* Each side of the cube as two triangles, anticlockwise from outside. */
 static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                    2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -29,7 +29,7 @@ static void make_edges(edge_mesh *out, uint32_t corners, bool turned)
         indices[i + 2] = kept;
     }
     primitive p = {.vertex_count = 8,
-                   .positions = (vec3 *)(uintptr_t)places,
+                   .positions = (vec3 *)(uintptr_t)positions,
                    .index_count = corners,
                    .indices = indices,
                    .material = NONE};
@@ -95,7 +95,7 @@ static void test_creases_come_first(void **state)
                    .face_count = 2,
                    .edge_count = 3,
                    .piece_count = 1,
-                   .places = (vec3 *)(uintptr_t)places,
+                   .positions = (vec3 *)(uintptr_t)positions,
                    .faces = faces,
                    .normals = normals,
                    .edges = edges,

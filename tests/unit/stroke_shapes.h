@@ -19,11 +19,11 @@ static inline double stroke_random(uint32_t n)
 }
 
 /* Adds a part of triangles. */
-static inline void add_part(lmn_scene *s, const vec3 *places, uint32_t place_count, const uint32_t *corners,
+static inline void add_part(lmn_scene *s, const vec3 *positions, uint32_t position_count, const uint32_t *corners,
                             uint32_t corner_count)
 {
-    primitive p = {.vertex_count = place_count, .index_count = corner_count, .material = NONE};
-    p.positions = mem_copy(places, place_count * sizeof *places);
+    primitive p = {.vertex_count = position_count, .index_count = corner_count, .material = NONE};
+    p.positions = mem_copy(positions, position_count * sizeof *positions);
     p.indices = mem_copy(corners, corner_count * sizeof *corners);
     mesh *m = scene_append_mesh(s);
     assert_non_null(m);
@@ -34,37 +34,37 @@ static inline void add_part(lmn_scene *s, const vec3 *places, uint32_t place_cou
 
 static inline void add_box(lmn_scene *s, double x0, double y0, double z0, double x1, double y1, double z1)
 {
-    vec3 places[8];
+    vec3 positions[8];
     for (int k = 0; k < 8; k++)
-        places[k] = (vec3){(float)(k & 1 ? x1 : x0), (float)(k & 2 ? y1 : y0), (float)(k & 4 ? z1 : z0)};
+        positions[k] = (vec3){(float)(k & 1 ? x1 : x0), (float)(k & 2 ? y1 : y0), (float)(k & 4 ? z1 : z0)};
     const uint32_t corners[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                   2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    add_part(s, places, 8, corners, 36);
+    add_part(s, positions, 8, corners, 36);
 }
 
 /* An open plate at a height, its face up. */
 static inline void add_plate(lmn_scene *s, double x0, double y0, double x1, double y1, double z)
 {
-    vec3           places[4] = {{(float)x0, (float)y0, (float)z},
-                                {(float)x1, (float)y0, (float)z},
-                                {(float)x1, (float)y1, (float)z},
-                                {(float)x0, (float)y1, (float)z}};
+    vec3           positions[4] = {{(float)x0, (float)y0, (float)z},
+                                   {(float)x1, (float)y0, (float)z},
+                                   {(float)x1, (float)y1, (float)z},
+                                   {(float)x0, (float)y1, (float)z}};
     const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
-    add_part(s, places, 4, corners, 6);
+    add_part(s, positions, 4, corners, 6);
 }
 
 /* A ball of rings and columns; poles are fans. */
 static inline void add_ball(lmn_scene *s, double x, double y, double z, double radius, uint32_t columns, uint32_t rings)
 {
     uint32_t  count = columns * (rings - 1) + 2, k = 0;
-    vec3     *places = mem_alloc(count * sizeof *places);
+    vec3     *positions = mem_alloc(count * sizeof *positions);
     uint32_t *corners = mem_alloc((size_t)columns * (rings - 1) * 6 * sizeof *corners);
-    places[0] = (vec3){(float)x, (float)y, (float)(z - radius)};
-    places[count - 1] = (vec3){(float)x, (float)y, (float)(z + radius)};
+    positions[0] = (vec3){(float)x, (float)y, (float)(z - radius)};
+    positions[count - 1] = (vec3){(float)x, (float)y, (float)(z + radius)};
     for (uint32_t r = 1; r < rings; r++)
         for (uint32_t c = 0; c < columns; c++) {
             double polar = stroke_pi * r / rings - stroke_pi / 2, turn = 2 * stroke_pi * c / columns;
-            places[1 + (r - 1) * columns + c] =
+            positions[1 + (r - 1) * columns + c] =
                 (vec3){(float)(x + radius * cos(polar) * cos(turn)), (float)(y + radius * cos(polar) * sin(turn)),
                        (float)(z + radius * sin(polar))};
         }
@@ -80,8 +80,8 @@ static inline void add_ball(lmn_scene *s, double x, double y, double z, double r
             k += 6;
         }
     }
-    add_part(s, places, count, corners, k);
-    mem_free(places);
+    add_part(s, positions, count, corners, k);
+    mem_free(positions);
     mem_free(corners);
 }
 

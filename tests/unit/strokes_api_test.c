@@ -105,7 +105,7 @@ static void test_priorities(void **state)
     lmn_stroke       stroke;
     (void)state;
     lmn_strokes *s = create(&desc);
-    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_DRAWN, LMN_SHARE_COUNT, 0, 0, &error), LMN_OK);
+    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_DRAWN, LMN_FRACTION_COUNT, 0, 0, &error), LMN_OK);
     lmn_strokes_get(s, 0, &stroke, &error);
     assert_true(stroke.light == 1);
     lmn_strokes_get(s, lmn_strokes_count(s) - 1, &stroke, &error);
@@ -114,12 +114,12 @@ static void test_priorities(void **state)
     lmn_stroke tied;
     lmn_strokes_get(s, 7, &tied, &error);
     assert_true(tied.light == tied.perspective);
-    assert_int_equal(lmn_strokes_set_light(s, (lmn_stroke_order)3, LMN_SHARE_COUNT, 0, 0, &error), LMN_USAGE);
-    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_SHARE_AREA, 0, 0, &error), LMN_USAGE);
-    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_SHARE_AREA, NAN, 0, &error), LMN_USAGE);
-    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_SHARE_AREA, 0.01, 0, &error), LMN_OK);
+    assert_int_equal(lmn_strokes_set_light(s, (lmn_stroke_order)3, LMN_FRACTION_COUNT, 0, 0, &error), LMN_USAGE);
+    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_FRACTION_AREA, 0, 0, &error), LMN_USAGE);
+    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_FRACTION_AREA, NAN, 0, &error), LMN_USAGE);
+    assert_int_equal(lmn_strokes_set_light(s, LMN_ORDER_EVEN, LMN_FRACTION_AREA, 0.01, 0, &error), LMN_OK);
     assert_int_equal(lmn_strokes_set_perspective(s, (lmn_stroke_perspective)-1, 0, &error), LMN_USAGE);
-    assert_int_equal(lmn_strokes_set_light(NULL, LMN_ORDER_EVEN, LMN_SHARE_COUNT, 0, 0, &error), LMN_USAGE);
+    assert_int_equal(lmn_strokes_set_light(NULL, LMN_ORDER_EVEN, LMN_FRACTION_COUNT, 0, 0, &error), LMN_USAGE);
     assert_int_equal(lmn_strokes_set_perspective(NULL, LMN_PERSPECTIVE_TIED, 0, &error), LMN_USAGE);
     lmn_strokes_destroy(&s);
 }

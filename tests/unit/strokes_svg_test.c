@@ -84,7 +84,7 @@ static void test_svg_curves(void **state)
 {
     static const struct {
         const char *d;
-        double      share; /* of the circle around 50,50 with radius 30 */
+        double      fraction; /* of the circle around 50,50 with radius 30 */
     } rows[] = {
         {"M80 50A30 30 0 0 1 50 80", 0.25},
         {"M80 50A30 30 0 1 0 50 80", 0.75},
@@ -100,7 +100,7 @@ static void test_svg_curves(void **state)
         snprintf(svg, sizeof svg, "<svg viewBox='0 0 100 100'><path d='%s'/></svg>", rows[i].d);
         strokes s = read_svg(svg);
         assert_on_circle(&s, 0.5, 0.5, 0.3);
-        assert_near(length_of(&s), rows[i].share * around, 2e-3);
+        assert_near(length_of(&s), rows[i].fraction * around, 2e-3);
         strokes_release(&s);
     }
     strokes s = read_svg("<svg viewBox='0 0 100 100'><circle cx='50' cy='50' r='30'/></svg>");

@@ -280,21 +280,21 @@ static void test_pattern_repeats(void **state)
     (void)state;
     strokes s = pattern(PATTERN_CROSS, 400, 0, 1);
     for (int32_t layer = 0; layer < 4; layer++) {
-        float  places[401];
+        float  positions[401];
         size_t count = 0;
         for (size_t i = 0; i < s.count; i++) {
             const texture_stroke *t = &s.items[i];
             double                across[] = {(double)t->v0, (double)t->u0, (double)t->v0 - (double)t->u0,
                                               (double)t->v0 + (double)t->u0};
             if (t->layer == layer)
-                places[count++] = (float)(across[layer] - floor(across[layer] + 1e-6));
+                positions[count++] = (float)(across[layer] - floor(across[layer] + 1e-6));
         }
         assert_true(count > 60 && count < 400);
-        qsort(places, count, sizeof *places, compare_floats);
-        places[count] = places[0] + 1;
+        qsort(positions, count, sizeof *positions, compare_floats);
+        positions[count] = positions[0] + 1;
         double widest = 0, narrowest = 1;
         for (size_t i = 0; i < count; i++) {
-            double gap = (double)places[i + 1] - (double)places[i];
+            double gap = (double)positions[i + 1] - (double)positions[i];
             widest = fmax(widest, gap);
             narrowest = gap > 1e-4 ? fmin(narrowest, gap) : narrowest; /* strokes of one row */
         }
@@ -304,8 +304,8 @@ static void test_pattern_repeats(void **state)
     random_source chance = random_start(1, 2);
     sway          w = sway_of(&chance, 0.1, 4);
     for (double u = 0; u < 1; u += 0.1) {
-        assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u + 1, 0.3}), 1e-9);
-        assert_near(sway_at(&w, (place){u, 0.3}), sway_at(&w, (place){u, -1.7}), 1e-9);
+        assert_near(sway_at(&w, (position){u, 0.3}), sway_at(&w, (position){u + 1, 0.3}), 1e-9);
+        assert_near(sway_at(&w, (position){u, 0.3}), sway_at(&w, (position){u, -1.7}), 1e-9);
     }
 }
 
@@ -329,10 +329,10 @@ static void test_preview(void **state)
 
 /* --- priorities --- */
 
-static void set_light(strokes *s, priority_order order, priority_share share, double covering, uint32_t seed)
+static void set_light(strokes *s, priority_order order, priority_fraction fraction, double covering, uint32_t seed)
 {
     lmn_error error = {0};
-    assert_int_equal(strokes_set_light(s, order, share, covering, seed, &error), LMN_OK);
+    assert_int_equal(strokes_set_light(s, order, fraction, covering, seed, &error), LMN_OK);
 }
 
 static void set_perspective(strokes *s, perspective_order order, uint32_t seed)
@@ -396,17 +396,17 @@ static void test_spread(void **state)
     for (int i = 0; i < 400; i++)
         assert_true(strokes_add(&s, (texture_stroke){(float)(i % 20) / 20, (float)(i / 20) / 20,
                                                      (float)(i % 20) / 20 + 0.03f, (float)(i / 20) / 20, 0, 0, 0}));
-    set_light(&s, ORDER_DRAWN, SHARE_COUNT, 0, 0);
+    set_light(&s, ORDER_DRAWN, FRACTION_COUNT, 0, 0);
     size_t *order = sorted(&s, compare_light);
     assert_true(worst_quadrants(&s, order, 8) > 50);
     free(order);
     for (uint32_t seed = 0; seed < 8; seed++) {
-        set_light(&s, ORDER_SHUFFLED, SHARE_COUNT, 0, seed);
+        set_light(&s, ORDER_SHUFFLED, FRACTION_COUNT, 0, seed);
         order = sorted(&s, compare_light);
         /* Three degrees of freedom: 1 in 10,000 is above 21.1. */
         assert_true(worst_quadrants(&s, order, 20) < 21.1);
         free(order);
-        set_light(&s, ORDER_EVEN, SHARE_COUNT, 0, seed);
+        set_light(&s, ORDER_EVEN, FRACTION_COUNT, 0, seed);
         order = sorted(&s, compare_light);
         double even = worst_quadrants(&s, order, 8);
         if (even >= 4)
@@ -416,7 +416,7 @@ static void test_spread(void **state)
     strokes_release(&s);
 }
 
-static void test_share_length(void **state)
+static void test_fraction_length(void **state)
 {
     (void)state;
     strokes s = pattern(PATTERN_CROSS, 0, 0.8f, 2);
@@ -426,7 +426,7 @@ static void test_share_length(void **state)
         sum += stroke_length(&s.items[i]);
     }
     for (int order = ORDER_DRAWN; order <= ORDER_EVEN; order++) {
-        set_light(&s, (priority_order)order, SHARE_LENGTH, 0, 5);
+        set_light(&s, (priority_order)order, FRACTION_LENGTH, 0, 5);
         top = 1;
         for (int k = 0; k < 4; k++) {
             double high = 0, bottom = top - lengths[k] / sum;
@@ -464,7 +464,7 @@ static double bend_of_tone(const strokes *s, double width)
     return worst;
 }
 
-static void test_share_area(void **state)
+static void test_fraction_area(void **state)
 {
     static const stroke_pattern rows[] = {PATTERN_CROSS, PATTERN_RANDOM, PATTERN_PARALLEL, PATTERN_STIPPLE,
                                           PATTERN_BRICK};
@@ -472,12 +472,12 @@ static void test_share_area(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         strokes s = pattern(rows[i], 0, 0.5f, 4);
         double  width = rows[i] == PATTERN_STIPPLE ? 0.012 : 1.0 / 96;
-        set_light(&s, ORDER_EVEN, SHARE_AREA, width, 1);
+        set_light(&s, ORDER_EVEN, FRACTION_AREA, width, 1);
         double bend = bend_of_tone(&s, width);
         if (bend >= 0.02)
             fail_msg("%s: tone is %g from straight", stroke_pattern_names[rows[i]], bend);
         if (rows[i] == PATTERN_CROSS) { /* where strokes cover each other, lengths are not enough */
-            set_light(&s, ORDER_EVEN, SHARE_LENGTH, width, 1);
+            set_light(&s, ORDER_EVEN, FRACTION_LENGTH, width, 1);
             assert_true(bend_of_tone(&s, width) > 0.04);
         }
         strokes_release(&s);
@@ -558,7 +558,7 @@ static void test_curves(void **state)
     assert_true(curves > 40 && curves < 120);
     strokes_release(&s);
     s = read_text("0 0 0.5 0.5 0 0 0\n0.5 0.5 0.5 0.5 0 0 0\n0.5 0.5 0.6 0.6 0 0 1\n");
-    set_light(&s, ORDER_DRAWN, SHARE_COUNT, 0, 0);
+    set_light(&s, ORDER_DRAWN, FRACTION_COUNT, 0, 0);
     assert_true(s.items[0].light > s.items[1].light && s.items[1].light > s.items[2].light);
     strokes_release(&s);
 }
@@ -569,18 +569,18 @@ static void test_priority_corners(void **state)
     strokes   none = {.width = 1};
     (void)state;
     for (int order = ORDER_DRAWN; order <= ORDER_EVEN; order++)
-        for (int share = SHARE_COUNT; share <= SHARE_AREA; share++)
-            assert_int_equal(strokes_set_light(&none, (priority_order)order, (priority_share)share, 0.01, 1, &error),
-                             LMN_OK);
+        for (int fraction = FRACTION_COUNT; fraction <= FRACTION_AREA; fraction++)
+            assert_int_equal(
+                strokes_set_light(&none, (priority_order)order, (priority_fraction)fraction, 0.01, 1, &error), LMN_OK);
     set_perspective(&none, PERSPECTIVE_EVEN, 1);
     strokes dots = read_text("0.5 0.5 0.5 0.5 0 0 0\n0.2 0.2 0.2 0.2 0 0 0\n");
-    set_light(&dots, ORDER_DRAWN, SHARE_LENGTH, 0, 0);
+    set_light(&dots, ORDER_DRAWN, FRACTION_LENGTH, 0, 0);
     assert_near(dots.items[0].light, 1, 0);
     assert_near(dots.items[1].light, 0.5, 1e-6);
     /* All in one place. */
     for (int i = 0; i < 500; i++)
         assert_true(strokes_add(&dots, (texture_stroke){0.5f, 0.5f, 0.5f, 0.5f, 0, 0, 0}));
-    set_light(&dots, ORDER_EVEN, SHARE_AREA, 0.01, 0);
+    set_light(&dots, ORDER_EVEN, FRACTION_AREA, 0.01, 0);
     for (size_t i = 0; i < dots.count; i++)
         assert_true(dots.items[i].light > 0 && dots.items[i].light <= 1);
     strokes_release(&dots);
@@ -689,7 +689,7 @@ static bool generate_while_failing(stroke_pattern p, long n)
     mem_fail_at(n);
     lmn_status status = strokes_generate(&s, &options, &error);
     if (status == LMN_OK)
-        status = strokes_set_light(&s, ORDER_EVEN, SHARE_AREA, 0.01, 0, &error);
+        status = strokes_set_light(&s, ORDER_EVEN, FRACTION_AREA, 0.01, 0, &error);
     mem_fail_at(0);
     strokes_release(&s);
     assert_true(status == LMN_OK || status == LMN_MEMORY);
@@ -718,7 +718,7 @@ int main(void)
         cmocka_unit_test(test_draw_exact),       cmocka_unit_test(test_draw_taper),
         cmocka_unit_test(test_seamless),         cmocka_unit_test(test_pattern_repeats),
         cmocka_unit_test(test_preview),          cmocka_unit_test(test_spread),
-        cmocka_unit_test(test_share_length),     cmocka_unit_test(test_share_area),
+        cmocka_unit_test(test_fraction_length),  cmocka_unit_test(test_fraction_area),
         cmocka_unit_test(test_perspective),      cmocka_unit_test(test_indication),
         cmocka_unit_test(test_curves),           cmocka_unit_test(test_priority_corners),
         cmocka_unit_test(test_patterns),         cmocka_unit_test(test_pattern_counts),

@@ -205,9 +205,9 @@ static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
                               .even = even,
                               .end = RIBBON_ROUND};
         for (uint32_t k = 0; k < count; k++) {
-            float share = (float)k / (float)(count - 1), angle = turn + share * (closed   ? 6.2831853f
-                                                                                 : corner ? 3.5f
-                                                                                          : 2.5f);
+            float fraction = (float)k / (float)(count - 1), angle = turn + fraction * (closed   ? 6.2831853f
+                                                                                       : corner ? 3.5f
+                                                                                                : 2.5f);
             if (closed && k + 1 == count)
                 angle = turn;
             if (corner && !closed) { /* a sharp one */
@@ -215,12 +215,13 @@ static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
                 radius = k == 1 ? 0 : 40;
                 half = 4;
             }
-            points[i * POINTS + k] = (ribbon_point){x + radius * cosf(angle),
-                                                    y + radius * sinf(angle),
-                                                    1,
-                                                    share * radius,
-                                                    even || corner ? half : half * (0.4f + 0.6f * sinf(share * 3.1f)),
-                                                    1};
+            points[i * POINTS + k] =
+                (ribbon_point){x + radius * cosf(angle),
+                               y + radius * sinf(angle),
+                               1,
+                               fraction * radius,
+                               even || corner ? half : half * (0.4f + 0.6f * sinf(fraction * 3.1f)),
+                               1};
         }
     }
 }
@@ -262,8 +263,8 @@ static bool read_png(raster *r, const char *path)
     return true;
 }
 
-/* The share of one picture's ink that has ink of the other within 1.5 pixels. */
-static double share_near(const raster *of, const raster *in)
+/* The fraction of one picture's ink that has ink of the other within 1.5 pixels. */
+static double fraction_near(const raster *of, const raster *in)
 {
     int ink = 0, near = 0;
     for (int y = 0; y < SIDE; y++)
@@ -322,7 +323,7 @@ static void check_picture(lmn_status (*write)(export_bytes *, const sheet *, lmn
     sheet_release(&s);
     scene_free(scene);
     assert_true(read);
-    double found = share_near(&wanted, &drawn), true_ink = share_near(&drawn, &wanted);
+    double found = fraction_near(&wanted, &drawn), true_ink = fraction_near(&drawn, &wanted);
     print_message("%s: %.4f of the ribbons are drawn, %.4f of what is drawn is theirs\n", program, found, true_ink);
     assert_true(found >= 0.99 && true_ink >= 0.99);
 }
@@ -466,7 +467,7 @@ static void check_fill(const char *model, bool coloured)
     assert_true(read);
     if (coloured)
         return;
-    double found = share_near(&wanted, &drawn), true_ink = share_near(&drawn, &wanted);
+    double found = fraction_near(&wanted, &drawn), true_ink = fraction_near(&drawn, &wanted);
     print_message("%s: %.5f of the triangles are filled, %.5f of what is filled is theirs\n", model, found, true_ink);
     assert_true(found >= 0.9995 && true_ink >= 0.9995);
 }

@@ -97,7 +97,7 @@ static void darken(void *user, size_t index, float coverage)
 }
 
 /* Each picture is the strokes of its tone and level and no others: so those of a lighter tone and of a coarser
- * level are in it, at the same place, as wide. */
+ * level are in it, at the same position, as wide. */
 static void check_strokes(const mip_chain *m, const strokes *kept, const tam_options *w)
 {
     static float ink[SIDE * SIDE];
@@ -197,18 +197,18 @@ static void strokes_are_as_wide_on_all_levels(void **state)
 static void ends_are_as_long_at_any_length(void **state)
 {
     (void)state;
-    enum { PLACES = 24 };
+    enum { POSITIONS = 24 };
     static float ink[SIDE * SIDE];
     tam_options  w = usual(TAM_BEST_FIT);
     w.width = 4;
     stroke_brush brush = tonal_art_map_brush(&w);
-    double       first[PLACES];
+    double       first[POSITIONS];
     for (int length = 100; length <= 240; length += 20) {
         picture        p = {ink, 1, 1};
         texture_stroke s = {8.0f / SIDE, 100.5f / SIDE, (float)(8 + length) / SIDE, 100.5f / SIDE, 1, 1, 0};
         memset(ink, 0, sizeof ink);
         stroke_draw(&s, SIDE, &brush, darken, &p);
-        for (int i = 0; i < PLACES; i++) {
+        for (int i = 0; i < POSITIONS; i++) {
             double head = 0, tail = 0;
             for (int y = 90; y < 112; y++) {
                 head += (double)ink[y * SIDE + 8 + i];
@@ -220,11 +220,11 @@ static void ends_are_as_long_at_any_length(void **state)
     }
     /* They run out, and then there is the stroke's whole width. */
     int cap = 0;
-    while (cap < PLACES - 1 && first[cap] < 0.97 * w.width)
+    while (cap < POSITIONS - 1 && first[cap] < 0.97 * w.width)
         cap++;
     printf("    ends of strokes of %.0f texels' width: %.2f texels wide at first, whole after %d\n", w.width, first[0],
            cap);
-    assert_true(first[0] < 0.3 * w.width && cap >= 10 && cap < PLACES - 1);
+    assert_true(first[0] < 0.3 * w.width && cap >= 10 && cap < POSITIONS - 1);
 }
 
 /* The same in maps: of strokes that lie apart, short and long ones begin alike, on all levels that have room for
@@ -250,18 +250,18 @@ static void ends_in_maps_are_alike(void **state)
             bool long_one = stroke_length(s) > 0.65 * w.length;
             int  y = (int)(s->v0 * (float)side);
             counts[long_one]++;
-            for (int place = 0; place < 3; place++)
+            for (int position = 0; position < 3; position++)
                 for (int row = y - 1; row <= y + 1; row++)
-                    sums[long_one][place] +=
+                    sums[long_one][position] +=
                         (255 -
                          ((const uint8_t *)mip_layer(
                              &m, k,
-                             0))[(row + side) % side * side + ((int)(s->u0 * (float)side) + 1 + 4 * place) % side]) /
+                             0))[(row + side) % side * side + ((int)(s->u0 * (float)side) + 1 + 4 * position) % side]) /
                         255.0;
         }
         printf("    level %d: ink across ends", k);
-        for (int place = 0; place < 3; place++) {
-            double short_ink = sums[0][place] / counts[0], long_ink = sums[1][place] / counts[1];
+        for (int position = 0; position < 3; position++) {
+            double short_ink = sums[0][position] / counts[0], long_ink = sums[1][position] / counts[1];
             printf(" %.2f %.2f,", short_ink, long_ink);
             assert_true(fabs(short_ink - long_ink) < 0.12);
         }
@@ -284,13 +284,13 @@ static void lengths_are_what_they_may_be(void **state)
         int         quarters[4] = {0}, fine = 0;
         assert_int_equal(tonal_art_map(&m, &kept, &w, NULL), LMN_OK);
         for (size_t i = 0; i < kept.count; i++) {
-            double share = stroke_length(&kept.items[i]) / w.length;
-            least = fmin(least, share);
-            most = fmax(most, share);
-            sum += share;
+            double fraction = stroke_length(&kept.items[i]) / w.length;
+            least = fmin(least, fraction);
+            most = fmax(most, fraction);
+            sum += fraction;
             if (kept.items[i].perspective <
                 0.3f) { /* of the finest level alone, where no stroke is too short to be one */
-                quarters[(int)fmin((share - 0.3) / 0.7 * 4, 3)]++;
+                quarters[(int)fmin((fraction - 0.3) / 0.7 * 4, 3)]++;
                 fine++;
             }
         }
@@ -664,7 +664,7 @@ static int make_folder(void **state)
 }
 
 /* Calls for each file; removes them when `path` is NULL, else finds the last one's path. Returns how many. */
-static int visit_files(char *path, size_t room)
+static int visit_files(char *path, size_t capacity)
 {
     int  count = 0;
     DIR *open = opendir(folder);
@@ -675,7 +675,7 @@ static int visit_files(char *path, size_t room)
         snprintf(one, sizeof one, "%s/%s", folder, entry->d_name);
         count++;
         if (path)
-            snprintf(path, room, "%s", one);
+            snprintf(path, capacity, "%s", one);
         else
             unlink(one);
     }
@@ -783,7 +783,7 @@ static void damage_is_not_found(void **state)
     assert_int_equal(rmdir(other), 0);
 }
 
-static void places_are_found_or_done_without(void **state)
+static void positions_are_found_or_done_without(void **state)
 {
     (void)state;
     mip_chain m = sample(MIP_R8, 8, 1, 0), found;
@@ -962,7 +962,7 @@ int main(void)
         cmocka_unit_test(failing_memory_is_reported),
         cmocka_unit_test_setup_teardown(what_is_kept_is_found, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(damage_is_not_found, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(places_are_found_or_done_without, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(positions_are_found_or_done_without, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(entries_of_others_are_not_followed, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(writers_do_not_disturb_each_other, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(the_oldest_go_first, make_folder, remove_folder),

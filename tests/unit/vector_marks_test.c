@@ -169,40 +169,40 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static bool is_hit(const rays *r, const double from[3], const double way[3], uint32_t triangle)
+static bool is_hit(const rays *r, const double from[3], const double direction[3], uint32_t triangle)
 {
     double c[3][3], e1[3], e2[3], p[3], to[3], q[3];
     for (uint32_t i = 0; i < 3; i++) {
-        const vec3  *v = &r->ground->places[r->ground->indices[3 * (size_t)triangle + i]];
-        const double place[3] = {(double)v->x + r->ground->origin[0], (double)v->y + r->ground->origin[1],
-                                 (double)v->z + r->ground->origin[2]};
-        memcpy(c[i], place, sizeof place);
+        const vec3  *v = &r->ground->positions[r->ground->indices[3 * (size_t)triangle + i]];
+        const double position[3] = {(double)v->x + r->ground->origin[0], (double)v->y + r->ground->origin[1],
+                                    (double)v->z + r->ground->origin[2]};
+        memcpy(c[i], position, sizeof position);
     }
     subtract(e1, c[1], c[0]);
     subtract(e2, c[2], c[0]);
-    cross(p, way, e2);
+    cross(p, direction, e2);
     double whole = dot(e1, p);
     if (fabs(whole) < 1e-14)
         return false;
     subtract(to, from, c[0]);
     double u = dot(to, p) / whole;
     cross(q, to, e1);
-    double v = dot(way, q) / whole;
+    double v = dot(direction, q) / whole;
     return u >= 0 && v >= 0 && u + v <= 1 && dot(e2, q) / whole > 1e-5;
 }
 
-/* Surfaces between places and the eye, by all triangles. */
-static void cast(void *user, const double (*places)[3], size_t count, uint32_t *out)
+/* Surfaces between positions and the eye, by all triangles. */
+static void cast(void *user, const double (*positions)[3], size_t count, uint32_t *out)
 {
     const rays   *r = user;
     const double *m = r->camera->view.m;
     for (size_t i = 0; i < count; i++) {
-        double way[3] = {m[2], m[6], m[10]};
+        double direction[3] = {m[2], m[6], m[10]};
         if (!r->camera->orthographic)
-            subtract(way, r->camera->eye, places[i]);
+            subtract(direction, r->camera->eye, positions[i]);
         out[i] = 0;
         for (uint32_t t = 0; t < r->ground->surface.triangle_count; t++)
-            out[i] += is_hit(r, places[i], way, t);
+            out[i] += is_hit(r, positions[i], direction, t);
     }
 }
 
@@ -313,7 +313,7 @@ static void test_behind(void **state)
     assert_int_equal(dots.through, 0);
     assert_int_equal(dots.strayed, 0);
     lmn_sheet_destroy(&s);
-    /* Strokes: corners of their outlines lie within half a width of their places. */
+    /* Strokes: corners of their outlines lie within half a width of their positions. */
     s = draw(f, f->quill, &how, NULL);
     sides strokes = sides_of(s);
     strokes.pixels *= 1 + 2 / (RADIUS * strokes.pixels);

@@ -46,9 +46,9 @@ typedef struct saito_normalised {
 
 static const param normalised_params[] = {
     PARAM_FLOAT_ROW(saito_normalised, jump, .def = 0.02, .min = 0.0001, .max = 1, .soft_min = 0.001, .soft_max = 0.2,
-                    .unit = UNIT_SHARE, .logarithmic = true,
-                    .doc = "Gradient, as a share of the depth range, above which a place is a discontinuity."),
-    PARAM_FLOAT_ROW(saito_normalised, floor, .def = 0.0005, .min = 0, .max = 1, .soft_max = 0.01, .unit = UNIT_SHARE,
+                    .unit = UNIT_FRACTION, .logarithmic = true,
+                    .doc = "Gradient, as a fraction of the depth range, above which a place is a discontinuity."),
+    PARAM_FLOAT_ROW(saito_normalised, floor, .def = 0.0005, .min = 0, .max = 1, .soft_max = 0.01, .unit = UNIT_FRACTION,
                     .doc = "Gradient below which a neighbourhood counts as flat."),
 };
 

@@ -1,7 +1,7 @@
 /* Ink where the shell is nearer than the figure; of several layers the first has it. */
 #include "lines/edge/edge.glsl"
 
-/* Of window depth: what two ways to the same place may differ by. */
+/* Of window depth: what two ways to the same position may differ by. */
 const float ROUNDING = 2e-6;
 
 void main()

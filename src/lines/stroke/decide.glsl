@@ -1,11 +1,11 @@
 /* Which edges of a mesh are lines in this view: decided in the vertex stage, from the edge's record alone, so that all corners of its quad agree. Freudenberg 2003, section 7.2;
  * rows OE-05 to OE-07. An edge is an outline where one of its faces is seen from the front and the other is not; any place of the edge lies in both planes, so its
  * middle, the same for both ends, decides exactly in perspective too. Faces seen exactly from the side count as seen from behind. */
-layout(location = 0) in vec4 a_begin;  /* place; bits */
+layout(location = 0) in vec4 a_begin;  /* position; bits */
 layout(location = 1) in vec4 a_end;
 layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something */
 layout(location = 3) in vec4 a_second;
-uniform vec4 u_viewer; /* in the mesh's axes: place of the eye, 1; or the direction towards it, 0 */
+uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the direction towards it, 0 */
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 

@@ -5,7 +5,7 @@
 uniform mat4  u_clip; /* from the mesh's axes to clip space */
 uniform vec2  u_half_widths; /* of outlines, of all others */
 
-/* An edge no longer than SHORT, in pixels, is seen as a whole or not at all. Of others some place must be seen, STEP apart, so that those wholly hidden cost no fragments; it
+/* An edge no longer than SHORT, in pixels, is seen as a whole or not at all. Of others some position must be seen, STEP apart, so that those wholly hidden cost no fragments; it
  * would take too long for those longer than LONG. */
 const float SHORT = 2.5, STEP = 2.0, LONG = 240.0;
 const float SEEN = 1.0; /* in the place of the bits */
@@ -13,8 +13,8 @@ const float SEEN = 1.0; /* in the place of the bits */
 /* Pixels and window depth. */
 vec3 on_page(vec4 clip)
 {
-    vec3 place = 0.5 * clip.xyz / clip.w + 0.5;
-    return vec3(place.xy * u_size, place.z);
+    vec3 position = 0.5 * clip.xyz / clip.w + 0.5;
+    return vec3(position.xy * u_size, position.z);
 }
 
 /* The quad's corner, of what lies beyond the near plane. */
@@ -43,12 +43,12 @@ void main()
     if (line != NO_LINE)
         gl_Position = place_edge(line);
     float size = distance(v_begin.xy, v_end.xy);
-    int   places = line == NO_LINE || size > LONG ? 0 : v_look.w == SEEN ? 1 : int(ceil(size / STEP)), left = places;
+    int   positions = line == NO_LINE || size > LONG ? 0 : v_look.w == SEEN ? 1 : int(ceil(size / STEP)), left = positions;
     bool  seen = false;
     for (int i = 0; i < left; i++) {
-        seen = is_visible(mix(v_begin.xyz, v_end.xyz, (float(i) + 0.5) / float(places)), true);
+        seen = is_visible(mix(v_begin.xyz, v_end.xyz, (float(i) + 0.5) / float(positions)), true);
         left = seen ? 0 : left;
     }
-    if (places > 0 && !seen)
+    if (positions > 0 && !seen)
         gl_Position = NOWHERE;
 }

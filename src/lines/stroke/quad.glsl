@@ -11,6 +11,6 @@ vec4 corner_of(vec4 begin, vec4 end)
     float size = length(along), margin = max(begin.w, end.w) + 0.5;
     along = size > 0.0 ? along / size : vec2(1.0, 0.0);
     bool at_end = (gl_VertexID & 1) != 0, left = (gl_VertexID & 2) != 0;
-    vec2 place = (at_end ? end.xy + margin * along : begin.xy - margin * along) + vec2(-along.y, along.x) * (left ? margin : -margin);
-    return vec4(2.0 * place / u_size - 1.0, 0.0, 1.0);
+    vec2 position = (at_end ? end.xy + margin * along : begin.xy - margin * along) + vec2(-along.y, along.x) * (left ? margin : -margin);
+    return vec4(2.0 * position / u_size - 1.0, 0.0, 1.0);
 }

@@ -13,7 +13,7 @@ static double *find_volumes(const edge_mesh *m)
         vec3   from = m->boxes[m->pieces[f]].min;
         double p[3][3];
         for (int k = 0; k < 3; k++) {
-            vec3 at = m->places[m->faces[f][k]];
+            vec3 at = m->positions[m->faces[f][k]];
             p[k][0] = (double)at.x - from.x;
             p[k][1] = (double)at.y - from.y;
             p[k][2] = (double)at.z - from.z;
@@ -41,8 +41,8 @@ static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e, double 
                (closed ? RECORD_CLOSED : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
     float outward = volume < 0 ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
-    put_vector(out, m->places[e->vertex[0]], (float)bits, 1);
-    put_vector(out + 4, m->places[e->vertex[1]], 0, 1);
+    put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);
+    put_vector(out + 4, m->positions[e->vertex[1]], 0, 1);
     put_vector(out + 8, m->normals[e->face[0]], 0, outward);
     put_vector(out + 12, m->normals[e->face[pair]], 0, pair ? outward * twist : -outward);
 }

@@ -12,10 +12,10 @@ const int PROFILE = 0, INNER = 1, ID = 3;
 
 void main()
 {
-    piece_place p = place_in_piece();
+    piece_position p = position_in_piece();
 #ifdef SAMPLED
-    bool open = p.share > 0.0 && v_look.w == 0.0;
-    float ink = is_visible(p.axis.xyz, open) || !open ? p.share : 0.0;
+    bool open = p.fraction > 0.0 && v_look.w == 0.0;
+    float ink = is_visible(p.axis.xyz, open) || !open ? p.fraction : 0.0;
 #else
     float ink = brush_ink(p) * mix(v_look.x, v_look.y, p.at);
 #endif

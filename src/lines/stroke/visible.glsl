@@ -1,9 +1,9 @@
-/* Is a place of a line seen? It is compared with the surfaces around its axis, not around the pixel, so that lines are as wide as they are wherever surfaces bend away (row
+/* Is a position of a line seen? It is compared with the surfaces around its axis, not around the pixel, so that lines are as wide as they are wherever surfaces bend away (row
  * EX-14). Window depth is affine on planes: a surface is carried on from the middle of its pixel to the axis. Where one of the nine pixels around shows nothing that is
  * nearer, the line is seen: an outline lies beside the pixels of its surface as often as in them. */
 uniform vec2 u_far_corner; /* the last pixel */
 
-/* What surfaces and lines may differ by on the same plane: rounding, and a share of how steep the surface is in a pixel. */
+/* What surfaces and lines may differ by on the same plane: rounding, and a fraction of how steep the surface is in a pixel. */
 const float ROUNDING = 2e-6, SLOPE = 0.05;
 
 float depth_at(vec2 pixel)
@@ -16,7 +16,7 @@ float smaller(float a, float b)
     return abs(a) < abs(b) ? a : b;
 }
 
-/* One pixel a turn, the middle one first, so that most places are decided after one; software drivers run the first turn in any case. `wanted`: whether the answer
+/* One pixel a turn, the middle one first, so that most positions are decided after one; software drivers run the first turn in any case. `wanted`: whether the answer
  * matters. */
 bool is_visible(vec3 axis, bool wanted)
 {

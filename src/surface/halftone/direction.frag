@@ -1,4 +1,4 @@
-/* The way surfaces bend most, from the picture of normals and depth alone: Müller, section 4.2 (after Yu 2007 and Kim 2008), derived anew.
+/* The direction in which surfaces bend most, from the picture of normals and depth alone: Müller, section 4.2 (after Yu 2007 and Kim 2008), derived anew.
  *
  * The normals of neighbours are rays. In the frame of the middle one they pass the plane z = 0 at (u, v), and from there to z = 1 they move by (σ, τ). To first order
  * (σ, τ) = S (u, v) with the shape operator S, which four neighbours give by least squares; its eigenvectors are the directions of greatest and least curvature. The printed
@@ -20,18 +20,18 @@ vec3 eye_at(ivec2 pixel, float depth)
 
 /* What neighbours say: sums of u², uv, v², uσ, vσ + uτ, vτ. */
 struct ray_sums {
-    vec3  places, turns;
+    vec3  positions, turns;
     float count;
 };
 
 void add_ray(inout ray_sums sums, ivec2 pixel, vec3 origin, mat3 frame)
 {
     vec4 other = texelFetch(t_normal_depth, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0);
-    vec3 place = (eye_at(pixel, other.w) - origin) * frame, normal = other.xyz * frame;
+    vec3 position = (eye_at(pixel, other.w) - origin) * frame, normal = other.xyz * frame;
     /* Not across creases and borders. */
-    float counts = normal.z > 0.7 && abs(place.z) < 0.6 * length(place.xy) ? 1.0 : 0.0;
-    vec2 turn = normal.xy / max(normal.z, 0.7), at = place.xy - place.z * turn;
-    sums.places += counts * vec3(at.x * at.x, at.x * at.y, at.y * at.y);
+    float counts = normal.z > 0.7 && abs(position.z) < 0.6 * length(position.xy) ? 1.0 : 0.0;
+    vec2 turn = normal.xy / max(normal.z, 0.7), at = position.xy - position.z * turn;
+    sums.positions += counts * vec3(at.x * at.x, at.x * at.y, at.y * at.y);
     sums.count += counts;
     sums.turns += counts * vec3(at.x * turn.x, at.y * turn.x + at.x * turn.y, at.y * turn.y);
 }
@@ -39,7 +39,7 @@ void add_ray(inout ray_sums sums, ivec2 pixel, vec3 origin, mat3 frame)
 /* The symmetric S = (a b; b c) that fits best. */
 vec3 shape_operator(ray_sums sums)
 {
-    vec3 p = sums.places, t = sums.turns;
+    vec3 p = sums.positions, t = sums.turns;
     /* Normal equations: (p.x p.y 0; p.y p.x + p.z p.y; 0 p.y p.z) (a b c) = t */
     float whole = p.x * ((p.x + p.z) * p.z - p.y * p.y) - p.y * p.y * p.z;
     float scale = p.x + p.z;
@@ -69,15 +69,15 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     float turn = (apart + abs(mean)) * pixel_length;
     /* Directions of curvatures that are alike are an accident of rounding, and so are those that fewer than three neighbours tell: there what lies beside, and the plain
      * way, take over. */
-    float own_way = smoothstep(0.02, 0.1, unlike) * step(2.5, sums.count);
-    float sure = own_way * unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.035, 0.08, turn)) * (0.15 + 0.85 * smoothstep(0.0, 0.006, turn));
-    vec2 way = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
-    vec2 bent = on_page(origin, tangent_of(way, frame));
+    float own_direction = smoothstep(0.02, 0.1, unlike) * step(2.5, sums.count);
+    float sure = own_direction * unlike * smoothstep(2e-5, 2e-4, turn) * (1.0 - smoothstep(0.035, 0.08, turn)) * (0.15 + 0.85 * smoothstep(0.0, 0.006, turn));
+    vec2 direction = apart > 0.0 ? doubled * ((mean < 0.0 ? -1.0 : 1.0) / apart) : vec2(1.0, 0.0);
+    vec2 bent = on_page(origin, tangent_of(direction, frame));
     part_frame part = frame_of_part(id.r);
     mat3 to_part = part.turn * mat3(u_world_from_eye);
     vec2 plain = on_page(origin, plain_tangent(to_part * own.xyz, part.upward, part.level) * to_part);
-    /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a way of their own. */
-    return bent * sure + plain * (0.03 * max(1.0 - smoothstep(0.0, 0.08, sure), 1.0 - own_way));
+    /* Hands over where curvatures differ by less than a sixth, so that it turns no strokes that have a direction of their own. */
+    return bent * sure + plain * (0.03 * max(1.0 - smoothstep(0.0, 0.08, sure), 1.0 - own_direction));
 }
 
 void main()

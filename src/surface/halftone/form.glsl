@@ -23,7 +23,7 @@ vec2 on_page(vec3 eye, vec3 tangent)
     return square > 0.0 ? vec2(seen.x * seen.x - seen.y * seen.y, 2.0 * seen.x * seen.y) / square : vec2(0.0);
 }
 
-/* Where nothing bends, or all ways alike, strokes run up walls and slopes, and along an axis of the part on what is level: row P27. All in one frame. */
+/* Where nothing bends, or all directions alike, strokes run up walls and slopes, and along an axis of the part on what is level: row P27. All in one frame. */
 vec3 plain_tangent(vec3 normal, vec3 upward, vec3 level)
 {
     vec3 wanted = mix(upward, level, smoothstep(0.9, 0.97, abs(dot(normal, upward))));

@@ -1,4 +1,4 @@
-/* Ink on paper. A technique has `float cover_of(float darkness, int ink)`: the share of the pixel that strokes of this darkness 0 … 1 cover, with an angle of
+/* Ink on paper. A technique has `float cover_of(float darkness, int ink)`: the fraction of the pixel that strokes of this darkness 0 … 1 cover, with an angle of
  * its own for each ink. */
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/paper_of.glsl"
@@ -13,7 +13,7 @@ vec4 inked(surface_point p, float tone)
     vec4 paper = paper_of(p);
 #if INKS == 2
     /* What each ink must take away from white; black takes what the others have in common. */
-    /* Ink covers shares of an area, and areas mix as light does. */
+    /* Ink covers fractions of an area, and areas mix as light does. */
     float light = tone / max(mix(1.0, seen_brightness(p.albedo.rgb), u_texture), 0.01);
     vec3 wanted = clamp(mix(vec3(1.0), p.albedo.rgb, u_texture) * clamp(light, 0.0, 1.0), vec3(0.0), vec3(1.0));
     vec3 taken = 1.0 - wanted;

@@ -37,16 +37,16 @@ vec2 plane_noise(vec2 at, uint seed)
 /* Noise of as many waves on the page at any zoom, `waves` to a unit, about: two octaves that hand over to each other. */
 vec2 zoomed_noise(vec2 at, float waves, uint seed)
 {
-    float scale = power_below(waves), share = log_of_rest(waves / scale - 1.0);
-    return mix(plane_noise(at * scale, seed), plane_noise(at * (2.0 * scale), seed), share);
+    float scale = power_below(waves), fraction = log_of_rest(waves / scale - 1.0);
+    return mix(plane_noise(at * scale, seed), plane_noise(at * (2.0 * scale), seed), fraction);
 }
 
 /* The same, which changes so many times a second, smoothly. */
 vec2 living_noise(vec2 at, float waves, uint seed, float change)
 {
 #ifdef WITH_CHANGE
-    float step = floor(u_time * change), share = u_time * change - step;
-    return mix(zoomed_noise(at, waves, seed + 0x9e37u * uint(step)), zoomed_noise(at, waves, seed + 0x9e37u * uint(step + 1.0)), share);
+    float step = floor(u_time * change), fraction = u_time * change - step;
+    return mix(zoomed_noise(at, waves, seed + 0x9e37u * uint(step)), zoomed_noise(at, waves, seed + 0x9e37u * uint(step + 1.0)), fraction);
 #else
     return zoomed_noise(at, waves, seed);
 #endif

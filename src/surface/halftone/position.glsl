@@ -2,7 +2,7 @@
  * may be shaded with their geometry or later, with the same result. */
 #include "light/light.glsl"
 
-/* A place is measured where the part is when nothing has moved, so that strokes go with it. */
+/* A position is measured where the part is when nothing has moved, so that strokes go with it. */
 #ifdef SHADED_LATER
 #include "surface/halftone/part_frame.glsl"
 #else
@@ -12,7 +12,7 @@ mat3 turn_to_rest()
 }
 #endif
 
-/* One way of laying a plane on a surface. A place may have several; their weights add up to 1. */
+/* One way of laying a plane on a surface. A position may have several; their weights add up to 1. */
 struct stroke_plane {
     vec2  at;      /* coordinates, x along strokes */
     vec2  right;   /* how they change from this pixel to the next one to the right, */
@@ -21,12 +21,12 @@ struct stroke_plane {
     uint  key;     /* tells planes apart */
 };
 
-/* A place and its rates in a part's frame. */
-struct rest_place {
+/* A position and its rates in a part's frame. */
+struct rest_position {
     vec3 at, right, up;
     vec3 normal;
     vec3 upward; /* which way is up */
-    float way;   /* of strokes on the page, half turns 0 … 1; where coordinates ask for it */
+    float direction;   /* of strokes on the page, half turns 0 … 1; where coordinates ask for it */
 };
 
 /* Below this cosine between view and surface, rates are those of a surface that is seen at it: rims do not fill with detail. */
@@ -46,7 +46,7 @@ vec3 rate_of(vec3 eye, vec3 normal, vec3 pixel)
 #if (COORDINATES == 6 && defined(HAS_FIELD)) || (COORDINATES == 7 && defined(HAS_DIRECTION))
 #define HAS_FORM
 #include "surface/halftone/form.glsl"
-vec2 way_on_page(surface_point p, vec3 rest_normal)
+vec2 direction_on_page(surface_point p, vec3 rest_normal)
 {
 #if COORDINATES == 7
     return textureLod(t_direction, ((gl_FragCoord.xy - float(DIRECTION_APART / 2) - 0.5) / float(DIRECTION_APART) + 0.5) / vec2(textureSize(t_direction, 0)), 0.0).xy;
@@ -75,17 +75,17 @@ float half_turns(vec2 doubled)
 
 #endif
 
-/* The way of strokes on the page, where it matters. */
-float way_of(surface_point p, vec3 rest_normal)
+/* The directions of strokes on the page, where it matters. */
+float direction_of(surface_point p, vec3 rest_normal)
 {
 #ifdef HAS_FORM
-    return half_turns(way_on_page(p, rest_normal));
+    return half_turns(direction_on_page(p, rest_normal));
 #else
     return 0.0;
 #endif
 }
 
-rest_place place_at_rest(surface_point p)
+rest_position position_at_rest(surface_point p)
 {
     vec2 pixel = 2.0 * u_unproject / u_size;
     vec3 right = rate_of(p.eye, p.normal, vec3(pixel.x, 0.0, 0.0)), up = rate_of(p.eye, p.normal, vec3(0.0, pixel.y, 0.0));
@@ -93,25 +93,25 @@ rest_place place_at_rest(surface_point p)
     part_frame part = frame_of_part(p.part);
     mat3 world = mat3(u_world_from_eye);
     vec3 normal = part.turn * (world * p.normal);
-    return rest_place(part.turn * (world * p.eye + u_world_from_eye[3].xyz) + part.shift, part.turn * (world * right), part.turn * (world * up), normal, part.upward,
-                      way_of(p, normal));
+    return rest_position(part.turn * (world * p.eye + u_world_from_eye[3].xyz) + part.shift, part.turn * (world * right), part.turn * (world * up), normal, part.upward,
+                      direction_of(p, normal));
 #else
     mat3 turn = turn_to_rest();
-    return rest_place(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward,
-                      way_of(p, turn * p.normal));
+    return rest_position(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward,
+                      direction_of(p, turn * p.normal));
 #endif
 }
 
-stroke_plane plane_along(rest_place r, vec3 along, vec3 across, float weight, uint key)
+stroke_plane plane_along(rest_position r, vec3 along, vec3 across, float weight, uint key)
 {
     return stroke_plane(vec2(dot(r.at, along), dot(r.at, across)), vec2(dot(r.right, along), dot(r.right, across)),
                         vec2(dot(r.up, along), dot(r.up, across)), weight, key);
 }
 
 /* How dark strokes of one plane must be, so that those of all planes, which lie over each other, are as dark as wanted. */
-float darkness_of_share(float darkness, float share)
+float darkness_of_fraction(float darkness, float fraction)
 {
-    return share > 0.9999 ? darkness : 1.0 - pow(max(1.0 - darkness, 1e-4), share);
+    return fraction > 0.9999 ? darkness : 1.0 - pow(max(1.0 - darkness, 1e-4), fraction);
 }
 
 /* Both angles, as cosine and sine. */
@@ -133,15 +133,15 @@ stroke_plane turned_plane(stroke_plane s, vec2 angle)
     return stroke_plane(turn * s.at, turn * s.right, turn * s.up, s.weight, s.key);
 }
 
-/* Each of what follows lays planes on a place, PLANES at most and planes_at there; plane_of gives one of them, turned by an angle (cosine and sine). */
+/* Each of what follows lays planes on a position, PLANES at most and planes_at there; plane_of gives one of them, turned by an angle (cosine and sine). */
 #if COORDINATES == 0 || (COORDINATES == 4 && !defined(HAS_FIELD))
 /* Strokes are where planes through the model cut its surface: they run on over everything without seams. A turn turns these planes in space, about an axis of their
  * own, so that strokes turn by about as much. Around the two places where the surface is a plane's own, another set of planes takes over. */
 #define PLANES 2
 const mat3 ASKEW = mat3(0.8138, 0.2962, -0.5, 0.0443, 0.8252, 0.5630, 0.5794, -0.4803, 0.6582);
 
-/* Share of the planes of this axis; the rest is left to the other ones. */
-float share_of_axis(rest_place r, vec3 axis)
+/* Fraction of the planes of this axis; the rest is left to the other ones. */
+float fraction_of_axis(rest_position r, vec3 axis)
 {
     float facing = dot(r.normal, axis);
     return smoothstep(0.06, 0.3, 1.0 - facing * facing);
@@ -152,144 +152,144 @@ vec3 turned_axis(vec2 turn)
     return ASKEW[0] * turn.x + ASKEW[1] * turn.y;
 }
 
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
-    return share_of_axis(r, turned_axis(turn)) < 1.0 ? 2 : 1;
+    return fraction_of_axis(r, turned_axis(turn)) < 1.0 ? 2 : 1;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     vec3 first = turned_axis(turn), aside = ASKEW[1] * turn.x - ASKEW[0] * turn.y;
-    float own = share_of_axis(r, first);
+    float own = fraction_of_axis(r, first);
     return i == 0 ? plane_along(r, abs(dot(aside, r.normal)) < abs(dot(ASKEW[2], r.normal)) ? aside : ASKEW[2], first, own, 0u)
                   : plane_along(r, first, ASKEW[2], 1.0 - own, 1u);
 }
 #elif COORDINATES == 1 || (COORDINATES == 3 && !defined(HAS_UV)) || (COORDINATES == 5 && !defined(HAS_PATCHES)) || (COORDINATES > 5 && !defined(HAS_FORM))
-/* Walls have their second coordinate upwards. Of the three planes the one with the least share is always left out, and what it had is taken off the others, so that two
+/* Walls have their second coordinate upwards. Of the three planes the one with the least fraction is always left out, and what it had is taken off the others, so that two
  * are enough everywhere. */
 #define PLANES 2
-vec3 shares_of_axes(rest_place r, vec3 right, vec3 back)
+vec3 fractions_of_axes(rest_position r, vec3 right, vec3 back)
 {
-    vec3 share = abs(vec3(dot(r.normal, right), dot(r.normal, back), dot(r.normal, r.upward)));
-    share *= share;
-    share *= share;
-    share *= share;
-    share -= min(share.x, min(share.y, share.z));
-    return share / (share.x + share.y + share.z + 1e-20);
+    vec3 fraction = abs(vec3(dot(r.normal, right), dot(r.normal, back), dot(r.normal, r.upward)));
+    fraction *= fraction;
+    fraction *= fraction;
+    fraction *= fraction;
+    fraction -= min(fraction.x, min(fraction.y, fraction.z));
+    return fraction / (fraction.x + fraction.y + fraction.z + 1e-20);
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     vec3 right = abs(r.upward.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     right = normalize(right - r.upward * dot(right, r.upward));
-    vec3 back = cross(r.upward, right), share = shares_of_axes(r, right, back);
-    int most = share.x >= share.y && share.x >= share.z ? 0 : share.y >= share.z ? 1 : 2;
+    vec3 back = cross(r.upward, right), fraction = fractions_of_axes(r, right, back);
+    int most = fraction.x >= fraction.y && fraction.x >= fraction.z ? 0 : fraction.y >= fraction.z ? 1 : 2;
     /* The other one that has any. */
-    int next = most == 0 ? (share.y > 0.0 ? 1 : 2) : most == 1 ? (share.x > 0.0 ? 0 : 2) : share.x > 0.0 ? 0 : 1;
+    int next = most == 0 ? (fraction.y > 0.0 ? 1 : 2) : most == 1 ? (fraction.x > 0.0 ? 0 : 2) : fraction.x > 0.0 ? 0 : 1;
     int which = i == 0 ? most : next;
-    return turned_plane(plane_along(r, which == 0 ? back : right, which == 2 ? back : r.upward, which == 0 ? share.x : which == 1 ? share.y : share.z, uint(which)), turn);
+    return turned_plane(plane_along(r, which == 0 ? back : right, which == 2 ? back : r.upward, which == 0 ? fraction.x : which == 1 ? fraction.y : fraction.z, uint(which)), turn);
 }
 
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return plane_of(surface_point(vec3(0.0), vec3(0.0), vec4(0.0), false, 0u), r, 0, turn).weight < 1.0 ? 2 : 1;
 }
 #elif COORDINATES == 3
 #define PLANES 1
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return 1;
 }
 
 /* Models count downwards from the top of a picture, strokes upwards. */
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     const vec2 UPWARDS = vec2(1.0, -1.0);
     return turned_plane(stroke_plane(vec2(s_uv.x, -s_uv.y), dFdx(s_uv) * UPWARDS, dFdy(s_uv) * UPWARDS, 1.0, 0u), turn);
 }
 #elif COORDINATES == 4
-/* Planes through the model of a few fixed directions; each place takes those two whose lines come nearest to the way its surface bends. So strokes lie in
- * patches of parallel ones, which overlap where the way changes, as a draughtsman sets them. */
+/* Planes through the model of a few fixed directions; each position takes those two whose lines come nearest to the direction in which its surface bends. So strokes lie in
+ * patches of parallel ones, which overlap where the direction changes, as a draughtsman sets them. */
 #define PLANES 2
-const int WAYS = 13;
-const vec3 WAY[WAYS] = vec3[WAYS](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0),
+const int DIRECTIONS = 13;
+const vec3 DIRECTION[DIRECTIONS] = vec3[DIRECTIONS](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0),
     vec3(0.7071, 0.7071, 0.0), vec3(0.7071, -0.7071, 0.0), vec3(0.0, 0.7071, 0.7071), vec3(0.0, 0.7071, -0.7071), vec3(0.7071, 0.0, 0.7071), vec3(-0.7071, 0.0, 0.7071),
     vec3(0.5774, 0.5774, 0.5774), vec3(0.5774, 0.5774, -0.5774), vec3(0.5774, -0.5774, 0.5774), vec3(-0.5774, 0.5774, 0.5774));
 
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return 2;
 }
 
-/* Coordinates along and across the lines of a way. */
-stroke_plane plane_of_way(rest_place r, int way, float weight)
+/* Coordinates along and across the lines of a direction. */
+stroke_plane plane_of_direction(rest_position r, int direction, float weight)
 {
-    vec3 across = WAY[way], line = cross(r.normal, across);
+    vec3 across = DIRECTION[direction], line = cross(r.normal, across);
     vec3 aside = normalize(abs(across.x) < 0.9 ? cross(across, vec3(1.0, 0.0, 0.0)) : cross(across, vec3(0.0, 1.0, 0.0))), other = cross(across, aside);
-    return plane_along(r, abs(dot(aside, line)) > abs(dot(other, line)) ? aside : other, across, weight, uint(way));
+    return plane_along(r, abs(dot(aside, line)) > abs(dot(other, line)) ? aside : other, across, weight, uint(direction));
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
                       v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
     mat3 rest = turn_to_rest();
     field = rest * field * transpose(rest);
     float best = -1e9, next = -1e9;
-    int way = 0, second = 0;
-    for (int k = 0; k < WAYS; k++) {
-        vec3 line = cross(r.normal, WAY[k]);
+    int direction = 0, second = 0;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        vec3 line = cross(r.normal, DIRECTION[k]);
         float square = dot(line, line);
         /* Where nothing bends the way is the first one that is not too flat. */
         float fits = dot(line, field * line) / max(square, 1e-6) + 0.2 * min(square, 0.5) - 0.004 * float(k);
         bool first = fits > best, other = !first && fits > next;
         next = first ? best : other ? fits : next;
-        second = first ? way : other ? k : second;
+        second = first ? direction : other ? k : second;
         best = first ? fits : best;
-        way = first ? k : way;
+        direction = first ? k : direction;
     }
     float own = 0.5 + 0.5 * smoothstep(0.0, 0.15, best - next);
-    return turned_plane(plane_of_way(r, i == 0 ? way : second, i == 0 ? own : 1.0 - own), turn);
+    return turned_plane(plane_of_direction(r, i == 0 ? direction : second, i == 0 ? own : 1.0 - own), turn);
 }
 #elif COORDINATES == 5
 #define PLANES 1
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return 1;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     return turned_plane(stroke_plane(v_patch.xy, dFdx(v_patch.xy), dFdy(v_patch.xy), 1.0, uint(v_patch.w + 0.5)), turn);
 }
 #elif defined(HAS_FORM)
-/* Straight strokes on the page, in patches: a few ways on the page, each place has the two that come nearest to the way its surface bends. They move with the middle of
+/* Straight strokes on the page, in patches: a few directions on the page, each position has the two that come nearest to the direction in which its surface bends. They move with the middle of
  * the model. Müller, section 4.4 (after Kim 2008), whose weights are interchanged; rows P23, P24. */
 #define PLANES 2
-float s_between = 0.0; /* ways are turned by this share of the angle between two; repetitions differ in it */
+float s_between = 0.0; /* directions are turned by this fraction of the angle between two; repetitions differ in it */
 
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return 2;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
-    float place = r.way * float(WAYS_ON_PAGE) - s_between, low = floor(place), share = smoothstep(0.3, 0.7, place - low);
-    float way = low + float(i);
-    way = way < 0.0 ? way + float(WAYS_ON_PAGE) : way >= float(WAYS_ON_PAGE) ? way - float(WAYS_ON_PAGE) : way;
-    float angle = (way + s_between) * (3.14159265 / float(WAYS_ON_PAGE));
-    stroke_plane s = stroke_plane(gl_FragCoord.xy - u_anchor, vec2(1.0, 0.0), vec2(0.0, 1.0), i == 0 ? 1.0 - share : share, uint(int(way)));
+    float position = r.direction * float(DIRECTIONS_ON_PAGE) - s_between, low = floor(position), fraction = smoothstep(0.3, 0.7, position - low);
+    float direction = low + float(i);
+    direction = direction < 0.0 ? direction + float(DIRECTIONS_ON_PAGE) : direction >= float(DIRECTIONS_ON_PAGE) ? direction - float(DIRECTIONS_ON_PAGE) : direction;
+    float angle = (direction + s_between) * (3.14159265 / float(DIRECTIONS_ON_PAGE));
+    stroke_plane s = stroke_plane(gl_FragCoord.xy - u_anchor, vec2(1.0, 0.0), vec2(0.0, 1.0), i == 0 ? 1.0 - fraction : fraction, uint(int(direction)));
     return turned_plane(s, turns_added(vec2(cos(angle), sin(angle)), turn));
 }
 #else
 #define PLANES 1
-int planes_at(rest_place r, vec2 turn)
+int planes_at(rest_position r, vec2 turn)
 {
     return 1;
 }
 
-stroke_plane plane_of(surface_point p, rest_place r, int i, vec2 turn)
+stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     vec2 pixel = gl_FragCoord.xy;
     return turned_plane(stroke_plane(pixel, vec2(1.0, 0.0), vec2(0.0, 1.0), 1.0, 0u), turn);

@@ -1,4 +1,4 @@
-/* Which tone a place shall have, 0 … 1: from light, the model's own brightness, and what the look makes of both. Freudenberg 2003, sections 5.4.4 and 6.2. */
+/* Which tone a position shall have, 0 … 1: from light, the model's own brightness, and what the look makes of both. Freudenberg 2003, sections 5.4.4 and 6.2. */
 #include "light/light.glsl"
 #ifdef HAS_FOCUS
 #include "light/focus.glsl"

@@ -7,7 +7,7 @@ float tone_ink(vec2 at, float level, float tone)
     return tone < 0.5 ? 0.0 : 1.0 - textureLod(t_tones, vec3(at, tone - 1.0), level).r;
 }
 
-/* The ink of a darkness at a place. Hatching has one of the tones everywhere, since new strokes find no room between two; gradation mixes two. */
+/* The ink of a darkness at a position. Hatching has one of the tones everywhere, since new strokes find no room between two; gradation mixes two. */
 float map_ink(vec2 at, float level, float darkness)
 {
     float count = u_tones_facts.y, wanted = clamp(darkness / u_tones_facts.w, 0.0, 1.0) * count;
