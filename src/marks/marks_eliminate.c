@@ -9,17 +9,24 @@
 #include "base/memory.h"
 #include "base/threads.h"
 
+/* A point in the order of the table. */
+typedef struct table_entry {
+    int32_t         cell[3];
+    spread_position point;
+} table_entry;
+
 /* Points with neighbours, of one round: until half of them are left. */
 typedef struct round_of {
     const spread_position *points;
     const uint32_t        *alive; /* numbers of the points that are left when it begins */
     uint32_t               count;
     double                 reach; /* beyond it points do not crowd each other */
-    double    longer;  /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
-    double    cell;    /* side of the table's cells */
-    double    closest; /* nearer than this is as bad as this */
-    uint32_t *table;   /* first of each bucket in `members`, one more behind */
-    uint32_t *members;
+    double       longer;  /* strokes: distances along them count this many times less than sideways, squared; 1: dots */
+    double       cell;    /* side of the table's cells */
+    double       closest; /* nearer than this is as bad as this */
+    uint32_t    *table;   /* first of each bucket in `members`, one more behind */
+    uint32_t    *members;
+    table_entry *entries; /* of the members */
     int32_t (*cells)[3];
     uint32_t  mask;
     uint32_t *starts; /* of each one's neighbours, count + 1 */
@@ -57,6 +64,18 @@ static void fill_table(round_of *r)
     }
     memmove(r->table, r->table + 1, ((size_t)r->mask + 1) * sizeof *r->table);
     r->table[r->mask + 1] = r->count;
+    for (uint32_t m = 0; m < r->count; m++) {
+        uint32_t     i = r->members[m];
+        table_entry *e = &r->entries[m];
+        memcpy(e->cell, r->cells[i], sizeof e->cell);
+        e->point = r->points[r->alive[i]];
+    }
+}
+
+static double square_between(vec3 a, vec3 b)
+{
+    double x = (double)a.x - (double)b.x, y = (double)a.y - (double)b.y, z = (double)a.z - (double)b.z;
+    return x * x + y * y + z * z;
 }
 
 /* How much a point crowds another; 0: not at all. */
@@ -85,25 +104,28 @@ static float weight_of(const round_of *r, const spread_position *a, const spread
     return (float)left;
 }
 
-/* Goes over the neighbours of points; counts them, or once there is room writes them down. */
+/* Goes over the neighbours of points; counts them, or once there is room writes them down. Points are taken in the
+ * order of the table, so that what is compared lies together in memory. */
 static void find_neighbours(size_t begin, size_t end, void *user)
 {
-    round_of *r = user;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t found = 0;
+    round_of    *r = user;
+    const double farthest = r->cell * r->cell * 1.0001; /* beyond it nothing has a weight */
+    for (size_t s = begin; s < end; s++) {
+        const table_entry *own = &r->entries[s];
+        uint32_t           i = r->members[s], found = 0;
         for (int k = 0; k < 27; k++) {
-            const int32_t *own = r->cells[i];
-            const int32_t  cell[3] = {own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1};
-            uint32_t       bucket = bucket_of(cell, r->mask);
+            const int32_t cell[3] = {own->cell[0] + k % 3 - 1, own->cell[1] + k / 3 % 3 - 1, own->cell[2] + k / 9 - 1};
+            uint32_t      bucket = bucket_of(cell, r->mask);
             for (uint32_t m = r->table[bucket]; m < r->table[bucket + 1]; m++) {
-                uint32_t other = r->members[m];
-                if (other == i || memcmp(r->cells[other], cell, sizeof cell) != 0)
+                const table_entry *e = &r->entries[m];
+                if (m == s || e->cell[0] != cell[0] || e->cell[1] != cell[1] || e->cell[2] != cell[2] ||
+                    square_between(own->point.position, e->point.position) >= farthest)
                     continue;
-                float weight = weight_of(r, &r->points[r->alive[i]], &r->points[r->alive[other]]);
+                float weight = weight_of(r, &own->point, &e->point);
                 if (!(weight > 0))
                     continue;
                 if (r->others) {
-                    r->others[r->starts[i] + found] = other;
+                    r->others[r->starts[i] + found] = r->members[m];
                     r->weights[r->starts[i] + found] = weight;
                 }
                 found++;
@@ -118,6 +140,7 @@ static void round_release(round_of *r)
 {
     mem_free(r->table);
     mem_free(r->members);
+    mem_free(r->entries);
     mem_free(r->cells);
     mem_free(r->starts);
     mem_free(r->others);
@@ -131,9 +154,10 @@ static bool round_open(round_of *r)
         ;
     r->table = mem_alloc(((size_t)r->mask + 2) * sizeof *r->table);
     r->members = mem_alloc(r->count * sizeof *r->members);
+    r->entries = mem_alloc(r->count * sizeof *r->entries);
     r->cells = mem_alloc(r->count * sizeof *r->cells);
     r->starts = mem_calloc((size_t)r->count + 1, sizeof *r->starts);
-    if (!r->table || !r->members || !r->cells || !r->starts)
+    if (!r->table || !r->members || !r->entries || !r->cells || !r->starts)
         return false;
     threads_for(r->count, SMALLEST, find_cells, r);
     fill_table(r);
