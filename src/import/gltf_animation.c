@@ -89,8 +89,8 @@ static bool read_channel(gltf_reader *r, json_t *animation_object, json_t *objec
         return false;
     if (!path_of(json_string_value(json_object_get(target, "path")), &c->path))
         return bad_channel(r, where, "unknown path");
-    c->node = r->node_map[node_index];
-    if (c->node == NONE)
+    c->target = r->node_map[node_index];
+    if (c->target == NONE)
         return false;
     if (!gltf_index(r, object, "sampler", json_array_size(samplers), "samplers", where, &sampler_index))
         return bad_channel(r, where, "no sampler");
@@ -117,7 +117,7 @@ static void read_animation(gltf_reader *r, size_t index)
     size_t count = json_array_size(channels);
     a->channels = gltf_alloc(r, count, sizeof *a->channels);
     for (size_t i = 0; i < count && r->status == LMN_OK; i++) {
-        animation_channel c = {.node = NONE};
+        animation_channel c = {.target = NONE};
         snprintf(where, sizeof where, "animations[%zu].channels[%zu]", index, i);
         if (!read_channel(r, object, json_array_get(channels, i), where, &c)) {
             mem_free(c.times);

@@ -7,6 +7,7 @@
 #include "import/draco.h"
 #include "import/gltf.h"
 
+enum { JOINT_SETS_MAX = 16 };
 enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
 
 /* One primitive on its way. */
@@ -82,23 +83,55 @@ static bool count_vertices(gltf_reader *r, shape *s)
     return count > 0;
 }
 
-static void read_joints(gltf_reader *r, shape *s)
+/* Four joints of each vertex, with their weights, into places `at` … `at` + 3 of its influences. */
+static bool read_joint_set(gltf_reader *r, shape *s, int set)
 {
-    if (!json_object_get(s->attributes, "JOINTS_0") || !json_object_get(s->attributes, "WEIGHTS_0"))
-        return;
-    float *joints = read_attribute(r, s, "JOINTS_0", 4);
-    s->p.weights = (vec4 *)read_attribute(r, s, "WEIGHTS_0", 4);
-    size_t count = (size_t)s->p.vertex_count * 4;
-    s->p.joints = joints ? gltf_alloc(r, count, sizeof *s->p.joints) : NULL;
-    const float *weights = (const float *)s->p.weights;
-    for (size_t i = 0; s->p.joints && weights && i < count; i++) {
+    char name[2][16];
+    snprintf(name[0], sizeof name[0], "JOINTS_%d", set);
+    snprintf(name[1], sizeof name[1], "WEIGHTS_%d", set);
+    float *joints = read_attribute(r, s, name[0], 4), *weights = read_attribute(r, s, name[1], 4);
+    size_t count = joints && weights ? s->p.vertex_count : 0;
+    for (size_t i = 0; i < 4 * count; i++) {
+        size_t to = (i / 4) * s->p.influences + 4 * (size_t)set + i % 4;
+        s->p.weights[to] = weights[i];
         /* Joints without weight may hold anything. */
         if (weights[i] != 0 && joints[i] >= 0 && joints[i] < 65536.0f)
-            s->p.joints[i] = (uint16_t)joints[i];
+            s->p.joints[to] = (uint16_t)joints[i];
     }
     mem_free(joints);
-    if (json_object_get(s->attributes, "JOINTS_1"))
-        gltf_warn(r, WARNING_IGNORED, "more than four joints a vertex; the first four are used");
+    mem_free(weights);
+    return count > 0;
+}
+
+static bool has_joint_set(const shape *s, int set)
+{
+    char name[2][16];
+    snprintf(name[0], sizeof name[0], "JOINTS_%d", set);
+    snprintf(name[1], sizeof name[1], "WEIGHTS_%d", set);
+    return json_object_get(s->attributes, name[0]) && json_object_get(s->attributes, name[1]);
+}
+
+/* A vertex may follow any number of joints, four an attribute. */
+static void read_joints(gltf_reader *r, shape *s)
+{
+    int sets = 0;
+    while (sets < JOINT_SETS_MAX && has_joint_set(s, sets))
+        sets++;
+    if (sets == 0)
+        return;
+    s->p.influences = 4 * (uint32_t)sets;
+    s->p.joints = gltf_alloc(r, (size_t)s->p.vertex_count * s->p.influences, sizeof *s->p.joints);
+    s->p.weights = gltf_alloc(r, (size_t)s->p.vertex_count * s->p.influences, sizeof *s->p.weights);
+    bool good = s->p.joints && s->p.weights;
+    for (int set = 0; set < sets && good; set++)
+        good = read_joint_set(r, s, set);
+    if (!good) {
+        mem_free(s->p.joints);
+        mem_free(s->p.weights);
+        s->p.joints = NULL;
+        s->p.weights = NULL;
+        s->p.influences = 0;
+    }
 }
 
 static void read_attributes(gltf_reader *r, shape *s)
@@ -315,12 +348,6 @@ static bool read_primitive(gltf_reader *r, json_t *object, size_t mesh_index, si
     if (!good) {
         primitive_release(&s.p);
         return false;
-    }
-    if (!s.p.joints || !s.p.weights) {
-        mem_free(s.p.joints);
-        mem_free(s.p.weights);
-        s.p.joints = NULL;
-        s.p.weights = NULL;
     }
     *out = s.p;
     return true;

@@ -84,8 +84,8 @@ static bool drop_vertices(primitive *p)
         for (int i = 0; i < UV_SETS; i++)
             compact(p->uvs[i], sizeof *p->uvs[i], positions, p->vertex_count);
         compact(p->colours, sizeof *p->colours, positions, p->vertex_count);
-        compact(p->joints, 4 * sizeof *p->joints, positions, p->vertex_count);
-        compact(p->weights, sizeof *p->weights, positions, p->vertex_count);
+        compact(p->joints, p->influences * sizeof *p->joints, positions, p->vertex_count);
+        compact(p->weights, p->influences * sizeof *p->weights, positions, p->vertex_count);
         for (size_t i = 0; i < p->morph_count; i++) {
             compact(p->morphs[i].positions, sizeof(vec3), positions, p->vertex_count);
             compact(p->morphs[i].normals, sizeof(vec3), positions, p->vertex_count);
@@ -160,12 +160,15 @@ static void make_finite(float *values, size_t count, clean_counts *counts)
 static void normalise_weights(primitive *p)
 {
     for (uint32_t i = 0; i < p->vertex_count; i++) {
-        vec4 *w = &p->weights[i];
-        float sum = w->x + w->y + w->z + w->w;
-        if (!(sum > 0) || !isfinite(sum))
-            *w = (vec4){1, 0, 0, 0};
-        else if (fabsf(sum - 1) > 1e-6f)
-            *w = (vec4){w->x / sum, w->y / sum, w->z / sum, w->w / sum};
+        float *w = &p->weights[(size_t)i * p->influences], sum = 0;
+        for (uint32_t k = 0; k < p->influences; k++)
+            sum += w[k];
+        bool good = sum > 0 && isfinite(sum);
+        for (uint32_t k = 0; k < p->influences; k++)
+            if (!good)
+                w[k] = k == 0;
+            else if (fabsf(sum - 1) > 1e-6f)
+                w[k] /= sum;
     }
 }
 
@@ -197,7 +200,7 @@ bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts)
     for (int i = 0; i < UV_SETS; i++)
         make_finite((float *)p->uvs[i], count * 2, counts);
     make_finite((float *)p->colours, count * 4, counts);
-    make_finite((float *)p->weights, count * 4, counts);
+    make_finite(p->weights, count * p->influences, counts);
     for (size_t i = 0; i < p->morph_count; i++) {
         make_finite((float *)p->morphs[i].positions, count * 3, counts);
         make_finite((float *)p->morphs[i].normals, count * 3, counts);

@@ -50,6 +50,13 @@ static bool in_range(int32_t index, size_t count)
     return index == NONE || (index >= 0 && (size_t)index < count);
 }
 
+static bool target_is_there(const lmn_scene *s, const animation_channel *c)
+{
+    const size_t counts[] = {
+        [ANIMATED_NODE] = s->node_count, [ANIMATED_CAMERA] = s->camera_count, [ANIMATED_LIGHT] = s->light_count};
+    return c->target != NONE && in_range(c->target, counts[animation_thing_of(c->path)]);
+}
+
 static lmn_status broken(const check *c, const char *what, size_t index, const char *refers)
 {
     return error_in_file(c->error, LMN_FORMAT, c->file, 0, "%s %zu refers to a %s that does not exist", what, index,
@@ -133,9 +140,8 @@ static lmn_status check_nodes(const check *c)
                 return broken(c, "skin", i, "node");
     for (size_t i = 0; i < s->animation_count; i++)
         for (size_t k = 0; k < s->animations[i].channel_count; k++)
-            if (s->animations[i].channels[k].node == NONE ||
-                !in_range(s->animations[i].channels[k].node, s->node_count))
-                return broken(c, "animation", i, "node");
+            if (!target_is_there(s, &s->animations[i].channels[k]))
+                return broken(c, "animation", i, "target");
     for (size_t i = 0; i < s->solid_count; i++)
         for (size_t k = 0; k < s->solids[i].node_count; k++)
             if (!in_range(s->solids[i].nodes[k].mesh, s->mesh_count))
@@ -167,7 +173,7 @@ static int32_t highest_joint(const mesh *m)
     int32_t highest = -1;
     for (size_t i = 0; i < m->primitive_count; i++) {
         const primitive *p = &m->primitives[i];
-        for (size_t k = 0; p->joints && k < (size_t)p->vertex_count * 4; k++)
+        for (size_t k = 0; p->joints && k < (size_t)p->vertex_count * p->influences; k++)
             if (p->joints[k] > highest)
                 highest = p->joints[k];
     }

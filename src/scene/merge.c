@@ -35,6 +35,13 @@ static void shift(int32_t *index, int32_t by)
         *index += by;
 }
 
+static void shift_channel(animation_channel *c, const offsets *by)
+{
+    const int32_t steps[] = {
+        [ANIMATED_NODE] = by->nodes, [ANIMATED_CAMERA] = by->cameras, [ANIMATED_LIGHT] = by->lights};
+    shift(&c->target, steps[animation_thing_of(c->path)]);
+}
+
 static void shift_references(lmn_scene *s, const offsets *by)
 {
     for (size_t i = 0; i < s->node_count; i++) {
@@ -63,7 +70,7 @@ static void shift_references(lmn_scene *s, const offsets *by)
             shift(&s->skins[i].joints[k], by->nodes);
     for (size_t i = 0; i < s->animation_count; i++)
         for (size_t k = 0; k < s->animations[i].channel_count; k++)
-            shift(&s->animations[i].channels[k].node, by->nodes);
+            shift_channel(&s->animations[i].channels[k], by);
     for (size_t i = 0; i < s->part_count + s->ghost_count; i++)
         s->parts[i].node += by->nodes;
 }

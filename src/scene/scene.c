@@ -14,6 +14,13 @@
  * revision, and a new scene may lie where an old one was. */
 static atomic_uint_fast64_t revisions;
 
+animated_thing animation_thing_of(animation_path path)
+{
+    if (path >= PATH_LIGHT_COLOUR)
+        return ANIMATED_LIGHT;
+    return path >= PATH_CAMERA_FOV ? ANIMATED_CAMERA : ANIMATED_NODE;
+}
+
 uint64_t scene_next_revision(void)
 {
     return atomic_fetch_add_explicit(&revisions, 1, memory_order_relaxed) + 1;

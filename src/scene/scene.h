@@ -42,9 +42,10 @@ typedef struct primitive {
     vec3           *positions;
     vec3           *normals; /* unit; NULL: made from the crease angle when drawn */
     vec2           *uvs[UV_SETS];
-    vec4           *colours; /* linear, straight alpha */
-    uint16_t       *joints;  /* 4 per vertex */
-    vec4           *weights; /* of the joints, sum 1 */
+    vec4           *colours;    /* linear, straight alpha */
+    uint16_t       *joints;     /* `influences` per vertex */
+    float          *weights;    /* of the joints, as many; those of a vertex sum to 1 */
+    uint32_t        influences; /* 0 without joints */
     uint32_t       *indices;
     int32_t         material; /* NONE: the default material */
     morph_target   *morphs;
@@ -149,12 +150,27 @@ typedef struct skin {
     size_t   joint_count;
 } skin;
 
-typedef enum animation_path { PATH_TRANSLATION, PATH_ROTATION, PATH_SCALE, PATH_WEIGHTS } animation_path;
+/* What a channel moves: something of a node, and from PATH_CAMERA_FOV on of a camera, from PATH_LIGHT_COLOUR on of a
+ * light (KHR_animation_pointer). Values are in the units that the thing itself has in the scene. */
+typedef enum animation_path {
+    PATH_TRANSLATION,
+    PATH_ROTATION,
+    PATH_SCALE,
+    PATH_WEIGHTS,
+    PATH_CAMERA_FOV,
+    PATH_CAMERA_HALF_HEIGHT,
+    PATH_LIGHT_COLOUR,
+    PATH_LIGHT_INTENSITY
+} animation_path;
 typedef enum interpolation { INTERPOLATION_LINEAR, INTERPOLATION_STEP, INTERPOLATION_CUBIC } interpolation;
+
+/* What an animation's path belongs to. */
+typedef enum animated_thing { ANIMATED_NODE, ANIMATED_CAMERA, ANIMATED_LIGHT } animated_thing;
+animated_thing animation_thing_of(animation_path path);
 
 /* `values` holds key_count · components numbers, times three (in-tangent, value, out-tangent) for cubic. */
 typedef struct animation_channel {
-    int32_t        node;
+    int32_t        target; /* index of the node, camera or light */
     animation_path path;
     interpolation  interpolation;
     size_t         key_count, components;

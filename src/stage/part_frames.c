@@ -87,9 +87,8 @@ static void mark_animated(const lmn_scene *scene, bool *animated)
 {
     for (size_t i = 0; i < scene->animation_count; i++)
         for (size_t k = 0; k < scene->animations[i].channel_count; k++)
-            if (scene->animations[i].channels[k].node >= 0 &&
-                (size_t)scene->animations[i].channels[k].node < scene->node_count)
-                animated[scene->animations[i].channels[k].node] = true;
+            if (animation_thing_of(scene->animations[i].channels[k].path) == ANIMATED_NODE)
+                animated[scene->animations[i].channels[k].target] = true;
 }
 
 /* A part's middle in its mover's axes, which stays where it is when the mover moves and turns. */

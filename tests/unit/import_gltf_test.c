@@ -258,7 +258,7 @@ static void skins_morphs_and_animations_are_read(void **state)
     lmn_scene_info info = lmn_scene_info_of(s);
     /* The joint moves by 7, the morph by half of 5; the node's own position does not count. */
     assert_true(info.bounds_max[0] == 1 && info.bounds_min[2] == 7 && info.bounds_max[2] == 9.5);
-    assert_true(s->meshes[0].primitives[0].weights[0].x == 1);
+    assert_true(s->meshes[0].primitives[0].weights[0] == 1);
     const animation *a = &s->animations[0];
     assert_true(a->channel_count == 2 && a->duration == 2); /* the third has too few values */
     assert_true(has_warning(s, WARNING_BAD_VALUE));

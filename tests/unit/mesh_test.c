@@ -208,11 +208,12 @@ static void poses_follow_morphs_and_joints(void **state)
     vec3           offsets[] = {{0, 0, 2}, {0, 0, 0}, {0, 0, 0}};
     morph_target   morph = {.positions = offsets};
     uint16_t       joints[12] = {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
-    vec4           weights[3] = {{0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
+    float          weights[12] = {0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     p.morphs = &morph;
     p.morph_count = 1;
     p.joints = joints;
     p.weights = weights;
+    p.influences = 4;
     double      up[3] = {0, 10, 0}, zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
     double      still[4] = {0, 0, 0, 1}, quarter[4] = {0, 0, sqrt(0.5), sqrt(0.5)};
     mat4        matrices[2] = {mat4_from_trs(up, still, one), mat4_from_trs(zero, quarter, one)};
