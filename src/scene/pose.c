@@ -1,14 +1,28 @@
 /* Morphs and skinning on the CPU. */
 #include <math.h>
+#include <string.h>
 
+#include "base/threads.h"
 #include "scene/mesh.h"
 
-/* The upper left 3x3 times a direction. */
-static vec3 turn(const mat4 *m, vec3 n)
+/* A 3 by 4 matrix, column by column, times a point. */
+static vec3 move(const double m[12], vec3 p)
 {
-    const double *e = m->m;
-    return (vec3){(float)(e[0] * n.x + e[4] * n.y + e[8] * n.z), (float)(e[1] * n.x + e[5] * n.y + e[9] * n.z),
-                  (float)(e[2] * n.x + e[6] * n.y + e[10] * n.z)};
+    double x = (double)p.x, y = (double)p.y, z = (double)p.z;
+    return (vec3){(float)(m[0] * x + m[3] * y + m[6] * z + m[9]), (float)(m[1] * x + m[4] * y + m[7] * z + m[10]),
+                  (float)(m[2] * x + m[5] * y + m[8] * z + m[11])};
+}
+
+/* Normals follow the cofactors of the 3x3, which is the inverse transpose times the determinant: right under
+ * non-uniform scale, and defined when the matrix is singular. */
+static vec3 turn_normal(const double m[12], vec3 n)
+{
+    const double *a = m, *b = m + 3, *c = m + 6;
+    double        x = (double)n.x, y = (double)n.y, z = (double)n.z;
+    return (vec3){
+        (float)((b[1] * c[2] - b[2] * c[1]) * x + (c[1] * a[2] - c[2] * a[1]) * y + (a[1] * b[2] - a[2] * b[1]) * z),
+        (float)((b[2] * c[0] - b[0] * c[2]) * x + (c[2] * a[0] - c[0] * a[2]) * y + (a[2] * b[0] - a[0] * b[2]) * z),
+        (float)((b[0] * c[1] - b[1] * c[0]) * x + (c[0] * a[1] - c[1] * a[0]) * y + (a[0] * b[1] - a[1] * b[0]) * z)};
 }
 
 static vec3 to_unit(vec3 n)
@@ -19,37 +33,20 @@ static vec3 to_unit(vec3 n)
     return (vec3){(float)(n.x / length), (float)(n.y / length), (float)(n.z / length)};
 }
 
-/* Normals follow the cofactors of the 3x3, which is the inverse transpose times the determinant: right under
- * non-uniform scale, and defined when the matrix is singular. */
-static mat4 cofactors(const mat4 *m)
+/* The weighted sum of a vertex's joint matrices; the last row is left out. */
+static void blend(const primitive *p, uint32_t vertex, const mat4 *joints, size_t joint_count, double out[12])
 {
-    const double *e = m->m;
-    mat4          c = mat4_identity();
-    c.m[0] = e[5] * e[10] - e[6] * e[9];
-    c.m[1] = e[6] * e[8] - e[4] * e[10];
-    c.m[2] = e[4] * e[9] - e[5] * e[8];
-    c.m[4] = e[2] * e[9] - e[1] * e[10];
-    c.m[5] = e[0] * e[10] - e[2] * e[8];
-    c.m[6] = e[1] * e[8] - e[0] * e[9];
-    c.m[8] = e[1] * e[6] - e[2] * e[5];
-    c.m[9] = e[2] * e[4] - e[0] * e[6];
-    c.m[10] = e[0] * e[5] - e[1] * e[4];
-    return c;
-}
-
-/* The weighted sum of a vertex's joint matrices. */
-static mat4 blend(const primitive *p, uint32_t vertex, const mat4 *joints, size_t joint_count)
-{
-    mat4         sum = {{0}};
-    const float *weights = &p->weights[vertex].x;
-    for (int k = 0; k < 4; k++) {
-        uint16_t joint = p->joints[(size_t)vertex * 4 + (size_t)k];
-        if (weights[k] == 0 || joint >= joint_count)
+    const float    *weights = &p->weights[(size_t)vertex * p->influences];
+    const uint16_t *numbers = &p->joints[(size_t)vertex * p->influences];
+    memset(out, 0, 12 * sizeof *out);
+    for (uint32_t k = 0; k < p->influences; k++) {
+        if (weights[k] == 0 || numbers[k] >= joint_count)
             continue;
-        for (int i = 0; i < 16; i++)
-            sum.m[i] += (double)weights[k] * joints[joint].m[i];
+        const double *m = joints[numbers[k]].m, weight = (double)weights[k];
+        for (int column = 0; column < 4; column++)
+            for (int row = 0; row < 3; row++)
+                out[3 * column + row] += weight * m[4 * column + row];
     }
-    return sum;
 }
 
 static void add_scaled(vec3 *to, const vec3 *offsets, uint32_t vertex, float weight)
@@ -61,32 +58,56 @@ static void add_scaled(vec3 *to, const vec3 *offsets, uint32_t vertex, float wei
     to->z += offsets[vertex].z * weight;
 }
 
+typedef struct pose_job {
+    const primitive *p;
+    const float     *weights;
+    size_t           morphs;
+    const mat4      *joints; /* NULL: not skinned */
+    size_t           joint_count;
+    const vec3      *normals; /* NULL: none are asked for */
+    const uint32_t  *source;
+    vec3            *out_positions, *out_normals;
+} pose_job;
+
+static void pose_some(size_t begin, size_t end, void *user)
+{
+    const pose_job  *j = user;
+    const primitive *p = j->p;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t vertex = j->source ? j->source[i] : (uint32_t)i;
+        vec3     position = p->positions[vertex], normal = j->normals ? j->normals[i] : (vec3){0, 0, 1};
+        for (size_t m = 0; m < j->morphs; m++) {
+            if (j->weights[m] == 0)
+                continue;
+            add_scaled(&position, p->morphs[m].positions, vertex, j->weights[m]);
+            add_scaled(&normal, p->morphs[m].normals, vertex, j->weights[m]);
+        }
+        if (j->joints) {
+            double m[12];
+            blend(p, vertex, j->joints, j->joint_count, m);
+            position = move(m, position);
+            if (j->normals)
+                normal = turn_normal(m, normal);
+        }
+        j->out_positions[i] = position;
+        if (j->normals)
+            j->out_normals[i] = to_unit(normal);
+    }
+}
+
 void mesh_pose(const primitive *p, const float *weights, size_t weight_count, const mat4 *joint_matrices,
                size_t joint_count, const vec3 *normals, const uint32_t *source, uint32_t count, vec3 *out_positions,
                vec3 *out_normals)
 {
-    bool   skinned = joint_matrices && p->joints && p->weights;
-    size_t morphs = weights ? weight_count < p->morph_count ? weight_count : p->morph_count : 0;
-    bool   with_normals = normals && out_normals;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t vertex = source ? source[i] : i;
-        vec3     position = p->positions[vertex], normal = with_normals ? normals[i] : (vec3){0, 0, 1};
-        for (size_t m = 0; m < morphs; m++) {
-            if (weights[m] == 0)
-                continue;
-            add_scaled(&position, p->morphs[m].positions, vertex, weights[m]);
-            add_scaled(&normal, p->morphs[m].normals, vertex, weights[m]);
-        }
-        if (skinned) {
-            mat4 joint = blend(p, vertex, joint_matrices, joint_count);
-            position = mat4_transform_point(&joint, position);
-            if (with_normals) {
-                mat4 turned = cofactors(&joint);
-                normal = turn(&turned, normal);
-            }
-        }
-        out_positions[i] = position;
-        if (with_normals)
-            out_normals[i] = to_unit(normal);
-    }
+    enum { SMALLEST = 4096 };
+    pose_job j = {.p = p,
+                  .weights = weights,
+                  .morphs = weights ? weight_count < p->morph_count ? weight_count : p->morph_count : 0,
+                  .joints = p->joints && p->weights ? joint_matrices : NULL,
+                  .joint_count = joint_count,
+                  .normals = out_normals ? normals : NULL,
+                  .source = source,
+                  .out_positions = out_positions,
+                  .out_normals = out_normals};
+    threads_for(count, SMALLEST, pose_some, &j);
 }
