@@ -13,6 +13,7 @@
 
 typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
+    const char   *clip;
     const char   *page, *scale, *unit, *views, *title;
     word_list     sets;
     option_size   size;
@@ -20,7 +21,7 @@ typedef struct draw_values {
     option_number fov, fit, time, seed, samples;
     int           view, up_axis, angle;
     word_list     defines;
-    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict;
+    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time;
     task_values   task;
 } draw_values;
 
@@ -62,8 +63,14 @@ static const option options[] = {
     {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
     {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Fraction of the frame that the model fills. Default: 0.9.", 0.01, 10},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS",
-     "Time of what changes by itself (perturb.boil, surface.change); animations are not posed yet. Default: 0.", -1e9,
-     1e9},
+     "Draw the model as it is at this time of its animation; also the time of what changes by itself (perturb.boil, "
+     "surface.change). Default: the model at rest.",
+     -1e9, 1e9},
+    {"clip", 0, OPTION_TEXT, AT(clip), "NAME|N",
+     "Animations to draw, by name or number from 1 on; several separated by commas. Default: the first, when a time is "
+     "given."},
+    {"fit-time", 0, OPTION_FLAG, AT(fit_time), NULL,
+     "Fit the picture to where the model comes at any time of its animation. Frames are always fitted so."},
     {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS",
      "One picture a frame; frame i is at i/FPS seconds, and something must change with time."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
@@ -424,6 +431,9 @@ static void fill_desc(session *s)
     d.fov_deg = v->fov.given ? v->fov.value : d.fov_deg;
     d.fit = v->fit.given ? v->fit.value : d.fit;
     d.time_s = v->time.given ? v->time.value : d.time_s;
+    d.time_given = v->time.given || v->frames;
+    d.clip = v->clip;
+    d.fit_time = v->fit_time || v->frames;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
     d.samples = v->samples.given ? (int)v->samples.value : d.samples;
     d.background = v->background;

@@ -57,11 +57,16 @@ typedef struct lmn_draw_desc {
     lmn_progress_fn progress;   /* NULL: silent */
     void           *progress_user;
     bool            lenient; /* what cannot be drawn is left out with a warning; else it is refused */
+    /* A scene with animations is drawn at rest, unless one of `time_given`, `clip` and a time other than 0 asks for
+     * the scene at `time_s`. Times outside the clips are brought to their begin or end, with a warning. */
+    bool        time_given;
+    const char *clip;     /* clips by name or number from 1 on, separated by commas; NULL: the first */
+    bool        fit_time; /* fits the picture to all times of the clips, so that it stands still from time to time */
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false                                                \
+            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false                            \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.

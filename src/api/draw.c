@@ -14,6 +14,7 @@
 #include "base/work.h"
 #include "draw/maps.h"
 #include "plan/refuse.h"
+#include "plan/time.h"
 #include "export/export.h"
 #include "limner/version.h"
 
@@ -95,6 +96,9 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
         return error_set(error, LMN_USAGE, "a scene and a look are needed to draw");
     lmn_status status = check_draw_desc(desc, error);
     refusal    r = {scene, status == LMN_OK && desc->lenient, NULL, error};
+    moment     when;
+    if (status == LMN_OK)
+        status = time_moment(&when, scene, desc, NULL, error);
     return status == LMN_OK ? refuse_time(&r, look, desc->time_s, !vectors) : status;
 }
 

@@ -34,6 +34,7 @@ void renderer_destroy(lmn_renderer **renderer)
     gpu_make_current(r->g);
     upload_release(&r->up, r->g);
     pose_release(&r->pose);
+    swept_boxes_release(&r->swept);
     made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
     mem_free(r);
@@ -41,12 +42,20 @@ void renderer_destroy(lmn_renderer **renderer)
 }
 
 /* Poses the scene unless it is posed already. */
-static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, lmn_error *error)
+static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
+                             lmn_error *error)
 {
-    if (r->pose.scene == scene && r->pose.revision == scene->revision)
-        return LMN_OK;
-    pose_release(&r->pose);
-    lmn_status status = pose_create(&r->pose, scene, error);
+    moment     when;
+    lmn_status status = time_moment(&when, scene, desc, warnings, error);
+    bool posed = r->pose.scene == scene && r->pose.revision == scene->revision && moment_equal(&r->pose.when, &when);
+    if (status == LMN_OK && !posed) {
+        pose_release(&r->pose);
+        status = pose_create(&r->pose, scene, &when, error);
+    }
+    if (status == LMN_OK)
+        r->pose.fit_boxes = r->pose.part_boxes;
+    if (status == LMN_OK && desc->fit_time)
+        status = swept_boxes_fit(&r->swept, &r->pose, error);
     if (status != LMN_OK)
         pose_release(&r->pose);
     return status;
@@ -61,7 +70,7 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
     bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
-                 r->up.revision == scene->revision && same_meshes;
+                 r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when);
     if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
         return LMN_OK;
     upload earlier = r->up;
@@ -118,7 +127,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
-        status = bring_pose(r, scene, error);
+        status = bring_pose(r, scene, desc, warnings, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
     if (status == LMN_OK)
@@ -147,7 +156,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     gpu_make_current(r->g);
     lmn_status status = prepare(s, scene, look, options, side, warnings, error);
     if (status == LMN_OK)
-        status = camera_place(&f->camera, desc, &r->pose, s->plan.box, error);
+        status = camera_place(&f->camera, desc, &r->pose, s->plan.fit_box, error);
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);

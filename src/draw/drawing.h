@@ -5,12 +5,14 @@
 #include "frame/frame.h"
 #include "limner/draw.h"
 #include "plan/facts.h"
+#include "plan/time.h"
 #include "pose/pose.h"
 #include "stage/made_textures.h"
 
 struct lmn_renderer {
     gpu             *g;
-    pose             pose; /* of the last scene that was drawn */
+    pose             pose;  /* of the last scene that was drawn */
+    swept_boxes      swept; /* of its clips */
     upload           up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool             up_valid;

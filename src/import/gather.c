@@ -40,7 +40,7 @@ static bool has_border(const primitive *p)
 
 lmn_status import_gather(polyhedron *out, const lmn_scene *s, bool *open, lmn_error *error)
 {
-    mat4      *worlds = scene_world_matrices(s);
+    mat4      *worlds = scene_world_matrices(s, NULL);
     lmn_status status = worlds ? LMN_OK : error_memory(error);
     *open = false;
     for (size_t i = 0; i < s->part_count && status == LMN_OK; i++) {

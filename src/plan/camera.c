@@ -173,7 +173,7 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
         const node *n = &scene->nodes[i];
         if (n->camera < 0)
             continue;
-        const camera *file = &scene->cameras[n->camera];
+        const camera *file = &pose->cameras[n->camera];
         const char   *name =
             scene_camera_name(scene, (size_t)n->camera, n->name, name_count < 64 ? numbered[name_count] : capacity);
         if (name_count < 64)

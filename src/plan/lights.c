@@ -25,12 +25,14 @@ static void add_file_lights(const light_conditions *c, float positions[][4], flo
     for (size_t i = 0; i < scene->node_count; i++) {
         if (scene->nodes[i].light < 0)
             continue;
-        const light *l = &scene->lights[scene->nodes[i].light];
+        const light *l = &c->pose->lights[scene->nodes[i].light], *at_rest = &scene->lights[scene->nodes[i].light];
         mat4         eye = mat4_multiply(c->view, &c->pose->worlds[i]);
-        /* Lights shine along their node's −Z. Physical units are not used: every light counts as fully bright. */
+        /* Lights shine along their node's −Z. Physical units are not used: every light counts as fully bright, and
+         * animated ones as bright as they are beside what they are at rest. */
+        float  bright = at_rest->intensity > 0 ? l->intensity / at_rest->intensity : l->intensity;
         double back[3] = {eye.m[8], eye.m[9], eye.m[10]}, position[3] = {eye.m[12], eye.m[13], eye.m[14]};
         bool   placed = l->type != LIGHT_DIRECTIONAL;
-        add_light(positions, colours, count, placed ? position : back, placed ? 1 : 0, l->colour, scale);
+        add_light(positions, colours, count, placed ? position : back, placed ? 1 : 0, l->colour, scale * bright);
     }
 }
 

@@ -284,13 +284,13 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
 
 /* What the picture is fitted to of a part. Cutters may stick out far: of a ghost, what lies within a quarter of its
  * solid's diagonal. */
-static box3 fitted_box(const plan *p, size_t part_index)
+static box3 fitted_box(const plan *p, const box3 *boxes, size_t part_index)
 {
-    box3   box = p->pose->part_boxes[part_index];
+    box3   box = boxes[part_index];
     size_t owner = scene_part_of_ghost(p->scene, part_index);
-    if (owner == SIZE_MAX || box3_is_empty(p->pose->part_boxes[owner]))
+    if (owner == SIZE_MAX || box3_is_empty(boxes[owner]))
         return box;
-    box3  near = p->pose->part_boxes[owner];
+    box3  near = boxes[owner];
     float x = near.max.x - near.min.x, y = near.max.y - near.min.y, z = near.max.z - near.min.z;
     float margin = sqrtf(x * x + y * y + z * z) / 4;
     box.min = (vec3){fmaxf(box.min.x, near.min.x - margin), fmaxf(box.min.y, near.min.y - margin),
@@ -298,6 +298,13 @@ static box3 fitted_box(const plan *p, size_t part_index)
     box.max = (vec3){fminf(box.max.x, near.max.x + margin), fminf(box.max.y, near.max.y + margin),
                      fminf(box.max.z, near.max.z + margin)};
     return box3_is_empty(box) ? box3_empty() : box;
+}
+
+static void fit_to(plan *p, size_t part_index, bool ghost)
+{
+    const box3 *now = p->pose->part_boxes, *ever = p->pose->fit_boxes;
+    p->box = box3_union(p->box, ghost ? fitted_box(p, now, part_index) : now[part_index]);
+    p->fit_box = box3_union(p->fit_box, ghost ? fitted_box(p, ever, part_index) : ever[part_index]);
 }
 
 /* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides
@@ -312,7 +319,7 @@ static void share_parts(plan *p)
             continue;
         bool ghost = p->scene->parts[i].ghost;
         if (!ghost)
-            p->box = box3_union(p->box, p->pose->part_boxes[i]);
+            fit_to(p, i, false);
         for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
             const selector *s = look->rules[r].selector;
             if (s ? selector_matches(s, p->scene, i) : !ghost)
@@ -320,7 +327,7 @@ static void share_parts(plan *p)
         }
         bool taken = p->rule_of[i] != NONE;
         if (ghost && taken)
-            p->box = box3_union(p->box, fitted_box(p, i));
+            fit_to(p, i, true);
         p->selected[i] = taken;
         p->selected_count -= !taken;
     }
@@ -561,7 +568,7 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->pose = pose;
     out->scene = pose->scene;
     out->look = look;
-    out->box = box3_empty();
+    out->box = out->fit_box = box3_empty();
     out->crease_angle = (double)v->crease_angle * (3.14159265358979323846 / 180);
     out->meshes = needs_of(look);
     out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !options->parts_only;

@@ -46,7 +46,8 @@ typedef struct plan {
     bool    *selected; /* per part: drawn by some rule */
     bool    *opaque;   /* per part: drawn by a figure that is not seen through, so that it may hide others */
     size_t   selected_count, opaque_count;
-    box3     box; /* of the selection, which the picture is fitted to, before it is cut */
+    box3     box;     /* of the selection, before it is cut */
+    box3     fit_box; /* what the picture is fitted to: the same, or where it comes over time */
     /* figures */
     colour  ground; /* of the page */
     rule   *rules; /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */

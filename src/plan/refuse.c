@@ -67,10 +67,7 @@ lmn_status refuse_time(const refusal *r, const lmn_look *look, double time_s, bo
 {
     if (time_s == 0)
         return LMN_OK;
-    if (r->scene->animation_count)
-        return refuse(r, LMN_USAGE, WARNING_UNUSED, NULL,
-                      "animations are not posed yet: the scene is drawn in its rest pose at any time");
-    if (moves && look_moves(look))
+    if (r->scene->animation_count || (moves && look_moves(look)))
         return LMN_OK;
     return refuse(r, LMN_USAGE, WARNING_UNUSED,
                   moves ? "leave the time out, or take a look that changes with it (perturb.boil, surface.change)"

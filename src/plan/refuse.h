@@ -25,7 +25,7 @@ typedef struct refusal {
 lmn_status refuse(const refusal *r, lmn_status status, warning_code code, const char *instead, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* A time that changes nothing. `moves`: the look's own changes are drawn (not in vectors). */
+/* A time other than 0 that changes nothing. `moves`: the look's own changes are drawn (not in vectors). */
 lmn_status refuse_time(const refusal *r, const lmn_look *look, double time_s, bool moves);
 
 #endif

@@ -36,7 +36,7 @@ lmn_status section_find(section *out, const pose *pose, const lmn_look *look, co
     lmn_status status = match_parts(&selected, scene, select, true, error);
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
         if (selected[i])
-            box = box3_union(box, pose->part_boxes[i]);
+            box = box3_union(box, pose->fit_boxes[i]);
     mem_free(selected);
     if (status == LMN_OK)
         status = cut_parse(&out->cut, v->cut.text, box, error);

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/work.h"
+#include "pose/animate.h"
 
 static const skin *skin_of(const lmn_scene *scene, size_t part_index)
 {
@@ -25,7 +27,8 @@ static void set_joints(mat4 *out, const mat4 *worlds, const skin *s)
         out[i] = s->inverse_binds ? mat4_multiply(&worlds[s->joints[i]], &s->inverse_binds[i]) : worlds[s->joints[i]];
 }
 
-static void pose_part(pose *p, size_t part_index, mat4 *joints)
+/* `weights` (may be NULL): of its node, where they move. */
+static void pose_part(pose *p, size_t part_index, mat4 *joints, const float *weights)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part_index].node];
     const skin *s = skin_of(p->scene, part_index);
@@ -37,33 +40,87 @@ static void pose_part(pose *p, size_t part_index, mat4 *joints)
     p->parts[part_index] =
         (part_pose){.joints = s ? joints : NULL,
                     .joint_count = s ? s->joint_count : 0,
-                    .weights = n->morph_weights ? n->morph_weights : m->morph_weights,
+                    .weights = weights            ? weights
+                               : n->morph_weights ? n->morph_weights
+                                                  : m->morph_weights,
                     .weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count};
 }
 
-lmn_status pose_create(pose *out, const lmn_scene *scene, lmn_error *error)
+/* --- boxes ---------------------------------------------------------------------------------------------- */
+
+/* Does anything move a part away from where it is at rest? */
+static bool is_moved(const pose *p, const mat4 *at_rest, size_t part_index, const float *weights)
 {
-    size_t all = scene->part_count + scene->ghost_count, joint_count = count_joints(scene);
+    const lmn_scene *s = p->scene;
+    const node      *n = &s->nodes[s->parts[part_index].node];
+    const skin      *k = n->mesh != NONE && n->skin != NONE ? &s->skins[n->skin] : NULL;
+    bool moved = weights || memcmp(&p->worlds[s->parts[part_index].node], &at_rest[s->parts[part_index].node],
+                                   sizeof *at_rest) != 0;
+    for (size_t i = 0; k && i < k->joint_count && !moved; i++)
+        moved = memcmp(&p->worlds[k->joints[i]], &at_rest[k->joints[i]], sizeof *at_rest) != 0;
+    return moved;
+}
+
+/* At rest the scene knows them. */
+static lmn_status set_boxes(pose *p, const animated_state *moved, lmn_error *error)
+{
+    const lmn_scene *s = p->scene;
+    size_t           all = p->part_count + p->ghost_count;
+    mat4            *at_rest = moved->locals ? scene_world_matrices(s, NULL) : NULL;
+    if (moved->locals && !at_rest)
+        return error_memory(error);
+    for (size_t i = 0; i < all; i++) {
+        int32_t      node_index = s->parts[i].node;
+        const float *weights = moved->weights ? moved->weights[node_index] : NULL;
+        p->part_boxes[i] = at_rest && is_moved(p, at_rest, i, weights) ? node_bounds(s, p->worlds, node_index, weights)
+                                                                       : s->parts[i].bounds;
+        if (i < p->part_count)
+            p->box = box3_union(p->box, p->part_boxes[i]);
+    }
+    p->fit_boxes = p->part_boxes;
+    mem_free(at_rest);
+    return LMN_OK;
+}
+
+/* --- the whole ------------------------------------------------------------------------------------------ */
+
+static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
+{
+    const lmn_scene *scene = p->scene;
+    p->worlds = scene_world_matrices(scene, moved->locals);
+    p->parts = mem_calloc(scene->part_count, sizeof *p->parts);
+    p->part_boxes = mem_calloc(scene->part_count + scene->ghost_count, sizeof *p->part_boxes);
+    p->joints = mem_calloc(count_joints(scene), sizeof *p->joints);
+    if (!p->worlds || !p->parts || !p->part_boxes || !p->joints)
+        return error_memory(error);
+    mat4 *joints = p->joints;
+    for (size_t i = 0; i < scene->part_count; i++) {
+        pose_part(p, i, joints, moved->weights ? moved->weights[scene->parts[i].node] : NULL);
+        joints += p->parts[i].joint_count;
+    }
+    p->cameras = moved->cameras;
+    p->lights = moved->lights;
+    p->weights = moved->weight_data;
+    moved->cameras = NULL;
+    moved->lights = NULL;
+    moved->weight_data = NULL;
+    return set_boxes(p, moved, error);
+}
+
+lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
+{
+    animated_state moved;
     *out = (pose){.scene = scene,
                   .revision = scene->revision,
+                  .when = *when,
                   .part_count = scene->part_count,
                   .ghost_count = scene->ghost_count,
                   .box = box3_empty()};
-    out->worlds = scene_world_matrices(scene);
-    out->parts = mem_calloc(scene->part_count, sizeof *out->parts);
-    out->part_boxes = mem_calloc(all, sizeof *out->part_boxes);
-    out->joints = mem_calloc(joint_count, sizeof *out->joints);
-    if (!out->worlds || !out->parts || !out->part_boxes || !out->joints)
-        return error_memory(error);
-    mat4 *joints = out->joints;
-    for (size_t i = 0; i < scene->part_count; i++) {
-        pose_part(out, i, joints);
-        joints += out->parts[i].joint_count;
-        out->box = box3_union(out->box, scene->parts[i].bounds);
-    }
-    for (size_t i = 0; i < all; i++)
-        out->part_boxes[i] = scene->parts[i].bounds; /* at rest the scene knows them */
-    return LMN_OK;
+    lmn_status status = animate(&moved, scene, when, error);
+    if (status == LMN_OK)
+        status = fill(out, &moved, error);
+    animated_state_release(&moved);
+    return status;
 }
 
 void pose_release(pose *p)
@@ -72,6 +129,9 @@ void pose_release(pose *p)
     mem_free(p->parts);
     mem_free(p->part_boxes);
     mem_free(p->joints);
+    mem_free(p->weights);
+    mem_free(p->cameras);
+    mem_free(p->lights);
     memset(p, 0, sizeof *p);
 }
 
@@ -87,4 +147,32 @@ mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
                             ? mat4_identity()
                             : p->worlds[p->scene->parts[part_index].node];
     return n->instance_count ? mat4_multiply(&world, &n->instances[instance]) : world;
+}
+
+/* --- over time ------------------------------------------------------------------------------------------ */
+
+lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error)
+{
+    enum { SAMPLES = 48 };
+    size_t     count = scene->part_count + scene->ghost_count;
+    double     end = moment_duration(when, scene);
+    box3      *boxes = mem_alloc(count * sizeof *boxes);
+    lmn_status status = boxes ? LMN_OK : error_memory(error);
+    for (size_t i = 0; boxes && i < count; i++)
+        boxes[i] = box3_empty();
+    for (int k = 0; k <= (end > 0 ? SAMPLES : 0) && status == LMN_OK; k++) {
+        moment at = *when;
+        pose   p;
+        at.seconds = end * k / SAMPLES;
+        status = pose_create(&p, scene, &at, error);
+        for (size_t i = 0; i < count && status == LMN_OK; i++)
+            boxes[i] = box3_union(boxes[i], p.part_boxes[i]);
+        pose_release(&p);
+        if (status == LMN_OK)
+            status = work_check(error);
+    }
+    if (status != LMN_OK)
+        mem_free(boxes);
+    *out = status == LMN_OK ? boxes : NULL;
+    return status;
 }

@@ -3,6 +3,7 @@
 #ifndef LIMNER_POSE_POSE_H
 #define LIMNER_POSE_POSE_H
 
+#include "pose/moment.h"
 #include "scene/scene.h"
 
 /* How a part's mesh is deformed. */
@@ -16,18 +17,23 @@ typedef struct part_pose {
 
 typedef struct pose {
     const lmn_scene *scene;
-    uint64_t         revision;   /* of the scene, when it was posed */
+    uint64_t         revision; /* of the scene, when it was posed */
+    moment           when;
     mat4            *worlds;     /* per node */
     part_pose       *parts;      /* per part */
     box3            *part_boxes; /* per part, then per ghost: deformed, world axes */
+    const box3      *fit_boxes; /* of the same parts: what pictures are fitted to; `part_boxes`, or lent by who poses */
     size_t           part_count, ghost_count;
-    box3             box;    /* of all parts */
-    mat4            *joints; /* of all parts, which point into it */
+    box3             box;     /* of all parts */
+    mat4            *joints;  /* of all parts, which point into it */
+    float           *weights; /* of nodes whose weights move; parts point into it */
+    camera          *cameras; /* as the scene's, whose names they borrow */
+    light           *lights;
 } pose;
 
-/* The scene at rest. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY. Release it
+/* The scene at a moment. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY. Release it
  * also after one. */
-lmn_status pose_create(pose *out, const lmn_scene *scene, lmn_error *error);
+lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       pose_release(pose *p);
 
 /* Does the pose move the vertices of this primitive within its mesh? */
@@ -35,5 +41,9 @@ bool pose_deforms(const part_pose *pose, const primitive *p);
 
 /* Where an instance of a part is: takes its deformed mesh to the world. `instance` is below node_draw_count. */
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance);
+
+/* The boxes of parts and ghosts over the whole of a moment's clips, sampled: they hold what pictures of any time show.
+ * Free with mem_free. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error);
 
 #endif

@@ -23,7 +23,12 @@ int32_t scene_next_node(const lmn_scene *s, int32_t root, int32_t current)
     return current == root ? NONE : s->nodes[current].next_sibling;
 }
 
-mat4 *scene_world_matrices(const lmn_scene *s)
+static mat4 local_matrix(const lmn_scene *s, const mat4 *locals, size_t index)
+{
+    return locals ? locals[index] : node_local_matrix(&s->nodes[index]);
+}
+
+mat4 *scene_world_matrices(const lmn_scene *s, const mat4 *locals)
 {
     size_t bytes;
     mat4  *worlds = size_mul(s->node_count, sizeof *worlds, &bytes) ? mem_alloc(bytes) : NULL;
@@ -32,10 +37,10 @@ mat4 *scene_world_matrices(const lmn_scene *s)
     for (size_t i = 0; i < s->node_count; i++) {
         if (s->nodes[i].parent != NONE)
             continue;
-        worlds[i] = node_local_matrix(&s->nodes[i]);
+        worlds[i] = local_matrix(s, locals, i);
         int32_t root = (int32_t)i;
         for (int32_t n = scene_next_node(s, root, root); n != NONE; n = scene_next_node(s, root, n)) {
-            mat4 local = node_local_matrix(&s->nodes[n]);
+            mat4 local = local_matrix(s, locals, (size_t)n);
             worlds[n] = mat4_multiply(&worlds[s->nodes[n].parent], &local);
         }
     }
@@ -75,10 +80,11 @@ static box3 points_bounds(const vec3 *points, size_t count, const mat4 *m)
 }
 
 /* The pose of one primitive in its mesh's space; NULL when nothing moves it or memory is gone. */
-static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, const mat4 *joints, size_t joint_count)
+static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, const mat4 *joints, size_t joint_count,
+                             const float *weights)
 {
-    const float *weights = n->morph_weights ? n->morph_weights : m->morph_weights;
-    size_t       weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
+    weights = weights ? weights : n->morph_weights ? n->morph_weights : m->morph_weights;
+    size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     if (!joints && (p->morph_count == 0 || weight_count == 0))
         return NULL;
     vec3 *posed = mem_alloc(p->vertex_count * sizeof *posed);
@@ -121,15 +127,16 @@ static box3 placed_bounds(const vec3 *points, size_t count, box3 local, const no
 }
 
 static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive *p, const mat4 *world,
-                             const mat4 *joints)
+                             const mat4 *joints, const float *weights)
 {
     bool   skinned = joints && p->joints && p->weights;
     bool   exact = is_affordable(s, p->vertex_count, node_draw_count(n));
     size_t joint_count = skinned ? s->skins[n->skin].joint_count : 0;
     if (skinned && !exact)
         return joint_boxes(p->bounds, joints, joint_count);
-    vec3 *posed = exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count) : NULL;
-    box3  local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
+    vec3 *posed =
+        exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count, weights) : NULL;
+    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
     /* Skinned vertices are already in the world: the node's own position does not move them. */
     if (!skinned || !posed)
         local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
@@ -137,7 +144,7 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
     return local;
 }
 
-box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
+box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, const float *weights)
 {
     const node *n = &s->nodes[node_index];
     box3        box = box3_empty();
@@ -148,14 +155,14 @@ box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index)
     const mesh *m = &s->meshes[n->mesh];
     mat4       *joints = skin_matrices(s, worlds, n->skin);
     for (size_t i = 0; i < m->primitive_count; i++)
-        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints));
+        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints, weights));
     mem_free(joints);
     return box;
 }
 
 box3 part_bounds(const lmn_scene *s, const mat4 *worlds, size_t part_index)
 {
-    return node_bounds(s, worlds, s->parts[part_index].node);
+    return node_bounds(s, worlds, s->parts[part_index].node, NULL);
 }
 
 box3 scene_bounds(const lmn_scene *s, const mat4 *worlds)

@@ -141,7 +141,7 @@ static bool add_part(listing *l, int32_t index)
     if (!p->path)
         return false;
     p->triangles = node_triangle_count(l->scene, &l->scene->nodes[index]);
-    p->bounds = node_bounds(l->scene, l->worlds, index);
+    p->bounds = node_bounds(l->scene, l->worlds, index, NULL);
     return true;
 }
 
@@ -174,7 +174,7 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
         l.seen.capacity *= 2;
     l.seen.entries = mem_calloc(l.seen.capacity, sizeof *l.seen.entries);
     l.parts = mem_calloc(count, sizeof *l.parts);
-    l.worlds = scene_world_matrices(s);
+    l.worlds = scene_world_matrices(s, NULL);
     bool good = l.seen.entries && l.parts && l.worlds;
     for (size_t i = 0; good && position && i < s->node_count; i++)
         l.worlds[i] = mat4_multiply(position, &l.worlds[i]);

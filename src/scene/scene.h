@@ -278,8 +278,9 @@ char *scene_name_of_file(const char *path);
 
 /* --- reading -------------------------------------------------------------------------------------------- */
 
-/* World matrices of all nodes in the rest pose, node_count of them; free with mem_free. NULL when memory is gone. */
-mat4 *scene_world_matrices(const lmn_scene *scene);
+/* World matrices of all nodes, node_count of them; free with mem_free. `locals` (may be NULL: the nodes' own) are those
+ * of all nodes. NULL when memory is gone. */
+mat4 *scene_world_matrices(const lmn_scene *scene, const mat4 *locals);
 /* That of one node. */
 mat4 scene_world_matrix(const lmn_scene *scene, int32_t node_index);
 mat4 node_local_matrix(const node *n);
@@ -295,8 +296,8 @@ const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
 
-/* The same for any node with a mesh. */
-box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index);
+/* The same for any node with a mesh. `weights` (may be NULL: those that it has) are of its morph targets. */
+box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index, const float *weights);
 /* The node after this one, depth first, within the tree below `root`; NONE at the end. */
 int32_t scene_next_node(const lmn_scene *scene, int32_t root, int32_t current);
 

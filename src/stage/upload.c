@@ -108,6 +108,7 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->crease_angle = desc->crease_angle;
     out->needs = desc->needs;
     out->pose = pose;
+    out->when = pose->when;
     out->has_removed = desc->removed;
     out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
     out->texture_count = scene->image_count * 2;
@@ -131,14 +132,15 @@ static size_t smaller(size_t a, size_t b)
 }
 
 /* Moves what still holds. A scene never takes anything out of its arrays, and what is at a position there and has the
- * same revision is the same; nodes and images do not change at all. */
+ * same revision is the same; nodes and images do not change at all.
+ * What is deformed is taken at the same moment only. */
 static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 {
     for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
         u->textures[i] = earlier->textures[i];
         earlier->textures[i] = NULL;
     }
-    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when); i++) {
         u->posed[i] = earlier->posed[i];
         earlier->posed[i] = (upload_mesh){.primitives = NULL};
     }

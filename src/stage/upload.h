@@ -79,6 +79,7 @@ typedef struct upload {
     size_t        open_parts;  /* some of whose sections are not closed */
     double        extent;      /* of the scene as it is posed */
     const pose   *pose;        /* that it was made of; lent */
+    moment        when;        /* of that one, as it was then */
     size_t        part_count;  /* with the ghosts when the look asks for them */
     bool          has_removed; /* it does */
     draw_item    *items;

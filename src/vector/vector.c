@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "plan/plan.h"
 #include "plan/refuse.h"
+#include "plan/time.h"
 #include "vector/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
@@ -24,6 +25,7 @@ typedef struct vector_job {
     surfaces_fn           draw_surfaces; /* NULL: nobody can */
     void                 *user;
     pose                  pose;
+    swept_boxes           swept;
     plan                  plan;
     const lmn_scene      *scene;
     const lmn_look       *look;
@@ -75,7 +77,12 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
     const lmn_scene   *scene = j->scene;
     const plan_options options = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
     size_t             solids = 0;
-    lmn_status         status = pose_create(&j->pose, scene, error);
+    moment             when;
+    lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
+    if (status == LMN_OK)
+        status = pose_create(&j->pose, scene, &when, error);
+    if (status == LMN_OK && j->desc->fit_time)
+        status = swept_boxes_fit(&j->swept, &j->pose, error);
     if (status == LMN_OK)
         status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
@@ -134,13 +141,13 @@ static lmn_status measure_view(const vector_job *j, const vector_view *v, double
     view_camera c;
     square.width = square.height = 64;
     lmn_draw_desc d = view_desc(j, &square);
-    lmn_status    status = camera_place(&c, &d, &j->pose, j->plan.box, error);
+    lmn_status    status = camera_place(&c, &d, &j->pose, j->plan.fit_box, error);
     out[0] = out[1] = 0;
-    for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->plan.box); i++) {
+    for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->plan.fit_box); i++) {
         const double *m = c.view.m,
-                     corner[3] = {(double)(i & 1 ? j->plan.box.max.x : j->plan.box.min.x),
-                                  (double)(i & 2 ? j->plan.box.max.y : j->plan.box.min.y),
-                                  (double)(i & 4 ? j->plan.box.max.z : j->plan.box.min.z)},
+                     corner[3] = {(double)(i & 1 ? j->plan.fit_box.max.x : j->plan.fit_box.min.x),
+                                  (double)(i & 2 ? j->plan.fit_box.max.y : j->plan.fit_box.min.y),
+                                  (double)(i & 4 ? j->plan.fit_box.max.z : j->plan.fit_box.min.z)},
                      middle[3] = {c.target[0], c.target[1], c.target[2]};
         for (int k = 0; k < 2; k++) {
             double from_middle = 0;
@@ -175,7 +182,7 @@ static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error
 static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
 {
     lmn_draw_desc d = view_desc(j, v);
-    lmn_status    status = camera_place(&v->camera, &d, &j->pose, j->plan.box, error);
+    lmn_status    status = camera_place(&v->camera, &d, &j->pose, j->plan.fit_box, error);
     if (status != LMN_OK)
         return status;
     double scale = j->out->scale; /* paper over model */
@@ -663,6 +670,7 @@ static void end_job(vector_job *j)
     stroke_scene_release(&j->strokes);
     stroke_scene_release(&j->as_is);
     plan_release(&j->plan);
+    swept_boxes_release(&j->swept);
     pose_release(&j->pose);
     mem_free(j->stroked);
 }

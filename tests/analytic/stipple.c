@@ -206,7 +206,7 @@ static bool page_of(marks_page *page, const shot *s, const char *model, const st
     bool          ok = lmn_scene_create(&scene, &error) == LMN_OK &&
               lmn_scene_add_file(scene, check_path("%s", model), NULL, &error) == LMN_OK;
     pose at_rest = {.scene = NULL};
-    ok = ok && pose_create(&at_rest, scene, &error) == LMN_OK &&
+    ok = ok && pose_create(&at_rest, scene, &(moment){.seconds = 0}, &error) == LMN_OK &&
          mark_ground_create(&ground, &at_rest, NULL, scene->part_count, 0.5, &error) == LMN_OK &&
          mark_ground_marks(&m, &ground, &use, &error) == LMN_OK;
     if (ok) {

@@ -115,7 +115,7 @@ static int load_buildings(void **state)
         size_t count = lmn_scene_info_of(b->scene).triangles;
         b->faces = mem_alloc(count * sizeof *b->faces);
         b->shells = mem_alloc(count * sizeof *b->shells);
-        mat4 *world = scene_world_matrices(b->scene);
+        mat4 *world = scene_world_matrices(b->scene, NULL);
         assert_true(b->faces && b->shells && world);
         for (size_t k = 0; k < b->scene->part_count; k++)
             add_part(b, k, &world[b->scene->parts[k].node]);

@@ -159,7 +159,7 @@ static form_shot take(lmn_scene *s, stroke_camera camera, stroke_options options
     if (!s->part_count)
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
-    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(stroke_scene_create_refined(out.scene, &at_rest, NULL, 100 * field_pi / 180, options.refine, NULL,
                                                  NULL, &error),
                      LMN_OK);
@@ -473,7 +473,7 @@ static void outlines_end_at_creases(void **state)
         lmn_error     error = {0};
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
         pose at_rest;
-        assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+        assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
         form_shot      f = {.source = s, .scene = mem_alloc(sizeof *f.scene)};
         stroke_options w = only(CONTOURS_SMOOTH);
         assert_int_equal(stroke_scene_create(f.scene, &at_rest, NULL, 70 * field_pi / 180, NULL, NULL, &error), LMN_OK);

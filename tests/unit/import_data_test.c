@@ -68,7 +68,7 @@ static void counts_agree_with_the_index(void **state)
 /* Vertices in the world, in the rest pose, without the root's rotation. */
 static size_t world_vertices(const lmn_scene *s, vec3 *out, size_t capacity)
 {
-    mat4  *worlds = scene_world_matrices(s);
+    mat4  *worlds = scene_world_matrices(s, NULL);
     size_t count = 0;
     for (size_t i = 0; i < s->part_count; i++) {
         const node *n = &s->nodes[s->parts[i].node];

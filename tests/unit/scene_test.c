@@ -39,7 +39,7 @@ static void later_files_are_turned_to_the_first(void **state)
     assert_true(lmn_scene_part_at(s, 1, &info));
     /* +Z up becomes +Y up: (0, 2, 3) goes to (0, 3, −2). */
     assert_true(info.bounds_max[1] == 3 && info.bounds_min[2] == -2);
-    mat4 *worlds = scene_world_matrices(s);
+    mat4 *worlds = scene_world_matrices(s, NULL);
     box3  box = part_bounds(s, worlds, 1);
     assert_true(box.max.y == 3 && box.min.z == -2);
     mem_free(worlds);

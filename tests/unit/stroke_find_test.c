@@ -425,7 +425,7 @@ static void memory_may_run_out(void **state)
     lmn_error error = {0};
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
-    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     stroke_camera  c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_options w = all_lines();
     bool           done = false;
@@ -468,7 +468,7 @@ static void work_can_be_cancelled(void **state)
     lmn_error error = {0};
     assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
-    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     stroke_camera  c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_options w = all_lines();
     stroke_scene   scene;

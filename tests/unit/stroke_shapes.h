@@ -155,7 +155,7 @@ static inline stroke_shot shoot(lmn_scene *s, stroke_camera camera, stroke_optio
         assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
     pose at_rest;
     out.scene = mem_alloc(sizeof *out.scene);
-    assert_int_equal(pose_create(&at_rest, s, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(stroke_scene_create(out.scene, &at_rest, NULL, 30 * stroke_pi / 180, NULL, NULL, &error), LMN_OK);
     pose_release(&at_rest);
     assert_int_equal(stroke_view_create(&out.view, out.scene, &camera, NULL, NULL, &error), LMN_OK);

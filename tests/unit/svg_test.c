@@ -350,7 +350,7 @@ static uint8_t  colours[SIDE * SIDE][3];
 /* All triangles of a scene as the camera of a view sees them, one by one, with a depth for each pixel. */
 static void rasterise_scene(raster *r, const lmn_scene *scene, const view_camera *camera)
 {
-    mat4 *worlds = scene_world_matrices(scene), both = mat4_multiply(&camera->projection, &camera->view);
+    mat4 *worlds = scene_world_matrices(scene, NULL), both = mat4_multiply(&camera->projection, &camera->view);
     memset(r, 0, sizeof *r);
     memset(owners, 0, sizeof owners);
     for (size_t i = 0; i < scene->part_count; i++) {

@@ -234,7 +234,7 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     marks_page   page = {.dots = NULL};
     lmn_error    error = {0};
     const double crease = 30 * 3.14159265358979 / 180;
-    assert_int_equal(pose_create(&at_rest, f->scene, &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, f->scene, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
     rays              r = {&ground, &s->views[0].camera};
     mark_page_options options = {.pose = &at_rest,

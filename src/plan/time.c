@@ -1,0 +1,38 @@
+#include "plan/time.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
+                       lmn_error *error)
+{
+    *out = moment_at_rest();
+    if (!desc->clip && !desc->time_given && desc->time_s == 0)
+        return LMN_OK;
+    return moment_find(out, scene, desc->clip, desc->time_s, warnings, error);
+}
+
+void swept_boxes_release(swept_boxes *s)
+{
+    mem_free(s->boxes);
+    memset(s, 0, sizeof *s);
+}
+
+lmn_status swept_boxes_fit(swept_boxes *s, pose *p, lmn_error *error)
+{
+    moment clips = p->when;
+    clips.seconds = 0;
+    if (!clips.clip_count)
+        return LMN_OK;
+    if (!s->boxes || s->revision != p->scene->revision || !moment_equal(&s->clips, &clips)) {
+        swept_boxes_release(s);
+        lmn_status status = pose_swept_boxes(&s->boxes, p->scene, &clips, error);
+        if (status != LMN_OK)
+            return status;
+        s->revision = p->scene->revision;
+        s->clips = clips;
+    }
+    p->fit_boxes = s->boxes;
+    return LMN_OK;
+}

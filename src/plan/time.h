@@ -1,0 +1,24 @@
+/* The time that a drawing is of. */
+#ifndef LIMNER_PLAN_TIME_H
+#define LIMNER_PLAN_TIME_H
+
+#include "limner/draw.h"
+#include "pose/pose.h"
+
+/* The moment that the description asks for: rest, unless it names a clip or a time. Errors: LMN_USAGE. */
+lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
+                       lmn_error *error);
+
+/* Boxes of parts over the whole of their clips, kept from drawing to drawing. Zero-initialise. */
+typedef struct swept_boxes {
+    uint64_t revision; /* of the scene */
+    moment   clips;    /* at 0 */
+    box3    *boxes;    /* NULL: none */
+} swept_boxes;
+
+/* Makes the pose say that pictures are fitted to the whole of its clips. The boxes are lent to it. Errors: LMN_MEMORY,
+ * LMN_CANCELLED. */
+lmn_status swept_boxes_fit(swept_boxes *s, pose *p, lmn_error *error);
+void       swept_boxes_release(swept_boxes *s);
+
+#endif

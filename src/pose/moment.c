@@ -1,0 +1,133 @@
+#include "pose/moment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+
+moment moment_at_rest(void)
+{
+    moment m;
+    memset(&m, 0, sizeof m);
+    return m;
+}
+
+bool moment_equal(const moment *a, const moment *b)
+{
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+double moment_duration(const moment *m, const lmn_scene *scene)
+{
+    double longest = 0;
+    for (size_t i = 0; i < m->clip_count; i++)
+        longest = fmax(longest, scene->animations[m->clips[i]].duration);
+    return longest;
+}
+
+static lmn_status add_clip(moment *m, size_t index, lmn_error *error)
+{
+    for (size_t i = 0; i < m->clip_count; i++)
+        if (m->clips[i] == index)
+            return LMN_OK;
+    if (m->clip_count == CLIPS_AT_ONCE)
+        return error_set(error, LMN_USAGE, "more than %d clips at once", CLIPS_AT_ONCE);
+    m->clips[m->clip_count++] = (uint32_t)index;
+    return LMN_OK;
+}
+
+static const char *file_of(const lmn_scene *scene)
+{
+    return scene->file_count ? scene->files[0] : NULL;
+}
+
+static lmn_status refuse_clip(const lmn_scene *scene, const char *name, int size, lmn_error *error)
+{
+    enum { NAMES_MAX = 64 };
+    const char *names[NAMES_MAX];
+    size_t      count = 0;
+    char        wanted[128];
+    for (size_t i = 0; i < scene->animation_count && count < NAMES_MAX; i++)
+        if (scene->animations[i].name)
+            names[count++] = scene->animations[i].name;
+    snprintf(wanted, sizeof wanted, "%.*s", size < 100 ? size : 100, name);
+    lmn_status  status = error_in_file(error, LMN_USAGE, file_of(scene), 0, "the model has no clip '%s'", wanted);
+    const char *nearest = text_nearest(wanted, names, count);
+    if (nearest)
+        error_hint(error, "did you mean '%s'?", nearest);
+    else if (count)
+        error_hint(error, "it has '%s'%s; `limner info` lists them", names[0], count > 1 ? " and others" : "");
+    else
+        error_hint(error, "its clips have no names: take a number from 1 to %zu", scene->animation_count);
+    return status;
+}
+
+/* All clips of a name; else that of a number. */
+static lmn_status add_clips(moment *m, const lmn_scene *scene, const char *name, size_t size, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    size_t     found = 0;
+    for (size_t i = 0; i < scene->animation_count && status == LMN_OK; i++) {
+        const char *own = scene->animations[i].name;
+        if (!own || strlen(own) != size || memcmp(own, name, size) != 0)
+            continue;
+        status = add_clip(m, i, error);
+        found++;
+    }
+    size_t number = 0;
+    for (size_t i = 0; i < size && name[i] >= '0' && name[i] <= '9' && number <= scene->animation_count; i++)
+        number = i + 1 <= size ? number * 10 + (size_t)(name[i] - '0') : 0;
+    bool digits = size > 0 && strspn(name, "0123456789") >= size;
+    if (status == LMN_OK && !found && digits && number >= 1 && number <= scene->animation_count) {
+        status = add_clip(m, number - 1, error);
+        found++;
+    }
+    return status == LMN_OK && !found ? refuse_clip(scene, name, (int)(size < 1000 ? size : 1000), error) : status;
+}
+
+/* A whole name may hold commas; else they separate. */
+static lmn_status add_list(moment *m, const lmn_scene *scene, const char *clips, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < scene->animation_count; i++)
+        if (scene->animations[i].name && strcmp(scene->animations[i].name, clips) == 0)
+            return add_clips(m, scene, clips, strlen(clips), error);
+    while (status == LMN_OK) {
+        size_t size = strcspn(clips, ",");
+        status = add_clips(m, scene, clips, size, error);
+        if (!clips[size])
+            break;
+        clips += size + 1;
+    }
+    return status;
+}
+
+static void bring_within(moment *m, const lmn_scene *scene, warnings *warnings)
+{
+    double end = moment_duration(m, scene), wanted = m->seconds;
+    m->seconds = fmin(fmax(m->seconds, 0), end);
+    if (m->seconds != wanted && warnings)
+        warnings_add(warnings, WARNING_BAD_VALUE, "the clip runs from 0 to %g s: %g s was drawn as %g s", end, wanted,
+                     m->seconds);
+    if (m->seconds == 0)
+        m->seconds = 0; /* not −0, whose bytes differ */
+}
+
+lmn_status moment_find(moment *out, const lmn_scene *scene, const char *clips, double seconds, warnings *warnings,
+                       lmn_error *error)
+{
+    *out = moment_at_rest();
+    lmn_status status = LMN_OK;
+    if (clips && scene->animation_count == 0)
+        return error_in_file(error, LMN_USAGE, file_of(scene), 0, "clip '%.100s': the model has no animation", clips);
+    if (clips)
+        status = add_list(out, scene, clips, error);
+    else if (scene->animation_count)
+        status = add_clip(out, 0, error);
+    if (status != LMN_OK || !out->clip_count)
+        return status;
+    out->seconds = seconds;
+    bring_within(out, scene, warnings);
+    return LMN_OK;
+}
