@@ -304,7 +304,7 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     d->camera = s->frame.camera;
     if (!d->vendor || !d->renderer || !d->version)
         return error_memory(error);
-    lmn_status status = facts_take(&d->facts, scene, look, s->plan.part_count, desc->seed, error);
+    lmn_status status = facts_take(&d->facts, &r->pose, look, s->plan.part_count, desc->seed, error);
     if (status != LMN_OK)
         return status;
     d->facts.triangles = r->up.triangles;

@@ -15,10 +15,11 @@ typedef struct report_facts {
     uint64_t triangles; /* instances counted */
     box3     bounds;    /* of what is selected */
     double   load_ms;
+    json_t  *time; /* which; NULL: at rest */
 } report_facts;
 
 /* The bounds and triangles are the caller's to set. Errors: LMN_MEMORY. Release it also after one. */
-lmn_status facts_take(report_facts *out, const lmn_scene *scene, const lmn_look *look, size_t part_count, uint32_t seed,
+lmn_status facts_take(report_facts *out, const pose *pose, const lmn_look *look, size_t part_count, uint32_t seed,
                       lmn_error *error);
 void       facts_release(report_facts *f);
 

@@ -629,7 +629,7 @@ static lmn_status keep_facts(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
     size_t     count = j->scene->part_count;
-    lmn_status status = facts_take(&s->facts, j->scene, j->look, count, j->desc->seed, error);
+    lmn_status status = facts_take(&s->facts, &j->pose, j->look, count, j->desc->seed, error);
     if (status != LMN_OK)
         return status;
     s->facts.bounds = j->plan.box;

@@ -176,11 +176,25 @@ group_draw() {
     row 0 'warning: the model has no animation' 'x.png' draw "$gear" $small -o x.png --time 0.5 --lenient
     row 0 '' 'x.png' draw "$gear" $small -o x.png --time 0.5 --look sketch --set perturb.boil=12
     local moving=$examples/box-animated.glb
-    row 1 "^limner: $moving: animations are not posed yet" '' draw "$moving" $small -o x.png --time 0.5
-    row 1 "^limner: $moving: animations are not posed yet" '' draw "$moving" $small -o x.png --time 0.5 --look sketch --set perturb.boil=12
-    row 1 '^hint: --lenient draws what can be drawn' '' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24
-    row 0 'warning: animations are not posed yet' 'x-0000.png x-0001.png' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24 --lenient
+    row 0 '' 'x.png' draw "$moving" $small -o x.png && cp x.png in-rest.png
     row 0 '' 'x.png' draw "$moving" $small -o x.png --time 0
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 && cp x.png in-later.png
+    cmp -s in-rest.png in-later.png && complain "--time moves nothing"
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --clip 1 --time 1.5
+    cmp -s x.png in-later.png || complain "--clip 1 is not the first clip"
+    row 0 '' 'x.svg' draw "$moving" $small -o x.svg --time 1.5
+    row 0 '' 'x-0000.png x-0001.png' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24
+    row 0 '' 'x-0036.png' draw "$moving" $small -o 'x-{frame}.png' --frames 36:36:24 && cp x-0036.png in-frame.png
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --fit-time
+    cmp -s x.png in-frame.png || complain "a frame is not the picture of its time, fitted to all times"
+    row 0 'warning: the clip runs from 0 to 3.70.* s: 5 s was drawn as 3.70' 'x.png' draw "$moving" $small -o x.png --time 5
+    row 1 "^limner: $moving: the model has no clip 'walk'" '' draw "$moving" $small -o x.png --clip walk
+    row 1 "^limner: $moving: the model has no clip '2'" '' draw "$moving" $small -o x.png --clip 2
+    row 1 "clip" '' draw "$moving" $small -o x.png --clip ''
+    row 1 "^hint: did you mean 'Run'" '' draw "$examples/fox.glb" $small -o x.png --clip Rin
+    row 0 '' 'x.png' draw "$examples/fox.glb" $small -o x.png --clip Run,Walk --time 0.2 --report in-report.json
+    tr -d ' \n' < in-report.json | grep -q '"time":{"seconds":0.2[0-9]*,"clips":\["Run","Walk"\]}' || complain "the report has no time: $(cat in-report.json)"
+    row 1 "^limner: $gear: clip 'Run': the model has no animation" '' draw "$gear" $small -o x.png --clip Run
     row 0 '' 'x.png' draw "$gear" $small -o x.png --fov 60 --background none --select 'gear*'
     row 0 'drawn in [0-9]+ ms' 'x.png' draw "$gear" $small -o x.png --verbose
     row 0 '' 'x.png' draw "$gear" $small -o x.png --cut -x=40% && cp x.png in-cut.png
