@@ -94,10 +94,10 @@ static void set_material(gpu *g, const material *m, item_textures t, bool layere
 
 /* What the geometry pass writes and where. */
 typedef struct outputs {
-    int normal_depth, id, albedo, shade; /* attachment, −1 = not */
+    int normal_depth, id, albedo, shade, rest; /* attachment, −1 = not */
 } outputs;
 
-static const outputs no_outputs = {-1, -1, -1, -1};
+static const outputs no_outputs = {-1, -1, -1, -1, -1};
 
 /* One run over the parts. */
 typedef struct raster_job {
@@ -124,7 +124,8 @@ static void declare_outputs(text *prelude, const raster_job *job)
     } rows[] = {{"NORMAL_DEPTH", job->at.normal_depth},
                 {"ID", job->at.id},
                 {"ALBEDO", job->at.albedo},
-                {"SHADE", job->at.shade}};
+                {"SHADE", job->at.shade},
+                {"REST", job->at.rest}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].at >= 0)
             text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
@@ -211,7 +212,7 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, ready;
+    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
@@ -260,6 +261,15 @@ static bool uses_patches(const raster_job *job, const figure_state *s, const dra
            surface->technique->surface->needs(surface->values).patch > 0;
 }
 
+/* Is anything tied to where the item is when nothing has moved? */
+static bool uses_rest(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    bool                 shaded = job->at.shade >= 0 && surface && surface->technique->surface->needs &&
+                  surface->technique->surface->needs(surface->values).rest;
+    return (shaded || job->at.rest >= 0) && gpu_mesh_has_rest(item->mesh);
+}
+
 /* Does the surface look light up in a map of the item's? */
 static bool wants_light_map(const raster_job *job, const figure_state *s, const draw_item *item)
 {
@@ -272,10 +282,10 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
-    bool field = uses_field(s, item), patches = uses_patches(job, s, item);
+    bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
-        field == last->has_field && patches == last->has_patches)
+        field == last->has_field && patches == last->has_patches && rest == last->has_rest)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -284,6 +294,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     declare_material(&prelude, s, item, m, t);
     text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "",
                 field && !patches ? "#define HAS_FIELD\n" : "");
+    if (rest)
+        text_append(&prelude, "#define HAS_REST\n");
     if (wants_light_map(job, s, item))
         text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
@@ -300,6 +312,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                            .is_cut = item->is_cut,
                            .has_field = field,
                            .has_patches = patches,
+                           .has_rest = rest,
                            .ready = true,
                            .triangles = last->triangles};
 }
@@ -556,6 +569,8 @@ static outputs open_outputs(frame *f, unsigned channels, gpu_texture **targets, 
         o.albedo = add_output(f, targets, pass, TARGET_ALBEDO, far);
     if (channels & CHANNEL_SHADE)
         o.shade = add_output(f, targets, pass, TARGET_SHADE, far);
+    if (channels & CHANNEL_REST)
+        o.rest = add_output(f, targets, pass, TARGET_REST, far);
     pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
     return o;
 }
@@ -590,7 +605,7 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
         draw_parts(&wide, &pass,
-                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1}, .enlarge = pixels});
+                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -608,7 +623,7 @@ void raster_shell(frame *f, figure_state *s, target into, float pixels)
 }
 
 /* What shading from the G-buffer reads. */
-static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION},
+static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION, TARGET_REST},
                              .writes = TARGET_SHADE};
 
 void raster_shade_deferred(frame *f, figure_state *s)
@@ -646,7 +661,7 @@ void raster_direct(frame *f, figure_state *s)
     stopwatch w = watch_start(&f->profile);
     gpu_pass  pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0}});
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1}});
     watch_stop(&f->profile, w, "", "geometry");
 }
 
@@ -659,7 +674,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
     draw_parts(f, &onto,
                &(raster_job){.state = s,
                              .solids = &s->solids,
-                             .at = {-1, -1, -1, 0},
+                             .at = {-1, -1, -1, 0, -1},
                              .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 

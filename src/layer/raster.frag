@@ -32,6 +32,9 @@ vec4 out_albedo;
 layout(location = AT_ALBEDO) out vec4 out_albedo;
 #endif
 #endif
+#ifdef AT_REST
+layout(location = AT_REST) out vec4 out_rest;
+#endif
 #ifdef AT_SHADE
 #ifdef INTO_LISTS
 vec4 out_shade;
@@ -162,6 +165,13 @@ void main()
 #endif
 #ifdef AT_ALBEDO
     out_albedo = albedo;
+#endif
+#ifdef AT_REST
+#ifdef HAS_REST
+    out_rest = vec4(v_rest, 1.0);
+#else
+    out_rest = vec4(0.0);
+#endif
 #endif
 #ifdef AT_SHADE
 #ifdef CUT_FACE

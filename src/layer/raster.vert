@@ -15,6 +15,11 @@ layout(location = 8) in vec4 a_patch; /* src/field/lapped.h */
 out vec4 v_patch;
 #endif
 
+#ifdef HAS_REST
+layout(location = 9) in vec3 a_rest;
+out vec3 v_rest;
+#endif
+
 #ifdef CUT_FACE
 uniform float u_nearer; /* in clip space */
 #endif
@@ -69,6 +74,9 @@ void main()
 #endif
 #ifdef HAS_PATCHES
     v_patch = a_patch;
+#endif
+#ifdef HAS_REST
+    v_rest = a_rest;
 #endif
     gl_Position = u_projection * eye;
 #ifdef UNWRAPPED

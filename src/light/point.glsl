@@ -11,6 +11,9 @@ struct surface_point {
 in vec3 v_field_diagonal; /* src/field/direction_field.h, eye space */
 in vec3 v_field_sides;
 #endif
+#ifdef HAS_REST
+in vec3 v_rest; /* where it is when nothing has moved, in its part's frame */
+#endif
 #ifdef HAS_PATCHES
 in vec4 v_patch;
 uniform float u_patch_radius;

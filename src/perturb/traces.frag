@@ -92,7 +92,13 @@ vec3 trace_of(vec2 pixel, vec4 surface)
     uint seed = u_seed + uint(texelFetch(t_part_frames, at + ivec2(3, 0), 0).r) * 0x632be59bu;
 #if BY == 0
     vec4 world = u_world_from_eye * vec4(position_of(pixel, surface.w), 1.0);
-    return noise_at(world * rows, surface.w, seed);
+    vec3 position = world * rows;
+#ifdef HAS_REST_POSITION
+    /* What is deformed carries its waves along. */
+    vec4 rest = texelFetch(t_rest_position, ivec2(pixel), 0);
+    position = rest.w > 0.0 ? rest.xyz : position;
+#endif
+    return noise_at(position, surface.w, seed);
 #elif BY == 1
     vec4 normal = u_world_from_eye * vec4(surface.xyz, 0.0);
     return noise_at(2.0 * (normal * rows), seed);

@@ -184,7 +184,7 @@ static const pass passes[] = {
      .when = "lock=object&outward=enlarged"},
     {.name = "traces",
      .shader = "perturb/traces.frag",
-     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, ENLARGED},
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_REST, ENLARGED},
      .writes = TRACES,
      .when = "lock=object"},
     {.name = "spread across",

@@ -139,6 +139,20 @@ bool figure_has_solids(const plan *p, const figure *f)
     return false;
 }
 
+/* What is deformed carries along where it is when nothing has moved, for what is tied to the model and drawn from
+ * the G-buffer. */
+static bool wants_rest(const plan *p, const figure *f)
+{
+    if (!p->pose->at_rest || !p->meshes.rest || !(rule_use(f->rule, KIND_PERTURB) || f->deferred))
+        return false;
+    for (size_t i = 0; i < p->scene->part_count; i++) {
+        const part_pose *pose = &p->pose->parts[i];
+        if (f->designated[i] && (pose->joints || pose->weight_count > 0))
+            return true;
+    }
+    return false;
+}
+
 /* Contrast-aware lines look at the picture they are drawn on. */
 static bool lines_read_shade(const rule *r)
 {
@@ -192,6 +206,8 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_SHADE;
     if (as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
+    if (wants_rest(p, f))
+        f->channels |= CHANNEL_REST;
 }
 
 bool shades_with_geometry(const technique_use *surface)
@@ -230,6 +246,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO;
     if (as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH;
+    if (wants_rest(p, f))
+        f->channels |= CHANNEL_REST;
 }
 
 static int figure_rank(const figure *f)
@@ -530,14 +548,16 @@ static lmn_status prepare_layers(plan *p, warnings *warnings, lmn_error *error)
 /* What the look's surfaces want meshes to have. */
 static mesh_needs needs_of(const lmn_look *look)
 {
-    mesh_needs all = {false, 0};
+    mesh_needs all = {.field = false};
     for (size_t i = 0; i < look->rule_count; i++) {
         const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
+        all.rest = all.rest || rule_use(&look->rules[i], KIND_PERTURB);
         if (!surface || !surface->technique->surface->needs)
             continue;
         mesh_needs own = surface->technique->surface->needs(surface->values);
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
+        all.rest = all.rest || own.rest;
     }
     return all;
 }

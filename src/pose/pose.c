@@ -49,11 +49,12 @@ static void pose_part(pose *p, size_t part_index, mat4 *joints, const float *wei
 /* --- boxes ---------------------------------------------------------------------------------------------- */
 
 /* Does anything move a part away from where it is at rest? */
-static bool is_moved(const pose *p, const mat4 *at_rest, size_t part_index, const float *weights)
+static bool is_moved(const pose *p, size_t part_index, const float *weights)
 {
     const lmn_scene *s = p->scene;
     const node      *n = &s->nodes[s->parts[part_index].node];
     const skin      *k = n->mesh != NONE && n->skin != NONE ? &s->skins[n->skin] : NULL;
+    const mat4      *at_rest = p->at_rest->worlds;
     bool moved = weights || memcmp(&p->worlds[s->parts[part_index].node], &at_rest[s->parts[part_index].node],
                                    sizeof *at_rest) != 0;
     for (size_t i = 0; k && i < k->joint_count && !moved; i++)
@@ -62,24 +63,19 @@ static bool is_moved(const pose *p, const mat4 *at_rest, size_t part_index, cons
 }
 
 /* At rest the scene knows them. */
-static lmn_status set_boxes(pose *p, const animated_state *moved, lmn_error *error)
+static void set_boxes(pose *p, const animated_state *moved)
 {
     const lmn_scene *s = p->scene;
     size_t           all = p->part_count + p->ghost_count;
-    mat4            *at_rest = moved->locals ? scene_world_matrices(s, NULL) : NULL;
-    if (moved->locals && !at_rest)
-        return error_memory(error);
     for (size_t i = 0; i < all; i++) {
         int32_t      node_index = s->parts[i].node;
         const float *weights = moved->weights ? moved->weights[node_index] : NULL;
-        p->part_boxes[i] = at_rest && is_moved(p, at_rest, i, weights) ? node_bounds(s, p->worlds, node_index, weights)
-                                                                       : s->parts[i].bounds;
+        p->part_boxes[i] =
+            p->at_rest && is_moved(p, i, weights) ? node_bounds(s, p->worlds, node_index, weights) : s->parts[i].bounds;
         if (i < p->part_count)
             p->box = box3_union(p->box, p->part_boxes[i]);
     }
     p->fit_boxes = p->part_boxes;
-    mem_free(at_rest);
-    return LMN_OK;
 }
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
@@ -104,7 +100,15 @@ static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
     moved->cameras = NULL;
     moved->lights = NULL;
     moved->weight_data = NULL;
-    return set_boxes(p, moved, error);
+    set_boxes(p, moved);
+    return LMN_OK;
+}
+
+static lmn_status add_rest(pose *p, lmn_error *error)
+{
+    moment when = moment_at_rest();
+    p->at_rest = mem_calloc(1, sizeof *p->at_rest);
+    return p->at_rest ? pose_create(p->at_rest, p->scene, &when, error) : error_memory(error);
 }
 
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
@@ -117,6 +121,8 @@ lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lm
                   .ghost_count = scene->ghost_count,
                   .box = box3_empty()};
     lmn_status status = animate(&moved, scene, when, error);
+    if (status == LMN_OK && when->clip_count)
+        status = add_rest(out, error);
     if (status == LMN_OK)
         status = fill(out, &moved, error);
     animated_state_release(&moved);
@@ -125,6 +131,9 @@ lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lm
 
 void pose_release(pose *p)
 {
+    if (p->at_rest)
+        pose_release(p->at_rest);
+    mem_free(p->at_rest);
     mem_free(p->worlds);
     mem_free(p->parts);
     mem_free(p->part_boxes);

@@ -24,6 +24,7 @@ typedef struct pose {
     box3            *part_boxes; /* per part, then per ghost: deformed, world axes */
     const box3      *fit_boxes; /* of the same parts: what pictures are fitted to; `part_boxes`, or lent by who poses */
     size_t           part_count, ghost_count;
+    struct pose     *at_rest; /* the same scene when nothing has moved; NULL: it is that */
     box3             box;     /* of all parts */
     mat4            *joints;  /* of all parts, which point into it */
     float           *weights; /* of nodes whose weights move; parts point into it */

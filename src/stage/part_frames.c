@@ -1,6 +1,6 @@
 /* Frames of parts: where a part is at rest, whatever its node does with it. What is tied to an object is computed
  * in its frame. Parts that always move together share one, so that what is drawn runs on from part to part. */
-#include "stage/upload.h"
+#include "stage/upload_private.h"
 
 #include <math.h>
 
@@ -92,9 +92,9 @@ static void mark_animated(const lmn_scene *scene, bool *animated)
 }
 
 /* A part's middle in its mover's axes, which stays where it is when the mover moves and turns. */
-static vec3 middle_in(const upload *u, const lmn_scene *scene, const mover *m, int32_t mover_index, size_t part_index)
+static vec3 middle_in(const pose *p, const lmn_scene *scene, const mover *m, int32_t mover_index, size_t part_index)
 {
-    const mat4  *own = &u->pose->worlds[mover_index], *world = &u->pose->worlds[scene->parts[part_index].node];
+    const mat4  *own = &p->worlds[mover_index], *world = &p->worlds[scene->parts[part_index].node];
     vec3         local = middle_of(scene, &scene->nodes[scene->parts[part_index].node]);
     const double middle[3] = {(double)local.x, (double)local.y, (double)local.z};
     double       offset[3], out[3];
@@ -130,7 +130,7 @@ static void level_axis(const mat4 *world, int up, double out[3])
 
 /* Three rows that take a position in the world, measured from `origin`, into the mover's frame, the mover's number,
  * and which way is up in it. */
-static void write_frame(const upload *u, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3],
+static void write_frame(const pose *p, const mover *m, int32_t mover_index, bool up_is_y, const double origin[3],
                         float *rows)
 {
     const float middle[3] = {(m->box.min.x + m->box.max.x) / 2, (m->box.min.y + m->box.max.y) / 2,
@@ -139,7 +139,7 @@ static void write_frame(const upload *u, const mover *m, int32_t mover_index, bo
         double moved = -(double)middle[row];
         for (int k = 0; k < 3; k++) {
             rows[4 * row + k] = (float)m->turn[3 * row + k];
-            moved += m->turn[3 * row + k] * (origin[k] - u->pose->worlds[mover_index].m[12 + k]);
+            moved += m->turn[3 * row + k] * (origin[k] - p->worlds[mover_index].m[12 + k]);
         }
         rows[4 * row + 3] = (float)moved;
     }
@@ -148,25 +148,26 @@ static void write_frame(const upload *u, const mover *m, int32_t mover_index, bo
         rows[13 + row] = (float)m->turn[3 * row + (up_is_y ? 1 : 2)];
 }
 
-static void write_frames(const upload *u, const lmn_scene *scene, mover *movers, const bool *animated, float *values)
+static void write_frames(const upload *u, const pose *p, mover *movers, const bool *animated, float *values)
 {
+    const lmn_scene *scene = p->scene;
     for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
         mover  *m = &movers[index];
         if (!m->ready) {
-            rotation_of(&u->pose->worlds[index], m->turn);
+            rotation_of(&p->worlds[index], m->turn);
             m->box = box3_empty();
             m->ready = true;
         }
-        vec3 middle = middle_in(u, scene, m, index, i);
+        vec3 middle = middle_in(p, scene, m, index, i);
         m->box = box3_union(m->box, (box3){middle, middle});
     }
     for (size_t i = 0; i < u->part_count; i++) {
         int32_t index = mover_of(scene, animated, scene->parts[i].node);
         float  *rows = &values[4 * TEXELS_A_PART * i];
-        write_frame(u, &movers[index], index, scene->up == 'y', u->frame_origin, rows);
+        write_frame(p, &movers[index], index, scene->up == 'y', u->frame_origin, rows);
         double level[3] = {0, 0, 0};
-        level_axis(&u->pose->worlds[scene->parts[i].node], scene->up == 'y' ? 1 : 2, level);
+        level_axis(&p->worlds[scene->parts[i].node], scene->up == 'y' ? 1 : 2, level);
         for (int row = 0; row < 3; row++) {
             const double *turn = &movers[index].turn[3 * row];
             rows[16 + row] = (float)(turn[0] * level[0] + turn[1] * level[1] + turn[2] * level[2]);
@@ -174,31 +175,69 @@ static void write_frames(const upload *u, const lmn_scene *scene, mover *movers,
     }
 }
 
-gpu_texture *upload_part_frames(upload *u, gpu *g)
+static void set_origin(upload *u)
 {
-    const lmn_scene *scene = u->pose->scene;
-    if (u->part_frames || gpu_failed(g))
-        return u->part_frames;
-    int    rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
-    float *values = mem_calloc((size_t)rows * (size_t)width, 4 * sizeof *values);
-    mover *movers = mem_calloc(scene->node_count, sizeof *movers);
-    bool  *animated = mem_calloc(scene->node_count, sizeof *animated);
-    box3   box = box3_empty();
+    box3 box = box3_empty();
     for (size_t i = 0; i < u->part_count; i++)
         box = box3_union(box, u->pose->part_boxes[i]);
     if (!box3_is_empty(box))
         box3_middle(box, u->frame_origin);
-    if (values && movers && animated) {
+}
+
+/* The rows of all parts in a pose, filled up to whole rows of a texture; NULL when memory is gone. */
+static float *frames_of(upload *u, const pose *p)
+{
+    const lmn_scene *scene = p->scene;
+    size_t           rows = (u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW;
+    float           *values = mem_calloc(rows * TEXELS_A_PART * PARTS_A_ROW, 4 * sizeof *values);
+    mover           *movers = mem_calloc(scene->node_count, sizeof *movers);
+    bool            *animated = mem_calloc(scene->node_count, sizeof *animated);
+    bool             done = values && movers && animated;
+    set_origin(u);
+    if (done) {
         mark_animated(scene, animated);
-        write_frames(u, scene, movers, animated, values);
+        write_frames(u, p, movers, animated, values);
+    } else {
+        mem_free(values);
+    }
+    mem_free(movers);
+    mem_free(animated);
+    return done ? values : NULL;
+}
+
+gpu_texture *upload_part_frames(upload *u, gpu *g)
+{
+    if (u->part_frames || gpu_failed(g))
+        return u->part_frames;
+    int rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
+    mem_free(u->part_frame_values);
+    u->part_frame_values = frames_of(u, u->pose);
+    if (u->part_frame_values) {
         u->part_frames = gpu_target_acquire(g, width, rows, GPU_RGBA32F);
-        gpu_target_write(g, u->part_frames, (int[]){0, 0, width, rows}, values);
+        gpu_target_write(g, u->part_frames, (int[]){0, 0, width, rows}, u->part_frame_values);
     } else {
         gpu_fail(g, LMN_MEMORY, "out of memory");
     }
-    mem_free(u->part_frame_values);
-    u->part_frame_values = values;
-    mem_free(movers);
-    mem_free(animated);
     return u->part_frames;
+}
+
+vec3 *upload_rest_positions(upload *u, size_t part_index, const vertex_arrays *at_rest)
+{
+    if (!u->rest_frame_values && !(u->rest_frame_values = frames_of(u, u->pose->at_rest)))
+        return NULL;
+    const float *rows = &u->rest_frame_values[PART_FRAME_FLOATS * part_index];
+    mat4         world = pose_instance(u->pose->at_rest, part_index, 0);
+    vec3        *out = mem_alloc(at_rest->vertex_count * sizeof *out);
+    for (uint32_t i = 0; out && i < at_rest->vertex_count; i++) {
+        const float *p = &at_rest->positions[3 * (size_t)i];
+        double       from[3], to[3];
+        for (int k = 0; k < 3; k++)
+            from[k] = world.m[k] * (double)p[0] + world.m[4 + k] * (double)p[1] + world.m[8 + k] * (double)p[2] +
+                      world.m[12 + k] - u->frame_origin[k];
+        for (int k = 0; k < 3; k++)
+            to[k] = (double)rows[4 * k] * from[0] + (double)rows[4 * k + 1] * from[1] +
+                    (double)rows[4 * k + 2] * from[2] + (double)rows[4 * k + 3];
+        out[i] = (vec3){(float)to[0], (float)to[1], (float)to[2]};
+    }
+    return out;
 }

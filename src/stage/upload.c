@@ -5,20 +5,35 @@
 
 #include "base/memory.h"
 
-static lmn_status upload_primitive(upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const primitive *p,
-                                   const part_pose *pose, lmn_error *error)
+/* `at_rest` (may be NULL) has the vertices where they are when nothing has moved. */
+static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const vertex_arrays *data,
+                                  const vertex_arrays *at_rest, lmn_error *error)
 {
-    posed_mesh m;
-    lmn_status status = posed_make(&m, p, u->crease_angle, pose, error);
+    vec3      *rest_positions = at_rest ? upload_rest_positions(u, job->part_index, at_rest) : NULL;
+    lmn_status status = at_rest && !rest_positions ? error_memory(error) : LMN_OK;
     if (status == LMN_OK && u->needs.field) {
-        status = upload_with_field(u, g, out, lapped, &m.data, error);
+        status = upload_with_field(u, g, &job->meshes[i], &job->lapped[i], data, rest_positions, at_rest, error);
     } else if (status == LMN_OK) {
-        gpu_mesh_data data = upload_data_of(&m.data);
-        *out = gpu_mesh_create(g, &data);
+        gpu_mesh_data with = upload_data_of(data);
+        with.rest = (const float *)rest_positions;
+        job->meshes[i] = gpu_mesh_create(g, &with);
     }
+    mem_free(rest_positions);
+    return status == LMN_OK ? gpu_check(g, error) : status;
+}
+
+static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
+{
+    const primitive *p = &job->mesh->primitives[i];
+    posed_mesh       now, rest = {.positions = NULL};
+    bool             moved = u->pose->at_rest && pose_deforms(job->pose, p) && (u->needs.rest || u->needs.field);
+    lmn_status       status = posed_make(&now, p, u->crease_angle, job->pose, error);
+    if (status == LMN_OK && moved)
+        status = posed_make(&rest, p, u->crease_angle, &u->pose->at_rest->parts[job->part_index], error);
     if (status == LMN_OK)
-        status = gpu_check(g, error);
-    posed_release(&m);
+        status = upload_vertices(u, g, job, i, &now.data, moved ? &rest.data : NULL, error);
+    posed_release(&now);
+    posed_release(&rest);
     return status;
 }
 
@@ -29,7 +44,7 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     if (p->index_count == 0)
         return LMN_OK;
     if (!job->meshes[i])
-        status = upload_primitive(u, g, &job->meshes[i], &job->lapped[i], p, job->pose, error);
+        status = upload_primitive(u, g, job, i, error);
     draw_item item = upload_item(job, i);
     item.mesh = job->meshes[i];
     item.lapped = job->lapped[i];
@@ -204,6 +219,7 @@ void upload_release(upload *u, gpu *g)
     for (int i = 0; i < 2; i++)
         stroke_store_destroy(&u->strokes[i], g);
     mem_free(u->part_frame_values);
+    mem_free(u->rest_frame_values);
     gpu_target_release(g, u->operand_table);
     gpu_buffer_release(g, u->program_buffer);
     upload_solids_release(u, g);

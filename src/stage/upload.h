@@ -103,6 +103,7 @@ typedef struct upload {
     gpu_buffer   *program_buffer;    /* NULL where there are no storage blocks */
     gpu_texture  *part_frames;       /* NULL: not asked for yet */
     float        *part_frame_values; /* what is in it */
+    float        *rest_frame_values; /* the same of the pose at rest; NULL: not asked for yet */
     double        frame_origin[3];
     mark_sets    *marks;      /* NULL: none yet */
     stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not

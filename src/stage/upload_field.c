@@ -39,6 +39,96 @@ static float (*tensors_of(const direction_field *field, const primitive *p))[6]
     return out;
 }
 
+typedef struct map3 {
+    double m[9]; /* columns */
+} map3;
+
+static void cross_of(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* Two edges of a triangle and its unit normal; returns its doubled area. */
+static double frame_of(const vec3 *positions, const uint32_t *corners, double out[9])
+{
+    for (int e = 0; e < 2; e++) {
+        vec3 a = positions[corners[0]], b = positions[corners[e + 1]];
+        out[3 * e] = (double)b.x - (double)a.x;
+        out[3 * e + 1] = (double)b.y - (double)a.y;
+        out[3 * e + 2] = (double)b.z - (double)a.z;
+    }
+    cross_of(out, out + 3, out + 6);
+    double area = sqrt(out[6] * out[6] + out[7] * out[7] + out[8] * out[8]);
+    for (int k = 6; k < 9; k++)
+        out[k] /= area > 0 ? area : 1;
+    return area;
+}
+
+/* What takes a triangle's directions at rest to those it has now; false when it has no area. */
+static bool map_of(const vec3 *from, const vec3 *to, const uint32_t *corners, map3 *out, double *area)
+{
+    double a[9], b[9], dual[9];
+    *area = frame_of(from, corners, a);
+    if (!(*area > 0) || !(frame_of(to, corners, b) > 0))
+        return false;
+    cross_of(a + 3, a + 6, dual);
+    cross_of(a + 6, a, dual + 3);
+    cross_of(a, a + 3, dual + 6);
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            out->m[3 * column + row] = 0;
+            for (int k = 0; k < 3; k++)
+                out->m[3 * column + row] += b[3 * k + row] * dual[3 * k + column] / *area;
+        }
+    return true;
+}
+
+/* M T Mᵀ, as large as T was. */
+static void carry_tensor(const map3 *m, float t[6])
+{
+    static const int at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    double           half[3][3], full[3][3], before = 0, after = 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            half[r][c] = 0;
+            for (int k = 0; k < 3; k++)
+                half[r][c] += m->m[3 * k + r] * (double)t[at[k][c]];
+        }
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            full[r][c] = 0;
+            for (int k = 0; k < 3; k++)
+                full[r][c] += half[r][k] * m->m[3 * k + c];
+            before += (double)t[at[r][c]] * (double)t[at[r][c]];
+            after += full[r][c] * full[r][c];
+        }
+    double scale = after > 0 ? sqrt(before / after) : 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = r; c < 3; c++)
+            t[at[r][c]] = (float)(full[r][c] * scale);
+}
+
+/* Moves tensors along with the surface they belong to: by the mean of what its triangles around a vertex undergo. */
+static bool carry_tensors(float (*tensors)[6], const primitive *rest, const vertex_arrays *now)
+{
+    map3 *sums = mem_calloc(rest->vertex_count, sizeof *sums);
+    for (uint32_t i = 0; sums && i + 2 < rest->index_count; i += 3) {
+        map3   m;
+        double area;
+        if (!map_of(rest->positions, (const vec3 *)(const void *)now->positions, &rest->indices[i], &m, &area))
+            continue;
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 9; k++)
+                sums[rest->indices[i + (uint32_t)c]].m[k] += area * m.m[k];
+    }
+    for (uint32_t v = 0; sums && v < rest->vertex_count; v++)
+        carry_tensor(&sums[v], tensors[v]);
+    bool done = sums;
+    mem_free(sums);
+    return done;
+}
+
 static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *l, const vertex_arrays *data,
                                      lmn_error *error)
 {
@@ -67,18 +157,19 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
 }
 
 lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             lmn_error *error)
+                             const vec3 *rest_positions, const vertex_arrays *at_rest, lmn_error *error)
 {
-    primitive       p = primitive_of(data);
+    primitive       p = primitive_of(at_rest ? at_rest : data);
     direction_field field = {0};
     lapped_mesh     patches = {0};
     lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
     float(*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
-    if (status == LMN_OK && !tensors)
+    if (status == LMN_OK && (!tensors || (at_rest && !carry_tensors(tensors, &p, data))))
         status = error_memory(error);
     if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_of(data);
         with.tensors = (const float *)tensors;
+        with.rest = (const float *)rest_positions;
         *out = gpu_mesh_create(g, &with);
     }
     if (status == LMN_OK && u->needs.patch > 0) {

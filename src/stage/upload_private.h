@@ -28,11 +28,17 @@ draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
 /* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else *lapped
- * stays NULL). */
+ * stays NULL). What is deformed bends as it does at rest, moved along: `at_rest` has the same vertices there (else it
+ * is NULL). */
 lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             lmn_error *error);
+                             const vec3 *rest_positions, const vertex_arrays *at_rest, lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
 float upload_patch_radius(const upload *u, box3 bounds);
+
+/* --- part_frames.c --- */
+/* Where the vertices of a deformed part are when nothing has moved, in its part's frame; free with mem_free. NULL when
+ * memory is gone. */
+vec3 *upload_rest_positions(upload *u, size_t part_index, const vertex_arrays *at_rest);
 
 /* --- upload_solid.c --- */
 lmn_status upload_solid_part(upload *u, gpu *g, size_t part_index, upload *earlier, lmn_error *error);

@@ -13,6 +13,7 @@ typedef enum target {
     TARGET_ID,
     TARGET_ALBEDO,
     TARGET_SHADE,
+    TARGET_REST,
     TARGET_DEPTH,
     TARGET_EDGE,
     TARGET_EDGE_BEFORE,

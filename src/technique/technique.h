@@ -14,7 +14,8 @@ typedef enum channel {
     CHANNEL_NORMAL_DEPTH = 1 << 0, /* eye-space unit normal, linear eye depth (−z, file units) */
     CHANNEL_ID = 1 << 1,           /* part id (0 = empty), surface id */
     CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
-    CHANNEL_SHADE = 1 << 3         /* the surface technique's colour, linear, premultiplied */
+    CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour, linear, premultiplied */
+    CHANNEL_REST = 1 << 4          /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
@@ -59,6 +60,7 @@ typedef struct pass {
 typedef struct mesh_needs {
     bool  field; /* the direction in which surfaces bend */
     float patch; /* radius of patches that cover them, fraction of a mesh's diagonal; 0: none */
+    bool  rest;  /* where vertices of deformed parts are when nothing has moved */
 } mesh_needs;
 
 struct stroke_style;

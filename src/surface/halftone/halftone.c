@@ -10,5 +10,6 @@ mesh_needs halftone_needs(const void *values)
     bool                   lapped = v->coordinates == COORDINATES_LAPPED;
     return (mesh_needs){.field = lapped || v->coordinates == COORDINATES_CURVATURE ||
                                  v->coordinates == COORDINATES_FORM_MESH,
-                        .patch = lapped ? v->patch : 0};
+                        .patch = lapped ? v->patch : 0,
+                        .rest = true};
 }

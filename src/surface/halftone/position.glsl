@@ -12,6 +12,22 @@ mat3 turn_to_rest()
 }
 #endif
 
+/* From directions in eye space to those at rest. Of what is deformed they belong to the pixel. */
+mat3 s_to_rest;
+
+#if defined(HAS_REST) || defined(HAS_REST_POSITION)
+#define DEFORMED
+/* The linear map of a surface that takes two steps along it to two others, and its normal to the other's. */
+mat3 map_of_steps(vec3 right, vec3 up, vec3 rest_right, vec3 rest_up, mat3 otherwise)
+{
+    float size = max(length(right), length(up));
+    vec3 across = cross(right, up), rest_across = cross(rest_right, rest_up);
+    if (!(length(across) > 1e-5 * size * size) || !(length(rest_across) > 0.0))
+        return otherwise;
+    return mat3(rest_right / size, rest_up / size, normalize(rest_across)) * inverse(mat3(right / size, up / size, normalize(across)));
+}
+#endif
+
 /* One way of laying a plane on a surface. A position may have several; their weights add up to 1. */
 struct stroke_plane {
     vec2  at;      /* coordinates, x along strokes */
@@ -57,7 +73,7 @@ vec2 direction_on_page(surface_point p, vec3 rest_normal)
     vec3 turned = field * frame[0];
     vec2 doubled = vec2(dot(frame[0], turned), dot(frame[1], turned));
     float sure = length(doubled);
-    vec2 plain = on_page(p.eye, plain_tangent(rest_normal, u_upward, u_level) * turn_to_rest());
+    vec2 plain = on_page(p.eye, inverse(s_to_rest) * plain_tangent(rest_normal, u_upward, u_level));
     return sure > 0.0 ? on_page(p.eye, tangent_of(doubled / sure, frame)) * sure + plain * (0.03 * (1.0 - smoothstep(0.0, 0.08, sure))) : plain;
 #endif
 }
@@ -85,21 +101,64 @@ float direction_of(surface_point p, vec3 rest_normal)
 #endif
 }
 
+#ifdef HAS_REST
+/* Sets the position and the map of directions to those of a deformed surface at rest; returns its normal there. */
+vec3 deformed_at_rest(surface_point p, inout vec3 at, vec3 normal)
+{
+    at = v_rest;
+    s_to_rest = map_of_steps(dFdx(p.eye), dFdy(p.eye), dFdx(v_rest), dFdy(v_rest), s_to_rest);
+    return normalize(p.normal * inverse(s_to_rest));
+}
+#elif defined(HAS_REST_POSITION)
+/* A step along the surface to the nearer of two pixels beside, where it is the same part's: eye, and at rest. */
+void step_along(ivec2 pixel, ivec2 aside, float depth, uint part, vec3 eye, vec3 rest, out vec3 moved, out vec3 rest_moved)
+{
+    moved = rest_moved = vec3(0.0);
+    float nearest = 1e30;
+    for (int side = -1; side <= 1; side += 2) {
+        ivec2 beside = clamp(pixel + side * aside, ivec2(0), textureSize(t_normal_depth, 0) - 1);
+        float own = texelFetch(t_normal_depth, beside, 0).w, apart = abs(own - depth);
+        if (texelFetch(t_id, beside, 0).r != part || apart >= nearest || beside == pixel)
+            continue;
+        nearest = apart;
+        vec2 ndc = (2.0 * (vec2(beside) + 0.5) / u_size - 1.0) * u_unproject;
+        moved = float(side) * (vec3(ndc * (u_perspective > 0.5 ? own : 1.0), -own) - eye);
+        rest_moved = float(side) * (texelFetch(t_rest_position, beside, 0).xyz - rest);
+    }
+}
+
+vec3 deformed_at_rest(surface_point p, inout vec3 at, vec3 normal)
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 rest = texelFetch(t_rest_position, pixel, 0);
+    if (!(rest.w > 0.0))
+        return normal;
+    at = rest.xyz;
+    vec3 right, up, rest_right, rest_up;
+    step_along(pixel, ivec2(1, 0), -p.eye.z, p.part, p.eye, at, right, rest_right);
+    step_along(pixel, ivec2(0, 1), -p.eye.z, p.part, p.eye, at, up, rest_up);
+    s_to_rest = map_of_steps(right, up, rest_right, rest_up, s_to_rest);
+    return normalize(p.normal * inverse(s_to_rest));
+}
+#endif
+
 rest_position position_at_rest(surface_point p)
 {
     vec2 pixel = 2.0 * u_unproject / u_size;
     vec3 right = rate_of(p.eye, p.normal, vec3(pixel.x, 0.0, 0.0)), up = rate_of(p.eye, p.normal, vec3(0.0, pixel.y, 0.0));
 #ifdef SHADED_LATER
     part_frame part = frame_of_part(p.part);
-    mat3 world = mat3(u_world_from_eye);
-    vec3 normal = part.turn * (world * p.normal);
-    return rest_position(part.turn * (world * p.eye + u_world_from_eye[3].xyz) + part.shift, part.turn * (world * right), part.turn * (world * up), normal, part.upward,
-                      direction_of(p, normal));
+    vec3 at = part.turn * (mat3(u_world_from_eye) * p.eye + u_world_from_eye[3].xyz) + part.shift, upward = part.upward;
+    s_to_rest = part.turn * mat3(u_world_from_eye);
 #else
-    mat3 turn = turn_to_rest();
-    return rest_position(turn * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), turn * right, turn * up, turn * p.normal, u_upward,
-                      direction_of(p, turn * p.normal));
+    vec3 at = turn_to_rest() * p.eye + vec3(u_rest[0].w, u_rest[1].w, u_rest[2].w), upward = u_upward;
+    s_to_rest = turn_to_rest();
 #endif
+    vec3 normal = s_to_rest * p.normal;
+#ifdef DEFORMED
+    normal = deformed_at_rest(p, at, normal);
+#endif
+    return rest_position(at, s_to_rest * right, s_to_rest * up, normal, upward, direction_of(p, normal));
 }
 
 stroke_plane plane_along(rest_position r, vec3 along, vec3 across, float weight, uint key)
