@@ -134,6 +134,13 @@ typedef struct trace_options {
  * LMN_LIMIT. */
 lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error);
 
+/* --- on what moves (marks_carry.c) ---------------------------------------------------------------------- */
+
+/* Brings marks that were made on `before` to where the same triangles are `now`: dots stay at their fractions, pieces
+ * of strokes where they are in their triangle, joints closed. Priorities, densities and lengths along strokes stay
+ * those of `before`, so that no mark comes or goes because the surface bends. */
+void marks_carry(marks *m, const mark_surface *before, const mark_surface *now);
+
 /* --- polygons (marks_polygon.c) ------------------------------------------------------------------------- */
 
 enum { MARK_POLYGON_MAX = 6 };

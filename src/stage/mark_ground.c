@@ -194,3 +194,48 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
     }
     return status;
 }
+
+lmn_status mark_ground_move(mark_ground *now, marks *moved, const mark_ground *at_rest, const marks *made,
+                            const mark_ground_options *w, lmn_error *error)
+{
+    *moved = *made;
+    moved->line_capacity = made->line_count;
+    moved->dots = made->dots ? mem_copy(made->dots, made->dot_count * sizeof *made->dots) : NULL;
+    moved->lines = made->lines ? mem_copy(made->lines, made->line_count * sizeof *made->lines) : NULL;
+    bool       copied = (moved->dots || !made->dots) && (moved->lines || !made->lines);
+    lmn_status status = copied ? LMN_OK : error_memory(error);
+    memset(now, 0, sizeof *now);
+    if (status == LMN_OK)
+        status = mark_ground_create(now, w->pose, w->parts, w->part_count, w->crease_angle, error);
+    if (status == LMN_OK)
+        marks_carry(moved, &at_rest->surface, &now->surface);
+    return status;
+}
+
+static lmn_status move(mark_ground *g, marks *m, const mark_ground_options *w, lmn_error *error)
+{
+    mark_ground now;
+    marks       moved;
+    lmn_status  status = mark_ground_move(&now, &moved, g, m, w, error);
+    if (status == LMN_OK) {
+        mark_ground g_before = *g;
+        marks       m_before = *m;
+        *g = now;
+        *m = moved;
+        now = g_before;
+        moved = m_before;
+    }
+    mark_ground_release(&now);
+    surface_marks_release(&moved);
+    return status;
+}
+
+lmn_status mark_ground_posed(mark_ground *out, marks *marks_out, const mark_ground_options *w, lmn_error *error)
+{
+    const pose *first = w->pose->at_rest ? w->pose->at_rest : w->pose;
+    *marks_out = (marks){.dots = NULL};
+    lmn_status status = mark_ground_create(out, first, w->parts, w->part_count, w->crease_angle, error);
+    if (status == LMN_OK)
+        status = mark_ground_marks(marks_out, out, w->surface, error);
+    return status == LMN_OK && w->pose->at_rest ? move(out, marks_out, w, error) : status;
+}

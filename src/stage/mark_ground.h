@@ -30,6 +30,24 @@ void       mark_ground_release(mark_ground *g);
  * technique. */
 lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error);
 
+/* Of which parts, and which marks. */
+typedef struct mark_ground_options {
+    const pose          *pose;
+    const bool          *parts; /* NULL: all */
+    size_t               part_count;
+    double               crease_angle;
+    const technique_use *surface;
+} mark_ground_options;
+
+/* The ground and its marks in a pose. Marks are put there at rest, and stay where they are on their triangles whatever
+ * moves and bends them. Release both, also after an error. Errors: those of mark_ground_marks. */
+lmn_status mark_ground_posed(mark_ground *out, marks *marks_out, const mark_ground_options *options, lmn_error *error);
+
+/* The same, of a ground and marks that were made at rest and stay as they are: what is drawn does not hang on what was
+ * drawn before. Release both, also after an error. Errors: LMN_MEMORY. */
+lmn_status mark_ground_move(mark_ground *now, marks *moved, const mark_ground *at_rest, const marks *made,
+                            const mark_ground_options *options, lmn_error *error);
+
 /* What is drawn of them in a view, in pixels of a page of this size, for files of vectors: adds to `out`, with the
  * look's lights (no shadows) and the technique's ink. `surface` must have marks (technique->surface->marks), its
  * lengths in pixels of this page. `hidden` (may be NULL) gets positions in the world's axes: stroke_view_count. Needs

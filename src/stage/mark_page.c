@@ -49,10 +49,8 @@ lmn_status marks_on_page(marks_page *out, const mark_page_options *w, lmn_error 
     marks       made = {.dots = NULL};
     mark_style  style;
     surface_mark_style(&style, w->surface);
-    lmn_status status = mark_ground_create(&ground, w->pose, w->parts, w->part_count, w->crease_angle, error);
-    if (status != LMN_OK)
-        return status;
-    status = mark_ground_marks(&made, &ground, w->surface, error);
+    lmn_status status = mark_ground_posed(
+        &ground, &made, &(mark_ground_options){w->pose, w->parts, w->part_count, w->crease_angle, w->surface}, error);
     made.parts = ground.parts;
     if (status == LMN_OK) {
         mark_view view = view_of(w, ground.origin);

@@ -20,6 +20,12 @@ static void set_release(mark_set *s, gpu *g)
 {
     gpu_marks_destroy(g, &s->marks);
     mem_free(s->ranks);
+    if (s->made)
+        surface_marks_release(s->made);
+    if (s->ground)
+        mark_ground_release(s->ground);
+    mem_free(s->made);
+    mem_free(s->ground);
     *s = (mark_set){.key = 0};
 }
 
@@ -107,29 +113,83 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
     mem_free(order);
 }
 
+static mark_ground_options ground_options(const mark_set_options *w, const pose *pose)
+{
+    return (mark_ground_options){pose, w->parts, w->part_count, w->crease_angle, w->surface};
+}
+
+/* Puts marks on the GPU. */
+static void upload_set(gpu *g, const mark_set_options *w, mark_set *out, const mark_ground *ground, const marks *m)
+{
+    gpu_marks_destroy(g, &out->marks);
+    mem_free(out->ranks);
+    out->ranks = NULL;
+    memcpy(out->origin, ground->origin, sizeof out->origin);
+    out->when = w->pose->when;
+    out->count = m->dot_count ? m->dot_count : m->line_count;
+    if (m->dot_count) {
+        out->density = (double)m->dot_count / m->area;
+        out->marks = upload_dots(g, m, w->points);
+    } else if (m->line_count) {
+        upload_lines(g, m, out);
+    }
+}
+
+/* The set in the pose, from what it is at rest. */
+static void move_set(gpu *g, const mark_set_options *w, mark_set *s)
+{
+    mark_ground         now;
+    marks               moved;
+    lmn_error           error;
+    mark_ground_options options = ground_options(w, w->pose);
+    lmn_status          status = mark_ground_move(&now, &moved, s->ground, s->made, &options, &error);
+    if (status == LMN_OK)
+        upload_set(g, w, s, &now, &moved);
+    else
+        gpu_fail(g, status, "%s", error.message);
+    mark_ground_release(&now);
+    surface_marks_release(&moved);
+}
+
+/* Where nothing moves the CPU needs them no more. */
+static void drop_made(mark_set *s)
+{
+    surface_marks_release(s->made);
+    mark_ground_release(s->ground);
+    mem_free(s->made);
+    mem_free(s->ground);
+    s->made = NULL;
+    s->ground = NULL;
+}
+
 static void make_set(gpu *g, const mark_set_options *w, mark_set *out)
 {
-    mark_ground ground;
-    marks       made = {.dots = NULL};
-    lmn_error   error;
-    lmn_status  status = mark_ground_create(&ground, w->pose, w->parts, w->part_count, w->crease_angle, &error);
-    if (status == LMN_OK) {
-        status = mark_ground_marks(&made, &ground, w->surface, &error);
-        memcpy(out->origin, ground.origin, sizeof out->origin);
-        mark_ground_release(&ground);
-    }
-    if (status != LMN_OK) {
-        gpu_fail(g, status, "%s", error.message);
+    lmn_error           error;
+    mark_ground_options options = ground_options(w, w->pose->at_rest ? w->pose->at_rest : w->pose);
+    out->made = mem_calloc(1, sizeof *out->made);
+    out->ground = mem_calloc(1, sizeof *out->ground);
+    if (!out->made || !out->ground) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
         return;
     }
-    out->count = made.dot_count ? made.dot_count : made.line_count;
-    if (made.dot_count) {
-        out->density = (double)made.dot_count / made.area;
-        out->marks = upload_dots(g, &made, w->points);
-    } else if (made.line_count) {
-        upload_lines(g, &made, out);
+    lmn_status status = mark_ground_posed(out->ground, out->made, &options, &error);
+    if (status != LMN_OK) {
+        gpu_fail(g, status, "%s", error.message);
+    } else if (w->pose->at_rest) {
+        move_set(g, w, out);
+    } else {
+        upload_set(g, w, out, out->ground, out->made);
+        drop_made(out);
     }
-    surface_marks_release(&made);
+}
+
+/* Is it in the pose, or can it be brought there? */
+static bool bring_set(gpu *g, const mark_set_options *w, mark_set *s)
+{
+    bool there = moment_equal(&s->when, &w->pose->when), movable = s->made && w->pose->at_rest;
+    if (!there && movable)
+        move_set(g, w, s);
+    return there || movable;
 }
 
 mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *w)
@@ -143,9 +203,9 @@ mark_set *mark_sets_find(mark_sets **slot, gpu *g, const mark_set_options *w)
     mark_set  *oldest = &all->sets[0];
     for (size_t i = 0; i < SETS_MAX; i++) {
         mark_set *s = &all->sets[i];
-        if (s->used && s->key == key) {
-            s->used = ++all->clock;
-            return s;
+        if (s->used && s->key == key && bring_set(g, w, s)) {
+            s->used = gpu_failed(g) ? 0 : ++all->clock;
+            return gpu_failed(g) ? NULL : s;
         }
         if (s->used < oldest->used)
             oldest = s;

@@ -4,18 +4,22 @@
 #define LIMNER_STAGE_MARK_SETS_H
 
 #include "gpu/gpu.h"
+#include "marks/marks.h"
 #include "pose/pose.h"
 #include "technique/technique.h"
 
 /* The marks of one figure. */
 typedef struct mark_set {
-    uint64_t   key, used; /* of what they are made from; when they were drawn last */
-    gpu_marks *marks;     /* NULL: there are none */
-    double     origin[3];
-    double     density; /* dots to a unit of area; strokes: the least length of them to one */
-    float     *ranks;   /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
-    size_t     count;
-    bool       lines;
+    uint64_t            key, used; /* of what they are made from; when they were drawn last */
+    gpu_marks          *marks;     /* NULL: there are none */
+    double              origin[3];
+    double              density; /* dots to a unit of area; strokes: the least length of them to one */
+    float              *ranks;   /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
+    size_t              count;
+    bool                lines;
+    moment              when; /* of the pose that they are in */
+    marks              *made; /* as they are at rest, on `ground`, of scenes that move; NULL: it does not */
+    struct mark_ground *ground;
 } mark_set;
 
 typedef struct mark_sets mark_sets;

@@ -155,6 +155,10 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->textures[i] = earlier->textures[i];
         earlier->textures[i] = NULL;
     }
+    if (u->revision == earlier->revision && u->has_removed == earlier->has_removed) {
+        u->marks = earlier->marks; /* these know which pose they are in */
+        earlier->marks = NULL;
+    }
     for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when); i++) {
         u->posed[i] = earlier->posed[i];
         earlier->posed[i] = (upload_mesh){.primitives = NULL};
