@@ -1,0 +1,319 @@
+/* Pictures of scenes at times. A posed scene is drawn as if it had been modelled so; what is tied to the model goes
+ * with it, also where joints move it; and a picture does not hang on what was drawn before. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "limner/limner.h"
+#include "pose/animate.h"
+#include "pose/pose.h"
+#include "scene/mesh.h"
+
+enum { SIDE = 160 };
+
+static lmn_error error;
+
+static void check(lmn_status status, const char *what)
+{
+    if (status != LMN_OK)
+        fail_msg("%s: %s (%s)", what, error.message, error.hint);
+}
+
+#define DO(call) check(call, #call)
+
+typedef struct picture {
+    uint8_t pixels[SIDE * SIDE * 4];
+} picture;
+
+/* Normals where a model has none: those that are made when it is drawn belong to how it is at rest. */
+static void add_normals(primitive *q)
+{
+    q->normals = mem_calloc(q->vertex_count, sizeof *q->normals);
+    for (uint32_t i = 0; i < q->index_count; i += 3) {
+        vec3  a = q->positions[q->indices[i]], b = q->positions[q->indices[i + 1]], c = q->positions[q->indices[i + 2]];
+        float u[3] = {b.x - a.x, b.y - a.y, b.z - a.z}, v[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
+        for (int k = 0; k < 3; k++) {
+            vec3 *n = &q->normals[q->indices[i + (uint32_t)k]];
+            n->x += u[1] * v[2] - u[2] * v[1];
+            n->y += u[2] * v[0] - u[0] * v[2];
+            n->z += u[0] * v[1] - u[1] * v[0];
+        }
+    }
+    for (uint32_t i = 0; i < q->vertex_count; i++) {
+        vec3 *n = &q->normals[i];
+        float length = sqrtf(n->x * n->x + n->y * n->y + n->z * n->z);
+        *n = length > 0 ? (vec3){n->x / length, n->y / length, n->z / length} : (vec3){0, 1, 0};
+    }
+}
+
+static lmn_scene *load(const char *name)
+{
+    char       path[512];
+    lmn_scene *s = NULL;
+    snprintf(path, sizeof path, EXAMPLES "/%s.glb", name);
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, path, NULL, &error));
+    for (size_t i = 0; i < s->mesh_count; i++)
+        for (size_t k = 0; k < s->meshes[i].primitive_count; k++)
+            if (!s->meshes[i].primitives[k].normals)
+                add_normals(&s->meshes[i].primitives[k]);
+    return s;
+}
+
+static void draw(picture *out, lmn_renderer *renderer, const lmn_scene *s, const char *look_name,
+                 const char *const (*settings)[2], const lmn_draw_desc *wanted)
+{
+    lmn_draw_desc desc = *wanted;
+    lmn_drawing  *drawing = NULL;
+    lmn_look     *look = NULL;
+    DO(lmn_look_load(&look, look_name, &error));
+    for (size_t i = 0; settings && settings[i][0]; i++)
+        DO(lmn_look_set(look, settings[i][0], settings[i][1], &error));
+    desc.width = desc.height = SIDE;
+    DO(lmn_draw(&drawing, renderer, s, look, &desc, &error));
+    memcpy(out->pixels, lmn_drawing_pixels(drawing, NULL, NULL), sizeof out->pixels);
+    lmn_drawing_destroy(&drawing);
+    lmn_look_destroy(&look);
+}
+
+/* Pixels that differ by more than this much in a channel. */
+static int difference(const picture *a, const picture *b, int tolerance)
+{
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        int most = 0;
+        for (int k = 0; k < 4; k++) {
+            int off = abs(a->pixels[4 * i + k] - b->pixels[4 * i + k]);
+            most = off > most ? off : most;
+        }
+        count += most > tolerance;
+    }
+    return count;
+}
+
+static int covered(const picture *p)
+{
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        count += memcmp(&p->pixels[4 * i], p->pixels, 4) != 0;
+    return count;
+}
+
+static int set_up(void **state)
+{
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    return lmn_renderer_create((lmn_renderer **)state, &desc, &error) != LMN_OK;
+}
+
+static int tear_down(void **state)
+{
+    lmn_renderer_destroy((lmn_renderer **)state);
+    return 0;
+}
+
+/* --- as if it had been modelled so ---------------------------------------------------------------------- */
+
+/* Writes vertices where joints and morphs put them, and takes these away. Nodes above skinned ones must be at the
+ * origin. */
+static void bake_mesh(lmn_scene *s, const pose *p, size_t part_index)
+{
+    node            *n = &s->nodes[s->parts[part_index].node];
+    mesh            *m = &s->meshes[n->mesh];
+    const part_pose *pose = &p->parts[part_index];
+    for (size_t k = 0; k < m->primitive_count; k++) {
+        primitive *q = &m->primitives[k];
+        vec3      *positions = malloc(q->vertex_count * sizeof *positions),
+             *normals = malloc(q->vertex_count * sizeof *normals);
+        mesh_pose(q, pose->weights, pose->weight_count, pose->joints, pose->joint_count, q->normals, NULL,
+                  q->vertex_count, positions, normals);
+        memcpy(q->positions, positions, q->vertex_count * sizeof *positions);
+        if (q->normals)
+            memcpy(q->normals, normals, q->vertex_count * sizeof *normals);
+        q->bounds = box3_empty();
+        for (uint32_t i = 0; i < q->vertex_count; i++)
+            q->bounds = box3_with_point(q->bounds, positions[i]);
+        for (size_t i = 0; i < q->morph_count; i++) {
+            mem_free(q->morphs[i].positions);
+            mem_free(q->morphs[i].normals);
+            q->morphs[i] = (morph_target){NULL, NULL};
+        }
+        q->morph_count = 0;
+        free(positions);
+        free(normals);
+    }
+    if (n->skin != NONE) {
+        n->skin = NONE;
+        n->has_matrix = true;
+        n->matrix = mat4_identity();
+    }
+}
+
+/* The scene as it is at a moment, without anything that moves. */
+static lmn_scene *bake(const char *name, const moment *when)
+{
+    lmn_scene     *s = load(name);
+    pose           p;
+    animated_state moved;
+    DO(pose_create(&p, s, when, &error));
+    DO(animate(&moved, s, when, &error));
+    for (size_t i = 0; i < s->node_count; i++) {
+        s->nodes[i].has_matrix = true;
+        s->nodes[i].matrix = moved.locals[i];
+    }
+    for (size_t i = 0; i < s->part_count; i++) {
+        s->parts[i].bounds = p.part_boxes[i];
+        bake_mesh(s, &p, i);
+    }
+    pose_release(&p);
+    animated_state_release(&moved);
+    s->revision = scene_next_revision();
+    return s;
+}
+
+static void poses_are_drawn_as_models(void **state)
+{
+    static const struct {
+        const char *name, *clip;
+        double      seconds;
+    } models[] = {{"fox", "Run", 0.31}, {"box-animated", NULL, 1.9}, {"morph-cube", NULL, 0.7}};
+    static const char *const looks[] = {"edges", "toon", "technical", "xray", "comic", "line"};
+    for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
+        lmn_scene *s = load(models[m].name);
+        moment     when;
+        DO(moment_find(&when, s, models[m].clip, models[m].seconds, NULL, &error));
+        lmn_scene *model = bake(models[m].name, &when);
+        for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
+            picture       moving, still, rest;
+            lmn_draw_desc desc = LMN_DRAW_DESC_INIT, at = desc;
+            at.clip = models[m].clip;
+            at.time_given = true;
+            at.time_s = models[m].seconds;
+            draw(&moving, *state, s, looks[l], NULL, &at);
+            draw(&still, *state, model, looks[l], NULL, &desc);
+            draw(&rest, *state, s, looks[l], NULL, &desc);
+            int off = difference(&moving, &still, 8), ink = covered(&still);
+            if (off > ink / 100 || ink < SIDE || difference(&moving, &rest, 8) < ink / 20)
+                fail_msg("%s, %s: %d pixels differ from the model, %d of %d from rest", models[m].name, looks[l], off,
+                         difference(&moving, &rest, 8), ink);
+        }
+        lmn_scene_destroy(&s);
+        lmn_scene_destroy(&model);
+    }
+}
+
+/* --- what is tied to the model -------------------------------------------------------------------------- */
+
+/* A clip that does nothing but move everything that hangs on a skin's joints by `by` in the world; nodes above them
+ * are at the origin. */
+static void add_shift(lmn_scene *s, const float by[3])
+{
+    animation *a = scene_append_animation(s);
+    assert_non_null(a);
+    const skin *k = &s->skins[0];
+    a->channels = mem_calloc(k->joint_count, sizeof *a->channels);
+    a->name = mem_copy_text("shift");
+    a->duration = 1;
+    for (size_t i = 0; i < k->joint_count; i++) {
+        const node *n = &s->nodes[k->joints[i]];
+        bool        below = false;
+        for (size_t other = 0; other < k->joint_count; other++)
+            below = below || n->parent == k->joints[other];
+        if (below)
+            continue;
+        animation_channel *c = &a->channels[a->channel_count++];
+        *c = (animation_channel){.target = k->joints[i],
+                                 .path = PATH_TRANSLATION,
+                                 .interpolation = INTERPOLATION_STEP,
+                                 .key_count = 1,
+                                 .components = 3,
+                                 .times = mem_calloc(1, sizeof(float)),
+                                 .values = mem_calloc(3, sizeof(float))};
+        for (int r = 0; r < 3; r++)
+            c->values[r] = (float)n->translation[r] + by[r];
+    }
+    s->revision = scene_next_revision();
+}
+
+static void strokes_go_with_joints(void **state)
+{
+    static const char *const none[][2] = {{NULL, NULL}};
+    static const char *const planes[][2] = {{"surface.coordinates", "triplanar"}, {NULL, NULL}};
+    static const char *const curvature[][2] = {{"surface.coordinates", "curvature"}, {NULL, NULL}};
+    static const char *const later[][2] = {{"layers.technique", "front"}, {"layers.shading", "deferred"}, {NULL, NULL}};
+    static const struct {
+        const char *look;
+        const char *const (*settings)[2];
+        double most; /* of pixels that are drawn, which differ */
+    } rows[] = {{"hatch", none, 0.01},     {"hatch", planes, 0.01}, {"hatch", curvature, 0.02},
+                {"engraving", none, 0.01}, {"hatch", later, 0.06},  {"stipple", none, 0.02},
+                {"quill", none, 0.02},     {"sketch", none, 0.02},  {"halftone", planes, 0.02}};
+    /* A multiple of powers of two, so that rounding does not turn pixels over. */
+    const float by[3] = {64, -32, 48};
+    lmn_scene  *s = load("fox");
+    add_shift(s, by);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        picture       moved, still;
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        desc.eye_given = true;
+        for (int k = 0; k < 3; k++) {
+            desc.eye[k] = (double[]){260, 140, 210}[k];
+            desc.target[k] = (double[]){0, 40, 0}[k];
+            desc.up[k] = k == 1;
+        }
+        draw(&still, *state, s, rows[i].look, rows[i].settings, &desc);
+        for (int k = 0; k < 3; k++) {
+            desc.eye[k] += (double)by[k];
+            desc.target[k] += (double)by[k];
+        }
+        desc.clip = "shift";
+        draw(&moved, *state, s, rows[i].look, rows[i].settings, &desc);
+        int off = difference(&moved, &still, 64), ink = covered(&still);
+        if (off > rows[i].most * ink || ink < 4 * SIDE)
+            fail_msg("%s, row %zu: %d of %d pixels differ", rows[i].look, i, off, ink);
+    }
+    lmn_scene_destroy(&s);
+}
+
+/* --- one picture, whatever was drawn before ------------------------------------------------------------- */
+
+static void pictures_do_not_hang_on_earlier_ones(void **state)
+{
+    static const char *const looks[] = {"edges", "hatch", "stipple", "quill", "sketch", "line", "xray"};
+    lmn_scene               *s = load("fox");
+    lmn_renderer_desc        fresh = LMN_RENDERER_DESC_INIT;
+    for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
+        picture       after, alone;
+        lmn_renderer *other = NULL;
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        desc.clip = "Walk";
+        desc.fit_time = true;
+        for (int k = 0; k < 3; k++) {
+            desc.time_s = 0.1 + 0.17 * k;
+            draw(&after, *state, s, looks[l], NULL, &desc);
+        }
+        DO(lmn_renderer_create(&other, &fresh, &error));
+        draw(&alone, other, s, looks[l], NULL, &desc);
+        lmn_renderer_destroy(&other);
+        if (memcmp(&after, &alone, sizeof after) != 0)
+            fail_msg("%s: %d pixels differ", looks[l], difference(&after, &alone, 0));
+    }
+    lmn_scene_destroy(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(poses_are_drawn_as_models, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(strokes_go_with_joints, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(pictures_do_not_hang_on_earlier_ones, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
