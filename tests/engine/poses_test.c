@@ -211,15 +211,39 @@ static void poses_are_drawn_as_models(void **state)
 
 /* --- what is tied to the model -------------------------------------------------------------------------- */
 
-/* A clip that does nothing but move everything that hangs on a skin's joints by `by` in the world; nodes above them
- * are at the origin. */
-static void add_shift(lmn_scene *s, const float by[3])
+/* A quarter turn about the y axis, and then on by `shift`. Multiples of powers of two, so that rounding does not turn
+ * pixels over. */
+static const double shift[3] = {64, -32, 48};
+
+static void turned(const double p[3], double out[3])
 {
-    animation *a = scene_append_animation(s);
-    assert_non_null(a);
+    out[0] = p[2] + shift[0];
+    out[1] = p[1] + shift[1];
+    out[2] = -p[0] + shift[2];
+}
+
+static void set_channel(animation_channel *c, int32_t target, animation_path path, const double *values, size_t count)
+{
+    *c = (animation_channel){.target = target,
+                             .path = path,
+                             .interpolation = INTERPOLATION_STEP,
+                             .key_count = 1,
+                             .components = count,
+                             .times = mem_calloc(1, sizeof(float)),
+                             .values = mem_calloc(count, sizeof(float))};
+    for (size_t i = 0; i < count; i++)
+        c->values[i] = (float)values[i];
+}
+
+/* A clip that does nothing but turn and shift everything that hangs on a skin's joints; nodes above them are at the
+ * origin. */
+static void add_move(lmn_scene *s)
+{
+    animation  *a = scene_append_animation(s);
     const skin *k = &s->skins[0];
-    a->channels = mem_calloc(k->joint_count, sizeof *a->channels);
-    a->name = mem_copy_text("shift");
+    assert_non_null(a);
+    a->channels = mem_calloc(2 * k->joint_count, sizeof *a->channels);
+    a->name = mem_copy_text("move");
     a->duration = 1;
     for (size_t i = 0; i < k->joint_count; i++) {
         const node *n = &s->nodes[k->joints[i]];
@@ -228,16 +252,11 @@ static void add_shift(lmn_scene *s, const float by[3])
             below = below || n->parent == k->joints[other];
         if (below)
             continue;
-        animation_channel *c = &a->channels[a->channel_count++];
-        *c = (animation_channel){.target = k->joints[i],
-                                 .path = PATH_TRANSLATION,
-                                 .interpolation = INTERPOLATION_STEP,
-                                 .key_count = 1,
-                                 .components = 3,
-                                 .times = mem_calloc(1, sizeof(float)),
-                                 .values = mem_calloc(3, sizeof(float))};
-        for (int r = 0; r < 3; r++)
-            c->values[r] = (float)n->translation[r] + by[r];
+        const double *q = n->rotation, h = sqrt(0.5);
+        double        at[3], rotation[4] = {h * (q[0] + q[2]), h * (q[1] + q[3]), h * (q[2] - q[0]), h * (q[3] - q[1])};
+        turned(n->translation, at);
+        set_channel(&a->channels[a->channel_count++], k->joints[i], PATH_TRANSLATION, at, 3);
+        set_channel(&a->channels[a->channel_count++], k->joints[i], PATH_ROTATION, rotation, 4);
     }
     s->revision = scene_next_revision();
 }
@@ -247,6 +266,7 @@ static void strokes_go_with_joints(void **state)
     static const char *const none[][2] = {{NULL, NULL}};
     static const char *const planes[][2] = {{"surface.coordinates", "triplanar"}, {NULL, NULL}};
     static const char *const curvature[][2] = {{"surface.coordinates", "curvature"}, {NULL, NULL}};
+    static const char *const lapped[][2] = {{"surface.coordinates", "lapped"}, {NULL, NULL}};
     static const char *const later[][2] = {{"layers.technique", "front"}, {"layers.shading", "deferred"}, {NULL, NULL}};
     static const struct {
         const char *look;
@@ -254,26 +274,22 @@ static void strokes_go_with_joints(void **state)
         double most; /* of pixels that are drawn, which differ */
     } rows[] = {{"hatch", none, 0.01},     {"hatch", planes, 0.01}, {"hatch", curvature, 0.02},
                 {"engraving", none, 0.01}, {"hatch", later, 0.06},  {"stipple", none, 0.02},
-                {"quill", none, 0.02},     {"sketch", none, 0.02},  {"halftone", planes, 0.02}};
-    /* A multiple of powers of two, so that rounding does not turn pixels over. */
-    const float by[3] = {64, -32, 48};
-    lmn_scene  *s = load("fox");
-    add_shift(s, by);
+                {"quill", none, 0.02},     {"sketch", none, 0.02},  {"halftone", planes, 0.02},
+                {"hatch", lapped, 0.02},   {"pencil", none, 0.03}};
+    lmn_scene *s = load("fox");
+    add_move(s);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         picture       moved, still;
         lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
         desc.eye_given = true;
-        for (int k = 0; k < 3; k++) {
-            desc.eye[k] = (double[]){260, 140, 210}[k];
-            desc.target[k] = (double[]){0, 40, 0}[k];
-            desc.up[k] = k == 1;
-        }
+        const double eye[3] = {260, 140, 210}, target[3] = {0, 40, 0};
+        memcpy(desc.eye, eye, sizeof eye);
+        memcpy(desc.target, target, sizeof target);
+        desc.up[1] = 1;
         draw(&still, *state, s, rows[i].look, rows[i].settings, &desc);
-        for (int k = 0; k < 3; k++) {
-            desc.eye[k] += (double)by[k];
-            desc.target[k] += (double)by[k];
-        }
-        desc.clip = "shift";
+        turned(eye, desc.eye);
+        turned(target, desc.target);
+        desc.clip = "move";
         draw(&moved, *state, s, rows[i].look, rows[i].settings, &desc);
         int off = difference(&moved, &still, 64), ink = covered(&still);
         if (off > rows[i].most * ink || ink < 4 * SIDE)

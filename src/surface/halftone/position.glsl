@@ -292,7 +292,7 @@ stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
     mat3 field = mat3(v_field_diagonal.x, v_field_sides.x, v_field_sides.z, v_field_sides.x, v_field_diagonal.y, v_field_sides.y,
                       v_field_sides.z, v_field_sides.y, v_field_diagonal.z);
-    mat3 rest = turn_to_rest();
+    mat3 rest = s_to_rest;
     field = rest * field * transpose(rest);
     float best = -1e9, next = -1e9;
     int direction = 0, second = 0;
