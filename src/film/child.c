@@ -288,7 +288,11 @@ lmn_status child_end(child *c, lmn_error *error)
     lmn_status status = wait_for_end(c, error);
     if (status != LMN_OK)
         return status;
-    return !c->lost && WIFEXITED(c->result) && WEXITSTATUS(c->result) == 0 ? LMN_OK : explain(c, error);
+    /* ffmpeg 5 is content when the disk is full at the last moment, and says so. */
+    c->said[c->said_size] = '\0';
+    return !strstr(c->said, "Error ") && !c->lost && WIFEXITED(c->result) && WEXITSTATUS(c->result) == 0
+               ? LMN_OK
+               : explain(c, error);
 }
 
 void child_kill(child **handle)
