@@ -301,9 +301,7 @@ void child_kill(child **handle)
     if (!c)
         return;
     if (c->id > 0)
-        kill(-c->id, SIGKILL);
-    if (c->id > 0)
-        kill(c->id, SIGKILL);
+        kill(-c->id, SIGKILL); /* and what it has started itself */
     is_gone(c, true);
     close_end(&c->input);
     close_end(&c->messages);

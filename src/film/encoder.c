@@ -17,8 +17,11 @@ static const char program_name[] = "ffmpeg";
 
 /* --- formats -------------------------------------------------------------------------------------------- */
 
-/* Drawings are sRGB, films BT.709: the same primaries, and players take either transfer for the other. */
-#define TO_BT709     "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+full_chroma_int,format="
+/* Drawings are sRGB, films BT.709: the same primaries, and players take either transfer for the other. Without the
+ * last flag the last column of an odd width gets half of its colour. */
+#define TO_BT709                                                                                                       \
+    "scale=in_range=full:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+full_chroma_int+full_chroma_inp,"      \
+    "format="
 #define TAGGED_BT709 "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
 
 const char *const *encoder_of_mp4(const film *f)
