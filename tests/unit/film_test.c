@@ -101,8 +101,9 @@ static void paint(uint8_t *rgba, int width, int height, int frame, uint8_t opaci
         for (int x = 0; x < width; x++) {
             uint8_t *p = rgba + 4 * ((size_t)y * (size_t)width + (size_t)x);
             bool     inside = x >= left && x < left + 8 && y >= 6 && y < 14;
+            int      green = inside ? 30 : 240 - x / 4 * 12;
             p[0] = inside ? 200 : (uint8_t)(255 - 2 * y);
-            p[1] = inside ? 30 : (uint8_t)(240 - x / 4 * 12);
+            p[1] = (uint8_t)green;
             p[2] = inside ? 60 : (uint8_t)(200 + y);
             p[3] = inside ? 255 : opacity;
         }
