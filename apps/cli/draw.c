@@ -597,7 +597,7 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
     if (done != LMN_OK)
         return message_error(&error);
     if (s->values->verbose)
-        message_note("%s: drawn in %.0f ms", input, now_ms() - start);
+        message_note("%s: %s%sdrawn in %.0f ms", input, s->run.label, s->frames.given ? ": " : "", now_ms() - start);
     if (!s->values->quiet)
         print_warnings(s, &drawn);
     int status = store_result(s, &drawn, input, frame, load_ms);

@@ -19,7 +19,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-enum { WAIT_MS = 20, PIECE_MOST = 1 << 26, PIPE_PIECE_MOST = 4096, LINKS_MOST = 40, TRIES = 100 };
+enum { WAIT_MS = 20, PIECE_MOST = 1 << 26, PIPE_PIECE_MOST = 4096, LINKS_MOST = 40, TRIES = 100, COPY_PIECE = 1 << 16 };
 
 /* Asked between waits, so each time. */
 static bool is_stopped(void)
@@ -422,7 +422,7 @@ static int open_arrival(arrival *a)
     char   unnamed[48];
     mode_t mode = a->mode;
     a->mode |= S_IRUSR | S_IWUSR;
-    a->descriptor = openat(a->folder, ".", O_WRONLY | O_TMPFILE | O_CLOEXEC, a->mode);
+    a->descriptor = openat(a->folder, ".", O_RDWR | O_TMPFILE | O_CLOEXEC, a->mode);
     snprintf(unnamed, sizeof unnamed, "/proc/self/fd/%d", a->descriptor);
     if (a->descriptor >= 0 && access(unnamed, F_OK) != 0) {
         close(a->descriptor);
@@ -479,6 +479,46 @@ lmn_status file_arrival_write(file_arrival *a, const void *data, size_t size, lm
     return report(error, a->given, write_all(a->at.descriptor, data, size));
 }
 
+static int copy_all(int from, int to)
+{
+    unsigned char *piece = mem_alloc(COPY_PIECE);
+    int            problem = piece ? 0 : ENOMEM;
+    for (off_t at = 0; !problem;) {
+        ssize_t got = pread(from, piece, COPY_PIECE, at);
+        if (got == 0)
+            break;
+        if (got < 0 && errno == EINTR)
+            continue;
+        problem = got < 0 ? errno : write_all(to, piece, (size_t)got);
+        at += got;
+    }
+    mem_free(piece);
+    return problem;
+}
+
+/* Not every file system that has files without a name gives them one. */
+static int name_copy(arrival *a)
+{
+    int unnamed = a->descriptor, problem = open_beside(a);
+    if (problem) {
+        a->descriptor = unnamed;
+        return problem;
+    }
+    problem = copy_all(unnamed, a->descriptor);
+    close(unnamed);
+    if (!problem)
+        problem = fill(a, "", 0);
+    return problem ? problem : rename_beside(a);
+}
+
+static int name_arrival(arrival *a)
+{
+    if (a->beside[0])
+        return rename_beside(a);
+    int problem = name_unnamed(a);
+    return problem && !a->beside[0] ? name_copy(a) : problem;
+}
+
 lmn_status file_arrival_end(file_arrival **handle, uint64_t *bytes, lmn_error *error)
 {
     file_arrival *a = *handle;
@@ -487,7 +527,7 @@ lmn_status file_arrival_end(file_arrival **handle, uint64_t *bytes, lmn_error *e
     if (!problem && fstat(a->at.descriptor, &facts) == 0 && bytes)
         *bytes = (uint64_t)facts.st_size;
     if (!problem)
-        problem = a->at.beside[0] ? rename_beside(&a->at) : name_unnamed(&a->at);
+        problem = name_arrival(&a->at);
     if (!problem)
         sync_file(a->at.folder);
     lmn_status status = report(error, a->given, problem);

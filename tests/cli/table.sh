@@ -740,6 +740,7 @@ group_films() {
     row 0 '' 'x.tmp' draw "${moving[@]}" "${frames[@]}" --format webp -o x.tmp
     row 0 '' 'box.webp gearbox.webp' draw "${moving[@]}" "$box" --frames 0:1:24 -o '{name}.webp'
     row 0 '' 'r-0000.json r-0001.json x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp --report 'r-{frame}.json'; documented r-0001.json report.md
+    row 0 "^limner: $gear: frame 2 of 2, [0-9]+ s left: drawn in [0-9]+ ms" 'x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp -v
     row 0 'wrote x.webp \([0-9]+ bytes\)' 'x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp -v
     row 1 "^limner: $gear: the model has no animation" '' draw "$gear" $small --frames 0:1:24 -o x.webp
     # What is warned of is warned of once.

@@ -368,6 +368,20 @@ static void programs_that_die_are_quoted(void **state)
     }
 }
 
+static void programs_that_do_not_start_are_told(void **state)
+{
+    lmn_error error = {0};
+    (void)state;
+    pretend("exit 0");
+    FILE *file = fopen(in_folder("bin/ffmpeg"), "w");
+    assert_non_null(file);
+    fputs("#!/nosuch/interpreter\n", file);
+    fclose(file);
+    assert_int_equal(make_large(&error), LMN_WRITE);
+    assert_non_null(strstr(error.message, "cannot be started: No such file"));
+    assert_names(0);
+}
+
 static void a_missing_encoder_is_told(void **state)
 {
     lmn_error error = {0};
@@ -698,6 +712,7 @@ int main(void)
         CASE(same_frames_same_bytes),
         CASE(one_pixel_is_a_film),
         CASE(programs_that_die_are_quoted),
+        CASE(programs_that_do_not_start_are_told),
         CASE(a_missing_encoder_is_told),
         CASE(a_missing_program_is_told),
         CASE(folders_are_no_programs),
