@@ -13,13 +13,12 @@ typedef struct lmn_film lmn_film;
 
 /* What is to be filmed. Initialise with LMN_FILM_DESC_INIT. */
 typedef struct lmn_film_desc {
-    size_t struct_size;
-    int    width, height; /* of each frame, pixels; 1 … 16384 */
-    double rate;          /* frames a second, 0.001 … what the format has */
-    uint32_t
-        frame_count; /* how many there will be at most; 0: not known, and then a GIF has colours of each frame's own */
-    const char     *format;   /* ".mp4", with or without the dot; NULL: the path's ending */
-    lmn_progress_fn progress; /* asked in all calls whether to go on; NULL: never cancels */
+    size_t          struct_size;
+    int             width, height; /* of each frame, pixels; 1 … 16384 */
+    double          rate;          /* frames a second, 0.001 … what the format has */
+    uint32_t        frame_count;   /* at most; 0: not known, and then each frame of a GIF has a palette of its own */
+    const char     *format;        /* ".mp4", with or without the dot; NULL: the path's ending */
+    lmn_progress_fn progress;      /* asked in all calls whether to go on; NULL: never cancels */
     void           *progress_user;
 } lmn_film_desc;
 #define LMN_FILM_DESC_INIT                                                                                             \
@@ -42,8 +41,8 @@ LMN_API bool lmn_film_format_at(size_t index, lmn_film_format_info *out);
  * to do before. Errors: LMN_USAGE (desc, format, size, rate), LMN_UNSUPPORTED (what makes the format is not here). */
 LMN_API lmn_status lmn_film_check(const char *path, const lmn_film_desc *desc, lmn_error *error);
 
-/* Begins a film. End it with lmn_film_close, or lmn_film_destroy to leave nothing of it. Errors: those of
- * lmn_film_check, LMN_WRITE (a folder that is missing, a pipe), LMN_MEMORY, LMN_CANCELLED. */
+/* Begins a film; one thread at a time uses it. End it with lmn_film_close, or lmn_film_destroy to leave nothing of it.
+ * Errors: those of lmn_film_check, LMN_WRITE (a folder that is missing, a pipe), LMN_MEMORY, LMN_CANCELLED. */
 LMN_API lmn_status lmn_film_open(lmn_film **out, const char *path, const lmn_film_desc *desc, lmn_error *error);
 
 /* Adds a frame of the film's size: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, as lmn_drawing_pixels has it.

@@ -762,6 +762,14 @@ group_films() {
     row 0 '' 'r-0003.json r-0004.json' draw "${moving[@]}" --frames 3:4:24 -o 'in-f-{frame}.png' --report 'r-{frame}.json' --resume
     row 0 '' 'gearboxr-0003.json' draw "${moving[@]}" --frames 3:3:24 -o 'in-f-{frame}.png' --report '{name}r-{frame}.json' --resume
     films_interrupted
+    # On a terminal the bar is that of all frames.
+    row="draw frames on a terminal" rows=$((rows + 1))
+    if command -v script > /dev/null; then
+        script -qec "'$limner' draw '$gear' --look sketch --set perturb.boil=24 --size 65x49 --frames 3:8:24 -o x.webp" /dev/null < /dev/null | tr '\r' '\n' > .stderr
+        grep -q 'frame 1 of 6 ' .stderr || complain "the first frame is not told"
+        grep -Eq ' [5-9][0-9]% frame [4-6] of 6, [0-9]+ s left ' .stderr || complain "the time that is left is not told"
+        [ -s x.webp ] || complain "there is no film"
+    fi
     command -v ffprobe > /dev/null || { echo 'ffmpeg is not installed: films are not read back'; return; }
     # Read back: frames, rate, size, and what is on them.
     for ending in mp4 webm gif; do

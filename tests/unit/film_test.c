@@ -119,15 +119,14 @@ static lmn_film_desc desc_of(int width, int height)
     return d;
 }
 
-static lmn_status make(const char *path, int width, int height, uint8_t opacity, int *warnings, lmn_error *error)
+static lmn_status make_film(const char *path, const lmn_film_desc *d, uint8_t opacity, int *warnings, lmn_error *error)
 {
-    lmn_film     *film = NULL;
-    lmn_film_desc d = desc_of(width, height);
-    uint8_t      *rgba = malloc((size_t)width * (size_t)height * 4);
+    lmn_film *film = NULL;
+    uint8_t  *rgba = malloc((size_t)d->width * (size_t)d->height * 4);
     assert_non_null(rgba);
-    lmn_status status = lmn_film_open(&film, path, &d, error);
+    lmn_status status = lmn_film_open(&film, path, d, error);
     for (int i = 0; i < FRAMES && status == LMN_OK; i++) {
-        paint(rgba, width, height, i, opacity);
+        paint(rgba, d->width, d->height, i, opacity);
         status = lmn_film_add(film, rgba, error);
     }
     if (warnings)
@@ -137,6 +136,12 @@ static lmn_status make(const char *path, int width, int height, uint8_t opacity,
     lmn_film_destroy(&film);
     free(rgba);
     return status;
+}
+
+static lmn_status make(const char *path, int width, int height, uint8_t opacity, int *warnings, lmn_error *error)
+{
+    lmn_film_desc d = desc_of(width, height);
+    return make_film(path, &d, opacity, warnings, error);
 }
 
 /* --- WebP ----------------------------------------------------------------------------------------------- */
@@ -270,6 +275,14 @@ static void gif_is_exact_in_few_colours(void **state)
         skip();
     assert_int_equal(make(in_folder("x.gif"), WIDTH, HEIGHT, 255, NULL, &error), LMN_OK);
     assert_true(difference("x.gif", "", WIDTH, HEIGHT, 255, true) < 1.0);
+    lmn_film_desc d = desc_of(WIDTH, HEIGHT);
+    d.frame_count = 0; /* a palette a frame */
+    assert_int_equal(make_film(in_folder("y.gif"), &d, 255, NULL, &error), LMN_OK);
+    assert_true(difference("y.gif", "", WIDTH, HEIGHT, 255, true) < 1.0);
+    struct stat one, each;
+    assert_int_equal(stat(in_folder("x.gif"), &one), 0);
+    assert_int_equal(stat(in_folder("y.gif"), &each), 0);
+    assert_true(each.st_size > one.st_size);
 }
 
 static void opacity_is_kept_or_laid_on_white(void **state)
