@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg pose cut field stroke_texture light halftone marks stroke import export layer lines surface perturb compose finish look plan stage solids frame vector draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg pose cut field stroke_texture light halftone marks stroke import export film layer lines surface perturb compose finish look plan stage solids frame vector draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 
@@ -21,6 +21,10 @@ foreach(folder IN LISTS LIMNER_FOLDERS)
     if(folder STREQUAL fence AND SECCOMP_FOUND)
       target_compile_definitions(limner_${folder} PRIVATE LIMNER_HAVE_SECCOMP)
       target_link_libraries(limner_${folder} PRIVATE PkgConfig::SECCOMP)
+    endif()
+    if(folder STREQUAL film AND WEBPMUX_FOUND)
+      target_compile_definitions(limner_${folder} PRIVATE LIMNER_HAVE_WEBPMUX)
+      target_link_libraries(limner_${folder} PRIVATE PkgConfig::WEBPMUX)
     endif()
     # Only what writes PDF sees the libraries for it.
     if(folder STREQUAL export)
@@ -64,7 +68,10 @@ list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_embedded>)
 if(SECCOMP_FOUND)
   set(LIMNER_SECCOMP PkgConfig::SECCOMP)
 endif()
-set(LIMNER_LIBRARIES ${LIMNER_SECCOMP} PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::ZLIB PkgConfig::DEFLATE
+if(WEBPMUX_FOUND)
+  set(LIMNER_WEBPMUX PkgConfig::WEBPMUX)
+endif()
+set(LIMNER_LIBRARIES ${LIMNER_SECCOMP} ${LIMNER_WEBPMUX} PkgConfig::EPOXY PkgConfig::JANSSON PkgConfig::PNG PkgConfig::JPEG PkgConfig::WEBP PkgConfig::ZLIB PkgConfig::DEFLATE
     PkgConfig::ASSIMP PkgConfig::GLU PkgConfig::XML ${LIMNER_SHAPE_LIBRARIES} PkgConfig::CAIRO PkgConfig::PANGO ${MESHOPTIMIZER_LIBRARY} ${LIMNER_DRACO_LIBRARIES} Threads::Threads m ${CMAKE_DL_LIBS})
 target_link_libraries(limner PRIVATE ${LIMNER_LIBRARIES})
 target_include_directories(limner PUBLIC ${CMAKE_SOURCE_DIR}/include)

@@ -122,6 +122,35 @@ static void print_limits(const json_t *list)
         printf("  %-28s %-10s %s\n", name, text_at(limit, "standard", ""), text_at(limit, "safe", ""));
 }
 
+/* [{"ending": ".mp4", "usable": true, …}, …] */
+static json_t *list_films(void)
+{
+    json_t              *list = json_array();
+    lmn_film_format_info f;
+    for (size_t i = 0; lmn_film_format_at(i, &f); i++)
+        json_array_append_new(list, json_pack("{s:s, s:b, s:s?, s:s?, s:s}", "ending", f.ending, "usable", f.usable,
+                                              "program", f.program, "package", f.package, "doc", f.doc));
+    return list;
+}
+
+static void print_films(const json_t *list)
+{
+    size_t  i;
+    json_t *film;
+    printf("\nfilms (--frames FIRST:LAST:FPS -o NAME.mp4)\n");
+    json_array_foreach((json_t *)list, i, film)
+    {
+        const char *program = text_at(film, "program", NULL), *package = text_at(film, "package", "");
+        printf("  %-28s ", text_at(film, "ending", ""));
+        if (json_is_true(json_object_get(film, "usable")))
+            printf("yes\n");
+        else if (program)
+            printf("no: %s is missing (sudo apt-get install %s)\n", program, package);
+        else
+            printf("no: built without %s\n", package);
+    }
+}
+
 static int print_report(json_t *root, bool as_json, bool usable)
 {
     if (as_json) {
@@ -135,6 +164,7 @@ static int print_report(json_t *root, bool as_json, bool usable)
         print_values(json_object_get(root, "gl"), 0);
         printf("\ndecoders\n");
         print_values(json_object_get(root, "decoders"), 2);
+        print_films(json_object_get(root, "films"));
         print_limits(json_object_get(root, "limits"));
         printf("\nLimner can draw here.\n");
         return EXIT_DONE;
@@ -173,6 +203,7 @@ static int run(const word_list *inputs, const void *values)
     }
     json_object_set_new(root, "missing", missing);
     json_object_set_new(root, "decoders", json_pack("{s:s}", "fence", lmn_fence_kind()));
+    json_object_set_new(root, "films", list_films());
     json_object_set_new(root, "limits", list_limits());
     lmn_renderer_destroy(&renderer);
     int status = print_report(root, v->json, usable);

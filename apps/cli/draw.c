@@ -1,6 +1,7 @@
 /* limner draw: models into pictures. */
 #include "cli.h"
 #include "formats.h"
+#include "frames.h"
 #include "names.h"
 #include "task.h"
 
@@ -21,7 +22,7 @@ typedef struct draw_values {
     option_number fov, fit, time, seed, samples;
     int           view, up_axis, angle;
     word_list     defines;
-    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time;
+    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume;
     task_values   task;
 } draw_values;
 
@@ -31,9 +32,10 @@ static const char *const angles[] = {"third", "first", NULL};
 
 static void write_format_doc(char *out, size_t size)
 {
-    char pixels[FORMAT_LIST_SIZE], vectors[FORMAT_LIST_SIZE];
-    snprintf(out, size, "Format whatever the ending: %s, or as vectors %s.", format_list(pixels, FORMATS_PIXELS, false),
-             format_list(vectors, FORMATS_VECTORS, false));
+    char pixels[FORMAT_LIST_SIZE], vectors[FORMAT_LIST_SIZE], films[FORMAT_LIST_SIZE];
+    snprintf(out, size, "Format whatever the ending: %s, as vectors %s, or as films %s.",
+             format_list(pixels, FORMATS_PIXELS, false), format_list(vectors, FORMATS_VECTORS, false),
+             film_list(films, false));
 }
 
 #define AT(field) offsetof(draw_values, field)
@@ -72,7 +74,11 @@ static const option options[] = {
     {"fit-time", 0, OPTION_FLAG, AT(fit_time), NULL,
      "Fit the picture to where the model comes at any time of its animation. Frames are always fitted so."},
     {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS",
-     "One picture a frame; frame i is at i/FPS seconds, and something must change with time."},
+     "One picture a frame, or a film of them (.mp4, .webm, .gif, .webp); frame i is at i/FPS seconds, and something "
+     "must "
+     "change with time."},
+    {"resume", 0, OPTION_FLAG, AT(resume), NULL,
+     "Of numbered pictures: go on where a run was broken off, drawing only frames whose picture is not there yet."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
     {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1,
      64},
@@ -111,23 +117,19 @@ static const option options[] = {
     {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},
 };
 
-typedef struct frame_range {
-    bool   given;
-    long   first, last;
-    double rate;
-} frame_range;
-
 /* One run of the command. */
 typedef struct session {
     const draw_values *values;
     const char        *pattern; /* of the output's name */
     frame_range        frames;
+    frame_run          run;
     lmn_look          *look;
     lmn_renderer      *renderer;
     lmn_draw_desc      desc;
     char               ending[16]; /* of the format, ".svg"; empty: the path's */
-    lmn_format_info    format;     /* asked before the work, not after it */
+    lmn_format_info    format;     /* asked before the work, not after it; of films: that of their frames */
     bool               known;      /* there is such a format */
+    bool               film;       /* frames go into one file */
     progress           progress;
 } session;
 
@@ -139,18 +141,6 @@ static double now_ms(void)
 }
 
 /* --- arguments ------------------------------------------------------------------------------------------ */
-
-static int parse_frames(const char *text, frame_range *out)
-{
-    int  used = 0;
-    bool plain = isdigit((unsigned char)*text) != 0;
-    *out = (frame_range){.given = true};
-    if (!plain || sscanf(text, "%6ld:%6ld:%lf%n", &out->first, &out->last, &out->rate, &used) != 3 || text[used] ||
-        out->last < out->first || !(out->rate > 0 && out->rate <= 1e6))
-        return message_usage("for example --frames 0:47:24",
-                             "--frames is '%s'; allowed is FIRST:LAST:FPS with FIRST up to LAST", text);
-    return EXIT_DONE;
-}
 
 /* The format: given, or the ending of the output. */
 static void find_format(session *s)
@@ -166,24 +156,36 @@ static void find_format(session *s)
     for (char *c = s->ending; *c; c++)
         *c = (char)tolower((unsigned char)*c);
     s->known = format_find(&s->format, s->ending);
+    lmn_film_format_info film;
+    if (!s->known && film_find(&film, s->ending)) {
+        s->known = s->film = format_find(&s->format, format_standard(false));
+        s->format.ending = film.ending;
+    }
+}
+
+static bool is_ending(const char *text)
+{
+    lmn_format_info      format;
+    lmn_film_format_info film;
+    return format_find(&format, text) || film_find(&film, text);
 }
 
 static int check_format(const session *s)
 {
     const draw_values *v = s->values;
     const char        *dot = v->output ? strrchr(v->output, '.') : NULL;
-    lmn_format_info    named;
-    char               list[FORMAT_LIST_SIZE], hint[2 * FORMAT_LIST_SIZE];
-    if (s->known && v->format && dot && format_find(&named, dot) && strcmp(dot, s->ending) != 0)
+    char               list[FORMAT_LIST_SIZE], films[FORMAT_LIST_SIZE], hint[3 * FORMAT_LIST_SIZE];
+    if (s->known && v->format && dot && is_ending(dot) && strcmp(dot, s->ending) != 0)
         return message_usage(NULL, "the name '%s' says %s and --format says %s", v->output, dot + 1, s->ending + 1);
     if (s->known)
         return EXIT_DONE;
     if (v->format) {
-        snprintf(hint, sizeof hint, "the format is %s", format_list(list, FORMATS_ALL, false));
+        snprintf(hint, sizeof hint, "the format is %s; of films %s", format_list(list, FORMATS_ALL, false),
+                 film_list(films, false));
         return message_usage(hint, "--format is '%s'; there is no such format", v->format);
     }
-    snprintf(hint, sizeof hint, "the ending says the format: %s; --format says it whatever the ending",
-             format_list(list, FORMATS_ALL, true));
+    snprintf(hint, sizeof hint, "the ending says the format: %s, of films %s; --format says it whatever the ending",
+             format_list(list, FORMATS_ALL, true), film_list(films, true));
     return message_usage(hint, "%s: cannot tell the format from '%s'", v->output, *s->ending ? s->ending : v->output);
 }
 
@@ -322,6 +324,31 @@ static int check_side_name(const session *s, const char *option_name, const char
     return EXIT_DONE;
 }
 
+/* Do frames and their output go together? */
+static int check_frames(const session *s)
+{
+    const draw_values *v = s->values;
+    char               hint[2 * FORMAT_LIST_SIZE], list[FORMAT_LIST_SIZE];
+    if (s->film && !s->frames.given)
+        return message_usage("for example --frames 0:47:24", "%s is a film, which needs --frames FIRST:LAST:FPS",
+                             s->ending);
+    if (s->film && v->resume)
+        return message_usage("draw numbered pictures (-o name-{frame}.png), which a later run can continue",
+                             "--resume does not go with a film, which is written in one go");
+    if (s->film && name_has_frame(v->output))
+        return message_usage("leave {frame} out of its name", "-o has {frame}, but a film has all frames");
+    if (v->resume && !s->frames.given)
+        return message_usage("for example --frames 0:47:24", "--resume goes with frames, but there is no --frames");
+    if (v->resume && strcmp(s->ending, format_standard(false)) != 0)
+        return message_usage(NULL, "--resume goes with numbered pictures, *%s, which it can tell to be whole",
+                             format_standard(false));
+    if (v->output && s->frames.given && !s->film && !name_has_frame(v->output)) {
+        snprintf(hint, sizeof hint, "put {frame} into the name, or make it a film: %s", film_list(list, true));
+        return message_usage(hint, "-o names one file for all frames");
+    }
+    return EXIT_DONE;
+}
+
 static int check_output(const session *s, const word_list *inputs)
 {
     const draw_values *v = s->values;
@@ -330,8 +357,6 @@ static int check_output(const session *s, const word_list *inputs)
         return message_usage("write one of them into a file", "picture and report cannot both go to standard output");
     if (to_standard && s->frames.given)
         return message_usage("use -o NAME-{frame}.png", "frames cannot go to standard output");
-    if (v->output && s->frames.given && !name_has_frame(v->output))
-        return message_usage("put {frame} into the name", "-o names one file for all frames");
     if (name_has_frame(v->output) && !s->frames.given)
         return message_usage("for example --frames 0:47:24", "-o has {frame}, but there is no --frames");
     unsigned long same = name_has_name(v->output) ? name_find_same_stem(inputs->items, inputs->count) : 0;
@@ -339,6 +364,8 @@ static int check_output(const session *s, const word_list *inputs)
         return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}",
                              inputs->items[same]);
     int status = check_format(s);
+    if (status == EXIT_DONE)
+        status = check_frames(s);
     if (status == EXIT_DONE)
         status = check_vectors(s);
     if (status == EXIT_DONE)
@@ -441,8 +468,8 @@ static void fill_desc(session *s)
     d.lenient = v->lenient;
     d.maps = v->maps != NULL;
     d.profile = v->report != NULL;
-    d.progress = progress_report;
-    d.progress_user = &s->progress;
+    d.progress = s->frames.given ? frame_report : progress_report;
+    d.progress_user = s->frames.given ? (void *)&s->run : &s->progress;
     s->desc = d;
 }
 
@@ -461,13 +488,17 @@ static void place_eye(session *s, const lmn_scene *scene)
 
 /* --- one picture ---------------------------------------------------------------------------------------- */
 
-/* The library's report knows neither where the picture went nor how long the files took to read. */
+/* The library's report knows neither where the picture went nor how long the files took to read. A film has no size
+ * before it is whole (`bytes` 0). */
 static int store_report(char *drawn, const char *report, const char *picture, uint64_t bytes, double load_ms)
 {
     json_t *json = parse_and_free(drawn);
     if (!json)
         return EXIT_INTERNAL;
-    json_object_set_new(json, "output", json_pack("{s:s, s:I}", "path", picture, "bytes", (json_int_t)bytes));
+    json_t *output = json_pack("{s:s}", "path", picture);
+    if (bytes > 0)
+        json_object_set_new(output, "bytes", json_integer((json_int_t)bytes));
+    json_object_set_new(json, "output", output);
     if (!json_object_get(json, "load_ms"))
         json_object_set_new(json, "load_ms", json_real(load_ms));
     char *text = json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
@@ -494,16 +525,27 @@ typedef struct result {
 } result;
 
 /* What only took longer stands in the report, and here for those who asked for more. */
-static void print_warnings(const result *r, bool verbose)
+static void print_warnings(session *s, const result *r)
 {
+    bool   verbose = s->values->verbose;
     size_t count = r->sheet ? lmn_sheet_warning_count(r->sheet) : lmn_drawing_warning_count(r->drawing);
     for (size_t i = 0; i < count; i++) {
         size_t      times = 1;
         const char *code = NULL, *text = r->sheet ? lmn_sheet_warning_at(r->sheet, i, &code, &times)
                                                   : lmn_drawing_warning_at(r->drawing, i, &code, &times);
-        if (text && (verbose || strcmp(code, "layer-memory") != 0))
-            message_warning(text, times);
+        if (!text || (!verbose && strcmp(code, "layer-memory") == 0) || (s->frames.given && frame_said(&s->run, text)))
+            continue;
+        progress_erase(&s->progress);
+        message_warning(text, times);
     }
+}
+
+static lmn_status store_drawn(const session *s, const result *r, const char *path, uint64_t *bytes, lmn_error *error)
+{
+    if (s->run.film)
+        return lmn_film_add(s->run.film, lmn_drawing_pixels(r->drawing, NULL, NULL), error);
+    return r->sheet ? lmn_sheet_write(r->sheet, path, s->ending, bytes, error)
+                    : lmn_drawing_write(r->drawing, path, s->ending, bytes, error);
 }
 
 static int store_result(const session *s, const result *r, const char *input, long frame, double load_ms)
@@ -516,18 +558,15 @@ static int store_result(const session *s, const result *r, const char *input, lo
     char *report = v->report ? name_expand(v->report, input, frame) : NULL;
     if (!path || (v->maps && !maps) || (v->report && !report))
         status = message_out_of_memory();
-    lmn_status stored = LMN_OK;
-    if (status == EXIT_DONE)
-        stored = r->sheet ? lmn_sheet_write(r->sheet, path, s->ending, &bytes, &error)
-                          : lmn_drawing_write(r->drawing, path, s->ending, &bytes, &error);
-    if (stored != LMN_OK)
-        status = message_error(&error);
+    /* The picture comes behind its maps and before its report, so that with --resume a frame that has both is done. */
     if (status == EXIT_DONE && maps)
         status = store_maps(r->drawing, maps);
+    if (status == EXIT_DONE && store_drawn(s, r, path, &bytes, &error) != LMN_OK)
+        status = message_error(&error);
     if (status == EXIT_DONE && report)
         status = store_report(r->sheet ? lmn_sheet_report_json(r->sheet) : lmn_drawing_report_json(r->drawing), report,
                               path, bytes, load_ms);
-    if (status == EXIT_DONE && v->verbose)
+    if (status == EXIT_DONE && v->verbose && !s->run.film)
         message_note("wrote %s (%llu bytes)", path, (unsigned long long)bytes);
     free(path);
     free(maps);
@@ -562,13 +601,15 @@ static int draw_picture(session *s, const lmn_scene *scene, const char *input, l
         s->desc.time_s = (double)frame / s->frames.rate;
     lmn_status done = s->format.vectors ? draw_sheet(s, scene, &drawn.sheet, &error)
                                         : lmn_draw(&drawn.drawing, s->renderer, scene, s->look, &s->desc, &error);
-    progress_erase(&s->progress);
+    /* From frame to frame the bar stays, unless something is said. */
+    if (done != LMN_OK || s->values->verbose || !s->frames.given)
+        progress_erase(&s->progress);
     if (done != LMN_OK)
         return message_error(&error);
     if (s->values->verbose)
-        message_note("%s: drawn in %.0f ms", input, now_ms() - start);
+        message_note("%s: %s%sdrawn in %.0f ms", input, s->run.label, s->frames.given ? ": " : "", now_ms() - start);
     if (!s->values->quiet)
-        print_warnings(&drawn, s->values->verbose);
+        print_warnings(s, &drawn);
     int status = store_result(s, &drawn, input, frame, load_ms);
     lmn_drawing_destroy(&drawn.drawing);
     lmn_sheet_destroy(&drawn.sheet);
@@ -600,6 +641,104 @@ static int check_last_frame(const session *s, const lmn_scene *scene)
                                                                                       : message_error(&error);
 }
 
+/* --- frames --------------------------------------------------------------------------------------------- */
+
+/* Is the picture of this frame there, and the report that is written behind it? */
+static bool is_drawn(const session *s, const char *input, long frame)
+{
+    struct stat facts;
+    const char *pattern = s->values->report;
+    char *path = name_expand(s->pattern, input, frame), *report = pattern ? name_expand(pattern, input, frame) : NULL;
+    bool  there = path && lmn_picture_is_whole(path, s->desc.width, s->desc.height) &&
+                 (!pattern || (report && stat(report, &facts) == 0 && facts.st_size > 0));
+    free(path);
+    free(report);
+    return there;
+}
+
+/* Which frames are there already? */
+static int find_drawn(session *s, const char *input)
+{
+    size_t count = (size_t)(s->frames.last - s->frames.first + 1), there = 0;
+    s->run.to_draw = (long)count;
+    if (!s->values->resume)
+        return EXIT_DONE;
+    s->run.there = calloc(count, sizeof *s->run.there);
+    if (!s->run.there)
+        return message_out_of_memory();
+    for (size_t i = 0; i < count && !progress_cancelled(); i++)
+        there += s->run.there[i] = is_drawn(s, input, s->frames.first + (long)i);
+    s->run.to_draw -= (long)there;
+    if (there > 0 && !s->values->quiet)
+        message_note("%zu of %zu frames are there already", there, count);
+    return EXIT_DONE;
+}
+
+static lmn_film_desc film_desc_of(const session *s)
+{
+    lmn_film_desc d = LMN_FILM_DESC_INIT;
+    d.width = s->desc.width;
+    d.height = s->desc.height;
+    d.rate = s->frames.rate;
+    d.frame_count = (uint32_t)(s->frames.last - s->frames.first + 1);
+    d.format = s->ending;
+    d.progress = progress_poll;
+    return d;
+}
+
+/* What makes films is missed before anything is read. */
+static int check_film(const session *s)
+{
+    lmn_error     error = {0};
+    lmn_film_desc d = film_desc_of(s);
+    if (!s->film)
+        return EXIT_DONE;
+    return lmn_film_check(s->values->output ? s->values->output : s->ending, &d, &error) == LMN_OK
+               ? EXIT_DONE
+               : message_error(&error);
+}
+
+static int begin_film(session *s, const char *input)
+{
+    lmn_film_desc d = film_desc_of(s);
+    char         *path = name_expand(s->pattern, input, s->frames.first);
+    int           status = path ? film_begin(&s->run, path, &d) : message_out_of_memory();
+    free(path);
+    return status;
+}
+
+static int end_film(session *s, const char *input, int status)
+{
+    uint64_t bytes = 0;
+    progress_erase(&s->progress);
+    status = film_end(&s->run, status, s->values->quiet, &bytes);
+    char *path = status == EXIT_DONE && s->values->verbose ? name_expand(s->pattern, input, s->frames.first) : NULL;
+    if (path)
+        message_note("wrote %s (%llu bytes)", path, (unsigned long long)bytes);
+    free(path);
+    return status;
+}
+
+static int draw_frames(session *s, const lmn_scene *scene, const char *input, double load_ms)
+{
+    s->run = (frame_run){.bar = &s->progress};
+    int status = find_drawn(s, input);
+    if (status == EXIT_DONE && s->film)
+        status = begin_film(s, input);
+    for (long i = s->frames.first; i <= s->frames.last && status == EXIT_DONE; i++) {
+        if (s->run.there && s->run.there[i - s->frames.first])
+            continue;
+        frame_begin(&s->run, &s->frames, i);
+        status = draw_picture(s, scene, input, i, load_ms);
+        frame_end(&s->run);
+    }
+    status = s->film ? end_film(s, input, status) : status;
+    progress_erase(&s->progress);
+    s->progress.label = "";
+    frame_run_release(&s->run);
+    return status;
+}
+
 static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
@@ -624,8 +763,9 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];
-    for (long i = s->frames.first; i <= s->frames.last && status == EXIT_DONE; i++)
-        status = draw_picture(s, scene, paths[0], i, load_ms);
+    if (status == EXIT_DONE)
+        status =
+            s->frames.given ? draw_frames(s, scene, paths[0], load_ms) : draw_picture(s, scene, paths[0], 0, load_ms);
     lmn_scene_destroy(&scene);
     return status;
 }
@@ -647,7 +787,7 @@ static int run(const word_list *inputs, const void *values)
     find_format(&s);
     int status = check_camera(v);
     if (status == EXIT_DONE && v->frames)
-        status = parse_frames(v->frames, &s.frames);
+        status = frames_parse(v->frames, &s.frames);
     if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
@@ -658,10 +798,12 @@ static int run(const word_list *inputs, const void *values)
         status = message_usage(NULL, "--samples goes with pictures; with this look there are lines alone");
     char standard[64];
     snprintf(standard, sizeof standard, "%s%s",
-             s.frames.given ? NAME_PLACEHOLDER "-" FRAME_PLACEHOLDER : NAME_PLACEHOLDER, s.ending);
+             s.frames.given && !s.film ? NAME_PLACEHOLDER "-" FRAME_PLACEHOLDER : NAME_PLACEHOLDER, s.ending);
     s.pattern = v->output ? v->output : standard;
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);
+    if (status == EXIT_DONE)
+        status = check_film(&s);
     lmn_task *task = NULL;
     if (status == EXIT_DONE)
         status = task_begin(&task, &v->task, &s.progress);

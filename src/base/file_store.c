@@ -19,7 +19,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-enum { WAIT_MS = 20, PIECE_MOST = 1 << 26, PIPE_PIECE_MOST = 4096, LINKS_MOST = 40, TRIES = 100 };
+enum { WAIT_MS = 20, PIECE_MOST = 1 << 26, PIPE_PIECE_MOST = 4096, LINKS_MOST = 40, TRIES = 100, COPY_PIECE = 1 << 16 };
 
 /* Asked between waits, so each time. */
 static bool is_stopped(void)
@@ -136,6 +136,8 @@ static lmn_status refuse(lmn_error *error, const char *path, int problem)
         return error_in_file(error, LMN_CANCELLED, path, 0, "cancelled while it was written");
     if (problem == ENOMEM)
         return error_memory(error);
+    if (problem == ESPIPE)
+        return error_in_file(error, LMN_WRITE, path, 0, "this is a pipe or a device, and a file is needed");
     lmn_status status = error_in_file(error, LMN_WRITE, path, 0, "cannot write: %s", strerror(problem));
     if (problem == ENOENT || problem == ENOTDIR || problem == EACCES || problem == EROFS)
         error_hint(error, "give a path in a folder that exists and may be written");
@@ -404,6 +406,150 @@ lmn_status file_replace(const char *path, const void *data, size_t size, lmn_err
     struct stat facts;
     bool        exists = lstat(path, &facts) == 0;
     return report(error, path, store_named(path, exists ? &facts : NULL, false, data, size));
+}
+
+/* --- piece by piece ------------------------------------------------------------------------------------- */
+
+struct file_arrival {
+    char   *given, *end; /* the path as it was said, and where it leads */
+    arrival at;          /* its name lies in `end` */
+};
+
+/* A file system may have no files without a name, and without /proc they get none later. Until the end its owner can
+ * read and write it, whatever the file before allowed, since a child process opens it anew. */
+static int open_arrival(arrival *a)
+{
+    char   unnamed[48];
+    mode_t mode = a->mode;
+    a->mode |= S_IRUSR | S_IWUSR;
+    a->descriptor = openat(a->folder, ".", O_RDWR | O_TMPFILE | O_CLOEXEC, a->mode);
+    snprintf(unnamed, sizeof unnamed, "/proc/self/fd/%d", a->descriptor);
+    if (a->descriptor >= 0 && access(unnamed, F_OK) != 0) {
+        close(a->descriptor);
+        a->descriptor = -1;
+    }
+    int problem = a->descriptor >= 0 ? 0 : open_beside(a);
+    a->mode = mode;
+    return problem;
+}
+
+static int begin_arrival(file_arrival *a)
+{
+    struct stat facts;
+    int         problem = follow_links(&a->end, a->given);
+    if (problem)
+        return problem;
+    bool exists = stat(a->end, &facts) == 0;
+    if (descriptor_of(a->end) >= 0 || (exists && !S_ISREG(facts.st_mode)))
+        return exists && S_ISDIR(facts.st_mode) ? EISDIR : ESPIPE;
+    const char *slash = strrchr(a->end, '/');
+    a->at.name = slash ? slash + 1 : a->end;
+    a->at.replaces = exists;
+    a->at.mode = exists ? facts.st_mode & 0777 : 0666;
+    if (!*a->at.name)
+        return *a->end ? EISDIR : ENOENT;
+    a->at.folder = open_folder(a->end, a->at.name);
+    if (a->at.folder < 0)
+        return errno;
+    temporary_sweep(a->at.folder);
+    return open_arrival(&a->at);
+}
+
+lmn_status file_arrival_begin(file_arrival **out, const char *path, lmn_error *error)
+{
+    file_arrival *a = *out = mem_calloc(1, sizeof *a);
+    if (!a)
+        return error_memory(error);
+    a->at = (arrival){.folder = -1, .descriptor = -1, .lasting = true};
+    a->given = mem_copy_text(path);
+    int problem = a->given ? begin_arrival(a) : ENOMEM;
+    if (!problem)
+        return LMN_OK;
+    file_arrival_drop(out);
+    return refuse(error, path, problem);
+}
+
+int file_arrival_descriptor(const file_arrival *a)
+{
+    return a->at.descriptor;
+}
+
+lmn_status file_arrival_write(file_arrival *a, const void *data, size_t size, lmn_error *error)
+{
+    return report(error, a->given, write_all(a->at.descriptor, data, size));
+}
+
+static int copy_all(int from, int to)
+{
+    unsigned char *piece = mem_alloc(COPY_PIECE);
+    int            problem = piece ? 0 : ENOMEM;
+    for (off_t at = 0; !problem;) {
+        ssize_t got = pread(from, piece, COPY_PIECE, at);
+        if (got == 0)
+            break;
+        if (got < 0 && errno == EINTR)
+            continue;
+        problem = got < 0 ? errno : write_all(to, piece, (size_t)got);
+        at += got;
+    }
+    mem_free(piece);
+    return problem;
+}
+
+/* Not every file system that has files without a name gives them one. */
+static int name_copy(arrival *a)
+{
+    int unnamed = a->descriptor, problem = open_beside(a);
+    if (problem) {
+        a->descriptor = unnamed;
+        return problem;
+    }
+    problem = copy_all(unnamed, a->descriptor);
+    close(unnamed);
+    if (!problem)
+        problem = fill(a, "", 0);
+    return problem ? problem : rename_beside(a);
+}
+
+static int name_arrival(arrival *a)
+{
+    if (a->beside[0])
+        return rename_beside(a);
+    int problem = name_unnamed(a);
+    return problem && !a->beside[0] ? name_copy(a) : problem;
+}
+
+lmn_status file_arrival_end(file_arrival **handle, uint64_t *bytes, lmn_error *error)
+{
+    file_arrival *a = *handle;
+    struct stat   facts;
+    int           problem = fill(&a->at, "", 0);
+    if (!problem && fstat(a->at.descriptor, &facts) == 0 && bytes)
+        *bytes = (uint64_t)facts.st_size;
+    if (!problem)
+        problem = name_arrival(&a->at);
+    if (!problem)
+        sync_file(a->at.folder);
+    lmn_status status = report(error, a->given, problem);
+    file_arrival_drop(handle);
+    return status;
+}
+
+void file_arrival_drop(file_arrival **handle)
+{
+    file_arrival *a = handle ? *handle : NULL;
+    if (!a)
+        return;
+    if (a->at.beside[0])
+        unlinkat(a->at.folder, a->at.beside, 0);
+    if (a->at.descriptor >= 0)
+        close(a->at.descriptor);
+    if (a->at.folder >= 0)
+        close(a->at.folder);
+    mem_free(a->end);
+    mem_free(a->given);
+    mem_free(a);
+    *handle = NULL;
 }
 
 lmn_status file_make_folder(const char *path, lmn_error *error)

@@ -103,13 +103,15 @@ static lmn_status add_list(moment *m, const lmn_scene *scene, const char *clips,
     return status;
 }
 
+/* Times of frames are rounded: what is hardly outside is at the end. */
 static void bring_within(moment *m, const lmn_scene *scene, warnings *warnings)
 {
-    double end = moment_duration(m, scene), wanted = m->seconds;
+    const double HARDLY = 1e-5;
+    double       end = moment_duration(m, scene), wanted = m->seconds;
     m->seconds = fmin(fmax(m->seconds, 0), end);
-    if (m->seconds != wanted && warnings)
-        warnings_add(warnings, WARNING_BAD_VALUE, "the clip runs from 0 to %g s: %g s was drawn as %g s", end, wanted,
-                     m->seconds);
+    if (fabs(m->seconds - wanted) > HARDLY && warnings)
+        warnings_add(warnings, WARNING_BAD_VALUE, "the clip runs from 0 to %g s: %s are drawn as its %s", end,
+                     wanted < 0 ? "times before" : "later times", wanted < 0 ? "begin" : "end");
     if (m->seconds == 0)
         m->seconds = 0; /* not −0, whose bytes differ */
 }

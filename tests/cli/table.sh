@@ -111,7 +111,7 @@ group_usage() {
     row 1 'frames cannot go to standard output' '' draw "$gear" -o - --frames 0:1:2
     row 1 'one file for all inputs' '' draw "$gear" "$box" -o '{name}.png' --report r.json
     row 1 'another input has the same' '' draw a/x.stl b/x.stl -o '{name}.png'
-    row 1 "cannot tell the format from '.gif'" '' draw "$gear" -o x.gif
+    row 1 "cannot tell the format from '.bmp'" '' draw "$gear" -o x.bmp
     # Of two values one would be dropped in silence; so would a place in a name that stands for nothing.
     row 1 '^limner: --output is given twice' '' draw "$gear" -o a.png -o b.png
     row 1 '^limner: --look is given twice' '' draw "$gear" -l edges --look toon
@@ -137,7 +137,7 @@ group_usage() {
     row 1 '--ortho does not go with --camera' '' draw nosuch.stl --camera a --ortho
     row 1 '--define goes with OpenSCAD programs' '' draw "$gear" -D a=1
     row 1 '--strict goes with OpenSCAD programs' '' info "$gear" --strict
-    row 1 'there is no such format' '' draw "$gear" --format gif
+    row 1 'there is no such format' '' draw "$gear" --format bmp
     row 1 "there is no look 'edgs'" '' draw "$gear" --look edgs
     row 1 "did you mean 'edges'" '' draw "$gear" --look edgs
     row 1 "it is a technique, not a look: --set lines.operator=sobel" '' looks sobel
@@ -187,7 +187,7 @@ group_draw() {
     row 0 '' 'x-0036.png' draw "$moving" $small -o 'x-{frame}.png' --frames 36:36:24 && cp x-0036.png in-frame.png
     row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --fit-time
     cmp -s x.png in-frame.png || complain "a frame is not the picture of its time, fitted to all times"
-    row 0 'warning: the clip runs from 0 to 3.70.* s: 5 s was drawn as 3.70' 'x.png' draw "$moving" $small -o x.png --time 5
+    row 0 'warning: the clip runs from 0 to 3.70.* s: later times are drawn as its end' 'x.png' draw "$moving" $small -o x.png --time 5
     row 1 "^limner: $moving: the model has no clip 'walk'" '' draw "$moving" $small -o x.png --clip walk
     row 1 "^limner: $moving: the model has no clip '2'" '' draw "$moving" $small -o x.png --clip 2
     row 1 "clip" '' draw "$moving" $small -o x.png --clip ''
@@ -698,8 +698,138 @@ group_vectors() {
     rm -f f-*.svg
 }
 
+# film FILE STREAM…: what ffprobe says of the film, as `width=65 … `.
+film() {
+    local file=$1 entry; shift
+    ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=width,height,r_frame_rate,nb_read_frames "$file" > .probe
+    for entry; do grep -qx "$entry" .probe || complain "$file lacks $entry: $(tr '\n' ' ' < .probe)"; done
+}
+
+# like PICTURE OTHER LEAST: their signal-to-noise ratio in dB is at least that, with a fourth word: less.
+like() {
+    local noise
+    noise=$(ffmpeg -v info -i "$1" -i "$2" -lavfi "[0:v]crop=64:48:0:0,format=rgb24[a];[1:v]crop=64:48:0:0,format=rgb24[b];[a][b]psnr" \
+        -f null - 2>&1 < /dev/null | sed -n 's/.*PSNR.* average:\([0-9]*\|inf\).*/\1/p')
+    [ "$noise" = inf ] && noise=1000
+    if [ $# = 3 ]; then
+        [ "${noise:-0}" -ge "$3" ] || complain "$1 is not like $2: ${noise:-nothing} dB, wanted $3"
+    else
+        [ "${noise:-1000}" -lt "$3" ] || complain "$1 is like $2, which is another frame"
+    fi
+}
+
+group_films() {
+    local moving=("$gear" --look sketch --set perturb.boil=24 --size 65x49) frames=(--frames 3:8:24) ending i
+    # Wrong arguments, before any work.
+    for ending in mp4 webm gif webp; do
+        row 1 "^limner: .$ending is a film, which needs --frames" '' draw nosuch.stl -o x.$ending
+        row 1 "^limner: -o has \{frame\}, but a film has all frames" '' draw nosuch.stl -o "x-{frame}.$ending" --frames 0:1:2
+        row 1 '^limner: --resume does not go with a film' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --resume
+        row 1 '^hint: draw numbered pictures' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --resume
+        row 1 '^limner: --page goes with vector drawings' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --page A4
+        row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl -o x.$ending --frames 0:1:2
+    done
+    row 1 'of films mp4, webm, gif or webp$' '' draw nosuch.stl --format avi --frames 0:1:2
+    row 1 "cannot tell the format from '.avi'" '' draw nosuch.stl -o x.avi --frames 0:1:2
+    row 1 '^hint: put \{frame\} into the name, or make it a film: .mp4' '' draw nosuch.stl -o x.png --frames 0:1:2
+    row 1 "the name 'x.mp4' says mp4 and --format says png" '' draw nosuch.stl -o x.mp4 --format png --frames 0:1:2
+    row 1 'frames cannot go to standard output' '' draw nosuch.stl -o - --format webp --frames 0:1:2
+    row 1 '--report names one file for all frames' '' draw nosuch.stl -o x.webp --frames 0:1:2 --report r.json
+    row 1 '^limner: --resume goes with frames' '' draw nosuch.stl --resume
+    row 1 '^limner: --resume goes with numbered pictures' '' draw nosuch.stl --resume --frames 0:1:2 -o 'x-{frame}.svg'
+    row 1 '^limner: x.gif: the film has 60 frames a second; allowed are 0.001 to 50' '' draw "$gear" -o x.gif --frames 0:1:60
+    row 4 '^limner: nosuch/x.webp: ' '' draw "${moving[@]}" "${frames[@]}" -o nosuch/x.webp
+    # Without ffmpeg: told before anything is read; .webp needs none.
+    local command=$limner limner=$folder/.alone
+    printf '#!/bin/sh\nPATH=/nosuch exec %s "$@"\n' "$command" > .alone && chmod +x .alone
+    row 2 '^limner: x.mp4: films of this format are made by ffmpeg' '' draw nosuch.stl -o x.mp4 --frames 0:1:2
+    row 2 '^hint: install it .*apt-get install ffmpeg' '' draw nosuch.stl -o x.webm --frames 0:1:2
+    row 0 '' 'x.webp' draw "${moving[@]}" "${frames[@]}" -o x.webp; cp x.webp in-first.webp
+    limner=$command
+    row 0 '' 'x.webp' draw "${moving[@]}" "${frames[@]}" -o x.webp
+    cmp -s x.webp in-first.webp || complain "two runs give different films"
+    row 0 '' 'x.webp' draw "${moving[@]}" --frames 2:7:24 -o x.webp
+    cmp -s x.webp in-first.webp && complain "other frames give the same film"
+    row 0 '' 'gearbox.webp' draw "${moving[@]}" "${frames[@]}" --format webp; cmp -s gearbox.webp in-first.webp || complain "the standard name has another film"
+    row 0 '' 'x.tmp' draw "${moving[@]}" "${frames[@]}" --format webp -o x.tmp
+    row 0 '' 'box.webp gearbox.webp' draw "${moving[@]}" "$box" --frames 0:1:24 -o '{name}.webp'
+    row 0 '' 'r-0000.json r-0001.json x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp --report 'r-{frame}.json'; documented r-0001.json report.md
+    row 0 "^limner: $gear: frame 2 of 2, [0-9]+ s left: drawn in [0-9]+ ms" 'x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp -v
+    row 0 'wrote x.webp \([0-9]+ bytes\)' 'x.webp' draw "${moving[@]}" --frames 0:1:24 -o x.webp -v
+    row 1 "^limner: $gear: the model has no animation" '' draw "$gear" $small --frames 0:1:24 -o x.webp
+    # What is warned of is warned of once.
+    row 0 'warning: animations are not posed yet' 'x.webp' draw "$examples/box-animated.glb" $small -o x.webp --frames 0:2:24 --lenient
+    [ "$(grep -c warning .stderr)" = 1 ] || complain "the same warning comes for each frame"
+    # A run that was broken off goes on: the same pictures, and only those that are missing are drawn.
+    row 0 '' '' draw "${moving[@]}" "${frames[@]}" -o 'in-whole-{frame}.png'
+    for i in 3 6 8; do cp in-whole-000$i.png in-f-000$i.png; done
+    head -c 500 in-whole-0004.png > in-f-0004.png
+    row 0 '' '' draw "$gear" --look plain $small -o in-f-0005.png # of another size
+    touch -d 2001-01-01 in-f-*.png
+    row 0 '^limner: 3 of 6 frames are there already$' '' draw "${moving[@]}" "${frames[@]}" -o 'in-f-{frame}.png' --resume
+    for i in 3 4 5 6 7 8; do cmp -s in-f-000$i.png in-whole-000$i.png || complain "frame $i is another one"; done
+    local kept; kept=$(find . -name 'in-f-*' ! -newermt 2001-01-02 -printf '%f\n' | sort | tr '\n' ' ')
+    [ "$kept" = 'in-f-0003.png in-f-0006.png in-f-0008.png ' ] || complain "those that were there and stayed are $kept"
+    row 0 '^limner: 6 of 6 frames are there already$' '' draw "${moving[@]}" "${frames[@]}" -o 'in-f-{frame}.png' --resume
+    row 0 '' '' draw "${moving[@]}" "${frames[@]}" -o 'in-f-{frame}.png' --resume --quiet
+    # A frame that has a report is done when that is there, too.
+    row 0 '' 'r-0003.json r-0004.json' draw "${moving[@]}" --frames 3:4:24 -o 'in-f-{frame}.png' --report 'r-{frame}.json' --resume
+    row 0 '' 'gearboxr-0003.json' draw "${moving[@]}" --frames 3:3:24 -o 'in-f-{frame}.png' --report '{name}r-{frame}.json' --resume
+    films_interrupted
+    # On a terminal the bar is that of all frames.
+    row="draw frames on a terminal" rows=$((rows + 1))
+    if command -v script > /dev/null; then
+        script -qec "'$limner' draw '$gear' --look sketch --set perturb.boil=24 --size 65x49 --frames 3:8:24 -o x.webp" /dev/null < /dev/null | tr '\r' '\n' > .stderr
+        grep -q 'frame 1 of 6 ' .stderr || complain "the first frame is not told"
+        grep -Eq ' [5-9][0-9]% frame [4-6] of 6, [0-9]+ s left ' .stderr || complain "the time that is left is not told"
+        [ -s x.webp ] || complain "there is no film"
+    fi
+    command -v ffprobe > /dev/null || { echo 'ffmpeg is not installed: films are not read back'; return; }
+    # Read back: frames, rate, size, and what is on them.
+    for ending in mp4 webm gif; do
+        row 0 "$([ $ending = mp4 ] && echo '^limner: warning: films of .mp4 have even sizes: this one has 66x50 pixels')" x.$ending draw "${moving[@]}" "${frames[@]}" -o x.$ending
+        film x.$ending nb_read_frames=6 width=$([ $ending = mp4 ] && echo 66 || echo 65) height=$([ $ending = mp4 ] && echo 50 || echo 49)
+        [ $ending = gif ] || film x.$ending r_frame_rate=24/1
+        ffmpeg -v error -i x.$ending .frame-%d.png < /dev/null # GIF's times are hundredths of a second: frame by frame
+        for i in 1 2 3 4 5 6; do like .frame-$i.png in-whole-000$((i + 2)).png 33; done
+        like .frame-1.png in-whole-0004.png 20 less
+    done
+    row 0 'warning: .mp4 has no opacity' 'x.mp4' draw "${moving[@]}" --frames 0:1:24 -o x.mp4 --background none
+    row 0 'warning: in .gif a pixel is there or not' 'x.gif' draw "${moving[@]}" --frames 0:1:24 -o x.gif --background none
+    row 0 '' 'x.webm' draw "${moving[@]}" --frames 0:1:24 -o x.webm --background none
+}
+
+# Ctrl-C in the middle of films leaves nothing, neither of them nor of ffmpeg.
+films_interrupted() {
+    local ending got waited bin; bin=$(mktemp -d) # not here, where each row begins with an empty folder
+    printf '#!/bin/sh\necho $$ > %s/.started\nexec cat > /proc/self/fd/3\n' "$folder" > "$bin/ffmpeg" && chmod +x "$bin/ffmpeg"
+    for ending in mp4 webp; do
+        row="draw $ending with Ctrl-C" got=0 waited=0
+        rows=$((rows + 1))
+        PATH=$bin:$PATH "$limner" draw "${moving[@]}" --frames 0:99999:24 -o x.$ending --aov 'in-maps-{frame}' 2> .stderr &
+        until [ -e in-maps-0003/depth.pfm ] || [ $((waited += 1)) -gt 600 ]; do sleep 0.1; done
+        kill -INT $!
+        wait $! || got=$?
+        [ $got = 5 ] || complain "exit status $got, expected 5"
+        [ -z "$(find . -name '*x.*' ! -name 'in-*')" ] || complain "something of the film stays behind"
+        rm -r in-maps-*
+    done
+    [ -s .started ] || complain "ffmpeg was not started"
+    sleep 0.3
+    kill -0 "$(cat .started)" 2> .kill && complain "ffmpeg runs on"
+    # One that fails is quoted.
+    printf '#!/bin/sh\nhead -c 30000 > .taken\necho "it is too dark here" >&2\nexit 7\n' > "$bin/ffmpeg"
+    PATH=$bin:$PATH row 4 '^limner: x.mp4: ffmpeg failed with exit status 7: it is too dark here$' '' draw "${moving[@]}" --frames 0:40:24 -o x.mp4 -q
+    PATH=$bin:$PATH row 4 '^hint: ffmpeg got [0-9]+ whole frames' '' draw "${moving[@]}" --frames 0:40:24 -o x.mp4 -q
+    rm -r "$bin"
+}
+
 group_doctor() {
-    row 0 '' '' doctor; out 'Limner can draw here'
+    row 0 '' '' doctor; out 'Limner can draw here'; out '^  \.webp  '
+    local command=$limner limner=$folder/.alone
+    printf '#!/bin/sh\nPATH=/nosuch exec %s "$@"\n' "$command" > .alone && chmod +x .alone
+    row 0 '' '' doctor; out '^  \.mp4 .* no: ffmpeg is missing \(sudo apt-get install ffmpeg\)$'
+    limner=$command
     row 0 '' '' doctor --json; documented .stdout doctor.md
     # An EGL without any vendor is a machine without drivers.
     export __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing

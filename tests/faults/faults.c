@@ -56,6 +56,12 @@ static const scenario scenarios[] = {
      false,
      true,
      {"draw", "box.glb", "--size", "48x48", "--look", "line", "-o", "out.dxf", "--plotter"}},
+    {"film",
+     "out.webp",
+     true,
+     false,
+     {"draw", "box.glb", "--size", "48x48", "--look", "sketch", "--set", "perturb.boil=12", "--frames", "1:1:24", "-o",
+      "out.webp"}},
     {"info", NULL, false, false, {"info", "fox.glb", "--json"}},
     {"foreign", NULL, false, false, {"info", "plate.off"}},
     {"looks", NULL, false, false, {"looks", "hatch"}},
@@ -193,9 +199,9 @@ static char *read_file(const char *path, size_t *size)
 /* Files that should not be there: those made beside an output and left. */
 static bool leftover(char *name, size_t size)
 {
-    static const char *const known[] = {".",           "..",       "out.png",  "out.svg", "out.pdf",
-                                        "out.dxf",     "out.json", "maps",     "box.glb", "widget.csg",
-                                        "gearbox.stl", "fox.glb",  "plate.off"};
+    static const char *const known[] = {".",          "..",          "out.png",  "out.svg",  "out.pdf",
+                                        "out.dxf",    "out.webp",    "out.json", "maps",     "box.glb",
+                                        "widget.csg", "gearbox.stl", "fox.glb",  "plate.off"};
     DIR                     *folder = opendir(".");
     bool                     found = false;
     for (struct dirent *entry; folder && !found && (entry = readdir(folder));) {

@@ -599,6 +599,55 @@ static void killed_writers_leave_nothing(void **state)
     assert_content(at, "x", 1);
 }
 
+/* Another process writes it, piece by piece; until it is whole, the name is not there or what it was before. */
+static int arrive(bool unnamed)
+{
+    int           hidden;
+    uint64_t      bytes = 0;
+    char          reopened[64];
+    file_arrival *a = NULL, *dropped = NULL;
+    if (!unnamed && !forbid_unnamed_files())
+        return NO_FILTER;
+    for (int i = 0; i < 2; i++) {
+        if (file_arrival_begin(&a, at, NULL) != LMN_OK || file_arrival_begin(&dropped, at, NULL) != LMN_OK ||
+            file_arrival_write(dropped, "half", 4, NULL) != LMN_OK || count_names(&hidden) != i + (unnamed ? 0 : 2))
+            return 1;
+        snprintf(reopened, sizeof reopened, "/proc/self/fd/%d", file_arrival_descriptor(a));
+        put(reopened, i ? "twice" : "once");
+        file_arrival_drop(&dropped);
+        if (count_names(&hidden) != i + !unnamed || file_arrival_end(&a, &bytes, NULL) != LMN_OK || a || dropped)
+            return 2;
+        assert_content(at, i ? "twice" : "once", i ? 5 : 4);
+        if (bytes != (i ? 5 : 4))
+            return 3;
+    }
+    return 0;
+}
+
+static int arrive_unnamed(void)
+{
+    return arrive(true);
+}
+
+static int arrive_named(void)
+{
+    return arrive(false);
+}
+
+static void files_arrive_piece_by_piece(void **state)
+{
+    (void)state;
+    in_folder("x.mp4");
+    assert_int_equal(in_child(arrive_unnamed), 0);
+    assert_names(1);
+    assert_int_equal(unlink(at), 0);
+    int named = in_child(arrive_named);
+    if (named == NO_FILTER)
+        skip();
+    assert_int_equal(named, 0);
+    assert_names(1);
+}
+
 static void temporary_folders_go(void **state)
 {
     (void)state;
@@ -646,6 +695,7 @@ int main(void)
         CASE(leftovers_go_with_the_next_file),
         CASE(file_systems_without_unnamed_files_do),
         CASE(killed_writers_leave_nothing),
+        CASE(files_arrive_piece_by_piece),
         CASE(temporary_folders_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
