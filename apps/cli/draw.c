@@ -75,8 +75,7 @@ static const option options[] = {
      "Fit the picture to where the model comes at any time of its animation. Frames are always fitted so."},
     {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS",
      "One picture a frame, or a film of them (.mp4, .webm, .gif, .webp); frame i is at i/FPS seconds, and something "
-     "must "
-     "change with time."},
+     "must change with time."},
     {"resume", 0, OPTION_FLAG, AT(resume), NULL,
      "Of numbered pictures: go on where a run was broken off, drawing only frames whose picture is not there yet."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
