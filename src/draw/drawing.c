@@ -1,4 +1,5 @@
 #include "draw/drawing.h"
+#include "draw/exposure.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,15 +43,18 @@ void renderer_destroy(lmn_renderer **renderer)
 }
 
 /* Poses the scene unless it is posed already. */
-static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
+static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const draw_options *options, warnings *warnings,
                              lmn_error *error)
 {
-    moment     when;
-    lmn_status status = time_moment(&when, scene, desc, warnings, error);
+    const lmn_draw_desc *desc = options->desc;
+    moment               when;
+    lmn_status           status = time_moment(&when, scene, desc, warnings, error);
     bool posed = r->pose.scene == scene && r->pose.revision == scene->revision && moment_equal(&r->pose.when, &when);
     if (status == LMN_OK && !posed) {
         pose_release(&r->pose);
         status = pose_create(&r->pose, scene, &when, error);
+        if (status == LMN_OK && options->held)
+            pose_hold(&r->pose, options->held, options->moves);
     }
     if (status == LMN_OK)
         r->pose.fit_boxes = r->pose.part_boxes;
@@ -128,7 +132,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
-        status = bring_pose(r, scene, desc, warnings, error);
+        status = bring_pose(r, scene, w, warnings, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
     if (status == LMN_OK)
@@ -156,7 +160,9 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     s->renderer = r;
     gpu_make_current(r->g);
     lmn_status status = prepare(s, scene, look, options, side, warnings, error);
-    if (status == LMN_OK)
+    if (status == LMN_OK && options->camera)
+        f->camera = *options->camera;
+    else if (status == LMN_OK)
         status = camera_place(&f->camera, desc, &r->pose, s->plan.fit_box, error);
     if (status != LMN_OK)
         return status;
@@ -354,12 +360,21 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     return LMN_OK;
 }
 
-static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *desc, lmn_error *error)
+/* The drawing whose frame is there. */
+typedef struct drawn_frame {
+    lmn_drawing         *drawing;
+    const lmn_draw_desc *desc;
+    double               start_ms;
+} drawn_frame;
+
+/* Takes what a frame has drawn. */
+static lmn_status keep_frame(session *s, void *user, lmn_error *error)
 {
-    double start = clock_ms();
-    frame_draw(&s->frame, s->out);
+    const drawn_frame   *drawn = user;
+    lmn_drawing         *d = drawn->drawing;
+    const lmn_draw_desc *desc = drawn->desc;
     gpu_finish(s->renderer->g);
-    d->frame_ms = clock_ms() - start;
+    d->frame_ms = clock_ms() - drawn->start_ms;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
     memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
@@ -376,6 +391,22 @@ static lmn_status draw_frames(lmn_drawing *d, session *s, const lmn_draw_desc *d
     frame_draw(&s->frame, s->out);
     d->profile = s->frame.profile;
     return gpu_check(s->renderer->g, error);
+}
+
+static lmn_status draw_frame(lmn_drawing *d, session *s, const lmn_look *look, const draw_options *options,
+                             lmn_error *error)
+{
+    drawn_frame drawn = {d, options->desc, clock_ms()};
+    exposure    e;
+    lmn_status  status = exposure_find(&e, &s->plan, error);
+    if (status == LMN_OK && e.technique) {
+        status = exposure_draw(&e, s, look, options, keep_frame, &drawn, error);
+    } else if (status == LMN_OK) {
+        frame_draw(&s->frame, s->out);
+        status = keep_frame(s, &drawn, error);
+    }
+    exposure_release(&e);
+    return status;
 }
 
 static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *stage)
@@ -400,7 +431,7 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
     if (status == LMN_OK)
         status = keep_facts(d, r, scene, look, &s, desc, error);
     if (status == LMN_OK)
-        status = draw_frames(d, &s, desc, error);
+        status = draw_frame(d, &s, look, options, error);
     session_close(&s);
     if (status == LMN_OK && cancelled(desc, 0.8, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");

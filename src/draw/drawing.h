@@ -44,6 +44,10 @@ typedef struct draw_options {
     const lmn_draw_desc *desc;
     bool                 maps; /* its buffers alone, one sample a pixel */
     bool surfaces_only;        /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
+    /* One of several times of an exposure. */
+    const pose        *held;   /* parts without `moves` are as in this pose; NULL: all are as at the time */
+    const bool        *moves;  /* per part, then per ghost */
+    const view_camera *camera; /* NULL: as the description says */
 } draw_options;
 lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                          const draw_options *options, lmn_error *error);

@@ -118,7 +118,7 @@ static void encode(frame *f, gpu_texture *out)
     watch_stop(&f->profile, w, "", "encode");
 }
 
-void frame_draw(frame *f, gpu_texture *out)
+static void draw_page(frame *f)
 {
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
@@ -129,12 +129,48 @@ void frame_draw(frame *f, gpu_texture *out)
     if (!gpu_failed(f->g)) {
         clear_page(f);
         draw_figures(f);
-        if (out)
-            encode(f, out);
     }
+}
+
+static void release_page(frame *f)
+{
     gpu_target_release(f->g, f->page);
     gpu_target_release(f->g, f->page_depth);
     gpu_target_release(f->g, f->shadow);
     gpu_target_release(f->g, f->visibility);
-    f->shadow = f->visibility = NULL;
+    f->page = f->page_depth = f->shadow = f->visibility = NULL;
+}
+
+void frame_draw(frame *f, gpu_texture *out)
+{
+    draw_page(f);
+    if (out && !gpu_failed(f->g))
+        encode(f, out);
+    release_page(f);
+}
+
+void frame_draw_into_mean(frame *f, gpu_texture **mean, double part)
+{
+    text         prelude = {0};
+    gpu_texture *next = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA32F);
+    draw_page(f);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "motion/mean.frag", &prelude);
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &(gpu_pass){.colours = {next}, .colour_count = 1});
+        gpu_use(f->g, p, (gpu_state){0});
+        gpu_set_texture(f->g, "t_page", f->page, false);
+        gpu_set_texture(f->g, "t_mean", *mean ? *mean : f->page, false);
+        gpu_set_float(f->g, "u_part", (float)part);
+        gpu_draw_screen(f->g);
+    }
+    release_page(f);
+    gpu_target_release(f->g, *mean);
+    *mean = next;
+}
+
+void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out)
+{
+    f->page = mean;
+    encode(f, out);
+    f->page = NULL;
 }

@@ -40,6 +40,11 @@ typedef struct frame {
 /* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */
 void frame_draw(frame *f, gpu_texture *out);
 
+/* The same for pictures of several times. Each is drawn and taken into the mean (RGBA32F, made when *mean is NULL, the
+ * caller's to release), of which it is this `part` of all so far; then the mean is encoded. */
+void frame_draw_into_mean(frame *f, gpu_texture **mean, double part);
+void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out);
+
 /* What one layer was made of: 28 bytes a pixel. */
 typedef struct layer_map {
     float    depth; /* eye depth, INFINITY where empty */

@@ -24,8 +24,9 @@ static const param params[] = {
     PARAM_TEXT_ROW(peel_values, focus, .example = "ball", .is_selector = true,
                    .doc = "Selector of parts to be uncovered: as few layers as show them, and they themselves opaque "
                           "at their true depth."),
-    PARAM_FLOAT_ROW(peel_values, focus_fraction, .def = 0.95, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .cpu_only = true, .only_if = "focus", .doc = "Fraction of the focus that must be uncovered."),
+    PARAM_FLOAT_ROW(peel_values, focus_fraction, .was = "focus_share", .def = 0.95, .min = 0, .max = 1,
+                    .unit = UNIT_FRACTION, .cpu_only = true, .only_if = "focus",
+                    .doc = "Fraction of the focus that must be uncovered."),
     PARAM_COLOUR_ROW(peel_values, focus_colour, .def_colour = {0.85f, 0.33f, 0.18f, 1}, .cpu_only = true,
                      .only_if = "focus", .doc = "Colour of the focus; none keeps its own."),
     PARAM_FLOAT_ROW(peel_values, rear, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,

@@ -5,11 +5,12 @@
 #include "light/light.h"
 #include "lines/lines.h"
 #include "look/look.h"
+#include "motion/motion.h"
 #include "perturb/perturb.h"
 #include "surface/surface.h"
 
 const kind *const kinds[KIND_COUNT] = {
     [KIND_SCENE] = &kind_scene,     [KIND_LAYERS] = &kind_layers,   [KIND_LINES] = &kind_lines,
     [KIND_SURFACE] = &kind_surface, [KIND_PERTURB] = &kind_perturb, [KIND_COMPOSE] = &kind_compose,
-    [KIND_FINISH] = &kind_finish,
+    [KIND_MOTION] = &kind_motion,   [KIND_FINISH] = &kind_finish,
 };

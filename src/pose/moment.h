@@ -11,6 +11,8 @@ typedef struct moment {
     double   seconds;
     uint32_t clips[CLIPS_AT_ONCE]; /* indices of the scene's animations; where two move one thing the later one does */
     size_t   clip_count;
+    double   held_seconds; /* parts that are held are where they are then (pose_hold) */
+    uint64_t held;         /* which parts; 0: none */
 } moment;
 
 moment moment_at_rest(void);

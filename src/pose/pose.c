@@ -158,6 +158,47 @@ mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
     return n->instance_count ? mat4_multiply(&world, &n->instances[instance]) : world;
 }
 
+static void hold_part(pose *p, const pose *held, size_t part_index)
+{
+    int32_t node_index = p->scene->parts[part_index].node;
+    p->worlds[node_index] = held->worlds[node_index];
+    p->part_boxes[part_index] = held->part_boxes[part_index];
+    if (part_index >= p->part_count)
+        return;
+    part_pose       *own = &p->parts[part_index];
+    const part_pose *other = &held->parts[part_index];
+    if (own->joints)
+        memcpy(p->joints + (own->joints - p->joints), other->joints, own->joint_count * sizeof *own->joints);
+    if (own->weights != other->weights) /* those that move are the pose's own */
+        memcpy(p->weights + (own->weights - p->weights), other->weights, own->weight_count * sizeof *own->weights);
+}
+
+void pose_hold(pose *p, const pose *held, const bool *moves)
+{
+    size_t   all = p->part_count + p->ghost_count, still = 0;
+    uint64_t hash = 1469598103934665603u; /* FNV-1a */
+    for (size_t i = 0; i < all; i++) {
+        still += !moves[i];
+        hash = (hash ^ moves[i]) * 1099511628211u;
+    }
+    if (!still)
+        return;
+    for (size_t i = 0; i < p->scene->node_count; i++)
+        if (p->scene->nodes[i].mesh == NONE && p->scene->nodes[i].solid == NONE)
+            p->worlds[i] = held->worlds[i]; /* with the cameras and lights there */
+    memcpy(p->cameras, held->cameras, p->scene->camera_count * sizeof *p->cameras);
+    memcpy(p->lights, held->lights, p->scene->light_count * sizeof *p->lights);
+    p->box = box3_empty();
+    for (size_t i = 0; i < all; i++) {
+        if (!moves[i])
+            hold_part(p, held, i);
+        if (i < p->part_count)
+            p->box = box3_union(p->box, p->part_boxes[i]);
+    }
+    p->when.held_seconds = held->when.seconds;
+    p->when.held = hash;
+}
+
 /* --- over time ------------------------------------------------------------------------------------------ */
 
 lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error)

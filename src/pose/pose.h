@@ -37,6 +37,10 @@ typedef struct pose {
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       pose_release(pose *p);
 
+/* Brings what does not move back to where it is in another pose of the same scene: parts without `moves` (one a part,
+ * then one a ghost), and unless all have it, cameras and lights. */
+void pose_hold(pose *p, const pose *held, const bool *moves);
+
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
 

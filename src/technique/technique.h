@@ -130,6 +130,12 @@ typedef struct surface_row {
     void (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
 } surface_row;
 
+/* What tells of motion by pictures of several times. */
+typedef struct motion_row {
+    int (*times)(const void *values);                /* how many */
+    double (*weight)(const void *values, int newer); /* of one that so many are newer than */
+} motion_row;
+
 /* What a line technique is. */
 typedef struct lines_row {
     const char *detect;  /* of one pass: GLSL file with `void detect_edges()`; NULL: others */
@@ -177,6 +183,7 @@ typedef struct technique {
     const compose_row  *compose;
     const layers_row   *layers;
     const perturbation *perturbs; /* how lookups are moved */
+    const motion_row   *motion;
 } technique;
 
 typedef enum kind_id {
@@ -186,6 +193,7 @@ typedef enum kind_id {
     KIND_LINES,
     KIND_PERTURB,
     KIND_COMPOSE,
+    KIND_MOTION,
     KIND_FINISH, /* look-wide: the sheet */
     KIND_COUNT
 } kind_id;

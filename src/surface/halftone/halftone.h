@@ -66,8 +66,8 @@ mesh_needs halftone_needs(const void *values);
         PARAM_FLOAT_ROW(halftone_values, patch, .def = 0.1, .min = 0.01, .max = 1, .soft_min = 0.03, .soft_max = 0.3,  \
                         .unit = UNIT_FRACTION, .cpu_only = true, .only_if = "coordinates=lapped",                      \
                         .doc = "Radius of patches, fraction of a mesh's diagonal."),                                   \
-        PARAM_INT_ROW(halftone_values, directions_on_page, .def = 12, .min = 2, .max = 64, .soft_max = 24,             \
-                      .unit = UNIT_COUNT, .variant = true, .only_if = "coordinates=form-mesh,form",                    \
+        PARAM_INT_ROW(halftone_values, directions_on_page, .was = "ways_on_page", .def = 12, .min = 2, .max = 64,      \
+                      .soft_max = 24, .unit = UNIT_COUNT, .variant = true, .only_if = "coordinates=form-mesh,form",    \
                       .doc = "How many directions strokes of form and form-mesh can lie on the page."),                \
         PARAM_FLOAT_ROW(halftone_values, angle, .def = 0, .min = -360, .max = 360, .soft_min = -90, .soft_max = 90,    \
                         .unit = UNIT_DEGREES, .as_turn = true, .doc = "Turns the strokes on the surface."),            \

@@ -1,0 +1,123 @@
+/* Exposures: whole pictures at several times, whose mean is encoded. Großmann 2011, section 4.2.1. */
+#include "draw/exposure.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "motion/motion.h"
+
+void exposure_release(exposure *e)
+{
+    mem_free(e->moves);
+    mem_free(e->values);
+    memset(e, 0, sizeof *e);
+}
+
+/* One picture is drawn of all figures together, so their exposures are one. */
+static bool agrees(const exposure *e, const technique_use *use)
+{
+    return e->technique == use->technique && memcmp(e->values, use->values, use->technique->params_size) == 0;
+}
+
+/* Of a figure of the plan, which ends before the last picture is drawn. */
+static bool take(exposure *e, const technique_use *use)
+{
+    e->technique = use->technique;
+    e->values = mem_copy(use->values, use->technique->params_size);
+    if (!e->values)
+        return false;
+    e->seconds = (double)((const motion_common *)e->values)->exposure;
+    e->times = use->technique->motion->times(e->values);
+    return true;
+}
+
+lmn_status exposure_find(exposure *out, const plan *p, lmn_error *error)
+{
+    size_t all = p->scene->part_count + p->scene->ghost_count;
+    *out = (exposure){.moves = mem_calloc(all, sizeof *out->moves)};
+    if (!out->moves)
+        return error_memory(error);
+    if (!p->pose->at_rest)
+        return LMN_OK;
+    for (size_t i = 0; i < p->figure_count; i++) {
+        const technique_use *use = rule_use(p->figures[i].rule, KIND_MOTION);
+        if (!use)
+            continue;
+        if (out->technique && !agrees(out, use)) {
+            error_set(error, LMN_USAGE, "two rules of the look ask for different motion");
+            error_hint(error, "a picture has one exposure: give them the same values");
+            return LMN_USAGE;
+        }
+        if (!out->technique && !take(out, use))
+            return error_memory(error);
+        for (size_t k = 0; k < p->part_count; k++)
+            out->moves[k] = out->moves[k] || p->figures[i].designated[k];
+    }
+    return LMN_OK;
+}
+
+/* The i-th picture of the exposure; the last one is of the time that is drawn. */
+static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r, const lmn_scene *scene,
+                           const lmn_look *look, const draw_options *options, gpu_texture **mean, double part,
+                           lmn_error *error)
+{
+    lmn_draw_desc desc = *options->desc;
+    draw_options  one = *options;
+    warnings      said = {0}; /* the first session has said it */
+    desc.time_s -= e->seconds * (e->times - 1 - i) / e->times;
+    desc.time_given = true;
+    one.desc = &desc;
+    lmn_status status = session_open(s, r, scene, look, &one, &said, error);
+    if (status == LMN_OK) {
+        s->frame.time_s = options->desc->time_s; /* what boils does so from picture to picture, not within one */
+        frame_draw_into_mean(&s->frame, mean, part);
+        status = gpu_check(r->g, error);
+    }
+    warnings_release(&said);
+    return status;
+}
+
+static bool everything_moves(const exposure *e, const lmn_scene *scene)
+{
+    for (size_t i = 0; i < scene->part_count; i++)
+        if (!e->moves[i])
+            return false;
+    return true;
+}
+
+lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, const draw_options *options,
+                         exposure_finish_fn finish, void *user, lmn_error *error)
+{
+    const lmn_draw_desc *desc = options->desc;
+    const motion_row    *row = e->technique->motion;
+    lmn_renderer        *r = s->renderer;
+    const lmn_scene     *scene = s->plan.scene;
+    view_camera          camera = s->frame.camera;
+    gpu_texture         *mean = NULL;
+    draw_options         one = *options;
+    pose                 held;
+    double               sum = 0;
+    lmn_status           status = pose_create(&held, scene, &r->pose.when, error);
+    one.held = &held;
+    one.moves = e->moves;
+    /* A camera of the file that moves is exposed too, when everything is. */
+    one.camera = desc->camera && everything_moves(e, scene) ? NULL : &camera;
+    session_close(s);
+    for (int i = 0; i < e->times && status == LMN_OK; i++) {
+        double weight = row->weight(e->values, e->times - 1 - i);
+        sum += weight;
+        if (desc->progress && !desc->progress(0.3 + 0.5 * i / e->times, "drawing", desc->progress_user))
+            status = error_set(error, LMN_CANCELLED, "cancelled");
+        if (i > 0)
+            session_close(s);
+        if (status == LMN_OK)
+            status = draw_one(e, i, s, r, scene, look, &one, &mean, sum > 0 ? weight / sum : 1, error);
+    }
+    if (status == LMN_OK) {
+        frame_encode_mean(&s->frame, mean, s->out);
+        status = finish(s, user, error);
+    }
+    gpu_target_release(r->g, mean);
+    pose_release(&held);
+    return status;
+}
