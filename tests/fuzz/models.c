@@ -80,6 +80,11 @@ void fuzz_obj(const uint8_t *bytes, size_t size)
     use(fuzz_read_model(import_obj.read, 'y', bytes, size));
 }
 
+void fuzz_bvh(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_bvh.read, 'y', bytes, size));
+}
+
 void fuzz_csg(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(import_csg.read, 'z', bytes, size));

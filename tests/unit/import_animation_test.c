@@ -113,60 +113,66 @@ static void pointers_move_what_they_point_at(void **state)
     PUT_FLOATS(one, 2, "SCALAR");   /* 2 */
     PUT_FLOATS(three, 2, "VEC3");   /* 3 */
     PUT_FLOATS(four, 2, "VEC4");    /* 4 */
-    lmn_scene *s =
-        load("\"extensionsRequired\":[\"KHR_animation_pointer\",\"KHR_lights_punctual\"]," LIGHTS "," CAMERAS ","
-             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}]}],"
-             "\"scenes\":[{\"nodes\":[2,1]}],\"nodes\":[{\"name\":\"outside\"},{\"mesh\":0},{\"name\":\"first\"}],"
-             "\"animations\":[{\"samplers\":[{\"input\":1,\"output\":2},{\"input\":1,\"output\":3},{\"input\":1,"
-             "\"output\":"
-             "4}],"
-             "\"channels\":[{\"sampler\":1,\"target\":" POINTS(
-                 "/nodes/2/translation") "},"
-                                         "{\"sampler\":2,\"target\":" POINTS("/nodes/1/rotation") "},{\"sampler\":1,"
-                                                                                                  "\"target\":" POINTS("/nodes/2/scale") "},{\"sampler\":0,\"target\":" POINTS(
-                                                                                                      "/nodes/1/"
-                                                                                                      "weights") "},"
-                                                                                                                 "{\"sa"
-                                                                                                                 "mpler"
-                                                                                                                 "\":0,"
-                                                                                                                 "\"tar"
-                                                                                                                 "get\""
-                                                                                                                 ":" POINTS(
-                                                                                                                     "/"
-                                                                                                                     "c"
-                                                                                                                     "a"
-                                                                                                                     "m"
-                                                                                                                     "e"
-                                                                                                                     "r"
-                                                                                                                     "a"
-                                                                                                                     "s"
-                                                                                                                     "/"
-                                                                                                                     "0"
-                                                                                                                     "/"
-                                                                                                                     "p"
-                                                                                                                     "e"
-                                                                                                                     "r"
-                                                                                                                     "s"
-                                                                                                                     "p"
-                                                                                                                     "e"
-                                                                                                                     "c"
-                                                                                                                     "t"
-                                                                                                                     "i"
-                                                                                                                     "v"
-                                                                                                                     "e"
-                                                                                                                     "/"
-                                                                                                                     "y"
-                                                                                                                     "f"
-                                                                                                                     "o"
-                                                                                                                     "v") "},"
-                                                                                                                          "{\"sampler\":0,\"target\":" POINTS(
-                                                                                                                              "/cameras/1/orthographic/ymag") "},"
-                                                                                                                                                              "{\"sampler\":1,\"target\":" POINTS(
-                                                                                                                                                                  "/extensions/KHR_lights_punctual/lights/1/color") "},"
-                                                                                                                                                                                                                    "{\"sampler\":0,\"target\":" POINTS(
-                                                                                                                                                                                                                        "/extensions/KHR_lights_punctual/lights/0/intensity") "},"
-                                                                                                                                                                                                                                                                              "{\"sampler\":1,\"target\":" POINTS(
-                                                                                                                                                                                                                                                                                  "/nodes/0/translation") "}]}]");
+    lmn_scene *s = load(
+        "\"extensionsRequired\":[\"KHR_animation_pointer\",\"KHR_lights_punctual\"]," LIGHTS "," CAMERAS ","
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}]}],"
+        "\"scenes\":[{\"nodes\":[2,1]}],\"nodes\":[{\"name\":\"outside\"},{\"mesh\":0},{\"name\":\"first\"}],"
+        "\"animations\":[{\"samplers\":[{\"input\":1,\"output\":2},{\"input\":1,\"output\":3},{\"input\":1,"
+        "\"output\":"
+        "4}],"
+        "\"channels\":[{\"sampler\":1,\"target\":" POINTS(
+            "/nodes/2/translation") "},"
+                                    "{\"sampler\":2,\"target\":" POINTS("/nodes/1/rotation") "},{\"sampler\":1,"
+                                                                                             "\"target\":" POINTS("/nod"
+                                                                                                                  "es/"
+                                                                                                                  "2/"
+                                                                                                                  "scal"
+                                                                                                                  "e") "},{\"sampler\":0,\"target\":" POINTS(
+                                                                                                 "/nodes/1/"
+                                                                                                 "weights") "},"
+                                                                                                            "{\"sa"
+                                                                                                            "mpler"
+                                                                                                            "\":0,"
+                                                                                                            "\"tar"
+                                                                                                            "get\""
+                                                                                                            ":" POINTS(
+                                                                                                                "/"
+                                                                                                                "c"
+                                                                                                                "a"
+                                                                                                                "m"
+                                                                                                                "e"
+                                                                                                                "r"
+                                                                                                                "a"
+                                                                                                                "s"
+                                                                                                                "/"
+                                                                                                                "0"
+                                                                                                                "/"
+                                                                                                                "p"
+                                                                                                                "e"
+                                                                                                                "r"
+                                                                                                                "s"
+                                                                                                                "p"
+                                                                                                                "e"
+                                                                                                                "c"
+                                                                                                                "t"
+                                                                                                                "i"
+                                                                                                                "v"
+                                                                                                                "e"
+                                                                                                                "/"
+                                                                                                                "y"
+                                                                                                                "f"
+                                                                                                                "o"
+                                                                                                                "v") "}"
+                                                                                                                     ","
+                                                                                                                     "{"
+                                                                                                                     "\"sampler\":0,\"target\":" POINTS(
+                                                                                                                         "/cameras/1/orthographic/ymag") "},"
+                                                                                                                                                         "{\"sampler\":1,\"target\":" POINTS(
+                                                                                                                                                             "/extensions/KHR_lights_punctual/lights/1/color") "},"
+                                                                                                                                                                                                               "{\"sampler\":0,\"target\":" POINTS(
+                                                                                                                                                                                                                   "/extensions/KHR_lights_punctual/lights/0/intensity") "},"
+                                                                                                                                                                                                                                                                         "{\"sampler\":1,\"target\":" POINTS(
+                                                                                                                                                                                                                                                                             "/nodes/0/translation") "}]}]");
     assert_int_equal(s->warnings.count, 0); /* a node outside of the scene is nobody's mistake */
     assert_int_equal(s->animations[0].channel_count, 8);
     static const struct {
