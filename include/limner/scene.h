@@ -16,7 +16,7 @@ typedef enum lmn_up_axis { LMN_UP_AUTO = 0, LMN_UP_Y, LMN_UP_Z } lmn_up_axis;
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
     size_t          struct_size; /* set by LMN_LOAD_DESC_INIT */
-    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY are +Y up, STL and OpenSCAD +Z */
+    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY, BVH are +Y up, STL and OpenSCAD +Z */
     lmn_progress_fn progress;    /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */

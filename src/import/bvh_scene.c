@@ -9,7 +9,7 @@
 /* --- bones ---------------------------------------------------------------------------------------------- */
 
 /* A slender octahedron of length 1 along +y, broadest near the joint where it begins. */
-static const float  BONE_BREADTH = 0.07f, BONE_BROADEST = 0.15f;
+static const float  BONE_BREADTH = 0.09f, BONE_BROADEST = 0.15f;
 static const double BONE_LEAST = 1e-9; /* shorter ones have no direction */
 
 /* All bones share one mesh; their nodes turn and scale it. Returns its index, NONE when memory is gone. */

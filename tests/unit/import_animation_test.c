@@ -116,63 +116,101 @@ static void pointers_move_what_they_point_at(void **state)
     lmn_scene *s = load(
         "\"extensionsRequired\":[\"KHR_animation_pointer\",\"KHR_lights_punctual\"]," LIGHTS "," CAMERAS ","
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}]}],"
-        "\"scenes\":[{\"nodes\":[2,1]}],\"nodes\":[{\"name\":\"outside\"},{\"mesh\":0},{\"name\":\"first\"}],"
-        "\"animations\":[{\"samplers\":[{\"input\":1,\"output\":2},{\"input\":1,\"output\":3},{\"input\":1,"
+        "\"scenes\":[{\"nodes\":[2,1]}],\"nodes\":[{\"name\":\"outside\"},{\"mesh\":0},{\"name\":"
+        "\"first\"}],"
+        "\"animations\":[{\"samplers\":[{\"input\":1,\"output\":2},{\"input\":1,\"output\":3},{\"input\":"
+        "1,"
         "\"output\":"
         "4}],"
         "\"channels\":[{\"sampler\":1,\"target\":" POINTS(
             "/nodes/2/translation") "},"
-                                    "{\"sampler\":2,\"target\":" POINTS("/nodes/1/rotation") "},{\"sampler\":1,"
-                                                                                             "\"target\":" POINTS("/nod"
-                                                                                                                  "es/"
-                                                                                                                  "2/"
-                                                                                                                  "scal"
-                                                                                                                  "e") "},{\"sampler\":0,\"target\":" POINTS(
-                                                                                                 "/nodes/1/"
-                                                                                                 "weights") "},"
-                                                                                                            "{\"sa"
-                                                                                                            "mpler"
-                                                                                                            "\":0,"
-                                                                                                            "\"tar"
-                                                                                                            "get\""
-                                                                                                            ":" POINTS(
-                                                                                                                "/"
-                                                                                                                "c"
-                                                                                                                "a"
-                                                                                                                "m"
-                                                                                                                "e"
-                                                                                                                "r"
-                                                                                                                "a"
-                                                                                                                "s"
-                                                                                                                "/"
-                                                                                                                "0"
-                                                                                                                "/"
-                                                                                                                "p"
-                                                                                                                "e"
-                                                                                                                "r"
-                                                                                                                "s"
-                                                                                                                "p"
-                                                                                                                "e"
-                                                                                                                "c"
-                                                                                                                "t"
-                                                                                                                "i"
-                                                                                                                "v"
-                                                                                                                "e"
-                                                                                                                "/"
-                                                                                                                "y"
-                                                                                                                "f"
-                                                                                                                "o"
-                                                                                                                "v") "}"
-                                                                                                                     ","
-                                                                                                                     "{"
-                                                                                                                     "\"sampler\":0,\"target\":" POINTS(
-                                                                                                                         "/cameras/1/orthographic/ymag") "},"
-                                                                                                                                                         "{\"sampler\":1,\"target\":" POINTS(
-                                                                                                                                                             "/extensions/KHR_lights_punctual/lights/1/color") "},"
-                                                                                                                                                                                                               "{\"sampler\":0,\"target\":" POINTS(
-                                                                                                                                                                                                                   "/extensions/KHR_lights_punctual/lights/0/intensity") "},"
-                                                                                                                                                                                                                                                                         "{\"sampler\":1,\"target\":" POINTS(
-                                                                                                                                                                                                                                                                             "/nodes/0/translation") "}]}]");
+                                    "{\"sampler\":2,\"target\":" POINTS(
+                                        "/nodes/1/rotation") "},{\"sampler\":1,"
+                                                             "\"target\":" POINTS(
+                                                                 "/nod"
+                                                                 "es/"
+                                                                 "2/"
+                                                                 "scal"
+                                                                 "e") "},{\"sampler\":0,"
+                                                                      "\"target\":" POINTS(
+                                                                          "/nodes/1/"
+                                                                          "weights") "},"
+                                                                                     "{\""
+                                                                                     "sa"
+                                                                                     "mpl"
+                                                                                     "er"
+                                                                                     "\":"
+                                                                                     "0,"
+                                                                                     "\"t"
+                                                                                     "ar"
+                                                                                     "get"
+                                                                                     "\""
+                                                                                     ":" POINTS(
+                                                                                         "/"
+                                                                                         "c"
+                                                                                         "a"
+                                                                                         "m"
+                                                                                         "e"
+                                                                                         "r"
+                                                                                         "a"
+                                                                                         "s"
+                                                                                         "/"
+                                                                                         "0"
+                                                                                         "/"
+                                                                                         "p"
+                                                                                         "e"
+                                                                                         "r"
+                                                                                         "s"
+                                                                                         "p"
+                                                                                         "e"
+                                                                                         "c"
+                                                                                         "t"
+                                                                                         "i"
+                                                                                         "v"
+                                                                                         "e"
+                                                                                         "/"
+                                                                                         "y"
+                                                                                         "f"
+                                                                                         "o"
+                                                                                         "v") "}"
+                                                                                              ","
+                                                                                              "{"
+                                                                                              "\"sampler\":0,"
+                                                                                              "\"target\":" POINTS(
+                                                                                                  "/cameras/1/"
+                                                                                                  "orthographic/"
+                                                                                                  "ymag") "},"
+                                                                                                          "{\"sampl"
+                                                                                                          "er\":1,"
+                                                                                                          "\"target"
+                                                                                                          "\""
+                                                                                                          ":" POINTS(
+                                                                                                              "/ext"
+                                                                                                              "ensi"
+                                                                                                              "ons/"
+                                                                                                              "KHR_"
+                                                                                                              "ligh"
+                                                                                                              "ts_"
+                                                                                                              "punc"
+                                                                                                              "tual"
+                                                                                                              "/lig"
+                                                                                                              "hts/"
+                                                                                                              "1/"
+                                                                                                              "colo"
+                                                                                                              "r") "},"
+                                                                                                                   "{\""
+                                                                                                                   "sam"
+                                                                                                                   "ple"
+                                                                                                                   "r\""
+                                                                                                                   ":0,"
+                                                                                                                   "\"t"
+                                                                                                                   "arg"
+                                                                                                                   "et"
+                                                                                                                   "\""
+                                                                                                                   ":" POINTS(
+                                                                                                                       "/extensions/KHR_lights_punctual/lights/0/intensity") "},"
+                                                                                                                                                                             "{\"sampler\":1,\"target\":" POINTS(
+                                                                                                                                                                                 "/nodes/0/translation") "}]}]");
     assert_int_equal(s->warnings.count, 0); /* a node outside of the scene is nobody's mistake */
     assert_int_equal(s->animations[0].channel_count, 8);
     static const struct {
@@ -192,6 +230,11 @@ static void pointers_move_what_they_point_at(void **state)
     }
     assert_true(s->animations[0].channels[6].values[5] == 6 && s->animations[0].channels[4].values[0] == 0.5f);
     assert_true(s->animations[0].duration == 2);
+    /* Node 2 moves in two ways and is one node. */
+    char *info = lmn_scene_info_json(s);
+    assert_non_null(
+        strstr(info, "\"nodes\": 2,\n        \"weights\": 1,\n        \"cameras\": 2,\n        \"lights\": 2"));
+    lmn_text_free(info);
     lmn_scene_destroy(&s);
 }
 
