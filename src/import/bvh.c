@@ -354,7 +354,7 @@ static lmn_status read_bvh(const import_job *job, lmn_error *error)
     bvh_reader  r = {.job = job, .begin = begin, .at = begin, .end = begin + job->file->size, .error = error};
     skip_byte_order_mark(&r);
     /* A skeleton without length is drawn as nothing, and still moves a model (import/retarget.h). */
-    job->scene->may_be_empty = true;
+    job->scene->may_be_empty = job->scene->is_motion = true;
     lmn_status status = read_hierarchy(&r);
     if (status == LMN_OK)
         status = bvh_build_skeleton(job->scene, &r.skeleton, error);

@@ -108,8 +108,11 @@ static bool drop_all_doubles(lmn_scene *s, animation_counts *counts)
 
 /* --- nodes ---------------------------------------------------------------------------------------------- */
 
-static void free_matrix(lmn_scene *s, node *n)
+void node_split_matrix(lmn_scene *s, int32_t node_index)
 {
+    node *n = &s->nodes[node_index];
+    if (!n->has_matrix)
+        return;
     bool exact = mat4_decompose(&n->matrix, n->translation, n->rotation, n->scale);
     n->has_matrix = false;
     n->matrix = mat4_identity();
@@ -153,8 +156,8 @@ static void clean_channels(lmn_scene *s, animation *a, animation_counts *counts)
         drop_equal_times(c, counts);
         if (c->path == PATH_ROTATION)
             normalise_rotations(c, counts);
-        if (c->path <= PATH_SCALE && s->nodes[c->target].has_matrix)
-            free_matrix(s, &s->nodes[c->target]);
+        if (c->path <= PATH_SCALE)
+            node_split_matrix(s, c->target);
         if (c->key_count > 0)
             a->duration = fmax(a->duration, c->times[c->key_count - 1]);
     }

@@ -9,4 +9,7 @@
  * the first two. Of matrices that are not finite, what comes out is finite too. */
 bool mat4_decompose(const mat4 *m, double t[3], double r[4], double s[3]);
 
+/* Gives a node that has a matrix translation, rotation and scale instead, with a warning; others stay as they are. */
+void node_split_matrix(lmn_scene *scene, int32_t node_index);
+
 #endif

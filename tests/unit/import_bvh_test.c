@@ -1,8 +1,8 @@
 /* BVH: the hierarchy, what channels become, bones, and files that are wrong. Expected positions come from matrices that
  * are multiplied here. */
 #include "import_support.h"
+#include "turns.h"
 
-#include <limits.h>
 #include <math.h>
 
 #define END(x, y, z) "End Site { OFFSET " #x " " #y " " #z " }"
@@ -35,51 +35,6 @@ static size_t warnings_of(const lmn_scene *s, const char *words)
         if (strstr(s->warnings.items[i].text, words))
             count += s->warnings.items[i].count;
     return count;
-}
-
-/* --- matrices of this test, rows first ------------------------------------------------------------------ */
-
-typedef struct turn {
-    double m[3][3];
-} turn;
-
-/* How angles in degrees about x, y and z turn columns, written out. */
-static turn about(char axis, double degrees)
-{
-    double c = cos(degrees * acos(-1) / 180), s = sin(degrees * acos(-1) / 180);
-    if (axis == 'X')
-        return (turn){{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
-    if (axis == 'Y')
-        return (turn){{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
-    return (turn){{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
-}
-
-static turn times(turn a, turn b)
-{
-    turn out = {{{0}}};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            for (int n = 0; n < 3; n++)
-                out.m[i][k] += a.m[i][n] * b.m[n][k];
-    return out;
-}
-
-/* What a quaternion does to the axes. */
-static turn of_quaternion(const float *q)
-{
-    double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
-    return (turn){{{w * w + x * x - y * y - z * z, 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                   {2 * (x * y + z * w), w * w - x * x + y * y - z * z, 2 * (y * z - x * w)},
-                   {2 * (x * z - y * w), 2 * (y * z + x * w), w * w - x * x - y * y + z * z}}};
-}
-
-static double difference(turn a, turn b)
-{
-    double most = 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            most = fmax(most, fabs(a.m[i][k] - b.m[i][k]));
-    return most;
 }
 
 /* --- what is read --------------------------------------------------------------------------------------- */
