@@ -466,13 +466,13 @@ static void the_last_of_equal_times_counts(void **state)
     assert_int_equal(warnings_of(s, "2 animation keys at the time of the next one"), 1);
     lmn_scene_destroy(&s);
     /* Of cubic keys the tangents go with them. */
-    static const float two[2] = {1, 1};
-    float              cubic[18];
-    for (int i = 0; i < 18; i++)
+    static const float three[3] = {0, 1, 1};
+    float              cubic[27];
+    for (int i = 0; i < 27; i++)
         cubic[i] = (float)i;
-    s = load_channel("scale", "CUBICSPLINE", two, 2, cubic, 6, "VEC3", 3);
+    s = load_channel("scale", "CUBICSPLINE", three, 3, cubic, 9, "VEC3", 3);
     c = channel_of(s, PATH_SCALE);
-    assert_true(c->key_count == 1 && c->values[0] == 9 && c->values[8] == 17);
+    assert_true(c->key_count == 2 && c->values[8] == 8 && c->values[9] == 18 && c->values[17] == 26);
     assert_true(s->animations[0].duration == 1);
     lmn_scene_destroy(&s);
 }
@@ -528,10 +528,10 @@ static void rotations_become_unit(void **state)
     assert_int_equal(warnings_of(s, "1 animation keys with rotations of length 0"), 1);
     lmn_scene_destroy(&s);
     /* In-tangent, value, out-tangent: the value becomes unit, and the tangents shrink with it. */
-    static const float one[1] = {0}, cubic[12] = {5, 0, 0, 0, 0, 0, 5, 0, 0, 10, 0, 0};
+    static const float one[1] = {0}, cubic[12] = {10, 0, 0, 0, 0, 0, 5, 0, 0, 15, 0, 0};
     s = load_channel("rotation", "CUBICSPLINE", one, 1, cubic, 3, "VEC4", 4);
     v = channel_of(s, PATH_ROTATION)->values;
-    assert_true(v[0] == 1 && v[6] == 1 && v[9] == 2);
+    assert_true(v[0] == 2 && v[6] == 1 && v[9] == 3);
     lmn_scene_destroy(&s);
 }
 
