@@ -178,55 +178,23 @@ static bool find_pairs(retargeter *r, int32_t *pair_of, bool *enough)
 
 /* --- at rest -------------------------------------------------------------------------------------------- */
 
-static void set_rest(retargeter *r, const mat4 *worlds, const int32_t *pair_of)
+static bool set_rest(retargeter *r, const int32_t *pair_of)
 {
     const node *nodes = r->scene->nodes;
-    for (size_t i = 0; i < r->count; i++) {
-        pair   *p = &r->pairs[i];
-        int32_t parent = nodes[p->model].parent;
+    for (size_t i = 0; i < r->count && !work_stopped(); i++) {
+        pair      *p = &r->pairs[i];
+        int32_t    parent = nodes[p->model].parent;
+        const mat4 world = scene_world_matrix(r->scene, p->model);
         for (int32_t n = parent; n != NONE && p->above == NONE; n = nodes[n].parent)
             p->above = pair_of[n];
-        p->parent_world = parent == NONE ? mat4_identity() : worlds[parent];
-        rotation_of(&worlds[p->model], p->rest);
+        p->parent_world = parent == NONE ? mat4_identity() : scene_world_matrix(r->scene, parent);
+        rotation_of(&world, p->rest);
         rotation_of(&p->parent_world, p->parent_rest);
         for (int k = 0; k < 3; k++)
-            p->place[k] = worlds[p->model].m[12 + k];
+            p->place[k] = world.m[12 + k];
         r->uppermost += p->above == NONE;
     }
-}
-
-/* Legs are as long as the highest uppermost joint is above the lowest joint. Only joints that are paired are measured,
- * since one of the two may have toes. 1 when there is nothing to compare. */
-static double compare_legs(const retargeter *r, const mat4 *motion_worlds)
-{
-    double reach[2] = {0, 0};
-    int    up[2] = {r->scene->up == 'z' ? 2 : 1, r->motion->up == 'z' ? 2 : 1};
-    double top[2] = {-INFINITY, -INFINITY}, low[2] = {INFINITY, INFINITY};
-    for (size_t i = 0; i < r->count; i++) {
-        const pair  *p = &r->pairs[i];
-        const double at[2] = {p->place[up[0]], motion_worlds[p->motion].m[12 + up[1]]};
-        for (int k = 0; k < 2; k++) {
-            if (p->above == NONE)
-                top[k] = fmax(top[k], at[k]);
-            low[k] = fmin(low[k], at[k]);
-        }
-    }
-    for (int k = 0; k < 2; k++)
-        reach[k] = top[k] - low[k];
-    return reach[0] > 0 && reach[1] > 1e-9 * reach[0] ? reach[0] / reach[1] : 1;
-}
-
-/* The lowest point of the motion's skeleton at rest, tips of bones counted. */
-static double lowest_point(const lmn_scene *motion, const mat4 *worlds)
-{
-    int    up = motion->up == 'z' ? 2 : 1;
-    double low = INFINITY;
-    for (size_t i = 0; i < motion->node_count; i++) {
-        low = fmin(low, worlds[i].m[12 + up]);
-        if (motion->nodes[i].mesh != NONE) /* a bone goes along its y axis */
-            low = fmin(low, worlds[i].m[12 + up] + worlds[i].m[4 + up]);
-    }
-    return low;
+    return !work_stopped();
 }
 
 /* --- in motion ------------------------------------------------------------------------------------------ */
@@ -248,16 +216,20 @@ static bool find_channels(retargeter *r)
     return true;
 }
 
+enum { AT_REST = -1 };
+
 /* Where the motion's joints are in a frame, in its own axes. Parents stand before their children. */
-static void pose_motion(retargeter *r, size_t frame)
+static void pose_motion(retargeter *r, long frame)
 {
     for (size_t i = 0; i < r->motion->node_count; i++) {
-        const node *n = &r->motion->nodes[i];
-        double      turn[4], place[3];
+        const node              *n = &r->motion->nodes[i];
+        const animation_channel *turning = frame == AT_REST ? NULL : r->turning[i];
+        const animation_channel *moving = frame == AT_REST ? NULL : r->moving[i];
+        double                   turn[4], place[3];
         for (int k = 0; k < 4; k++)
-            turn[k] = r->turning[i] ? (double)r->turning[i]->values[4 * frame + (size_t)k] : n->rotation[k];
+            turn[k] = turning ? (double)turning->values[4 * frame + k] : n->rotation[k];
         for (int k = 0; k < 3; k++)
-            place[k] = r->moving[i] ? (double)r->moving[i]->values[3 * frame + (size_t)k] : n->translation[k];
+            place[k] = moving ? (double)moving->values[3 * frame + k] : n->translation[k];
         if (n->parent == NONE) {
             memcpy(r->turns[i], turn, sizeof turn);
             memcpy(r->places[i], place, sizeof place);
@@ -268,6 +240,40 @@ static void pose_motion(retargeter *r, size_t frame)
         for (int k = 0; k < 3; k++)
             r->places[i][k] += r->places[n->parent][k];
     }
+}
+
+/* At rest, legs are as long as the highest uppermost joint is above the lowest joint. Only joints that are paired are
+ * measured, since one of the two may have toes. 1 when there is nothing to compare. */
+static double compare_legs(const retargeter *r)
+{
+    double reach[2] = {0, 0};
+    int    up[2] = {r->scene->up == 'z' ? 2 : 1, r->motion->up == 'z' ? 2 : 1};
+    double top[2] = {-INFINITY, -INFINITY}, low[2] = {INFINITY, INFINITY};
+    for (size_t i = 0; i < r->count; i++) {
+        const pair  *p = &r->pairs[i];
+        const double at[2] = {p->place[up[0]], r->places[p->motion][up[1]]};
+        for (int k = 0; k < 2; k++) {
+            if (p->above == NONE)
+                top[k] = fmax(top[k], at[k]);
+            low[k] = fmin(low[k], at[k]);
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        reach[k] = top[k] - low[k];
+    return reach[0] > 0 && reach[1] > 1e-9 * reach[0] ? reach[0] / reach[1] : 1;
+}
+
+/* The lowest point of the motion's skeleton where it is now, tips of bones counted. */
+static double lowest_point(const retargeter *r)
+{
+    int    up = r->motion->up == 'z' ? 2 : 1;
+    double low = INFINITY;
+    for (size_t i = 0; i < r->motion->node_count; i++) {
+        double tip[3] = {0, r->motion->nodes[i].mesh == NONE ? 0 : r->motion->nodes[i].scale[1], 0}; /* of a bone */
+        turn_vector(r->turns[i], tip, tip);
+        low = fmin(low, fmin(r->places[i][up], r->places[i][up] + tip[up]));
+    }
+    return low;
 }
 
 static void put_rotation(animation_channel *c, size_t frame, const double q[4])
@@ -377,25 +383,39 @@ static bool add_channels(retargeter *r)
     return good;
 }
 
-static bool make_animation(retargeter *r, const mat4 *motion_worlds)
+/* How high each uppermost joint's counterpart stands, the skeleton standing on the ground; in the order of the pairs.
+ */
+static void measure_rest(retargeter *r, double *standing)
 {
-    if (!find_channels(r) || !add_channels(r))
-        return false;
-    for (size_t f = 0; f < r->clip->channels[0].key_count; f++) {
-        if (work_stopped())
-            return false;
-        pose_motion(r, f);
-        put_rotations(r, f);
-        put_places(r, f);
-    }
-    animation_channel *c = &r->made.channels[r->count];
-    double             ground = lowest_point(r->motion, motion_worlds);
+    int up = r->motion->up == 'z' ? 2 : 1;
+    pose_motion(r, AT_REST);
+    r->legs = compare_legs(r);
+    double ground = lowest_point(r);
     for (size_t i = 0; i < r->count; i++)
         if (r->pairs[i].above == NONE)
-            place_uppermost(r, &r->pairs[i], c++,
-                            motion_worlds[r->pairs[i].motion].m[12 + (r->motion->up == 'z' ? 2 : 1)] - ground);
+            *standing++ = r->places[r->pairs[i].motion][up] - ground;
+}
+
+static bool make_animation(retargeter *r)
+{
+    double *standing = mem_alloc(r->uppermost * sizeof *standing);
+    bool    good = standing && find_channels(r) && add_channels(r);
+    if (good)
+        measure_rest(r, standing);
+    for (size_t f = 0; good && f < r->clip->channels[0].key_count; f++) {
+        pose_motion(r, (long)f);
+        put_rotations(r, f);
+        put_places(r, f);
+        good = !work_stopped();
+    }
+    for (size_t i = 0, at = 0; good && i < r->count; i++)
+        if (r->pairs[i].above == NONE) {
+            place_uppermost(r, &r->pairs[i], &r->made.channels[r->count + at], standing[at]);
+            at++;
+        }
     r->made.duration = r->clip->duration;
-    return true;
+    mem_free(standing);
+    return good;
 }
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
@@ -442,9 +462,8 @@ static void release(retargeter *r)
 static bool pair_and_make(retargeter *r, lmn_scene *motion, const char *file, bool *done)
 {
     bool     enough = false;
-    mat4    *worlds = scene_world_matrices(r->scene), *motion_worlds = scene_world_matrices(motion);
     int32_t *pair_of = mem_alloc(r->scene->node_count * sizeof *pair_of);
-    bool     good = worlds && motion_worlds && pair_of;
+    bool     good = pair_of != NULL;
     if (good) {
         memset(pair_of, 0xFF, r->scene->node_count * sizeof *pair_of); /* all NONE */
         good = find_pairs(r, pair_of, &enough);
@@ -456,13 +475,9 @@ static bool pair_and_make(retargeter *r, lmn_scene *motion, const char *file, bo
     if (good && enough) {
         const mat4 axes = scene_up_rotation(motion->up, r->scene->up);
         rotation_of(&axes, r->from_motion);
-        set_rest(r, worlds, pair_of);
-        r->legs = compare_legs(r, motion_worlds);
-        good = make_animation(r, motion_worlds) && commit(r, motion, file);
+        good = set_rest(r, pair_of) && make_animation(r) && commit(r, motion, file);
         *done = good;
     }
-    mem_free(worlds);
-    mem_free(motion_worlds);
     mem_free(pair_of);
     return good;
 }
