@@ -1,31 +1,19 @@
 #include "import/retarget.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
+#include "import/retarget_pairs.h"
 #include "scene/decompose.h"
-
-/* A joint of the model and the one of the motion that it follows. */
-typedef struct pair {
-    int32_t model, motion; /* nodes */
-    int32_t above;         /* the pair of the nearest joint above it in the model, NONE of an uppermost one */
-    double  rest[4];       /* rotation in the world at rest */
-    double  parent_rest[4];
-    mat4    parent_world; /* of an uppermost one */
-    double  place[3];     /* where that is at rest */
-} pair;
 
 typedef struct retargeter {
     lmn_scene       *scene;
     const lmn_scene *motion;
     const animation *clip;
-    pair            *pairs;
-    size_t           count, uppermost;
+    pair_list        pairs;
     /* Of each node of the motion: what moves it, or NULL, and where it is in one frame. */
     const animation_channel **turning, **moving;
     double (*turns)[4], (*places)[3], (*deltas)[4]; /* deltas: rotations of pairs since rest, in the model's axes */
@@ -33,169 +21,6 @@ typedef struct retargeter {
     double    legs;                                 /* how much longer the model's are */
     animation made;
 } retargeter;
-
-/* --- quaternions ---------------------------------------------------------------------------------------- */
-
-static void multiply(const double a[4], const double b[4], double out[4])
-{
-    const double q[4] = {
-        a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-        a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-    memcpy(out, q, sizeof q);
-}
-
-static void invert(const double q[4], double out[4])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = -q[i];
-    out[3] = q[3];
-}
-
-/* a · b · a⁻¹ */
-static void conjugate(const double a[4], const double b[4], double out[4])
-{
-    double back[4];
-    invert(a, back);
-    multiply(a, b, out);
-    multiply(out, back, out);
-}
-
-static void turn_vector(const double q[4], const double v[3], double out[3])
-{
-    const double as_quaternion[4] = {v[0], v[1], v[2], 0};
-    double       turned[4];
-    conjugate(q, as_quaternion, turned);
-    memcpy(out, turned, 3 * sizeof *out);
-}
-
-static void rotation_of(const mat4 *m, double out[4])
-{
-    double t[3], s[3];
-    mat4_decompose(m, t, out, s);
-}
-
-/* --- which joint follows which -------------------------------------------------------------------------- */
-
-/* The name without what programs put in front of it, as in "mixamorig:Hips". */
-static const char *plain_name(const char *name)
-{
-    const char *colon = strrchr(name, ':');
-    return colon && colon[1] ? colon + 1 : name;
-}
-
-typedef struct named_joint {
-    const char *name;
-    int32_t     node;
-} named_joint;
-
-static int compare_names(const void *a, const void *b)
-{
-    const named_joint *p = a, *q = b;
-    int                order = strcasecmp(p->name, q->name);
-    return order ? order : (p->node > q->node) - (p->node < q->node);
-}
-
-/* The joints of the motion that have a name, in its order; of equal ones the first in the file counts. Bones are parts
- * and no joints. */
-static size_t list_joints(const lmn_scene *motion, named_joint *out)
-{
-    size_t count = 0, kept = 0;
-    for (size_t i = 0; i < motion->node_count; i++)
-        if (motion->nodes[i].mesh == NONE && motion->nodes[i].name)
-            out[count++] = (named_joint){plain_name(motion->nodes[i].name), (int32_t)i};
-    qsort(out, count, sizeof *out, compare_names);
-    for (size_t i = 0; i < count; i++)
-        if (kept == 0 || strcasecmp(out[kept - 1].name, out[i].name) != 0)
-            out[kept++] = out[i];
-    return kept;
-}
-
-static int32_t find_joint(const named_joint *joints, size_t count, const char *name)
-{
-    size_t low = 0, high = count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (strcasecmp(joints[middle].name, name) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < count && strcasecmp(joints[low].name, name) == 0 ? joints[low].node : NONE;
-}
-
-/* What was found when names were compared: joints of the skins, and joints of the motion that one follows. */
-typedef struct agreement {
-    size_t joints, followed;
-} agreement;
-
-/* `pair_of` is NONE for each node of the scene, `followed` false for each of the motion. */
-static agreement pair_joints(retargeter *r, const named_joint *joints, size_t count, int32_t *pair_of, bool *followed)
-{
-    const lmn_scene *s = r->scene;
-    agreement        found = {0};
-    for (size_t i = 0; i < s->skin_count; i++)
-        for (size_t k = 0; k < s->skins[i].joint_count; k++) {
-            int32_t n = s->skins[i].joints[k];
-            if (pair_of[n] != NONE || !s->nodes[n].name)
-                continue;
-            int32_t other = find_joint(joints, count, plain_name(s->nodes[n].name));
-            found.joints++;
-            if (other == NONE)
-                continue;
-            found.followed += !followed[other];
-            followed[other] = true;
-            pair_of[n] = (int32_t)r->count;
-            r->pairs[r->count++] = (pair){.model = n, .motion = other, .above = NONE};
-        }
-    return found;
-}
-
-static size_t count_skin_joints(const lmn_scene *s)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->skin_count; i++)
-        count += s->skins[i].joint_count;
-    return count < s->node_count ? count : s->node_count;
-}
-
-/* Fills the pairs; *enough says whether the two are the same kind of figure. False when memory is gone. */
-static bool find_pairs(retargeter *r, int32_t *pair_of, bool *enough)
-{
-    named_joint *joints = mem_alloc(r->motion->node_count * sizeof *joints);
-    bool        *followed = mem_calloc(r->motion->node_count, sizeof *followed);
-    r->pairs = mem_calloc(count_skin_joints(r->scene), sizeof *r->pairs);
-    bool good = joints && followed && r->pairs;
-    if (good) {
-        size_t    count = list_joints(r->motion, joints);
-        agreement found = pair_joints(r, joints, count, pair_of, followed);
-        size_t    least = count < found.joints ? count : found.joints;
-        *enough = found.followed > 0 && 2 * found.followed >= least;
-    }
-    mem_free(joints);
-    mem_free(followed);
-    return good;
-}
-
-/* --- at rest -------------------------------------------------------------------------------------------- */
-
-static bool set_rest(retargeter *r, const int32_t *pair_of)
-{
-    const node *nodes = r->scene->nodes;
-    for (size_t i = 0; i < r->count && !work_stopped(); i++) {
-        pair      *p = &r->pairs[i];
-        int32_t    parent = nodes[p->model].parent;
-        const mat4 world = scene_world_matrix(r->scene, p->model);
-        for (int32_t n = parent; n != NONE && p->above == NONE; n = nodes[n].parent)
-            p->above = pair_of[n];
-        p->parent_world = parent == NONE ? mat4_identity() : scene_world_matrix(r->scene, parent);
-        rotation_of(&world, p->rest);
-        rotation_of(&p->parent_world, p->parent_rest);
-        for (int k = 0; k < 3; k++)
-            p->place[k] = world.m[12 + k];
-        r->uppermost += p->above == NONE;
-    }
-    return !work_stopped();
-}
 
 /* --- in motion ------------------------------------------------------------------------------------------ */
 
@@ -206,7 +31,7 @@ static bool find_channels(retargeter *r)
     r->moving = mem_calloc(nodes, sizeof *r->moving);
     r->turns = mem_calloc(nodes, sizeof *r->turns);
     r->places = mem_calloc(nodes, sizeof *r->places);
-    r->deltas = mem_calloc(r->count, sizeof *r->deltas);
+    r->deltas = mem_calloc(r->pairs.count, sizeof *r->deltas);
     if (!r->turning || !r->moving || !r->turns || !r->places || !r->deltas)
         return false;
     for (size_t i = 0; i < r->clip->channel_count; i++) {
@@ -235,8 +60,8 @@ static void pose_motion(retargeter *r, long frame)
             memcpy(r->places[i], place, sizeof place);
             continue;
         }
-        multiply(r->turns[n->parent], turn, r->turns[i]);
-        turn_vector(r->turns[n->parent], place, r->places[i]);
+        quaternion_multiply(r->turns[n->parent], turn, r->turns[i]);
+        quaternion_turn(r->turns[n->parent], place, r->places[i]);
         for (int k = 0; k < 3; k++)
             r->places[i][k] += r->places[n->parent][k];
     }
@@ -249,8 +74,8 @@ static double compare_legs(const retargeter *r)
     double reach[2] = {0, 0};
     int    up[2] = {r->scene->up == 'z' ? 2 : 1, r->motion->up == 'z' ? 2 : 1};
     double top[2] = {-INFINITY, -INFINITY}, low[2] = {INFINITY, INFINITY};
-    for (size_t i = 0; i < r->count; i++) {
-        const pair  *p = &r->pairs[i];
+    for (size_t i = 0; i < r->pairs.count; i++) {
+        const pair  *p = &r->pairs.items[i];
         const double at[2] = {p->place[up[0]], r->places[p->motion][up[1]]};
         for (int k = 0; k < 2; k++) {
             if (p->above == NONE)
@@ -270,7 +95,7 @@ static double lowest_point(const retargeter *r)
     double low = INFINITY;
     for (size_t i = 0; i < r->motion->node_count; i++) {
         double tip[3] = {0, r->motion->nodes[i].mesh == NONE ? 0 : r->motion->nodes[i].scale[1], 0}; /* of a bone */
-        turn_vector(r->turns[i], tip, tip);
+        quaternion_turn(r->turns[i], tip, tip);
         low = fmin(low, fmin(r->places[i][up], r->places[i][up] + tip[up]));
     }
     return low;
@@ -290,42 +115,31 @@ static void put_rotation(animation_channel *c, size_t frame, const double q[4])
  * of the pair above. */
 static void put_rotations(retargeter *r, size_t frame)
 {
-    for (size_t i = 0; i < r->count; i++)
-        conjugate(r->from_motion, r->turns[r->pairs[i].motion], r->deltas[i]);
-    for (size_t i = 0; i < r->count; i++) {
-        const pair *p = &r->pairs[i];
+    for (size_t i = 0; i < r->pairs.count; i++)
+        quaternion_conjugate(r->from_motion, r->turns[r->pairs.items[i].motion], r->deltas[i]);
+    for (size_t i = 0; i < r->pairs.count; i++) {
+        const pair *p = &r->pairs.items[i];
         double      world[4], above[4], local[4];
-        multiply(r->deltas[i], p->rest, world);
+        quaternion_multiply(r->deltas[i], p->rest, world);
         if (p->above == NONE)
             memcpy(above, p->parent_rest, sizeof above);
         else
-            multiply(r->deltas[p->above], p->parent_rest, above);
-        invert(above, above);
-        multiply(above, world, local);
+            quaternion_multiply(r->deltas[p->above], p->parent_rest, above);
+        quaternion_invert(above, above);
+        quaternion_multiply(above, world, local);
         put_rotation(&r->made.channels[i], frame, local);
     }
-}
-
-/* The inverse of an affine matrix applied to a point; false when it is flat. */
-static bool take_back(const mat4 *m, const double p[3], double out[3])
-{
-    double c[9], determinant = mat4_cofactors(m, c), from[3];
-    for (int k = 0; k < 3; k++)
-        from[k] = p[k] - m->m[12 + k];
-    for (int k = 0; k < 3; k++)
-        out[k] = (c[3 * k] * from[0] + c[3 * k + 1] * from[1] + c[3 * k + 2] * from[2]) / determinant;
-    return isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]);
 }
 
 /* Positions of the uppermost joints' counterparts go into their channels as they are; place_uppermost makes of them
  * what the model needs. */
 static void put_places(retargeter *r, size_t frame)
 {
-    animation_channel *c = &r->made.channels[r->count];
-    for (size_t i = 0; i < r->count; i++)
-        if (r->pairs[i].above == NONE) {
+    animation_channel *c = &r->made.channels[r->pairs.count];
+    for (size_t i = 0; i < r->pairs.count; i++)
+        if (r->pairs.items[i].above == NONE) {
             for (size_t k = 0; k < 3; k++)
-                c->values[3 * frame + k] = (float)r->places[r->pairs[i].motion][k];
+                c->values[3 * frame + k] = (float)r->places[r->pairs.items[i].motion][k];
             c++;
         }
 }
@@ -345,15 +159,15 @@ static void place_uppermost(retargeter *r, const pair *p, animation_channel *c, 
         from[up] = standing;
     for (size_t f = 0; f < c->key_count; f++) {
         float *value = &c->values[3 * f];
-        double way[3], at[3], local[3];
+        double way[3], at[3];
         for (int k = 0; k < 3; k++)
             way[k] = r->legs * ((double)value[k] - from[k]);
-        turn_vector(r->from_motion, way, at);
+        quaternion_turn(r->from_motion, way, at);
         for (int k = 0; k < 3; k++)
             at[k] += p->place[k];
-        bool good = take_back(&p->parent_world, at, local);
         for (int k = 0; k < 3; k++)
-            value[k] = (float)(good ? local[k] : 0);
+            value[k] = (float)(p->from_world.m[k] * at[0] + p->from_world.m[4 + k] * at[1] +
+                               p->from_world.m[8 + k] * at[2] + p->from_world.m[12 + k]);
     }
 }
 
@@ -373,13 +187,13 @@ static bool add_channel(retargeter *r, int32_t target, animation_path path, cons
 /* Rotations of all pairs, then places of the uppermost ones. */
 static bool add_channels(retargeter *r)
 {
-    r->made.channels = mem_calloc(r->count + r->uppermost, sizeof *r->made.channels);
+    r->made.channels = mem_calloc(r->pairs.count + r->pairs.uppermost, sizeof *r->made.channels);
     bool good = r->made.channels != NULL;
-    for (size_t i = 0; i < r->count && good; i++)
-        good = add_channel(r, r->pairs[i].model, PATH_ROTATION, &r->clip->channels[0]);
-    for (size_t i = 0; i < r->count && good; i++)
-        if (r->pairs[i].above == NONE)
-            good = add_channel(r, r->pairs[i].model, PATH_TRANSLATION, &r->clip->channels[0]);
+    for (size_t i = 0; i < r->pairs.count && good; i++)
+        good = add_channel(r, r->pairs.items[i].model, PATH_ROTATION, &r->clip->channels[0]);
+    for (size_t i = 0; i < r->pairs.count && good; i++)
+        if (r->pairs.items[i].above == NONE)
+            good = add_channel(r, r->pairs.items[i].model, PATH_TRANSLATION, &r->clip->channels[0]);
     return good;
 }
 
@@ -391,14 +205,14 @@ static void measure_rest(retargeter *r, double *standing)
     pose_motion(r, AT_REST);
     r->legs = compare_legs(r);
     double ground = lowest_point(r);
-    for (size_t i = 0; i < r->count; i++)
-        if (r->pairs[i].above == NONE)
-            *standing++ = r->places[r->pairs[i].motion][up] - ground;
+    for (size_t i = 0; i < r->pairs.count; i++)
+        if (r->pairs.items[i].above == NONE)
+            *standing++ = r->places[r->pairs.items[i].motion][up] - ground;
 }
 
 static bool make_animation(retargeter *r)
 {
-    double *standing = mem_alloc(r->uppermost * sizeof *standing);
+    double *standing = mem_alloc(r->pairs.uppermost * sizeof *standing);
     bool    good = standing && find_channels(r) && add_channels(r);
     if (good)
         measure_rest(r, standing);
@@ -408,9 +222,9 @@ static bool make_animation(retargeter *r)
         put_places(r, f);
         good = !work_stopped();
     }
-    for (size_t i = 0, at = 0; good && i < r->count; i++)
-        if (r->pairs[i].above == NONE) {
-            place_uppermost(r, &r->pairs[i], &r->made.channels[r->count + at], standing[at]);
+    for (size_t i = 0, at = 0; good && i < r->pairs.count; i++)
+        if (r->pairs.items[i].above == NONE) {
+            place_uppermost(r, &r->pairs.items[i], &r->made.channels[r->pairs.count + at], standing[at]);
             at++;
         }
     r->made.duration = r->clip->duration;
@@ -432,8 +246,8 @@ static bool commit(retargeter *r, lmn_scene *motion, const char *file)
         mem_free(path);
         return false;
     }
-    for (size_t i = 0; i < r->count; i++)
-        node_split_matrix(s, r->pairs[i].model);
+    for (size_t i = 0; i < r->pairs.count; i++)
+        node_split_matrix(s, r->pairs.items[i].model);
     s->animations[s->animation_count++] = r->made;
     r->made = (animation){0};
     s->files[s->file_count++] = path;
@@ -451,7 +265,7 @@ static void release(retargeter *r)
     }
     mem_free(r->made.channels);
     mem_free(r->made.name);
-    mem_free(r->pairs);
+    mem_free(r->pairs.items);
     mem_free(r->turning);
     mem_free(r->moving);
     mem_free(r->turns);
@@ -461,25 +275,18 @@ static void release(retargeter *r)
 
 static bool pair_and_make(retargeter *r, lmn_scene *motion, const char *file, bool *done)
 {
-    bool     enough = false;
-    int32_t *pair_of = mem_alloc(r->scene->node_count * sizeof *pair_of);
-    bool     good = pair_of != NULL;
-    if (good) {
-        memset(pair_of, 0xFF, r->scene->node_count * sizeof *pair_of); /* all NONE */
-        good = find_pairs(r, pair_of, &enough);
-    }
-    if (good && !enough)
+    size_t alike;
+    if (!pairs_find(&r->pairs, r->scene, motion, &alike))
+        return false;
+    if (r->pairs.count == 0) {
         warnings_add(&motion->warnings, WARNING_NO_MATCH,
-                     "the motion moves its own skeleton: %zu of its joints are called like one of the model's",
-                     r->count);
-    if (good && enough) {
-        const mat4 axes = scene_up_rotation(motion->up, r->scene->up);
-        rotation_of(&axes, r->from_motion);
-        good = set_rest(r, pair_of) && make_animation(r) && commit(r, motion, file);
-        *done = good;
+                     "the motion moves its own skeleton: %zu joints of the model are called like one of its", alike);
+        return true;
     }
-    mem_free(pair_of);
-    return good;
+    const mat4 axes = scene_up_rotation(motion->up, r->scene->up);
+    quaternion_of(&axes, r->from_motion);
+    *done = make_animation(r) && commit(r, motion, file);
+    return *done;
 }
 
 lmn_status retarget_motion(lmn_scene *scene, lmn_scene *motion, const char *file, bool *done, lmn_error *error)

@@ -39,6 +39,9 @@ static const char *write_motion(const char *head)
     return temp_file("dance.bvh", text, (size_t)at);
 }
 
+/* The inverse bind matrices of five joints are accessor 3. */
+static float binds[5][16];
+
 static const char *write_model(const char *nodes)
 {
     static glb            g;
@@ -46,15 +49,17 @@ static const char *write_model(const char *nodes)
     static const uint16_t joints[3][4] = {{0}, {2}, {4}};
     memset(&g, 0, sizeof g);
     size_t a = glb_put(&g, triangle, sizeof triangle), b = glb_put(&g, joints, sizeof joints),
-           c = glb_put(&g, weights, sizeof weights);
+           c = glb_put(&g, weights, sizeof weights), d = glb_put(&g, binds, sizeof binds);
     snprintf(g.json, sizeof g.json,
              "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,"
              "\"byteOffset\":%zu,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":24},{\"buffer\":0,"
-             "\"byteOffset\":%zu,\"byteLength\":48}],\"accessors\":[{\"bufferView\":0,\"count\":3,\"componentType\":"
+             "\"byteOffset\":%zu,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":320}],"
+             "\"accessors\":[{\"bufferView\":0,\"count\":3,\"componentType\":"
              "5126,\"type\":\"VEC3\"},{\"bufferView\":1,\"count\":3,\"componentType\":5123,\"type\":\"VEC4\"},"
-             "{\"bufferView\":2,\"count\":3,\"componentType\":5126,\"type\":\"VEC4\"}],\"meshes\":[{\"primitives\":[{"
+             "{\"bufferView\":2,\"count\":3,\"componentType\":5126,\"type\":\"VEC4\"},{\"bufferView\":3,\"count\":5,"
+             "\"componentType\":5126,\"type\":\"MAT4\"}],\"meshes\":[{\"primitives\":[{"
              "\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2}}]}],%s}",
-             g.bin_size, a, b, c, nodes);
+             g.bin_size, a, b, c, d, nodes);
     return glb_file(&g, "model.glb");
 }
 
@@ -238,6 +243,51 @@ static void heights_may_count_from_anywhere(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* The nodes of a file may show the figure in the middle of a movement; the pose that counts is the one that the skin
+ * was bound in, which its matrices tell. Where the mesh's node is, here a quarter turn, it was bound. */
+static void the_pose_that_counts_is_the_bound_one(void **state)
+{
+    (void)state;
+    static const char nodes[] =
+        "\"nodes\":[{\"mesh\":0,\"skin\":0,\"rotation\":[0,0.70710678118,0,0.70710678118]},"
+        "{\"name\":\"hips\",\"translation\":[0,9,0],\"rotation\":[0.6,0,0,0.8],\"children\":[2,5]},"
+        "{\"name\":\"Twist\",\"rotation\":[0.6,0,0,0.8],\"translation\":[0,1,0],\"children\":[3]},"
+        "{\"name\":\"Arm\",\"rotation\":[0,0,0.28,0.96],\"translation\":[0,1,0],\"children\":[4]},"
+        "{\"name\":\"Hand\",\"translation\":[1,0,0]},{\"name\":\"Leg\",\"translation\":[-5,0,0]}],"
+        "\"skins\":[{\"joints\":[1,2,3,4,5],\"inverseBindMatrices\":3}]";
+    const turn   turns[5] = {about('Z', 40), about('X', 0), about('X', -20), about('Y', 75), about('Z', 180)};
+    const double places[5][3] = {{0, 6, 0}, {0, 7, 0}, {0, 8, 0}, {1, 8, 0}, {0, 1, 0}};
+    /* joint⁻¹ · mesh, the mesh being turned about y. */
+    for (int j = 0; j < 5; j++) {
+        turn back = transposed(turns[j]), both = times(back, about('Y', 90));
+        for (int row = 0; row < 3; row++) {
+            for (int column = 0; column < 3; column++) {
+                binds[j][4 * column + row] = (float)both.m[row][column];
+                binds[j][12 + row] -= (float)(back.m[row][column] * places[j][column]);
+            }
+        }
+        binds[j][15] = 1;
+    }
+    lmn_scene *s = NULL;
+    assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
+    add_file(s, write_model(nodes), LMN_UP_AUTO);
+    add_file(s, write_motion(motion_head), LMN_UP_AUTO);
+    static const struct {
+        const char *name;
+        int         motion, skin;
+    } joints[4] = {{"hips", HIPS, 0}, {"Arm", ARM, 2}, {"Hand", HAND, 3}, {"Leg", LEG, 4}};
+    for (int f = 0; f < 3; f++)
+        for (int j = 0; j < 4; j++)
+            assert_true(difference(world_turn(s, node_called(s, joints[j].name), f),
+                                   times(motion_turn(joints[j].motion, f), turns[joints[j].skin])) < 2e-6);
+    /* Bound, the hips are 5 above the leg joint and stand 6 high. */
+    const float *at = channel_of(s, node_called(s, "hips"), PATH_TRANSLATION)->values;
+    for (int f = 0; f < 3; f++)
+        assert_true(fabs((double)at[3 * f + 1] - (6 + 0.25 * (frames[f][1] - 21))) < 1e-5);
+    lmn_scene_destroy(&s);
+    memset(binds, 0, sizeof binds);
+}
+
 static void other_names_keep_their_own_skeleton(void **state)
 {
     (void)state;
@@ -290,9 +340,13 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(joints_turn_as_those_of_the_motion),   cmocka_unit_test(nothing_but_the_animation_is_added),
-        cmocka_unit_test(hips_go_in_steps_as_long_as_the_legs), cmocka_unit_test(heights_may_count_from_anywhere),
-        cmocka_unit_test(other_names_keep_their_own_skeleton),  cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(joints_turn_as_those_of_the_motion),
+        cmocka_unit_test(nothing_but_the_animation_is_added),
+        cmocka_unit_test(hips_go_in_steps_as_long_as_the_legs),
+        cmocka_unit_test(heights_may_count_from_anywhere),
+        cmocka_unit_test(the_pose_that_counts_is_the_bound_one),
+        cmocka_unit_test(other_names_keep_their_own_skeleton),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
