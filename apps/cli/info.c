@@ -36,7 +36,7 @@ static void print_bounds(const json_t *bounds, const char *indent)
            h[1], h[2], h[0] - l[0], h[1] - l[1], h[2] - l[2]);
 }
 
-/* "animations  2: walk (1.5 s), run" */
+/* "materials   2: steel, glass" */
 static void print_names(const json_t *root, const char *key)
 {
     const json_t *list = json_object_get(root, key), *item;
@@ -44,13 +44,35 @@ static void print_names(const json_t *root, const char *key)
     if (json_array_size(list) == 0)
         return;
     printf("%-11s %zu: ", key, json_array_size(list));
+    json_array_foreach((json_t *)list, i, item) printf("%s%s", i ? ", " : "", text_at(item, "name", "(no name)"));
+    printf("\n");
+}
+
+/* "animations  2: 1 walk (1.5 s, 19 nodes), 2 zoom (3 s, 1 camera)" */
+static void print_animations(const json_t *list)
+{
+    static const char *const things[][3] = {{"nodes", "node", "nodes"},
+                                            {"weights", "node's weights", "nodes' weights"},
+                                            {"cameras", "camera", "cameras"},
+                                            {"lights", "light", "lights"}};
+    const json_t            *item;
+    size_t                   i;
+    if (json_array_size(list) > 0)
+        printf("%-11s %zu: ", "animations", json_array_size(list));
     json_array_foreach((json_t *)list, i, item)
     {
-        printf("%s%s", i ? ", " : "", text_at(item, "name", "(no name)"));
-        if (json_object_get(item, "duration"))
-            printf(" (%.3g s)", number_at(item, "duration", 0));
+        const json_t *moves = json_object_get(item, "moves");
+        printf("%s%.0f %s (%.3g s", i ? ", " : "", number_at(item, "id", 0), text_at(item, "name", "(no name)"),
+               number_at(item, "duration", 0));
+        for (size_t k = 0; k < sizeof things / sizeof *things; k++) {
+            double count = number_at(moves, things[k][0], 0);
+            if (count > 0)
+                printf(", %.0f %s", count, things[k][count == 1 ? 1 : 2]);
+        }
+        printf(")");
     }
-    printf("\n");
+    if (json_array_size(list) > 0)
+        printf("\n");
 }
 
 /* A tree in a table is a sketch of it; --json has more. */
@@ -143,7 +165,7 @@ static void print_table(const json_t *root)
     printf("parts       %zu\n", json_array_size(parts));
     printf("triangles   %.0f\n", number_at(root, "triangles", 0));
     print_bounds(json_object_get(root, "bounds"), "");
-    print_names(root, "animations");
+    print_animations(json_object_get(root, "animations"));
     print_names(root, "materials");
     print_names(root, "textures");
     print_names(root, "cameras");

@@ -16,7 +16,7 @@ typedef enum lmn_up_axis { LMN_UP_AUTO = 0, LMN_UP_Y, LMN_UP_Z } lmn_up_axis;
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
     size_t          struct_size; /* set by LMN_LOAD_DESC_INIT */
-    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY are +Y up, STL and OpenSCAD +Z */
+    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY, BVH are +Y up, STL and OpenSCAD +Z */
     lmn_progress_fn progress;    /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
@@ -54,7 +54,8 @@ LMN_API lmn_status lmn_scene_create(lmn_scene **out, lmn_error *error);
 LMN_API void lmn_scene_destroy(lmn_scene **scene);
 
 /* Reads a model file and adds its content under a new root. The first file decides the scene's up axis; later ones are
- * rotated to it. On any error the scene is unchanged.
+ * rotated to it. Motion capture whose joints are called like those of a skin in the scene becomes an animation of these
+ * and adds nothing else. On any error the scene is unchanged.
  * Errors: LMN_USAGE (desc), LMN_READ, LMN_FORMAT, LMN_LIMIT, LMN_UNSUPPORTED, LMN_MEMORY, LMN_CANCELLED.
  * No GL context needed; different scenes may be loaded on different threads. */
 LMN_API lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load_desc *desc, lmn_error *error);

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "import/import.h"
+#include "import/retarget.h"
 #include "scene/scene.h"
 
 lmn_status lmn_scene_create(lmn_scene **out, lmn_error *error)
@@ -59,10 +60,13 @@ lmn_status lmn_scene_add_file(lmn_scene *scene, const char *path, const lmn_load
     work w;
     work_begin(&w, full.progress, full.progress_user);
     lmn_scene *loaded = NULL;
+    bool       retargeted = false;
     status = import_file(&loaded, path, &full, error);
     if (status == LMN_OK)
         status = work_check(error);
     if (status == LMN_OK)
+        status = retarget_motion(scene, loaded, path, &retargeted, error);
+    if (status == LMN_OK && !retargeted)
         status = scene_merge(scene, loaded, path, error);
     scene_free(loaded);
     if (status == LMN_OK)

@@ -178,6 +178,7 @@ static bool is_known(const char *name)
                                         "EXT_mesh_primitive_edge_visibility",
                                         "EXT_texture_webp",
                                         "KHR_node_visibility",
+                                        "KHR_animation_pointer",
                                         "KHR_materials_unlit",
                                         "KHR_materials_emissive_strength",
                                         "KHR_materials_pbrSpecularGlossiness"};

@@ -90,6 +90,13 @@ bool gltf_open_accessor(gltf_reader *r, size_t index, const char *where, gltf_ac
 float    *gltf_read_floats(gltf_reader *r, const gltf_accessor *a, int components, const char *where);
 uint32_t *gltf_read_integers(gltf_reader *r, const gltf_accessor *a, int components, const char *where);
 
+/* --- gltf_pointer.c ------------------------------------------------------------------------------------- */
+
+/* What a pointer of KHR_animation_pointer leads to: something that is animated, something of a node outside of the
+ * drawn scene, or something that is not read. After the nodes, cameras and lights. */
+typedef enum gltf_pointer { GLTF_POINTER_FOUND, GLTF_POINTER_OUTSIDE, GLTF_POINTER_UNKNOWN } gltf_pointer;
+gltf_pointer gltf_find_pointer(const gltf_reader *r, const char *pointer, animation_path *path, int32_t *target);
+
 /* --- the content ---------------------------------------------------------------------------------------- */
 
 void    gltf_read_materials(gltf_reader *r);

@@ -17,12 +17,16 @@ static bool path_of(const char *name, animation_path *out)
     return false;
 }
 
-static interpolation interpolation_of(json_t *sampler)
+static interpolation interpolation_of(gltf_reader *r, json_t *sampler, const char *where)
 {
     const char *name = json_string_value(json_object_get(sampler, "interpolation"));
     if (name && strcmp(name, "STEP") == 0)
         return INTERPOLATION_STEP;
-    return name && strcmp(name, "CUBICSPLINE") == 0 ? INTERPOLATION_CUBIC : INTERPOLATION_LINEAR;
+    if (name && strcmp(name, "CUBICSPLINE") == 0)
+        return INTERPOLATION_CUBIC;
+    if (name && strcmp(name, "LINEAR") != 0)
+        gltf_warn(r, WARNING_BAD_VALUE, "%s: the interpolation %.40s is none of glTF's; taken as LINEAR", where, name);
+    return INTERPOLATION_LINEAR;
 }
 
 static bool bad_channel(gltf_reader *r, const char *where, const char *why)
@@ -32,8 +36,10 @@ static bool bad_channel(gltf_reader *r, const char *where, const char *why)
     return false;
 }
 
+/* --- keys ----------------------------------------------------------------------------------------------- */
+
 static float *read_sampler(gltf_reader *r, json_t *sampler, const char *key, int components, const char *where,
-                           size_t *count, int *own_components)
+                           size_t *count)
 {
     size_t        index;
     gltf_accessor a;
@@ -41,65 +47,134 @@ static float *read_sampler(gltf_reader *r, json_t *sampler, const char *key, int
         !gltf_open_accessor(r, index, where, &a))
         return NULL;
     *count = a.count;
-    *own_components = a.components;
     return a.components == components ? gltf_read_floats(r, &a, components, where) : NULL;
 }
 
-static bool times_are_good(const float *times, size_t count)
+static const char *fault_of_times(const float *times, size_t count)
 {
+    if (!times)
+        return "no usable times";
+    if (count == 0)
+        return "it has no keys";
     for (size_t i = 0; i < count; i++)
-        if (!isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
-            return false;
-    return count > 0;
+        if (!isfinite(times[i]))
+            return "its times are not finite";
+    for (size_t i = 1; i < count; i++)
+        if (times[i] < times[i - 1])
+            return "its times are not in order";
+    return NULL;
 }
 
-static bool values_are_finite(const float *values, size_t count)
+/* What a camera or light cannot be set to. Only the values at keys are asked, not the tangents of cubic ones. */
+static bool is_in_range(const animation_channel *c)
+{
+    static const double pi = 3.14159265358979323846;
+    bool                cubic = c->interpolation == INTERPOLATION_CUBIC;
+    size_t              stride = c->components * (cubic ? 3 : 1), middle = cubic ? c->components : 0;
+    bool                good = true;
+    for (size_t i = 0; i < c->key_count; i++)
+        for (size_t k = 0; k < c->components; k++) {
+            double value = (double)c->values[i * stride + middle + k];
+            switch (c->path) {
+            case PATH_CAMERA_FOV: good = good && value > 0 && value < pi; break;
+            case PATH_CAMERA_HALF_HEIGHT: good = good && value > 0; break;
+            case PATH_LIGHT_COLOUR:
+            case PATH_LIGHT_INTENSITY: good = good && value >= 0; break;
+            default: break;
+            }
+        }
+    return good;
+}
+
+/* As many weights as the node's mesh has morph targets; a node that is not drawn has none to move. */
+static const char *fault_of_weights(const gltf_reader *r, const animation_channel *c)
+{
+    const node *n = &r->scene->nodes[c->target];
+    if (n->mesh == NONE)
+        return "its node has no mesh that is drawn";
+    return r->scene->meshes[n->mesh].morph_weight_count == c->components
+               ? NULL
+               : "the numbers of weights and morph targets do not fit";
+}
+
+static const char *fault_of_values(const gltf_reader *r, const animation_channel *c, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (!isfinite(values[i]))
-            return false;
-    return true;
+        if (!isfinite(c->values[i]))
+            return "values are not finite";
+    if (c->path == PATH_WEIGHTS)
+        return fault_of_weights(r, c);
+    return is_in_range(c) ? NULL : "values are out of range";
 }
 
 /* Weights come as one number each, as many a key as the mesh has morphs. */
 static bool read_values(gltf_reader *r, json_t *sampler, const char *where, animation_channel *c)
 {
-    static const int path_components[] = {3, 4, 3, 1};
-    size_t           count = 0, per_key = c->interpolation == INTERPOLATION_CUBIC ? 3 : 1;
-    int              components = path_components[c->path], own = 0;
-    c->values = read_sampler(r, sampler, "output", components, where, &count, &own);
+    static const int path_components[] = {
+        [PATH_TRANSLATION] = 3, [PATH_ROTATION] = 4,           [PATH_SCALE] = 3,        [PATH_WEIGHTS] = 1,
+        [PATH_CAMERA_FOV] = 1,  [PATH_CAMERA_HALF_HEIGHT] = 1, [PATH_LIGHT_COLOUR] = 3, [PATH_LIGHT_INTENSITY] = 1};
+    size_t count = 0, per_key = c->interpolation == INTERPOLATION_CUBIC ? 3 : 1;
+    int    components = path_components[c->path];
+    c->values = read_sampler(r, sampler, "output", components, where, &count);
     if (!c->values)
         return bad_channel(r, where, "no usable output values");
     size_t keys = c->key_count * per_key;
     if (c->path == PATH_WEIGHTS ? count == 0 || count % keys != 0 : count != keys)
         return bad_channel(r, where, "the numbers of times and values do not fit");
     c->components = c->path == PATH_WEIGHTS ? count / keys : (size_t)components;
-    return values_are_finite(c->values, count * (size_t)components) || bad_channel(r, where, "values are not finite");
+    const char *fault = fault_of_values(r, c, count * (size_t)components);
+    return !fault || bad_channel(r, where, fault);
+}
+
+/* --- targets -------------------------------------------------------------------------------------------- */
+
+static bool read_pointer(gltf_reader *r, json_t *target, const char *where, animation_channel *c)
+{
+    const char *pointer =
+        json_string_value(json_object_get(gltf_extension(target, "KHR_animation_pointer"), "pointer"));
+    if (!pointer)
+        return bad_channel(r, where, "no pointer");
+    gltf_pointer found = gltf_find_pointer(r, pointer, &c->path, &c->target);
+    if (found != GLTF_POINTER_UNKNOWN)
+        return found == GLTF_POINTER_FOUND;
+    char *clean = scene_clean_name(pointer, strlen(pointer));
+    if (!clean)
+        return gltf_out_of_memory(r);
+    gltf_warn(r, WARNING_IGNORED, "animation of %.200s", clean);
+    mem_free(clean);
+    return false;
+}
+
+/* False without a warning for nodes that are not in the drawn scene, and for targets of unknown extensions. */
+static bool read_target(gltf_reader *r, json_t *object, const char *where, animation_channel *c)
+{
+    size_t      node_index;
+    json_t     *target = gltf_member(r, object, "target", JSON_OBJECT, where);
+    const char *name = json_string_value(json_object_get(target, "path"));
+    if (name && strcmp(name, "pointer") == 0)
+        return read_pointer(r, target, where, c);
+    if (!gltf_index(r, target, "node", r->node_count, "nodes", where, &node_index))
+        return false;
+    if (!path_of(name, &c->path))
+        return bad_channel(r, where, "unknown path");
+    c->target = r->node_map[node_index];
+    return c->target != NONE;
 }
 
 static bool read_channel(gltf_reader *r, json_t *animation_object, json_t *object, const char *where,
                          animation_channel *c)
 {
-    size_t  node_index, sampler_index;
-    int     own;
-    json_t *target = gltf_member(r, object, "target", JSON_OBJECT, where);
+    size_t  sampler_index;
     json_t *samplers = json_object_get(animation_object, "samplers");
-    /* A target without a node is for extensions. */
-    if (!gltf_index(r, target, "node", r->node_count, "nodes", where, &node_index))
-        return false;
-    if (!path_of(json_string_value(json_object_get(target, "path")), &c->path))
-        return bad_channel(r, where, "unknown path");
-    c->target = r->node_map[node_index];
-    if (c->target == NONE)
+    if (!read_target(r, object, where, c))
         return false;
     if (!gltf_index(r, object, "sampler", json_array_size(samplers), "samplers", where, &sampler_index))
         return bad_channel(r, where, "no sampler");
     json_t *sampler = json_array_get(samplers, sampler_index);
-    c->interpolation = interpolation_of(sampler);
-    c->times = read_sampler(r, sampler, "input", 1, where, &c->key_count, &own);
-    if (!c->times || !times_are_good(c->times, c->key_count))
-        return bad_channel(r, where, "its times are missing, not finite or not in order");
-    return read_values(r, sampler, where, c);
+    c->interpolation = interpolation_of(r, sampler, where);
+    c->times = read_sampler(r, sampler, "input", 1, where, &c->key_count);
+    const char *fault = fault_of_times(c->times, c->key_count);
+    return fault ? bad_channel(r, where, fault) : read_values(r, sampler, where, c);
 }
 
 static void read_animation(gltf_reader *r, size_t index)
@@ -124,8 +199,6 @@ static void read_animation(gltf_reader *r, size_t index)
             mem_free(c.values);
             continue;
         }
-        if (c.times[c.key_count - 1] > a->duration)
-            a->duration = c.times[c.key_count - 1];
         a->channels[a->channel_count++] = c;
     }
 }

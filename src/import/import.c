@@ -10,8 +10,8 @@
 #include "import/access.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_gltf, &import_ply,  &import_stl,   &import_obj,
-                                               &import_csg,  &import_scad, &import_assimp};
+static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl,  &import_obj,
+                                               &import_bvh,  &import_csg, &import_scad, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -69,7 +69,8 @@ static lmn_status choose(const import_format **out, const char *path, const file
     if (*out)
         return LMN_OK;
     error_in_file(error, LMN_UNSUPPORTED, path, 0, "the format of this file is not known (ending \"%s\")", ending);
-    error_hint(error, "limner reads glTF, GLB, STL, PLY, OBJ, OpenSCAD's CSG and what docs/reference/formats.md lists");
+    error_hint(error,
+               "limner reads glTF, GLB, STL, PLY, OBJ, BVH, OpenSCAD's CSG and what docs/reference/formats.md lists");
     return LMN_UNSUPPORTED;
 }
 

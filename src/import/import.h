@@ -22,7 +22,8 @@ typedef struct import_format {
     lmn_status (*read)(const import_job *job, lmn_error *error);
 } import_format;
 
-extern const import_format import_gltf, import_stl, import_ply, import_obj, import_csg, import_scad, import_assimp;
+extern const import_format import_gltf, import_stl, import_ply, import_obj, import_bvh, import_csg, import_scad,
+    import_assimp;
 
 /* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the
  * format's convention. Content decides the format first, the ending second; a mismatch is an error that says so. */

@@ -95,7 +95,8 @@ static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, c
 
 static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_index)
 {
-    if (skin_index == NONE || !is_affordable(s, s->skins[skin_index].joint_count, 1))
+    /* Without them the part counts as where its node is, which is far off: they may cost more than points. */
+    if (skin_index == NONE || !is_affordable(s, s->skins[skin_index].joint_count / 4, 1))
         return NULL;
     const skin *k = &s->skins[skin_index];
     mat4       *joints = mem_alloc(k->joint_count * sizeof *joints);

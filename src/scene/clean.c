@@ -156,14 +156,18 @@ static void make_finite(float *values, size_t count, clean_counts *counts)
         }
 }
 
-/* Joint weights that do not sum to 1 would pull vertices to the origin; without any weight the first joint holds. */
-static void normalise_weights(primitive *p)
+/* Joint weights that do not sum to 1 would pull vertices to the origin, negative ones push them away from their joint;
+ * without any weight the first joint holds. */
+static void normalise_weights(primitive *p, clean_counts *counts)
 {
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         float *w = &p->weights[(size_t)i * p->influences], sum = 0;
-        for (uint32_t k = 0; k < p->influences; k++)
+        for (uint32_t k = 0; k < p->influences; k++) {
+            w[k] = w[k] > 0 ? w[k] : 0;
             sum += w[k];
+        }
         bool good = sum > 0 && isfinite(sum);
+        counts->unheld += !good;
         for (uint32_t k = 0; k < p->influences; k++)
             if (!good)
                 w[k] = k == 0;
@@ -206,7 +210,7 @@ bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts)
         make_finite((float *)p->morphs[i].normals, count * 3, counts);
     }
     if (p->joints && p->weights)
-        normalise_weights(p);
+        normalise_weights(p, counts);
     set_bounds(p);
     return true;
 }

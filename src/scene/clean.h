@@ -6,7 +6,7 @@
 
 /* What was found, summed over primitives. */
 typedef struct clean_counts {
-    uint64_t triangles, degenerate, not_finite, normals, values;
+    uint64_t triangles, degenerate, not_finite, normals, values, unheld;
 } clean_counts;
 
 /* Drops triangles without area or with vertices that are not finite, then vertices that no triangle uses; makes
@@ -14,5 +14,11 @@ typedef struct clean_counts {
  * without area stay when their corners differ: they close the surface between points on one line. False when memory
  * is gone. */
 bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts);
+
+/* Makes animations what posing relies on: times of a channel increase, rotations are unit, no channel of an animation
+ * moves what another one of it moves, what moves has no matrix but translation, rotation and scale, and durations are
+ * those of the channels. Targets must be in range, times and values finite. Warns of what was changed. False when
+ * memory is gone. */
+bool animations_clean(lmn_scene *scene);
 
 #endif

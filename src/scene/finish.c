@@ -288,6 +288,9 @@ static void tell(const check *c)
     if (n->values)
         warnings_add(w, WARNING_BAD_VALUE, "%llu texture coordinates, colours or weights that are not finite became 0",
                      (unsigned long long)n->values);
+    if (n->unheld)
+        warnings_add(w, WARNING_BAD_VALUE, "%llu vertices that no joint has a weight for follow their first one",
+                     (unsigned long long)n->unheld);
 }
 
 static lmn_status nothing_to_draw(const check *c)
@@ -365,6 +368,8 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
     if (status != LMN_OK)
         return status;
     repair_transforms(&c);
+    if (!animations_clean(s))
+        return error_memory(error);
     bool *operands = find_operand_meshes(s);
     status = operands ? clean_meshes(&c, operands) : error_memory(error);
     mem_free(operands);

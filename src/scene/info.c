@@ -82,14 +82,50 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
     return list;
 }
 
+/* How many things an animation moves: nodes by their position, rotation or scale, nodes by their weights, cameras,
+ * lights. */
+typedef struct moved_counts {
+    size_t nodes, weights, cameras, lights;
+} moved_counts;
+
+/* `seen` holds for each node, camera and light the number of the animation that it was counted for last. */
+static moved_counts count_moved(const lmn_scene *s, const animation *a, uint32_t *seen, uint32_t number)
+{
+    moved_counts counts = {0};
+    for (size_t i = 0; i < a->channel_count; i++) {
+        const animation_channel *c = &a->channels[i];
+        size_t                   slot = (size_t)c->target, *count = &counts.nodes;
+        if (c->path == PATH_WEIGHTS) {
+            counts.weights++;
+            continue;
+        }
+        if (animation_thing_of(c->path) == ANIMATED_CAMERA) {
+            slot += s->node_count;
+            count = &counts.cameras;
+        } else if (animation_thing_of(c->path) == ANIMATED_LIGHT) {
+            slot += s->node_count + s->camera_count;
+            count = &counts.lights;
+        }
+        *count += seen[slot] != number;
+        seen[slot] = number;
+    }
+    return counts;
+}
+
 static json_t *animations_json(const lmn_scene *s)
 {
-    json_t *list = json_array();
-    for (size_t i = 0; i < s->animation_count; i++) {
+    json_t   *list = json_array();
+    uint32_t *seen = mem_calloc(s->node_count + s->camera_count + s->light_count, sizeof *seen);
+    for (size_t i = 0; seen && i < s->animation_count; i++) {
         const animation *a = &s->animations[i];
-        json_array_append_new(list, json_pack("{s:o,s:o,s:I}", "name", string_or_null(a->name), "duration",
-                                              real(a->duration), "channels", (json_int_t)a->channel_count));
+        moved_counts     n = count_moved(s, a, seen, (uint32_t)i + 1);
+        json_array_append_new(list, json_pack("{s:I,s:o,s:o,s:I,s:{s:I,s:I,s:I,s:I}}", "id", (json_int_t)(i + 1),
+                                              "name", string_or_null(a->name), "duration", real(a->duration),
+                                              "channels", (json_int_t)a->channel_count, "moves", "nodes",
+                                              (json_int_t)n.nodes, "weights", (json_int_t)n.weights, "cameras",
+                                              (json_int_t)n.cameras, "lights", (json_int_t)n.lights));
     }
+    mem_free(seen);
     return list;
 }
 

@@ -222,6 +222,7 @@ struct lmn_scene {
     size_t        spare_meshes;
     char          up;           /* 'y', 'z', or 0 while empty */
     bool          may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
+    bool          is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */
     warnings      warnings;
     double        load_ms;
 };

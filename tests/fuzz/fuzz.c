@@ -18,6 +18,7 @@ static const fuzz_target targets[] = {
     {"ply", fuzz_ply, NULL},
     {"obj", fuzz_obj, NULL},
     {"mtl", fuzz_mtl, NULL},
+    {"bvh", fuzz_bvh, NULL},
     {"csg", fuzz_csg, fuzz_mutate_csg},
     {"dxf", fuzz_dxf, NULL},
     {"stream", fuzz_stream, NULL},

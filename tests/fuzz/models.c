@@ -1,6 +1,7 @@
 /* Fuzzers of model files: what is accepted goes on through everything that is derived from meshes. Side files are
  * looked for where there are none. */
 #define _GNU_SOURCE /* memfd_create */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -14,6 +15,7 @@
 #include "import/csg.h"
 #include "import/draco.h"
 #include "import/obj.h"
+#include "import/retarget.h"
 #include "scene/mesh.h"
 
 static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const uint8_t *bytes, size_t size)
@@ -78,6 +80,52 @@ void fuzz_ply(const uint8_t *bytes, size_t size)
 void fuzz_obj(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(import_obj.read, 'y', bytes, size));
+}
+
+/* A triangle with a skin of four joints. */
+static const char skinned[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"skin\":0},{\"name\":\"rig:Hips\",\"children\":[2,3],"
+    "\"matrix\":[0,1,0,0,-1,0,0,0,0,0,2,0,0,9,0,1]},{\"name\":\"SPINE\",\"scale\":[1,0,1],\"children\":[4]},{\"name\":"
+    "\"foot\",\"translation\":[0,-9,0]},{\"name\":\"other\"}],\"skins\":[{\"joints\":[1,2,3,4]}],\"meshes\":[{"
+    "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+    "\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":"
+    "36,"
+    "\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+/* What posing relies on. */
+static void check_motion(const animation *a)
+{
+    for (size_t i = 0; i < a->channel_count; i++) {
+        const animation_channel *c = &a->channels[i];
+        for (size_t k = 0; k < c->key_count * c->components; k++)
+            if (!isfinite(c->values[k]))
+                __builtin_trap();
+        for (size_t k = 1; k < c->key_count; k++)
+            if (!(c->times[k] > c->times[k - 1]))
+                __builtin_trap();
+    }
+}
+
+/* The motion moves its own skeleton, and a model's. */
+void fuzz_bvh(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_bvh.read, 'y', bytes, size));
+    lmn_scene *motion = scene_new();
+    lmn_scene *model = fuzz_read_model(import_gltf.read, 'y', (const uint8_t *)skinned, sizeof skinned - 1);
+    if (!model)
+        __builtin_trap(); /* the model above is right */
+    file_data  file = {.data = bytes, .size = size};
+    import_job job = {.path = "/nonexistent/fuzz", .file = &file, .scene = motion};
+    lmn_error  error;
+    bool       done = false;
+    if (motion && import_bvh.read(&job, &error) == LMN_OK && scene_finish(motion, job.path, &error) == LMN_OK) {
+        motion->up = 'z';
+        retarget_motion(model, motion, job.path, &done, &error);
+    }
+    if (done)
+        check_motion(&model->animations[0]);
+    scene_free(motion);
+    use(model);
 }
 
 void fuzz_csg(const uint8_t *bytes, size_t size)
