@@ -40,14 +40,20 @@ static void add_noise(bench *b, float *out)
         out[i] = (float)random_signed(&b->random);
 }
 
+/* Adds a pair of lines, several positions at once: nothing of it is kept elsewhere. */
+static void add_pair(float *restrict out, const float *restrict a, const float *restrict b, float weight)
+{
+    for (int i = 0; i < SIDE; i++)
+        out[i] += weight * (a[i] + b[i]);
+}
+
 /* A line as the weighted sum of itself and of pairs of lines around it. */
 static void sum_lines(float *out, const float *const *lines, const float *weights, int reach)
 {
     for (int i = 0; i < SIDE; i++)
         out[i] = weights[0] * lines[0][i];
     for (int k = 1; k <= reach; k++)
-        for (int i = 0; i < SIDE; i++)
-            out[i] += weights[k] * (lines[2 * k - 1][i] + lines[2 * k][i]);
+        add_pair(out, lines[2 * k - 1], lines[2 * k], weights[k]);
 }
 
 /* Of a Gaussian's one side; returns how many count. */

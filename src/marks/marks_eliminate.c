@@ -34,10 +34,12 @@ typedef struct round_of {
     float    *weights; /* of a pair */
 } round_of;
 
+/* Cells of a block of four by four by four lie together in the table, so that neighbours do in memory. */
 static uint32_t bucket_of(const int32_t cell[3], uint32_t mask)
 {
-    uint32_t h = (uint32_t)cell[0] * 73856093u ^ (uint32_t)cell[1] * 19349663u ^ (uint32_t)cell[2] * 83492791u;
-    return (h ^ h >> 15) & mask;
+    uint32_t h = (uint32_t)(cell[0] >> 2) * 73856093u ^ (uint32_t)(cell[1] >> 2) * 19349663u ^
+                 (uint32_t)(cell[2] >> 2) * 83492791u;
+    return ((h ^ h >> 15) << 6 | (uint32_t)((cell[2] & 3) << 4 | (cell[1] & 3) << 2 | (cell[0] & 3))) & mask;
 }
 
 static void find_cells(size_t begin, size_t end, void *user)
@@ -104,22 +106,57 @@ static float weight_of(const round_of *r, const spread_position *a, const spread
     return (float)left;
 }
 
+/* What lies in a cell and those around it, as stretches of the table: found once for all points of the cell. */
+typedef struct cells_around {
+    int32_t middle[3];
+    int     count;
+    struct {
+        int32_t  cell[3];
+        uint32_t first, end; /* with others of the same bucket among them */
+    } parts[27];
+} cells_around;
+
+static bool is_cell(const int32_t a[3], const int32_t b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static void look_around(cells_around *around, const round_of *r, const int32_t middle[3])
+{
+    memcpy(around->middle, middle, sizeof around->middle);
+    around->count = 0;
+    for (int k = 0; k < 27; k++) {
+        const int32_t cell[3] = {middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1};
+        uint32_t      bucket = bucket_of(cell, r->mask), first = r->table[bucket], end = r->table[bucket + 1];
+        while (first < end && !is_cell(r->entries[first].cell, cell))
+            first++;
+        while (first < end && !is_cell(r->entries[end - 1].cell, cell))
+            end--;
+        if (first == end)
+            continue;
+        memcpy(around->parts[around->count].cell, cell, sizeof cell);
+        around->parts[around->count].first = first;
+        around->parts[around->count++].end = end;
+    }
+}
+
 /* Goes over the neighbours of points; counts them, or once there is room writes them down. Points are taken in the
  * order of the table, so that what is compared lies together in memory. */
 static void find_neighbours(size_t begin, size_t end, void *user)
 {
     round_of    *r = user;
     const double farthest = r->cell * r->cell * 1.0001; /* beyond it nothing has a weight */
+    cells_around around = {.count = 0};
     for (size_t s = begin; s < end; s++) {
         const table_entry *own = &r->entries[s];
         uint32_t           i = r->members[s], found = 0;
-        for (int k = 0; k < 27; k++) {
-            const int32_t cell[3] = {own->cell[0] + k % 3 - 1, own->cell[1] + k / 3 % 3 - 1, own->cell[2] + k / 9 - 1};
-            uint32_t      bucket = bucket_of(cell, r->mask);
-            for (uint32_t m = r->table[bucket]; m < r->table[bucket + 1]; m++) {
+        if (s == begin || !is_cell(around.middle, own->cell))
+            look_around(&around, r, own->cell);
+        for (int k = 0; k < around.count; k++)
+            for (uint32_t m = around.parts[k].first; m < around.parts[k].end; m++) {
                 const table_entry *e = &r->entries[m];
-                if (m == s || e->cell[0] != cell[0] || e->cell[1] != cell[1] || e->cell[2] != cell[2] ||
-                    square_between(own->point.position, e->point.position) >= farthest)
+                if (square_between(own->point.position, e->point.position) >= farthest || m == s ||
+                    !is_cell(e->cell, around.parts[k].cell))
                     continue;
                 float weight = weight_of(r, &own->point, &e->point);
                 if (!(weight > 0))
@@ -130,7 +167,6 @@ static void find_neighbours(size_t begin, size_t end, void *user)
                 }
                 found++;
             }
-        }
         if (!r->others)
             r->starts[i + 1] = found;
     }

@@ -137,10 +137,12 @@ static vec4 mean_colour(const lmn_scene *scene, int32_t index)
     if (!picture || !picture->pixels)
         return (vec4){1, 1, 1, 1};
     size_t count = (size_t)picture->width * picture->height, step = count / FILL_SAMPLES + 1, taken = 0;
-    double sum[3] = {0};
+    double sum[3] = {0}, linear[256];
+    for (int i = 0; i < 256; i++)
+        linear[i] = (double)colour_to_linear((float)i / 255);
     for (size_t i = 0; i < count; i += step, taken++)
         for (size_t k = 0; k < 3; k++)
-            sum[k] += (double)colour_to_linear((float)picture->pixels[4 * i + k] / 255);
+            sum[k] += linear[picture->pixels[4 * i + k]];
     return taken ? (vec4){(float)(sum[0] / (double)taken), (float)(sum[1] / (double)taken),
                           (float)(sum[2] / (double)taken), 1}
                  : (vec4){1, 1, 1, 1};

@@ -57,18 +57,26 @@ void hold_condition(lmn_look *look, const kind *k, const technique *t, const cha
     }
 }
 
-void hold_lighter(lmn_look *look, const kind *k, const technique *t, const char *param_key)
+uint32_t hold_lighter(lmn_look *look, const kind *k, const technique *t, const char *param_key)
 {
+    /* Many strokes are drawn short: long ones have many neighbours to be kept away from. */
     static const struct {
         const technique *technique;
         const char      *key, *value;
-    } lighter[] = {{&surface_strokes, "count", "1500"}};
+        bool             without; /* for all parameters but the one that is named next; else for it alone */
+        const char      *param_key;
+    } lighter[] = {{&surface_strokes, "count", "1500", true, "count"},
+                   {&surface_strokes, "length", "0.0005", false, "count"}};
+    uint32_t held = 0;
     for (size_t i = 0; i < PARAM_COUNT(lighter); i++) {
         char path[HOLD_KEY_SIZE];
-        if (lighter[i].technique != t || strcmp(lighter[i].key, param_key) == 0)
+        bool named = strcmp(lighter[i].param_key, param_key) == 0;
+        if (lighter[i].technique != t || named == lighter[i].without)
             continue;
         hold_key(path, k, lighter[i].key);
         if (lmn_look_set(look, path, lighter[i].value, NULL) != LMN_OK)
             fail_msg("%s cannot be set to %s", path, lighter[i].value);
+        held |= 1u << i;
     }
+    return held;
 }

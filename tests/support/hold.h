@@ -13,7 +13,8 @@ void hold_key(char key[HOLD_KEY_SIZE], const kind *k, const char *param_key);
  * runs. */
 void hold_condition(lmn_look *look, const kind *k, const technique *t, const char *condition);
 
-/* Leaves out of a technique's example what only takes time, but for the parameter with this key. */
-void hold_lighter(lmn_look *look, const kind *k, const technique *t, const char *param_key);
+/* Leaves out of a technique's example what only takes time, but for the parameter with this key. Returns which of all
+ * such things it left out, so that pictures are compared only with those of equal looks. */
+uint32_t hold_lighter(lmn_look *look, const kind *k, const technique *t, const char *param_key);
 
 #endif

@@ -5,9 +5,9 @@
  * Only the kinds and techniques that are named are drawn; none: all. Of one technique alone, parameters of the whole
  * kind are drawn but need not mean anything.
  *
- * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, not with both of its
- * extremes. What decides which shaders are built is still drawn with all. For the paths of drawing that share most of
- * their code with the usual one, which is not drawn briefly. */
+ * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, a usual one, not with both
+ * of its extremes. What decides which shaders are built is still drawn with all. For the paths of drawing that share
+ * most of their code with the usual one, which is not drawn briefly. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +30,8 @@ enum { SIDE = 160, VALUES_MAX = 24, TEXT_SIZE = 96 };
 typedef struct plain_picture {
     const technique *technique;
     const lmn_scene *scene;
-    const char      *only_if; /* NULL: nothing */
+    const char      *only_if;    /* NULL: nothing */
+    uint32_t         made_light; /* see hold_lighter */
     uint8_t         *pixels;
 } plain_picture;
 
@@ -38,7 +39,8 @@ enum { PLAIN_MAX = 1024 };
 
 typedef struct fixture {
     lmn_scene    *scene;
-    lmn_scene    *solid; /* for parameters that only solids know */
+    lmn_scene    *solid;  /* for parameters that only solids know */
+    lmn_scene    *simple; /* for parameters whose extremes take long with many triangles */
     lmn_renderer *renderer;
     const char   *examples;
     bool          brief;
@@ -68,12 +70,30 @@ static const struct {
     const char *kind, *key;
 } of_solids[] = {{"lines", "meet"}};
 
+/* Parameters that say how meshes are taken apart, by several techniques in the same way. */
+static const struct {
+    const char *kind, *key;
+} of_meshes[] = {{"surface", "patch"}};
+
 static bool is_of_solids(const kind *k, const param *p)
 {
     for (size_t i = 0; i < PARAM_COUNT(of_solids); i++)
         if (strcmp(of_solids[i].kind, k->name) == 0 && strcmp(of_solids[i].key, p->key) == 0)
             return true;
     return false;
+}
+
+static bool is_of_meshes(const kind *k, const param *p)
+{
+    for (size_t i = 0; i < PARAM_COUNT(of_meshes); i++)
+        if (strcmp(of_meshes[i].kind, k->name) == 0 && strcmp(of_meshes[i].key, p->key) == 0)
+            return true;
+    return false;
+}
+
+static const lmn_scene *scene_for(const fixture *f, const kind *k, const param *p)
+{
+    return is_of_solids(k, p) ? f->solid : is_of_meshes(k, p) ? f->simple : f->scene;
 }
 
 static bool is_exception(const kind *k, const param *p)
@@ -166,13 +186,13 @@ static bool are_equal(const uint8_t *pixels, const lmn_drawing *drawing)
 
 /* Lent; NULL when it cannot be drawn. `look` has what the parameter asks for, and nothing else. */
 static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const technique *t, const param *p,
-                               const lmn_look *look, const char *what)
+                               uint32_t made_light, const lmn_look *look, const char *what)
 {
     for (size_t i = 0; i < f->plain_count; i++) {
         const plain_picture *known = &f->plain[i];
         bool                 same =
             known->only_if && p->only_if ? strcmp(known->only_if, p->only_if) == 0 : known->only_if == p->only_if;
-        if (same && known->technique == t && known->scene == scene)
+        if (same && known->technique == t && known->scene == scene && known->made_light == made_light)
             return known->pixels;
     }
     lmn_drawing *drawing = f->plain_count < PLAIN_MAX ? draw(f, scene, look, what) : NULL;
@@ -180,12 +200,14 @@ static const uint8_t *plain_of(fixture *f, const lmn_scene *scene, const techniq
     int          width, height;
     if (pixels) {
         memcpy(pixels, lmn_drawing_pixels(drawing, &width, &height), (size_t)SIDE * SIDE * 4);
-        f->plain[f->plain_count++] = (plain_picture){t, scene, p->only_if, pixels};
+        f->plain[f->plain_count++] = (plain_picture){t, scene, p->only_if, made_light, pixels};
     } else
         f->mistakes++;
     lmn_drawing_destroy(&drawing);
     return pixels;
 }
+
+enum { SOFT_MAX = 3 /* where the greatest of a number's usual values stands */ };
 
 /* Values worth trying; a number's extremes come first. */
 static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
@@ -233,14 +255,13 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
         lmn_look_set(look, "0:lines.operator", "discontinuity", NULL);
     if (k->id == KIND_LINES) /* white lines show only on something darker */
         lmn_look_set(look, "0:surface.technique", "lit", NULL);
-    hold_lighter(look, k, t, p->key);
+    uint32_t made_light = hold_lighter(look, k, t, p->key);
     hold_condition(look, k, t, p->only_if);
-    const lmn_scene *scene = is_of_solids(k, p) ? f->solid : f->scene;
-    const uint8_t   *before = plain_of(f, scene, t, p, look, path);
+    const lmn_scene *scene = scene_for(f, k, p);
+    const uint8_t   *before = plain_of(f, scene, t, p, made_light, look, path);
     size_t           count = values_of(p, values);
     bool             changed = false, briefly = f->brief && !p->variant && !p->toggles;
-    size_t           first =
-        briefly && count > 1 && p->def <= p->min ? 1 : 0; /* the least value is often the one that is there already */
+    size_t           first = briefly && count > SOFT_MAX ? SOFT_MAX : 0;
     for (size_t i = 0; i < count && before; i++) {
         if (changed && (briefly || i >= 2)) /* the two extremes are drawn in any case */
             break;
@@ -366,6 +387,9 @@ static int make_fixture(void **state)
                 add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
                 lmn_scene_create(&f->solid, &error) == LMN_OK &&
                 add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
+                lmn_scene_create(&f->simple, &error) == LMN_OK &&
+                add_file(f->simple, folder, "ball.ply", write_ball, 10, &error) &&
+                add_file(f->simple, folder, "other.ply", write_ball, 70, &error) &&
                 lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
     if (!done)
         print_error("%s: %s\n", error.file, error.message);
@@ -378,6 +402,7 @@ static int end_fixture(void **state)
     fixture *f = *state;
     lmn_scene_destroy(&f->scene);
     lmn_scene_destroy(&f->solid);
+    lmn_scene_destroy(&f->simple);
     lmn_renderer_destroy(&f->renderer);
     for (size_t i = 0; i < f->plain_count; i++)
         free(f->plain[i].pixels);

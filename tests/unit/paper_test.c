@@ -27,6 +27,26 @@ static float height_at(const paper *p, int x, int y)
     return p->heights[(y & (SIDE - 1)) * SIDE + (x & (SIDE - 1))];
 }
 
+/* One of each kind, which most tests look at. */
+static int make_papers(void **state)
+{
+    paper *papers = calloc(PAPER_COUNT, sizeof *papers);
+    for (int kind = PAPER_SMOOTH; papers && kind < PAPER_COUNT; kind++)
+        if (paper_create(&papers[kind], (paper_kind)kind, 0, NULL) != LMN_OK)
+            return 1;
+    *state = papers;
+    return !papers;
+}
+
+static int release_papers(void **state)
+{
+    paper *papers = *state;
+    for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++)
+        paper_release(&papers[kind]);
+    free(papers);
+    return 0;
+}
+
 /* Mean product of heights this far apart, 1 at no distance. */
 static double likeness(const paper *p, int across, int up)
 {
@@ -49,16 +69,15 @@ static void check_flat(const int *counts, int bins)
 
 static void each_tenth_covers_a_tenth(void **state)
 {
-    (void)state;
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper     p = sheet_of((paper_kind)kind, 0);
-        mip_chain m;
-        int       heights[10] = {0}, contacts[16] = {0};
-        double    level = 0;
-        assert_int_equal(paper_texture(&m, &p, NULL), LMN_OK);
+        const paper *p = &((const paper *)*state)[kind];
+        mip_chain    m;
+        int          heights[10] = {0}, contacts[16] = {0};
+        double       level = 0;
+        assert_int_equal(paper_texture(&m, p, NULL), LMN_OK);
         for (int i = 0; i < TEXELS; i++) {
-            assert_true(p.heights[i] >= 0 && p.heights[i] <= 1);
-            heights[(int)fminf(p.heights[i] * 10, 9)]++;
+            assert_true(p->heights[i] >= 0 && p->heights[i] <= 1);
+            heights[(int)fminf(p->heights[i] * 10, 9)]++;
             contacts[((const uint8_t *)m.data[0])[2 * i] / 16]++;
             level += ((const uint8_t *)m.data[0])[2 * i + 1];
         }
@@ -67,7 +86,6 @@ static void each_tenth_covers_a_tenth(void **state)
         assert_true(fabs(level / TEXELS - 127.5) < 1.5);
         assert_true(m.fact > 0 && m.fact <= 1);
         mip_chain_release(&m);
-        paper_release(&p);
     }
 }
 
@@ -130,19 +148,17 @@ static double whole_periods(int distance, int count)
 
 static void papers_differ(void **state)
 {
-    (void)state;
     double tooth[PAPER_COUNT][2], regular[PAPER_COUNT][2];
     int    period[PAPER_COUNT][2] = {{0}};
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper p = sheet_of((paper_kind)kind, 0);
+        const paper *p = &((const paper *)*state)[kind];
         for (int up = 0; up < 2; up++) {
-            tooth[kind][up] = tooth_of(&p, up);
-            regular[kind][up] = repeats(&p, up, &period[kind][up]);
+            tooth[kind][up] = tooth_of(p, up);
+            regular[kind][up] = repeats(p, up, &period[kind][up]);
         }
         printf("    %s: tooth %.1f and %.1f texels; alike by %.2f after %d across, %.2f after %d up\n",
                paper_names[kind], tooth[kind][0], tooth[kind][1], regular[kind][0], period[kind][0], regular[kind][1],
                period[kind][1]);
-        paper_release(&p);
     }
     /* Felted papers have no direction and nothing that comes back, and differ by the size of their tooth. */
     for (int kind = PAPER_SMOOTH; kind <= PAPER_ROUGH; kind++) {
@@ -161,35 +177,31 @@ static void papers_differ(void **state)
 /* Blocks much larger than a grain are all alike, or the eye finds them again in the next sheet. */
 static void there_are_no_clouds(void **state)
 {
-    (void)state;
     enum { BLOCK = 64 };
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper  p = sheet_of((paper_kind)kind, 0);
-        double squares = 0;
+        const paper *p = &((const paper *)*state)[kind];
+        double       squares = 0;
         for (int block = 0; block < TEXELS / BLOCK / BLOCK; block++) {
             double mean = 0;
             for (int i = 0; i < BLOCK * BLOCK; i++)
                 mean +=
-                    (double)height_at(&p, block * BLOCK % SIDE + i % BLOCK, block * BLOCK / SIDE * BLOCK + i / BLOCK) /
+                    (double)height_at(p, block * BLOCK % SIDE + i % BLOCK, block * BLOCK / SIDE * BLOCK + i / BLOCK) /
                     (BLOCK * BLOCK);
             squares += (mean - 0.5) * (mean - 0.5) / (TEXELS / BLOCK / BLOCK);
         }
         printf("    %s: means of blocks of %d texels differ by %.4f\n", paper_names[kind], BLOCK, sqrt(squares));
         assert_true(sqrt(squares) < 0.012);
-        paper_release(&p);
     }
 }
 
 /* Sheets are looked up texel by texel, so that nothing may flicker from one to the next. */
 static void nothing_is_finer_than_a_texel(void **state)
 {
-    (void)state;
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper p = sheet_of((paper_kind)kind, 0);
-        printf("    %s: neighbours are alike by %.2f and %.2f\n", paper_names[kind], likeness(&p, 1, 0),
-               likeness(&p, 0, 1));
-        assert_true(likeness(&p, 1, 0) > 0.75 && likeness(&p, 0, 1) > 0.75);
-        paper_release(&p);
+        const paper *p = &((const paper *)*state)[kind];
+        printf("    %s: neighbours are alike by %.2f and %.2f\n", paper_names[kind], likeness(p, 1, 0),
+               likeness(p, 0, 1));
+        assert_true(likeness(p, 1, 0) > 0.75 && likeness(p, 0, 1) > 0.75);
     }
 }
 
@@ -211,21 +223,19 @@ static void the_same_seed_gives_the_same_sheet(void **state)
 
 static void normals_lean_away_from_hills(void **state)
 {
-    (void)state;
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper  p = sheet_of((paper_kind)kind, 0);
-        double steepest = 0;
+        const paper *p = &((const paper *)*state)[kind];
+        double       steepest = 0;
         for (int i = 0; i < TEXELS; i += 7) {
-            float n[3], across = height_at(&p, i % SIDE + 1, i / SIDE) - height_at(&p, i % SIDE - 1, i / SIDE),
-                        up = height_at(&p, i % SIDE, i / SIDE + 1) - height_at(&p, i % SIDE, i / SIDE - 1);
-            paper_normal(&p, i % SIDE, i / SIDE, n);
+            float n[3], across = height_at(p, i % SIDE + 1, i / SIDE) - height_at(p, i % SIDE - 1, i / SIDE),
+                        up = height_at(p, i % SIDE, i / SIDE + 1) - height_at(p, i % SIDE, i / SIDE - 1);
+            paper_normal(p, i % SIDE, i / SIDE, n);
             assert_true(fabsf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5f && n[2] > 0);
             assert_true(fabsf(n[0] * up - n[1] * across) < 1e-5f && n[0] * across + n[1] * up <= 0);
             steepest = fmax(steepest, acos((double)n[2]) * 57.29578);
         }
         printf("    %s: flanks of up to %.0f degrees\n", paper_names[kind], steepest);
         assert_true(steepest > 15 && steepest < 80);
-        paper_release(&p);
     }
 }
 
@@ -233,18 +243,17 @@ static void normals_lean_away_from_hills(void **state)
  * ones. */
 static void contact_is_of_height_and_of_flanks(void **state)
 {
-    (void)state;
     for (int kind = PAPER_SMOOTH; kind < PAPER_COUNT; kind++) {
-        paper     p = sheet_of((paper_kind)kind, 0);
-        mip_chain m;
-        double    sums[10][2] = {{0}};
-        int       counts[10][2] = {{0}};
-        assert_int_equal(paper_texture(&m, &p, NULL), LMN_OK);
+        const paper *p = &((const paper *)*state)[kind];
+        mip_chain    m;
+        double       sums[10][2] = {{0}};
+        int          counts[10][2] = {{0}};
+        assert_int_equal(paper_texture(&m, p, NULL), LMN_OK);
         for (int i = 0; i < TEXELS; i++) {
             float n[3];
-            paper_normal(&p, i % SIDE, i / SIDE, n);
+            paper_normal(p, i % SIDE, i / SIDE, n);
             float facing = (n[1] - n[0]) * 0.7071f;
-            int   tenth = (int)fminf(p.heights[i] * 10, 9);
+            int   tenth = (int)fminf(p->heights[i] * 10, 9);
             if (fabsf(facing) > 0.15f) {
                 sums[tenth][facing > 0] += ((const uint8_t *)m.data[0])[2 * i] / 255.0;
                 counts[tenth][facing > 0]++;
@@ -258,7 +267,6 @@ static void contact_is_of_height_and_of_flanks(void **state)
                 assert_true(!tenth || mean > sums[tenth - 1][faces] / counts[tenth - 1][faces]);
             }
         mip_chain_release(&m);
-        paper_release(&p);
     }
 }
 
@@ -294,5 +302,5 @@ int main(void)
         cmocka_unit_test(contact_is_of_height_and_of_flanks),
         cmocka_unit_test(failing_memory_is_reported),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_papers, release_papers);
 }
