@@ -41,6 +41,7 @@ typedef struct fixture {
     lmn_scene    *scene;
     lmn_scene    *solid;  /* for parameters that only solids know */
     lmn_scene    *simple; /* for parameters whose extremes take long with many triangles */
+    lmn_scene    *moving; /* for what tells of motion */
     lmn_renderer *renderer;
     const char   *examples;
     bool          brief;
@@ -93,6 +94,8 @@ static bool is_of_meshes(const kind *k, const param *p)
 
 static const lmn_scene *scene_for(const fixture *f, const kind *k, const param *p)
 {
+    if (k->id == KIND_MOTION)
+        return f->moving;
     return is_of_solids(k, p) ? f->solid : is_of_meshes(k, p) ? f->simple : f->scene;
 }
 
@@ -166,6 +169,7 @@ static lmn_drawing *draw(fixture *f, const lmn_scene *scene, const lmn_look *loo
 {
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.time_s = 0.5; /* some parameters count by the second; with the others a time changes nothing */
+    desc.clip = scene == f->moving ? "Run" : NULL;
     desc.lenient = true;
     lmn_drawing *drawing = NULL;
     lmn_error    error = {0};
@@ -369,6 +373,13 @@ static bool add_file(lmn_scene *scene, const char *folder, const char *name, voi
     return done;
 }
 
+static bool add_example(lmn_scene *scene, const char *folder, const char *name, lmn_error *error)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return lmn_scene_add_file(scene, path, NULL, error) == LMN_OK;
+}
+
 static int make_fixture(void **state)
 {
     fixture          *f = *state;
@@ -379,18 +390,19 @@ static int make_fixture(void **state)
     if (!mkdtemp(folder))
         return 1;
     snprintf(path, sizeof path, "%s/gearbox.stl", f->examples);
-    bool done = lmn_scene_create(&f->scene, &error) == LMN_OK &&
-                lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
-                add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
-                add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
-                add_file(f->scene, folder, "flower.obj", write_flower, -20, &error) &&
-                add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
-                lmn_scene_create(&f->solid, &error) == LMN_OK &&
-                add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
-                lmn_scene_create(&f->simple, &error) == LMN_OK &&
-                add_file(f->simple, folder, "ball.ply", write_ball, 10, &error) &&
-                add_file(f->simple, folder, "other.ply", write_ball, 70, &error) &&
-                lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
+    bool done =
+        lmn_scene_create(&f->scene, &error) == LMN_OK && lmn_scene_add_file(f->scene, path, &load, &error) == LMN_OK &&
+        add_file(f->scene, folder, "ball.ply", write_ball, 10, &error) &&
+        add_file(f->scene, folder, "other.ply", write_ball, 70, &error) &&
+        add_file(f->scene, folder, "flower.obj", write_flower, -20, &error) &&
+        add_file(f->scene, folder, "plate.obj", write_plate, -60, &error) &&
+        lmn_scene_create(&f->solid, &error) == LMN_OK &&
+        add_file(f->solid, folder, "solid.csg", write_solid, 0, &error) &&
+        lmn_scene_create(&f->moving, &error) == LMN_OK && add_example(f->moving, f->examples, "fox.glb", &error) &&
+        lmn_scene_create(&f->simple, &error) == LMN_OK &&
+        add_file(f->simple, folder, "ball.ply", write_ball, 10, &error) &&
+        add_file(f->simple, folder, "other.ply", write_ball, 70, &error) &&
+        lmn_renderer_create(&f->renderer, &desc, &error) == LMN_OK;
     if (!done)
         print_error("%s: %s\n", error.file, error.message);
     rmdir(folder);
@@ -403,6 +415,7 @@ static int end_fixture(void **state)
     lmn_scene_destroy(&f->scene);
     lmn_scene_destroy(&f->solid);
     lmn_scene_destroy(&f->simple);
+    lmn_scene_destroy(&f->moving);
     lmn_renderer_destroy(&f->renderer);
     for (size_t i = 0; i < f->plain_count; i++)
         free(f->plain[i].pixels);

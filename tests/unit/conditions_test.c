@@ -110,7 +110,7 @@ static void test_every_technique_has_the_row_of_its_kind(void **state)
             const kind_id    id = kinds[i]->id;
             if (!t->surface != (id != KIND_SURFACE) || !t->lines != (id != KIND_LINES) ||
                 !t->compose != (id != KIND_COMPOSE) || !t->layers != (id != KIND_LAYERS) ||
-                !t->perturbs != (id != KIND_PERTURB))
+                !t->perturbs != (id != KIND_PERTURB) || !t->motion != (id != KIND_MOTION))
                 fail_msg("%s '%s' lacks the row of its kind, or has another's", kinds[i]->name, t->name);
             assert_true(id != KIND_SURFACE || t->surface->shader);
             assert_true(id != KIND_LAYERS || t->layers->layering);

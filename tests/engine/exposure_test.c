@@ -1,0 +1,216 @@
+/* The motion technique `accumulate`: the mean, in linear light, of the pictures that are drawn of single times; what
+ * does not move keeps every bit. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "limner/limner.h"
+
+enum { SIDE = 120, PIXELS = SIDE * SIDE };
+
+static lmn_error error;
+
+static void check(lmn_status status, const char *what)
+{
+    if (status != LMN_OK)
+        fail_msg("%s: %s (%s)", what, error.message, error.hint);
+}
+
+#define DO(call) check(call, #call)
+
+typedef struct fixture {
+    lmn_renderer *renderer;
+    lmn_scene    *fox, *boxes;
+} fixture;
+
+static lmn_scene *load(const char *path)
+{
+    lmn_scene *s = NULL;
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, path, NULL, &error));
+    return s;
+}
+
+static int set_up(void **state)
+{
+    static fixture    f;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    DO(lmn_renderer_create(&f.renderer, &desc, &error));
+    f.fox = load(EXAMPLES "/fox.glb");
+    f.boxes = load(EXAMPLES "/box-animated.glb");
+    *state = &f;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    lmn_scene_destroy(&f->fox);
+    lmn_scene_destroy(&f->boxes);
+    lmn_renderer_destroy(&f->renderer);
+    return 0;
+}
+
+/* `rules` are the look's. */
+static lmn_status try_draw(const fixture *f, const lmn_scene *s, const char *rules, const lmn_draw_desc *wanted,
+                           uint8_t *out)
+{
+    char          json[1024];
+    lmn_look     *look = NULL;
+    lmn_drawing  *drawing = NULL;
+    lmn_draw_desc desc = *wanted;
+    snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
+    DO(lmn_look_parse(&look, json, "test", &error));
+    desc.width = desc.height = SIDE;
+    lmn_status status = lmn_draw(&drawing, f->renderer, s, look, &desc, &error);
+    if (status == LMN_OK)
+        memcpy(out, lmn_drawing_pixels(drawing, NULL, NULL), 4 * PIXELS);
+    lmn_drawing_destroy(&drawing);
+    lmn_look_destroy(&look);
+    return status;
+}
+
+static void draw(const fixture *f, const lmn_scene *s, const char *rules, const lmn_draw_desc *wanted, uint8_t *out)
+{
+    DO(try_draw(f, s, rules, wanted, out));
+}
+
+static double to_linear(uint8_t value)
+{
+    double v = value / 255.0;
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static double from_linear(double v)
+{
+    return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055);
+}
+
+/* The weighted mean of single pictures, against one that is exposed; the greatest difference in steps of 8 bits. */
+static double worst_difference(const fixture *f, const char *plain, const char *exposed, double seconds, int times,
+                               const double *weights)
+{
+    static uint8_t one[4 * PIXELS], whole[4 * PIXELS];
+    double        *sum = calloc(4 * PIXELS, sizeof *sum), total = 0, worst = 0;
+    lmn_draw_desc  desc = LMN_DRAW_DESC_INIT;
+    desc.clip = "Run";
+    desc.time_s = 0.5;
+    desc.fit_time = true;
+    draw(f, f->fox, exposed, &desc, whole);
+    for (int i = 0; i < times; i++) {
+        desc.time_s = 0.5 - seconds * i / times;
+        draw(f, f->fox, plain, &desc, one);
+        total += weights[i];
+        for (size_t k = 0; k < 4 * PIXELS; k++)
+            sum[k] += weights[i] * to_linear(one[k]);
+    }
+    for (size_t k = 0; k < 4 * PIXELS; k++)
+        worst = fmax(worst, fabs(from_linear(sum[k] / total) - whole[k]));
+    free(sum);
+    return worst;
+}
+
+#define PLAIN "\"surface\": \"lit\", \"lines\": \"discontinuity\""
+
+static void it_is_the_mean(void **state)
+{
+    static const double equal[8] = {1, 1, 1, 1, 1, 1, 1, 1}, last[8] = {5, 1, 1, 1, 1, 1, 1, 1},
+                        decay[5] = {1, 0.5, 0.25, 0.125, 0.0625};
+    double off = worst_difference(*state, "{" PLAIN "}",
+                                  "{" PLAIN ", \"motion\": {\"technique\": \"accumulate\", \"times\": 8, "
+                                  "\"exposure\": 0.2}}",
+                                  0.2, 8, equal);
+    assert_true(off <= 1.01);
+    off = worst_difference(*state, "{" PLAIN "}",
+                           "{" PLAIN ", \"motion\": {\"technique\": \"accumulate\", \"times\": 8, \"exposure\": 0.2, "
+                           "\"weights\": \"last\", \"last\": 5}}",
+                           0.2, 8, last);
+    assert_true(off <= 1.01);
+    off = worst_difference(*state, "{" PLAIN "}",
+                           "{" PLAIN ", \"motion\": {\"technique\": \"accumulate\", \"times\": 5, \"exposure\": 0.1, "
+                           "\"weights\": \"decay\", \"decay\": 0.5}}",
+                           0.1, 5, decay);
+    assert_true(off <= 1.01);
+}
+
+#define BLUR "\"motion\": {\"technique\": \"accumulate\", \"times\": 7, \"exposure\": 0.3}"
+
+/* Without a time nothing moves; nor does a part whose rule has no motion, whatever moves around it. */
+static void what_rests_keeps_every_bit(void **state)
+{
+    const fixture *f = *state;
+    static uint8_t with[4 * PIXELS], without[4 * PIXELS];
+    lmn_draw_desc  desc = LMN_DRAW_DESC_INIT;
+    draw(f, f->fox, "{" PLAIN ", " BLUR "}", &desc, with);
+    draw(f, f->fox, "{" PLAIN "}", &desc, without);
+    assert_memory_equal(with, without, sizeof with);
+    /* Both boxes move; the inner one rises, and only the outer one may blur. */
+    desc.time_s = 1.9;
+    desc.eye_given = true;
+    memcpy(desc.eye, (double[]){4, 6, 7}, sizeof desc.eye);
+    memcpy(desc.target, (double[]){0, 1, 0}, sizeof desc.target);
+    desc.up[1] = 1;
+    draw(f, f->boxes, "{" PLAIN "}, {\"select\": \"outer*\", " PLAIN ", " BLUR "}", &desc, with);
+    draw(f, f->boxes, "{" PLAIN "}", &desc, without);
+    static uint8_t blurred[4 * PIXELS];
+    draw(f, f->boxes, "{" PLAIN "}, {\"select\": \"inner*\", " PLAIN ", " BLUR "}", &desc, blurred);
+    int above = 0, above_blurred = 0;
+    for (int i = 0; i < 4 * SIDE * (SIDE / 3); i++) { /* where the inner box is alone */
+        above += with[i] != without[i];
+        above_blurred += blurred[i] != without[i];
+    }
+    assert_int_equal(above, 0);
+    assert_true(above_blurred > 200);
+}
+
+static void one_exposure_a_picture(void **state)
+{
+    const fixture *f = *state;
+    static uint8_t pixels[4 * PIXELS];
+    lmn_draw_desc  desc = LMN_DRAW_DESC_INIT;
+    desc.time_s = 1.9;
+    assert_int_equal(try_draw(f, f->boxes,
+                              "{" PLAIN ", " BLUR "}, {\"select\": \"inner*\", " PLAIN
+                              ", \"motion\": {\"technique\": \"accumulate\", \"times\": 9}}",
+                              &desc, pixels),
+                     LMN_USAGE);
+    assert_non_null(strstr(error.message, "different motion"));
+}
+
+static int calls;
+
+static bool stop_later(double fraction, const char *stage, void *user)
+{
+    (void)fraction;
+    (void)stage;
+    (void)user;
+    return ++calls < 6;
+}
+
+static void it_can_be_cancelled(void **state)
+{
+    const fixture *f = *state;
+    static uint8_t pixels[4 * PIXELS];
+    lmn_draw_desc  desc = LMN_DRAW_DESC_INIT;
+    desc.time_s = 1.9;
+    desc.progress = stop_later;
+    assert_int_equal(try_draw(f, f->boxes, "{" PLAIN ", " BLUR "}", &desc, pixels), LMN_CANCELLED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_is_the_mean),
+        cmocka_unit_test(what_rests_keeps_every_bit),
+        cmocka_unit_test(one_exposure_a_picture),
+        cmocka_unit_test(it_can_be_cancelled),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
