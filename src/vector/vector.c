@@ -106,6 +106,18 @@ static lmn_status refuse_section(const vector_job *j, lmn_error *error)
                                : LMN_OK;
 }
 
+/* A picture of several times is none of lines. */
+static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
+{
+    refusal r = refusal_of(j, error);
+    for (size_t i = 0; j->pose.at_rest && i < j->look->rule_count; i++)
+        if (rule_use(&j->look->rules[i], KIND_MOTION))
+            return refuse(&r, LMN_USAGE, WARNING_UNUSED, "draw a picture (.png), or set motion.technique=none",
+                          "motion '%s' has no lines in vector drawings, which show one time",
+                          rule_use(&j->look->rules[i], KIND_MOTION)->technique->name);
+    return LMN_OK;
+}
+
 static void lay_ground(vector_job *j)
 {
     const sheet_values *finish = j->look->wide[KIND_FINISH].values;
@@ -658,6 +670,8 @@ static lmn_status prepare(vector_job *j, lmn_error *error)
         status = begin_page(j, error);
     if (status == LMN_OK)
         status = refuse_section(j, error);
+    if (status == LMN_OK)
+        status = refuse_motion(j, error);
     if (status != LMN_OK)
         return status;
     lay_ground(j);

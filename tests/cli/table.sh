@@ -183,6 +183,9 @@ group_draw() {
     row 0 '' 'x.png' draw "$moving" $small -o x.png --clip 1 --time 1.5
     cmp -s x.png in-later.png || complain "--clip 1 is not the first clip"
     row 0 '' 'x.svg' draw "$moving" $small -o x.svg --time 1.5
+    row 1 "^limner: .*motion 'accumulate' has no lines in vector drawings" '' draw "$moving" $small -o x.svg --time 1.5 --set motion.technique=accumulate
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=accumulate
+    cmp -s x.png in-later.png && complain "motion changes nothing"
     row 0 '' 'x-0000.png x-0001.png' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24
     row 0 '' 'x-0036.png' draw "$moving" $small -o 'x-{frame}.png' --frames 36:36:24 && cp x-0036.png in-frame.png
     row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --fit-time
