@@ -1,7 +1,7 @@
 /* The GLSL of every technique compiles, in the three dialects that it is written for: desktop GL 3.3, the floor; GL
  * 4.3; and ES 3. Techniques draw their examples, tiny, shaded with their geometry, later, and layer by layer, then
  * with each value of each parameter that decides what is compiled, on the floor and on ES. What is drawn is looked
- * at elsewhere. */
+ * at elsewhere. Usage: shaders_test [floor|es|fast]…, the dialects; none: all. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,8 @@ enum { FLOOR, ES, DIALECTS_OF_VALUES, FAST = DIALECTS_OF_VALUES, DIALECTS };
 
 typedef struct fixture {
     lmn_scene    *scene, *solid;
-    lmn_renderer *renderers[DIALECTS];
+    lmn_renderer *renderers[DIALECTS]; /* NULL: not wanted */
+    bool          wanted[DIALECTS];
     int           drawn, mistakes;
     char          seen[SEEN_MAX][sizeof((lmn_error *)0)->message]; /* messages, of which each is said once */
 } fixture;
@@ -44,35 +45,33 @@ static bool make_scene(lmn_scene **scene, const char *path, lmn_error *error)
     return lmn_scene_create(scene, error) == LMN_OK && lmn_scene_add_file(*scene, path, &load, error) == LMN_OK;
 }
 
-static int set_up(void **state)
+static bool set_up(fixture *f)
 {
-    static fixture f;
-    lmn_error      error = {0};
-    bool           done = make_scene(&f.scene, TEST_DATA "/two-parts.gltf", &error) &&
-                make_scene(&f.solid, EXAMPLES "/csg/widget.csg", &error);
+    lmn_error error = {0};
+    bool      done = make_scene(&f->scene, TEST_DATA "/two-parts.gltf", &error) &&
+                make_scene(&f->solid, EXAMPLES "/csg/widget.csg", &error);
     for (int i = 0; i < DIALECTS && done; i++) {
+        if (!f->wanted[i])
+            continue;
         lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
         desc.es = i == ES;
         if (i == FLOOR)
             setenv("LIMNER_PATH", "floor", 1);
         else
             unsetenv("LIMNER_PATH");
-        done = lmn_renderer_create(&f.renderers[i], &desc, &error) == LMN_OK;
+        done = lmn_renderer_create(&f->renderers[i], &desc, &error) == LMN_OK;
     }
     if (!done)
         print_error("%s\n", error.message);
-    *state = &f;
-    return !done;
+    return done;
 }
 
-static int tear_down(void **state)
+static void tear_down(fixture *f)
 {
-    fixture *f = *state;
     for (int i = 0; i < DIALECTS; i++)
         lmn_renderer_destroy(&f->renderers[i]);
     lmn_scene_destroy(&f->scene);
     lmn_scene_destroy(&f->solid);
-    return 0;
 }
 
 static lmn_look *example_look(const technique *t)
@@ -104,6 +103,8 @@ static void complain(fixture *f, const char *what, const char *dialect, const ch
 static void draw(fixture *f, int dialects, const lmn_scene *scene, const lmn_look *look, const char *what)
 {
     for (int i = 0; i < dialects; i++) {
+        if (!f->renderers[i])
+            continue;
         lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
         lmn_drawing  *drawing = NULL;
         lmn_error     error = {0};
@@ -202,12 +203,21 @@ static void every_evaluation_of_solids(void **state)
     assert_int_equal(f->mistakes, 0);
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
+    static const char *const names[DIALECTS] = {[FLOOR] = "floor", [ES] = "es", [FAST] = "fast"};
+    static fixture           f;
+    for (int i = 0; i < DIALECTS; i++) {
+        f.wanted[i] = count < 2;
+        for (int k = 1; k < count; k++)
+            f.wanted[i] = f.wanted[i] || strcmp(arguments[k], names[i]) == 0;
+    }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_technique_in_every_way),
-        cmocka_unit_test(every_value_that_compiles_something_else),
-        cmocka_unit_test(every_evaluation_of_solids),
+        cmocka_unit_test_prestate(every_technique_in_every_way, &f),
+        cmocka_unit_test_prestate(every_value_that_compiles_something_else, &f),
+        cmocka_unit_test_prestate(every_evaluation_of_solids, &f),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    int failures = set_up(&f) ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+    tear_down(&f);
+    return failures;
 }

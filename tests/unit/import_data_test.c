@@ -205,7 +205,8 @@ static void load_folder(const char *folder, tally *t)
     closedir(list);
 }
 
-/* Some of these files ask for minutes or gigabytes; strict limits end them. */
+/* Some of these files ask for minutes or gigabytes; strict limits end them. What takes seconds and then is accepted is
+ * read to its end behind the fence; in the process itself, only as long as any valid file takes. */
 static void load_damaged(bool in_process)
 {
     const char *folder = data_folder();
@@ -216,7 +217,7 @@ static void load_damaged(bool in_process)
     lmn_task     *task;
     lmn_task_desc desc = lmn_task_desc_standard();
     desc.limits = lmn_limits_safe();
-    desc.limits.time_s = 3;
+    desc.limits.time_s = in_process ? 1 : 3;
     desc.in_process = in_process;
     assert_int_equal(lmn_task_begin(&task, &desc, NULL), LMN_OK);
     snprintf(path, sizeof path, "%s/robust", folder);
