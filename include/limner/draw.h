@@ -104,7 +104,8 @@ LMN_API lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *pat
                                      lmn_error *error);
 
 /* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing), uncertainty.pfm
- * where something is perturbed, direction.pfm where strokes follow the form on the page, and for looks that are
+ * where something is perturbed, direction.pfm where strokes follow the form on the page, velocity.pfm of scenes that
+ * are drawn at a time, and for looks that are
  * seen through the same of every layer, layerK.depth.pfm and so on (docs/reference/report.md). The drawing must
  * have been made with desc.maps. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */
 LMN_API lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error);

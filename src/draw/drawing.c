@@ -43,8 +43,8 @@ void renderer_destroy(lmn_renderer **renderer)
 }
 
 /* Poses the scene unless it is posed already. */
-static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const draw_options *options, warnings *warnings,
-                             lmn_error *error)
+static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options,
+                             warnings *warnings, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
     moment               when;
@@ -56,6 +56,8 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const draw
         if (status == LMN_OK && options->held)
             pose_hold(&r->pose, options->held, options->moves);
     }
+    if (status == LMN_OK && options->maps)
+        status = pose_add_before(&r->pose, time_exposure(look), error);
     if (status == LMN_OK)
         r->pose.fit_boxes = r->pose.part_boxes;
     if (status == LMN_OK && desc->fit_time)
@@ -75,7 +77,8 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
                        (r->up.needs.rest || !p->meshes.rest) &&
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
-                 r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when);
+                 r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&
+                 r->up.before_seconds == (r->pose.before ? r->pose.before_seconds : 0);
     if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
         return LMN_OK;
     upload earlier = r->up;
@@ -132,7 +135,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)
-        status = bring_pose(r, scene, w, warnings, error);
+        status = bring_pose(r, scene, look, w, warnings, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
     if (status == LMN_OK)
@@ -167,6 +170,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
+    f->camera_before = f->camera;
+    if (r->pose.before && desc->camera)
+        status = camera_place(&f->camera_before, desc, r->pose.before, s->plan.fit_box, error);
+    if (status != LMN_OK)
+        return status;
     r->width = desc->width;
     r->height = desc->height;
     r->samples = desc->samples;

@@ -1,6 +1,6 @@
 /* The maps as files: depth.pfm, normal.pfm, id.png, edge.png, shade.png, uncertainty.pfm where something is
- * perturbed, direction.pfm where strokes follow the form on the page, and the same for each layer. PNG rows run
- * from the top, PFM rows from the bottom. */
+ * perturbed, direction.pfm where strokes follow the form on the page, velocity.pfm where the model moves, and the same
+ * for each layer. PNG rows run from the top, PFM rows from the bottom. */
 #include "draw/maps.h"
 
 #include <math.h>
@@ -169,6 +169,11 @@ lmn_status maps_write(const frame_maps *m, size_t part_count, const char *direct
         status = export_pfm(&bytes, m->direction, 3, m->width, m->height, error);
         if (status == LMN_OK)
             status = store(directory, "direction.pfm", &bytes, error);
+    }
+    if (status == LMN_OK && m->velocity) {
+        status = export_pfm(&bytes, m->velocity, 3, m->width, m->height, error);
+        if (status == LMN_OK)
+            status = store(directory, "velocity.pfm", &bytes, error);
     }
     for (size_t i = 0; i < m->layer_count && status == LMN_OK; i++)
         status = write_layer(m, i, part_count, directory, error);

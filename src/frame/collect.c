@@ -39,6 +39,7 @@ void frame_maps_release(frame_maps *m)
     mem_free(m->shade);
     mem_free(m->uncertainty);
     mem_free(m->direction);
+    mem_free(m->velocity);
     for (size_t i = 0; i < m->layer_count; i++)
         mem_free(m->layers[i]);
     mem_free(m->layers);
@@ -55,8 +56,8 @@ static bool is_own(const figure_state *s, const uint32_t id[2])
 
 /* What was read back of a figure or of one layer of it. */
 typedef struct readings {
-    float    *normal_depth, *shade, *edge; /* 4 a pixel */
-    uint32_t *id;                          /* 2 a pixel */
+    float    *normal_depth, *shade, *edge, *velocity; /* 4 a pixel; velocity may be NULL */
+    uint32_t *id;                                     /* 2 a pixel */
 } readings;
 
 /* Takes a figure's pixels where they are the nearest so far; ink outside its boundary darkens what is empty. */
@@ -74,6 +75,8 @@ static void merge_maps(frame_maps *m, const figure_state *s, const readings *r)
             memcpy(&m->normal[3 * i], &r->normal_depth[4 * i], 3 * sizeof(float));
             memcpy(&m->shade[4 * i], &r->shade[4 * i], 4 * sizeof(float));
             memcpy(&m->edge[4 * i], &r->edge[4 * i], 4 * sizeof(float));
+            if (r->velocity)
+                memcpy(&m->velocity[3 * i], &r->velocity[4 * i], 2 * sizeof(float));
         } else if (m->whole && !own && m->id[i] == 0) {
             for (size_t k = 0; k < 4; k++)
                 m->edge[4 * i + k] = fminf(m->edge[4 * i + k], r->edge[4 * i + k]);
@@ -191,6 +194,21 @@ static layer_map *layer_at(frame *f, size_t index)
     return gpu_failed(f->g) ? NULL : m->layers[index];
 }
 
+/* Reads velocities where there are any; false when memory is gone. */
+static bool read_velocity(frame *f, const figure_state *s, readings *r)
+{
+    frame_maps *m = f->maps;
+    size_t      count = (size_t)f->width * (size_t)f->height;
+    if (!m->whole || !s->targets[TARGET_VELOCITY])
+        return true;
+    if (!m->velocity)
+        m->velocity = mem_calloc(count, 3 * sizeof *m->velocity);
+    r->velocity = mem_alloc(count * 16);
+    if (m->velocity && r->velocity)
+        gpu_read(f->g, s->targets[TARGET_VELOCITY], r->velocity);
+    return m->velocity && r->velocity;
+}
+
 /* Reads the figure's pictures and merges them, into a layer's map too when the figure has several. */
 static void collect(frame *f, figure_state *s, bool layered)
 {
@@ -203,7 +221,7 @@ static void collect(frame *f, figure_state *s, bool layered)
             for (size_t i = 0; i < count * 4; i++)
                 r.edge[i] = 1;
     }
-    if (r.normal_depth && r.id && (!whole || (r.edge && r.shade))) {
+    if (r.normal_depth && r.id && (!whole || (r.edge && r.shade)) && read_velocity(f, s, &r)) {
         gpu_read(f->g, s->targets[TARGET_NORMAL_DEPTH], r.normal_depth);
         gpu_read(f->g, s->targets[TARGET_ID], r.id);
         if (whole)
@@ -218,6 +236,7 @@ static void collect(frame *f, figure_state *s, bool layered)
     }
     mem_free(r.normal_depth);
     mem_free(r.shade);
+    mem_free(r.velocity);
     mem_free(r.id);
 }
 

@@ -17,6 +17,7 @@ typedef struct frame {
     const plan          *plan;
     const used_textures *sheet; /* of the plan's sheet */
     view_camera          camera;
+    view_camera          camera_before; /* where velocities are measured: the camera earlier */
     int                  width, height; /* of the page, supersamples counted */
     int                  samples;       /* a side */
     colour               ground;
@@ -62,6 +63,7 @@ struct frame_maps {
     float    *edge;        /* 4 */
     float    *shade;       /* 4, linear premultiplied */
     float    *uncertainty; /* 3; NULL while nothing is perturbed */
+    float    *velocity;    /* 3: pixels moved over the exposure, right, up, 0; NULL: the scene is at rest */
     float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks
                          for it */
     bool        whole;  /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */

@@ -331,7 +331,7 @@ static stack_options options_of(const frame *f, const layer_stack *stack)
         const layering *how = &stack->states[i].figure->layering;
         if (!how->several)
             continue;
-        if (how->producer == PRODUCER_PEELING || (stack->channels & CHANNEL_REST) ||
+        if (how->producer == PRODUCER_PEELING || (stack->channels & (CHANNEL_REST | CHANNEL_VELOCITY)) ||
             (how->producer == PRODUCER_AUTO && stack->limit < LISTS_PAY_FROM))
             out.lists = false;
         out.whole = out.whole || how->fraction > 0 || stack->states[i].figure->focus || rule_traces_lines(r) ||

@@ -94,10 +94,10 @@ static void set_material(gpu *g, const material *m, item_textures t, bool layere
 
 /* What the geometry pass writes and where. */
 typedef struct outputs {
-    int normal_depth, id, albedo, shade, rest; /* attachment, −1 = not */
+    int normal_depth, id, albedo, shade, rest, velocity; /* attachment, −1 = not */
 } outputs;
 
-static const outputs no_outputs = {-1, -1, -1, -1, -1};
+static const outputs no_outputs = {-1, -1, -1, -1, -1, -1};
 
 /* One run over the parts. */
 typedef struct raster_job {
@@ -125,7 +125,8 @@ static void declare_outputs(text *prelude, const raster_job *job)
                 {"ID", job->at.id},
                 {"ALBEDO", job->at.albedo},
                 {"SHADE", job->at.shade},
-                {"REST", job->at.rest}};
+                {"REST", job->at.rest},
+                {"VELOCITY", job->at.velocity}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].at >= 0)
             text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
@@ -212,7 +213,7 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, ready;
+    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, has_before, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
@@ -283,9 +284,11 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
+    bool before = job->at.velocity >= 0 && gpu_mesh_has_before(item->mesh);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
-        field == last->has_field && patches == last->has_patches && rest == last->has_rest)
+        field == last->has_field && patches == last->has_patches && rest == last->has_rest &&
+        before == last->has_before)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -296,6 +299,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                 field && !patches ? "#define HAS_FIELD\n" : "");
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
+    if (before)
+        text_append(&prelude, "#define HAS_BEFORE\n");
     if (wants_light_map(job, s, item))
         text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
@@ -313,6 +318,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                            .has_field = field,
                            .has_patches = patches,
                            .has_rest = rest,
+                           .has_before = before,
                            .ready = true,
                            .triangles = last->triangles};
 }
@@ -423,6 +429,8 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     gpu_set_texture(f->g, "t_light_map", light_map, true);
     view_set_transform(f->g, &f->camera, &item->world);
     frame_set_rest(f, item->part_index);
+    if (job->at.velocity >= 0)
+        view_set_before(f->g, &f->camera_before, &item->before);
     set_ids(f, job, s, item, last->triangles);
     if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
@@ -571,6 +579,8 @@ static outputs open_outputs(frame *f, unsigned channels, gpu_texture **targets, 
         o.shade = add_output(f, targets, pass, TARGET_SHADE, far);
     if (channels & CHANNEL_REST)
         o.rest = add_output(f, targets, pass, TARGET_REST, far);
+    if (channels & CHANNEL_VELOCITY)
+        o.velocity = add_output(f, targets, pass, TARGET_VELOCITY, far);
     pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
     return o;
 }
@@ -605,7 +615,7 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
         draw_parts(&wide, &pass,
-                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1}, .enlarge = pixels});
+                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1, -1}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -661,7 +671,7 @@ void raster_direct(frame *f, figure_state *s)
     stopwatch w = watch_start(&f->profile);
     gpu_pass  pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1}});
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1, -1}});
     watch_stop(&f->profile, w, "", "geometry");
 }
 
@@ -674,7 +684,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
     draw_parts(f, &onto,
                &(raster_job){.state = s,
                              .solids = &s->solids,
-                             .at = {-1, -1, -1, 0, -1},
+                             .at = {-1, -1, -1, 0, -1, -1},
                              .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 

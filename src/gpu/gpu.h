@@ -39,7 +39,7 @@ typedef enum gpu_cull { GPU_CULL_NONE, GPU_CULL_BACK, GPU_CULL_FRONT } gpu_cull;
  * gpu_capabilities.lists). */
 typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
 typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
-enum { GPU_COLOURS_MAX = 5 };
+enum { GPU_COLOURS_MAX = 6 };
 
 /* Makes a context without display or window and makes it current on this thread. Errors: LMN_GL (with what is
  * missing and how to get it), LMN_MEMORY. */
@@ -120,6 +120,7 @@ typedef struct gpu_mesh_data {
     const float    *tensors; /* six numbers a vertex: locations 6 and 7 */
     const float    *patches; /* four numbers a vertex: location 8 */
     const float    *rest;    /* positions when nothing has moved: location 9 */
+    const float    *before;  /* positions earlier: location 10 */
     const uint32_t *keys;    /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
@@ -128,6 +129,7 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
 bool      gpu_mesh_has_tensors(const gpu_mesh *m);
 bool      gpu_mesh_has_rest(const gpu_mesh *m);
+bool      gpu_mesh_has_before(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 

@@ -36,12 +36,12 @@ struct gpu_program {
     int          uniform_count;
 };
 
-enum { GPU_BUFFERS = 11 };
+enum { GPU_BUFFERS = 12 };
 
 struct gpu_mesh {
     GLuint   array, buffers[GPU_BUFFERS]; /* by attribute, the last for indices */
     uint32_t index_count, vertex_count;
-    bool     has_colours, has_tensors, has_rest;
+    bool     has_colours, has_tensors, has_rest, has_before;
 };
 
 struct gpu_marks {

@@ -208,6 +208,8 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
     if (wants_rest(p, f))
         f->channels |= CHANNEL_REST;
+    if (as_sprites && p->pose->before)
+        f->channels |= CHANNEL_VELOCITY;
 }
 
 bool shades_with_geometry(const technique_use *surface)
@@ -248,6 +250,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH;
     if (wants_rest(p, f))
         f->channels |= CHANNEL_REST;
+    if (as_sprites && p->pose->before)
+        f->channels |= CHANNEL_VELOCITY;
 }
 
 static int figure_rank(const figure *f)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "motion/motion.h"
 
 lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
                        lmn_error *error)
@@ -11,6 +12,14 @@ lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc 
     if (!desc->clip && !desc->time_given && desc->time_s == 0)
         return LMN_OK;
     return moment_find(out, scene, desc->clip, desc->time_s, warnings, error);
+}
+
+double time_exposure(const lmn_look *look)
+{
+    for (size_t i = 0; i < look->rule_count; i++)
+        if (look->rules[i].use_counts[KIND_MOTION])
+            return (double)((const motion_common *)look->rules[i].uses[KIND_MOTION][0].values)->exposure;
+    return kind_motion.common[0].def;
 }
 
 void swept_boxes_release(swept_boxes *s)

@@ -3,11 +3,15 @@
 #define LIMNER_PLAN_TIME_H
 
 #include "limner/draw.h"
+#include "look/look.h"
 #include "pose/pose.h"
 
 /* The moment that the description asks for: rest, unless it names a clip or a time. Errors: LMN_USAGE. */
 lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
                        lmn_error *error);
+
+/* How long the shutter is open: as the look's rules for motion say, which agree; else as the kind does. Seconds. */
+double time_exposure(const lmn_look *look);
 
 /* Boxes of parts over the whole of their clips, kept from drawing to drawing. Zero-initialise. */
 typedef struct swept_boxes {

@@ -129,11 +129,28 @@ lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lm
     return status;
 }
 
+lmn_status pose_add_before(pose *p, double seconds, lmn_error *error)
+{
+    moment when = p->when;
+    if (!p->at_rest || (p->before && p->before_seconds == seconds))
+        return LMN_OK;
+    if (p->before)
+        pose_release(p->before);
+    mem_free(p->before);
+    p->before = mem_calloc(1, sizeof *p->before);
+    p->before_seconds = seconds;
+    when.seconds = when.seconds > seconds ? when.seconds - seconds : 0;
+    return p->before ? pose_create(p->before, p->scene, &when, error) : error_memory(error);
+}
+
 void pose_release(pose *p)
 {
-    if (p->at_rest)
-        pose_release(p->at_rest);
-    mem_free(p->at_rest);
+    struct pose *others[] = {p->at_rest, p->before};
+    for (size_t i = 0; i < 2; i++) {
+        if (others[i])
+            pose_release(others[i]);
+        mem_free(others[i]);
+    }
     mem_free(p->worlds);
     mem_free(p->parts);
     mem_free(p->part_boxes);

@@ -7,15 +7,17 @@
 
 /* `at_rest` (may be NULL) has the vertices where they are when nothing has moved. */
 static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const vertex_arrays *data,
-                                  const vertex_arrays *at_rest, lmn_error *error)
+                                  const vertex_arrays *at_rest, const vertex_arrays *before, lmn_error *error)
 {
     vec3      *rest_positions = at_rest ? upload_rest_positions(u, job->part_index, at_rest) : NULL;
     lmn_status status = at_rest && !rest_positions ? error_memory(error) : LMN_OK;
     if (status == LMN_OK && u->needs.field) {
-        status = upload_with_field(u, g, &job->meshes[i], &job->lapped[i], data, rest_positions, at_rest, error);
+        status =
+            upload_with_field(u, g, &job->meshes[i], &job->lapped[i], data, rest_positions, at_rest, before, error);
     } else if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_of(data);
         with.rest = (const float *)rest_positions;
+        with.before = before ? before->positions : NULL;
         job->meshes[i] = gpu_mesh_create(g, &with);
     }
     mem_free(rest_positions);
@@ -25,16 +27,26 @@ static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job,
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
-    posed_mesh       now, rest = {.positions = NULL};
-    bool             moved = u->pose->at_rest && pose_deforms(job->pose, p) && (u->needs.rest || u->needs.field);
-    lmn_status       status = posed_make(&now, p, u->crease_angle, job->pose, error);
+    posed_mesh       now, rest = {.positions = NULL}, before = {.positions = NULL};
+    bool deforms = u->pose->at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field),
+         timed = deforms && u->pose->before;
+    lmn_status status = posed_make(&now, p, u->crease_angle, job->pose, error);
     if (status == LMN_OK && moved)
         status = posed_make(&rest, p, u->crease_angle, &u->pose->at_rest->parts[job->part_index], error);
+    if (status == LMN_OK && timed)
+        status = posed_make(&before, p, u->crease_angle, &u->pose->before->parts[job->part_index], error);
     if (status == LMN_OK)
-        status = upload_vertices(u, g, job, i, &now.data, moved ? &rest.data : NULL, error);
+        status =
+            upload_vertices(u, g, job, i, &now.data, moved ? &rest.data : NULL, timed ? &before.data : NULL, error);
     posed_release(&now);
     posed_release(&rest);
+    posed_release(&before);
     return status;
+}
+
+mat4 upload_before(const upload *u, size_t part_index, size_t instance)
+{
+    return pose_instance(u->pose->before ? u->pose->before : u->pose, part_index, instance);
 }
 
 static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
@@ -50,6 +62,7 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);
     item.world = *world;
+    item.before = upload_before(u, job->part_index, job->instance);
     u->triangles += p->index_count / 3;
     if (status == LMN_OK && !upload_add_item(u, &item))
         status = error_memory(error);
@@ -64,6 +77,7 @@ static lmn_status add_instances(upload *u, gpu *g, upload_part_job *job, lmn_err
     for (size_t k = 0; k < node_draw_count(n) && status == LMN_OK; k++) {
         mat4        world = pose_instance(u->pose, job->part_index, k);
         cut_verdict verdict = CUT_WHOLE;
+        job->instance = k;
         status = upload_cut(u, g, job, &world, &verdict, error);
         for (size_t i = 0; i < job->mesh->primitive_count && status == LMN_OK && verdict == CUT_WHOLE; i++)
             status = add_whole(u, g, job, i, &world, error);
@@ -124,6 +138,7 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->needs = desc->needs;
     out->pose = pose;
     out->when = pose->when;
+    out->before_seconds = pose->before ? pose->before_seconds : 0;
     out->has_removed = desc->removed;
     out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
     out->texture_count = scene->image_count * 2;
@@ -159,7 +174,9 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
-    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when); i++) {
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when) &&
+                       u->before_seconds == earlier->before_seconds;
+         i++) {
         u->posed[i] = earlier->posed[i];
         earlier->posed[i] = (upload_mesh){.primitives = NULL};
     }

@@ -157,7 +157,8 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
 }
 
 lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             const vec3 *rest_positions, const vertex_arrays *at_rest, lmn_error *error)
+                             const vec3 *rest_positions, const vertex_arrays *at_rest, const vertex_arrays *before,
+                             lmn_error *error)
 {
     primitive       p = primitive_of(at_rest ? at_rest : data);
     direction_field field = {0};
@@ -170,6 +171,7 @@ lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
         gpu_mesh_data with = upload_data_of(data);
         with.tensors = (const float *)tensors;
         with.rest = (const float *)rest_positions;
+        with.before = before ? before->positions : NULL;
         *out = gpu_mesh_create(g, &with);
     }
     if (status == LMN_OK && u->needs.patch > 0) {

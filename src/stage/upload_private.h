@@ -7,7 +7,7 @@
 
 /* One part while it is put on the GPU. */
 typedef struct upload_part_job {
-    size_t           part_index;
+    size_t           part_index, instance;
     const mesh      *mesh;
     const part_pose *pose;
     gpu_mesh       **meshes, **lapped; /* per primitive, NULL: not made yet */
@@ -18,6 +18,10 @@ typedef struct upload_part_job {
     float            nearer; /* of its cut faces */
     bool             open;
 } upload_part_job;
+
+/* --- upload.c --- */
+/* Where an instance was earlier; where it is when nobody asks. */
+mat4 upload_before(const upload *u, size_t part_index, size_t instance);
 
 /* --- upload_mesh.c --- */
 gpu_mesh_data upload_data_of(const vertex_arrays *from);
@@ -31,7 +35,8 @@ draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
  * stays NULL). What is deformed bends as it does at rest, moved along: `at_rest` has the same vertices there (else it
  * is NULL). */
 lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             const vec3 *rest_positions, const vertex_arrays *at_rest, lmn_error *error);
+                             const vec3 *rest_positions, const vertex_arrays *at_rest, const vertex_arrays *before,
+                             lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
 float upload_patch_radius(const upload *u, box3 bounds);
 

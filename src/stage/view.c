@@ -22,6 +22,15 @@ void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world)
     gpu_set_mat3(g, "u_normal_matrix", normal);
 }
 
+void view_set_before(gpu *g, const view_camera *camera, const mat4 *world)
+{
+    mat4  both = mat4_multiply(&camera->view, world), full = mat4_multiply(&camera->projection, &both);
+    float out[16];
+    for (int i = 0; i < 16; i++)
+        out[i] = (float)full.m[i];
+    gpu_set_mat4(g, "u_before", out);
+}
+
 void view_set_projection(gpu *g, const view_camera *camera)
 {
     float projection[16];

@@ -9,6 +9,8 @@
 /* u_model_view, in double precision first, and u_normal_matrix: its inverse transpose, up to a positive scale. */
 void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world);
 /* u_projection. */
+/* From an item's axes to clip space as it was earlier. */
+void view_set_before(gpu *g, const view_camera *camera, const mat4 *world);
 void view_set_projection(gpu *g, const view_camera *camera);
 /* From eye space to the world, measured from `origin`: columns. */
 void view_world_from_eye(const view_camera *camera, const double origin[3], double out[16]);

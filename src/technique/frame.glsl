@@ -40,3 +40,4 @@ uniform float u_empty;        /* eye depth where nothing is drawn */
 uniform mat4  u_model_view;
 uniform mat3  u_normal_matrix;
 uniform mat4  u_projection;
+uniform mat4  u_before;       /* to clip space, as it was earlier */

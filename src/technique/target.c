@@ -7,6 +7,7 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_ALBEDO] = {"t_albedo", TEXEL_RGBA16F, .owner = OWNER_LAYER, .empty = {1, 1, 1, 0}},
     [TARGET_SHADE] = {"t_shade", TEXEL_RGBA16F, .owner = OWNER_LAYER, .filtered = true},
     [TARGET_REST] = {"t_rest_position", TEXEL_RGBA32F, .owner = OWNER_LAYER},
+    [TARGET_VELOCITY] = {"t_velocity", TEXEL_RGBA32F, .owner = OWNER_LAYER},
     [TARGET_DEPTH] = {"t_depth", TEXEL_DEPTH32F, .owner = OWNER_LAYER},
 
     /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this

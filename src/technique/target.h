@@ -14,6 +14,7 @@ typedef enum target {
     TARGET_ALBEDO,
     TARGET_SHADE,
     TARGET_REST,
+    TARGET_VELOCITY,
     TARGET_DEPTH,
     TARGET_EDGE,
     TARGET_EDGE_BEFORE,

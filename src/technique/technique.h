@@ -15,7 +15,8 @@ typedef enum channel {
     CHANNEL_ID = 1 << 1,           /* part id (0 = empty), surface id */
     CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
     CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour, linear, premultiplied */
-    CHANNEL_REST = 1 << 4          /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
+    CHANNEL_REST = 1 << 4,         /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
+    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; 0, 1 */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };

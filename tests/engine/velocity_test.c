@@ -1,0 +1,174 @@
+/* Velocities of pixels, against the corners of triangles at two times, worked out in double precision by a second
+ * reading of glTF; rows 42 and 43. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../support/gltf_truth.h"
+#include "draw/drawing.h"
+#include "limner/limner.h"
+
+enum { SIDE = 200 };
+
+static lmn_error error;
+
+static void check(lmn_status status, const char *what)
+{
+    if (status != LMN_OK)
+        fail_msg("%s: %s (%s)", what, error.message, error.hint);
+}
+
+#define DO(call) check(call, #call)
+
+/* Where a corner is on the page, pixels, its w, and how deep. */
+static void project(const view_camera *c, const double p[3], double out[4])
+{
+    double eye[4], clip[4];
+    for (int r = 0; r < 4; r++)
+        eye[r] = c->view.m[r] * p[0] + c->view.m[4 + r] * p[1] + c->view.m[8 + r] * p[2] + c->view.m[12 + r];
+    for (int r = 0; r < 4; r++)
+        clip[r] = c->projection.m[r] * eye[0] + c->projection.m[4 + r] * eye[1] + c->projection.m[8 + r] * eye[2] +
+                  c->projection.m[12 + r] * eye[3];
+    out[0] = (clip[0] / clip[3] + 1) * SIDE / 2;
+    out[1] = (clip[1] / clip[3] + 1) * SIDE / 2;
+    out[2] = clip[3];
+    out[3] = -eye[2];
+}
+
+/* The pixels of one triangle that the maps show: how far their velocity is from the truth at most. */
+static double compare_triangle(const lmn_drawing *d, double (*now)[3], double (*before)[3], int *pixels)
+{
+    double a[3][4], worst = 0;
+    for (int k = 0; k < 3; k++)
+        project(&d->camera, now[k], a[k]);
+    double area = (a[1][0] - a[0][0]) * (a[2][1] - a[0][1]) - (a[2][0] - a[0][0]) * (a[1][1] - a[0][1]);
+    int    low_x = (int)floor(fmin(a[0][0], fmin(a[1][0], a[2][0]))),
+        low_y = (int)floor(fmin(a[0][1], fmin(a[1][1], a[2][1])));
+    int high_x = (int)ceil(fmax(a[0][0], fmax(a[1][0], a[2][0]))),
+        high_y = (int)ceil(fmax(a[0][1], fmax(a[1][1], a[2][1])));
+    for (int y = low_y < 0 ? 0 : low_y; y < high_y && y < SIDE && fabs(area) > 1e-9; y++)
+        for (int x = low_x < 0 ? 0 : low_x; x < high_x && x < SIDE; x++) {
+            double px = x + 0.5, py = y + 0.5, b[3], sum = 0, depth = 0, was[3] = {0, 0, 0}, seen[4];
+            b[1] = ((px - a[0][0]) * (a[2][1] - a[0][1]) - (a[2][0] - a[0][0]) * (py - a[0][1])) / area;
+            b[2] = ((a[1][0] - a[0][0]) * (py - a[0][1]) - (px - a[0][0]) * (a[1][1] - a[0][1])) / area;
+            b[0] = 1 - b[1] - b[2];
+            if (fmin(b[0], fmin(b[1], b[2])) < 0.01)
+                continue;
+            for (int k = 0; k < 3; k++)
+                sum += b[k] /= a[k][2]; /* along the surface, not along the page */
+            for (int k = 0; k < 3; k++)
+                depth += b[k] / sum * a[k][3];
+            size_t at = (size_t)y * SIDE + (size_t)x;
+            if (fabs((double)d->maps.depth[at] - depth) > 1e-4 * depth)
+                continue;
+            for (int k = 0; k < 3; k++)
+                for (int r = 0; r < 3; r++)
+                    was[r] += b[k] / sum * before[k][r];
+            project(&d->camera, was, seen);
+            const float *v = &d->maps.velocity[3 * at];
+            worst = fmax(worst, hypot(px - seen[0] - (double)v[0], py - seen[1] - (double)v[1]));
+            assert_true(v[2] == 0);
+            ++*pixels;
+        }
+    return worst;
+}
+
+static void velocities_are_those_of_surfaces(void **state)
+{
+    static const struct {
+        const char *name, *clip;
+        size_t      number;
+        double      seconds, exposure;
+        bool        orthographic;
+    } rows[] = {{"fox", "Run", 2, 0.5, 0.1, false},
+                {"fox", "Walk", 1, 0.3, 0.04, true},
+                {"box-animated", NULL, 0, 1.9, 0.3, false},
+                {"box-animated", NULL, 0, 0.2, 0.5, false}, /* from before the clip's begin */
+                {"morph-cube", NULL, 0, 0.9, 0.2, false}};
+    (void)state;
+    lmn_renderer     *renderer = NULL;
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char          path[512], exposure[32];
+        lmn_scene    *s = NULL;
+        lmn_look     *look = NULL;
+        lmn_drawing  *d = NULL;
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        double(*now)[3], (*before)[3], worst = 0, fastest = 0;
+        int pixels = 0, shown = 0;
+        snprintf(path, sizeof path, EXAMPLES "/%s.glb", rows[i].name);
+        DO(lmn_scene_create(&s, &error));
+        DO(lmn_scene_add_file(s, path, NULL, &error));
+        DO(lmn_look_load(&look, "edges", &error));
+        DO(lmn_look_set(look, "motion.technique", "accumulate", &error));
+        DO(lmn_look_set(look, "motion.times", "2", &error));
+        snprintf(exposure, sizeof exposure, "%g", rows[i].exposure);
+        DO(lmn_look_set(look, "motion.exposure", exposure, &error));
+        desc.width = desc.height = SIDE;
+        desc.maps = true;
+        desc.clip = rows[i].clip;
+        desc.time_s = rows[i].seconds;
+        desc.orthographic = rows[i].orthographic;
+        DO(lmn_draw(&d, renderer, s, look, &desc, &error));
+        assert_non_null(d->maps.velocity);
+        gltf_truth *t = gltf_truth_load(path);
+        size_t      count = gltf_truth_corners(t, rows[i].number, rows[i].seconds, &now);
+        gltf_truth_corners(t, rows[i].number, fmax(rows[i].seconds - rows[i].exposure, 0), &before);
+        for (size_t c = 0; c + 2 < count; c += 3)
+            worst = fmax(worst, compare_triangle(d, &now[c], &before[c], &pixels));
+        for (size_t k = 0; k < SIDE * SIDE; k++) {
+            shown += d->maps.id[k] != 0;
+            fastest = fmax(fastest, hypot((double)d->maps.velocity[3 * k], (double)d->maps.velocity[3 * k + 1]));
+        }
+        if (worst > 0.1 || pixels < shown / 2 || fastest < 1)
+            fail_msg("%s at %g s: velocities off by %g px at most, %d of %d pixels, the fastest %g", rows[i].name,
+                     rows[i].seconds, worst, pixels, shown, fastest);
+        printf("%s at %g s: %.4f px off at most, %d pixels, the fastest %.1f px\n", rows[i].name, rows[i].seconds,
+               worst, pixels, fastest);
+        free(now);
+        free(before);
+        gltf_truth_destroy(t);
+        lmn_drawing_destroy(&d);
+        lmn_look_destroy(&look);
+        lmn_scene_destroy(&s);
+    }
+    lmn_renderer_destroy(&renderer);
+}
+
+static void scenes_at_rest_have_none(void **state)
+{
+    (void)state;
+    lmn_renderer     *renderer = NULL;
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    lmn_scene        *s = NULL;
+    lmn_look         *look = NULL;
+    lmn_drawing      *d = NULL;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, EXAMPLES "/fox.glb", NULL, &error));
+    DO(lmn_look_load(&look, "edges", &error));
+    desc.width = desc.height = 32;
+    desc.maps = true;
+    DO(lmn_draw(&d, renderer, s, look, &desc, &error));
+    assert_null(d->maps.velocity);
+    lmn_drawing_destroy(&d);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&s);
+    lmn_renderer_destroy(&renderer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(velocities_are_those_of_surfaces),
+                                       cmocka_unit_test(scenes_at_rest_have_none)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
