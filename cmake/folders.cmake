@@ -2,7 +2,7 @@
 # the includes against it.
 include(cmake/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg pose cut field stroke_texture light halftone marks stroke import export film layer lines surface perturb compose motion finish look plan stage solids frame vector draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose cut field stroke_texture csg info light halftone marks stroke import export film layer lines surface perturb compose motion finish look plan stage solids frame vector draw api)
 
 set(LIMNER_SHAPE_LIBRARIES PkgConfig::GEOS PkgConfig::QHULL PkgConfig::FREETYPE PkgConfig::FONTCONFIG PkgConfig::HARFBUZZ)
 

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "import/import.h"
+#include "info/info.h"
 #include "import/retarget.h"
 #include "scene/scene.h"
 

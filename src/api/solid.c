@@ -13,7 +13,7 @@
 #include "construct/construct.h"
 #include "import/gather.h"
 #include "import/import.h"
-#include "scene/solid_edit.h"
+#include "csg_tree/edit.h"
 
 /* --- ids ------------------------------------------------------------------------------------------------ */
 

@@ -3,7 +3,7 @@
 #ifndef LIMNER_CSG_CSG_H
 #define LIMNER_CSG_CSG_H
 
-#include "scene/solid_form.h"
+#include "csg_tree/form.h"
 
 /* Operands and terms of several solids as one list of links, two numbers each. Operands come first: the link to the
  * term above, and the number of its solid. Then the terms: the link, and how many of its operands must hold more

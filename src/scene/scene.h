@@ -307,8 +307,6 @@ size_t scene_plain_node_count(const lmn_scene *scene);
 /* The ordinary part that a ghost was taken away from; SIZE_MAX when it is none. */
 size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 
-/* The scene as JSON text (docs/reference/info.md); free with mem_free. NULL when memory is gone. */
-char *scene_info_json(const lmn_scene *scene);
 /* How many times a node's mesh is drawn: its instances, or once. */
 size_t   node_draw_count(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);

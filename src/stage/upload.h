@@ -11,7 +11,7 @@
 #include "pose/pose.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "scene/solid_products.h"
+#include "csg_tree/products.h"
 
 /* A solid ready to be drawn. Operands are numbered from 0 on in the order of the tree, those alone that pruning
  * left. */

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "layer/layer.h"
-#include "scene/solid_form.h"
+#include "csg_tree/form.h"
 
 /* Light grey, sRGB 0.8, as formats without colours have it. */
 static const vec4 plain_grey = {0.6038f, 0.6038f, 0.6038f, 1};

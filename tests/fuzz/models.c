@@ -12,6 +12,7 @@
 #include "fuzz.h"
 #include "fence/image_read.h"
 #include "import/assimp_stream.h"
+#include "info/info.h"
 #include "import/csg.h"
 #include "import/draco.h"
 #include "import/obj.h"

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "scene/solid_products.h"
+#include "csg_tree/products.h"
 
 enum { OPERANDS_MAX = 40 };
 

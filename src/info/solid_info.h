@@ -1,6 +1,6 @@
-/* Inside the scene folder: the part of `limner info` that tells about solids. */
-#ifndef LIMNER_SCENE_SOLID_INFO_H
-#define LIMNER_SCENE_SOLID_INFO_H
+/* The part of `limner info` that tells about solids. */
+#ifndef LIMNER_INFO_SOLID_INFO_H
+#define LIMNER_INFO_SOLID_INFO_H
 
 #include <jansson.h>
 

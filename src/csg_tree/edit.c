@@ -1,11 +1,11 @@
-#include "scene/solid_edit.h"
+#include "csg_tree/edit.h"
 
 #include <string.h>
 
 #include "base/limits.h"
 #include "base/memory.h"
 #include "scene/parts.h"
-#include "scene/solid_links.h"
+#include "csg_tree/links.h"
 
 /* --- after an edit -------------------------------------------------------------------------------------- */
 

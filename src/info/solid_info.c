@@ -1,8 +1,8 @@
 /* What `limner info` tells about a solid. */
-#include "scene/solid_info.h"
+#include "info/solid_info.h"
 
 #include "base/memory.h"
-#include "scene/solid_products.h"
+#include "csg_tree/products.h"
 
 /* Enough to know a model by; the tree is for people, level by level. */
 enum { TREE_NODES_MAX = 256, TREE_LEVELS_MAX = 64 };

@@ -1,4 +1,4 @@
-#include "scene/solid_products.h"
+#include "csg_tree/products.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Editing solids in a scene: what a tree needs to stay true (boxes, counts, parts, revisions) is brought up to date
  * with each edit. Every function leaves the scene as it was when it fails. Nodes are given by their positions in the
  * solid; ids outlast edits, positions do not. Row K09. */
-#ifndef LIMNER_SCENE_SOLID_EDIT_H
-#define LIMNER_SCENE_SOLID_EDIT_H
+#ifndef LIMNER_CSG_TREE_EDIT_H
+#define LIMNER_CSG_TREE_EDIT_H
 
 #include "scene/solid.h"
 

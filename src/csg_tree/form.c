@@ -1,4 +1,4 @@
-#include "scene/solid_form.h"
+#include "csg_tree/form.h"
 
 #include <string.h>
 

@@ -2,8 +2,8 @@
  * an intersection possibly taken away (negated); nothing empty, nothing with one operand, and without what cannot
  * matter because boxes do not touch (geometric pruning). Goldfeather et al. 1989; Nienhaus et al. 2006, section 2;
  * rows K01, C2. */
-#ifndef LIMNER_SCENE_SOLID_FORM_H
-#define LIMNER_SCENE_SOLID_FORM_H
+#ifndef LIMNER_CSG_TREE_FORM_H
+#define LIMNER_CSG_TREE_FORM_H
 
 #include "scene/solid.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/scene.h"
-#include "scene/solid_info.h"
+#include "info/info.h"
+#include "info/solid_info.h"
 
 static json_t *real(double value)
 {

@@ -1,4 +1,4 @@
-#include "scene/solid_links.h"
+#include "csg_tree/links.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,10 +1,10 @@
 /* A solid as a union of partial products: each an intersection of operands, minus others. Goldfeather's normal
  * form, found by carrying negations down and multiplying out, with products and subtractions left out whose boxes
  * do not touch. Nienhaus et al. 2006, section 2; rows K01, C2. */
-#ifndef LIMNER_SCENE_SOLID_PRODUCTS_H
-#define LIMNER_SCENE_SOLID_PRODUCTS_H
+#ifndef LIMNER_CSG_TREE_PRODUCTS_H
+#define LIMNER_CSG_TREE_PRODUCTS_H
 
-#include "scene/solid_form.h"
+#include "csg_tree/form.h"
 
 /* One product: the first `kept` of its operands are intersected, the others taken away; both in the order of the
  * tree. */

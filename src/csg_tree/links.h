@@ -1,6 +1,6 @@
 /* Inside the scene folder: the links of a solid's tree. */
-#ifndef LIMNER_SCENE_SOLID_LINKS_H
-#define LIMNER_SCENE_SOLID_LINKS_H
+#ifndef LIMNER_CSG_TREE_LINKS_H
+#define LIMNER_CSG_TREE_LINKS_H
 
 #include "scene/solid.h"
 
