@@ -1,24 +1,9 @@
 /* What an edit makes anew on the GPU, and what stays there. Row K09. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "checked.h"
 
 #include <string.h>
 
 #include "draw/drawing.h"
-#include "limner/limner.h"
-
-static lmn_error error;
-
-static void check(lmn_status status, const char *what)
-{
-    if (status != LMN_OK)
-        fail_msg("%s: %s (%s)", what, error.message, error.hint);
-}
-
-#define DO(call) check(call, #call)
 
 typedef struct fixture {
     lmn_scene    *scene;

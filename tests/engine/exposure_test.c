@@ -1,29 +1,13 @@
 /* The motion technique `accumulate`: the mean, in linear light, of the pictures that are drawn of single times; what
  * does not move keeps every bit. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "checked.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "limner/limner.h"
-
 enum { SIDE = 120, PIXELS = SIDE * SIDE };
-
-static lmn_error error;
-
-static void check(lmn_status status, const char *what)
-{
-    if (status != LMN_OK)
-        fail_msg("%s: %s (%s)", what, error.message, error.hint);
-}
-
-#define DO(call) check(call, #call)
 
 typedef struct fixture {
     lmn_renderer *renderer;

@@ -1,10 +1,6 @@
 /* Pictures of scenes at times. A posed scene is drawn as if it had been modelled so; what is tied to the model goes
  * with it, also where joints move it; and a picture does not hang on what was drawn before. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "checked.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,22 +8,11 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "limner/limner.h"
 #include "pose/animate.h"
 #include "pose/pose.h"
 #include "scene/mesh.h"
 
 enum { SIDE = 160 };
-
-static lmn_error error;
-
-static void check(lmn_status status, const char *what)
-{
-    if (status != LMN_OK)
-        fail_msg("%s: %s (%s)", what, error.message, error.hint);
-}
-
-#define DO(call) check(call, #call)
 
 typedef struct picture {
     uint8_t pixels[SIDE * SIDE * 4];

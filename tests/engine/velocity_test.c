@@ -1,10 +1,6 @@
 /* Velocities of pixels, against the corners of triangles at two times, worked out in double precision by a second
  * reading of glTF; rows 42 and 43. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "checked.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,19 +9,8 @@
 
 #include "../support/gltf_truth.h"
 #include "draw/drawing.h"
-#include "limner/limner.h"
 
 enum { SIDE = 200 };
-
-static lmn_error error;
-
-static void check(lmn_status status, const char *what)
-{
-    if (status != LMN_OK)
-        fail_msg("%s: %s (%s)", what, error.message, error.hint);
-}
-
-#define DO(call) check(call, #call)
 
 /* Where a corner is on the page, pixels, its w, and how deep. */
 static void project(const view_camera *c, const double p[3], double out[4])
