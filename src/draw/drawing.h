@@ -1,24 +1,9 @@
-/* Drawings: the renderer that makes them, the finished picture with its report, and the bench. */
+/* Drawings: the finished picture with its report, and the bench. */
 #ifndef LIMNER_DRAW_DRAWING_H
 #define LIMNER_DRAW_DRAWING_H
 
-#include "frame/frame.h"
-#include "limner/draw.h"
+#include "draw/session.h"
 #include "plan/facts.h"
-#include "plan/time.h"
-#include "pose/pose.h"
-#include "stage/made_textures.h"
-
-struct lmn_renderer {
-    gpu             *g;
-    pose             pose;  /* of the last scene that was drawn */
-    swept_boxes      swept; /* of its clips */
-    upload           up;
-    const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
-    bool             up_valid;
-    made_textures    made;
-    int width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
-};
 
 struct lmn_drawing {
     int        width, height;
@@ -38,35 +23,11 @@ struct lmn_drawing {
     size_t       programs; /* compiled by the renderer so far */
 };
 
-lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
-/* What a drawing is made for. */
-typedef struct draw_options {
-    const lmn_draw_desc *desc;
-    bool                 maps; /* its buffers alone, one sample a pixel */
-    bool surfaces_only;        /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
-    /* One of several times of an exposure. */
-    const pose        *held;   /* parts without `moves` are as in this pose; NULL: all are as at the time */
-    const bool        *moves;  /* per part, then per ghost */
-    const view_camera *camera; /* NULL: as the description says */
-} draw_options;
 lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                          const draw_options *options, lmn_error *error);
-void       renderer_destroy(lmn_renderer **r);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
 void       drawing_destroy(lmn_drawing **d);
-
-/* A drawing set up and ready to be repeated. */
-typedef struct session {
-    lmn_renderer *renderer;
-    plan          plan;
-    plan_textures textures;
-    frame         frame;
-    gpu_texture  *out;
-} session;
-lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                        const draw_options *options, warnings *warnings, lmn_error *error);
-void       session_close(session *s);
 
 lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *const *looks, size_t count,
                       const lmn_look *plain, const lmn_draw_desc *desc, int repeat, lmn_error *error);

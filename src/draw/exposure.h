@@ -2,7 +2,7 @@
 #ifndef LIMNER_DRAW_EXPOSURE_H
 #define LIMNER_DRAW_EXPOSURE_H
 
-#include "draw/drawing.h"
+#include "draw/session.h"
 
 /* What is exposed in a plan. */
 typedef struct exposure {

@@ -1,0 +1,201 @@
+#include "draw/session.h"
+
+#include <string.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "finish/finish.h"
+#include "frame/capacity.h"
+#include "light/light.h"
+#include "plan/refuse.h"
+
+lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error)
+{
+    *out = NULL;
+    lmn_renderer *r = mem_calloc(1, sizeof *r);
+    if (!r)
+        return error_memory(error);
+    lmn_status status = gpu_create(&r->g, es, debug, error);
+    if (status != LMN_OK) {
+        mem_free(r);
+        return status;
+    }
+    *out = r;
+    return LMN_OK;
+}
+
+void renderer_destroy(lmn_renderer **renderer)
+{
+    if (!renderer || !*renderer)
+        return;
+    lmn_renderer *r = *renderer;
+    gpu_make_current(r->g);
+    upload_release(&r->up, r->g);
+    pose_release(&r->pose);
+    swept_boxes_release(&r->swept);
+    made_textures_release(&r->made, r->g);
+    gpu_destroy(&r->g);
+    mem_free(r);
+    *renderer = NULL;
+}
+
+/* Poses the scene unless it is posed already. */
+static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const draw_options *options,
+                             warnings *warnings, lmn_error *error)
+{
+    const lmn_draw_desc *desc = options->desc;
+    moment               when;
+    lmn_status           status = time_moment(&when, scene, desc, warnings, error);
+    bool posed = r->pose.scene == scene && r->pose.revision == scene->revision && moment_equal(&r->pose.when, &when);
+    if (status == LMN_OK && !posed) {
+        pose_release(&r->pose);
+        status = pose_create(&r->pose, scene, &when, error);
+        if (status == LMN_OK && options->held)
+            pose_hold(&r->pose, options->held, options->moves);
+    }
+    if (status == LMN_OK && options->maps)
+        status = pose_add_before(&r->pose, time_exposure(look), error);
+    if (status == LMN_OK)
+        r->pose.fit_boxes = r->pose.part_boxes;
+    if (status == LMN_OK && desc->fit_time)
+        status = swept_boxes_fit(&r->swept, &r->pose, error);
+    if (status != LMN_OK)
+        pose_release(&r->pose);
+    return status;
+}
+
+/* Puts the scene on the GPU as the plan needs it, unless it is there already. */
+static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_desc *desc, lmn_error *error)
+{
+    const lmn_scene *scene = p->scene;
+    upload_desc      wanted = {
+             .crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
+    bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
+                       (r->up.needs.rest || !p->meshes.rest) &&
+                       (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
+    bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
+                 r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&
+                 r->up.before_seconds == (r->pose.before ? r->pose.before_seconds : 0);
+    if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
+        return LMN_OK;
+    upload earlier = r->up;
+    bool   related = r->up_valid && earlier.identity == scene->identity && same_meshes;
+    if (related)
+        wanted.needs = earlier.needs; /* what is taken over has them */
+    else
+        upload_release(&earlier, r->g); /* at once: two scenes may not fit */
+    lmn_status status = upload_create(&r->up, r->g, &r->pose, &wanted, related ? &earlier : NULL, desc->progress,
+                                      desc->progress_user, error);
+    if (status != LMN_OK)
+        refuse_in_file(error, scene);
+    upload_release(&earlier, r->g);
+    r->scene = scene;
+    r->up_valid = status == LMN_OK;
+    return status;
+}
+
+static int square_root(int samples)
+{
+    int side = 1;
+    while (side * side < samples)
+        side++;
+    return side;
+}
+
+/* Shadows that were asked for and cannot be. */
+static void warn_of_lights(const lmn_scene *scene, const lmn_look *look, warnings *warnings)
+{
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    if (!v->shadows || v->lights != LIGHTS_FILE)
+        return;
+    for (size_t i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].light < 0)
+            continue;
+        if (scene->lights[scene->nodes[i].light].type != LIGHT_DIRECTIONAL)
+            warnings_add(warnings, WARNING_UNUSED,
+                         "scene.shadows: the file's first light shines from a place; only light from one direction "
+                         "throws shadows");
+        return;
+    }
+}
+
+/* The plan, and on the GPU what it needs. */
+static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side,
+                          warnings *warnings, lmn_error *error)
+{
+    lmn_renderer        *r = s->renderer;
+    const lmn_draw_desc *desc = w->desc;
+    plan_options         options = {.select = desc->select,
+                                    .background = desc->background,
+                                    .pixel_scale = side,
+                                    .as_sprites = w->maps,
+                                    .surfaces_only = w->surfaces_only};
+    lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
+    if (status == LMN_OK)
+        status = bring_pose(r, scene, look, w, warnings, error);
+    if (status == LMN_OK)
+        status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
+    if (status == LMN_OK)
+        status = bring_stage(r, &s->plan, desc, error);
+    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
+        gpu_targets_trim(r->g);
+    if (status == LMN_OK)
+        status = capacity_check(
+            r->g, &s->plan,
+            &(capacity_options){desc->width, desc->height, side, !w->maps && (desc->maps || desc->profile)}, error);
+    if (status == LMN_OK)
+        warn_of_lights(scene, look, warnings);
+    if (status == LMN_OK)
+        status = plan_textures_make(&s->textures, &r->made, r->g, &s->plan, !w->maps, warnings, error);
+    return status;
+}
+
+lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                        const draw_options *options, warnings *warnings, lmn_error *error)
+{
+    const lmn_draw_desc *desc = options->desc;
+    int                  side = options->maps ? 1 : square_root(desc->samples);
+    frame               *f = &s->frame;
+    memset(s, 0, sizeof *s);
+    s->renderer = r;
+    gpu_make_current(r->g);
+    lmn_status status = prepare(s, scene, look, options, side, warnings, error);
+    if (status == LMN_OK && options->camera)
+        f->camera = *options->camera;
+    else if (status == LMN_OK)
+        status = camera_place(&f->camera, desc, &r->pose, s->plan.fit_box, error);
+    if (status != LMN_OK)
+        return status;
+    plan_camera_range(&s->plan, &f->camera, warnings);
+    f->camera_before = f->camera;
+    if (r->pose.before && desc->camera)
+        status = camera_place(&f->camera_before, desc, r->pose.before, s->plan.fit_box, error);
+    if (status != LMN_OK)
+        return status;
+    r->width = desc->width;
+    r->height = desc->height;
+    r->samples = desc->samples;
+    f->g = r->g;
+    f->profile.g = r->g;
+    f->up = &r->up;
+    f->plan = &s->plan;
+    f->sheet = &s->textures.sheet;
+    f->samples = side;
+    f->width = desc->width * side;
+    f->height = desc->height * side;
+    f->ground = s->plan.ground;
+    f->seed = desc->seed;
+    f->time_s = desc->time_s;
+    if (!options->maps)
+        s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
+    return gpu_check(r->g, error);
+}
+
+void session_close(session *s)
+{
+    if (s->renderer)
+        gpu_target_release(s->renderer->g, s->out);
+    plan_release(&s->plan);
+    plan_textures_release(&s->textures);
+    memset(s, 0, sizeof *s);
+}
