@@ -50,12 +50,16 @@ void light_map_drawn(light_map *out, const shot *with, const shot *without)
     }
 }
 
-/* Points spread evenly over the unit disc. */
-static void disc_point(int i, int count, double turn, double *x, double *y)
+/* Points spread evenly over the unit disc; the caller's. */
+static double (*disc_points(int count))[2]
 {
-    double radius = sqrt((i + 0.5) / count), angle = 2.399963229728653 * i + turn;
-    *x = radius * cos(angle);
-    *y = radius * sin(angle);
+    double(*points)[2] = check_alloc((size_t)count, sizeof *points);
+    for (int i = 0; i < count; i++) {
+        double radius = sqrt((i + 0.5) / count), angle = 2.399963229728653 * i;
+        points[i][0] = radius * cos(angle);
+        points[i][1] = radius * sin(angle);
+    }
+    return points;
 }
 
 static void axes_of(dvec along, dvec *a, dvec *b)
@@ -64,7 +68,8 @@ static void axes_of(dvec along, dvec *a, dvec *b)
     *b = dvec_cross(along, *a);
 }
 
-double light_of_disc(const tracer *t, dvec position, dvec normal, dvec towards, double degrees, int rays)
+static double disc_of(const tracer *t, dvec position, dvec normal, dvec towards, double degrees,
+                      const double (*points)[2], int rays)
 {
     dvec     along = dvec_unit(towards), a, b, origin = dvec_add(position, dvec_scale(normal, 1e-5));
     int      seen = 0;
@@ -72,23 +77,28 @@ double light_of_disc(const tracer *t, dvec position, dvec normal, dvec towards, 
     double   half = tan(degrees / 2 * pi / 180);
     axes_of(along, &a, &b);
     for (int i = 0; i < rays; i++) {
-        double x, y;
-        disc_point(i, rays, 0, &x, &y);
-        dvec ray = dvec_add(along, dvec_add(dvec_scale(a, x * half), dvec_scale(b, y * half)));
+        dvec ray = dvec_add(along, dvec_add(dvec_scale(a, points[i][0] * half), dvec_scale(b, points[i][1] * half)));
         seen += !tracer_blocked(t, origin, ray, 0, INFINITY, &last);
     }
     return (double)seen / rays;
 }
 
-static double sky_of(const tracer *t, dvec position, dvec normal, double radius, int rays)
+double light_of_disc(const tracer *t, dvec position, dvec normal, dvec towards, double degrees, int rays)
+{
+    double(*points)[2] = disc_points(rays),
+    light = disc_of(t, position, normal, towards, degrees, (const double(*)[2])points, rays);
+    free(points);
+    return light;
+}
+
+static double sky_of(const tracer *t, dvec position, dvec normal, double radius, const double (*points)[2], int rays)
 {
     dvec      a, b, origin = dvec_add(position, dvec_scale(normal, 1e-5));
     double    hidden = 0;
     trace_hit hit;
     axes_of(normal, &a, &b);
     for (int i = 0; i < rays; i++) {
-        double x, y;
-        disc_point(i, rays, 0, &x, &y); /* on the disc evenly: on the hemisphere by the cosine */
+        double x = points[i][0], y = points[i][1]; /* on the disc evenly: on the hemisphere by the cosine */
         dvec ray = dvec_add(dvec_scale(normal, sqrt(1 - x * x - y * y)), dvec_add(dvec_scale(a, x), dvec_scale(b, y)));
         if (tracer_hit(t, origin, ray, 0, radius, NULL, &hit)) {
             double near = 1 - hit.t * hit.t / (radius * radius);
@@ -114,7 +124,7 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
 {
     tracer   *t = tracer_create(&l->s);
     trace_map seen;
-    double    w;
+    double    w, radius = l->radius * diagonal_of(&l->s), (*points)[2] = disc_points(rays);
     trace_map_make(&seen, t, s);
     size_t                count;
     const trace_triangle *triangles = tracer_triangles(t, &count);
@@ -135,9 +145,11 @@ static void fill(light_map *m, const light_scene *l, const shot *s, int rays, in
                 normal = dvec_scale(normal, -1);
             if (!sky && dvec_dot(normal, dvec_unit(l->towards)) < 0.12)
                 continue;
-            m->truth[at] = (float)(sky ? sky_of(t, position, normal, l->radius * diagonal_of(&l->s), rays)
-                                       : light_of_disc(t, position, normal, l->towards, l->softness, rays));
+            m->truth[at] =
+                (float)(sky ? sky_of(t, position, normal, radius, (const double(*)[2])points, rays)
+                            : disc_of(t, position, normal, l->towards, l->softness, (const double(*)[2])points, rays));
         }
+    free(points);
     trace_map_release(&seen);
     tracer_destroy(t);
 }

@@ -1,15 +1,15 @@
 #include "trace.h"
 
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
 
-enum { LEAF = 4, STACK = 64 };
+/* Below DEEP levels nodes are halved, so that no tree outgrows the stack. */
+enum { LEAF = 4, STACK = 64, BINS = 16, DEEP = 28 };
 
 typedef struct box {
-    double low[3], high[3];
+    double side[2][3]; /* least and greatest corner */
 } box;
 
 typedef struct bvh_node {
@@ -53,40 +53,98 @@ static void collect(tracer *t, const shape *s)
     t->count = at;
 }
 
-static box bounds_of(const tracer *t, uint32_t first, uint32_t count)
+static const box nothing = {{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
+
+static void grow(box *b, const box *other)
 {
-    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (uint32_t i = first; i < first + count; i++)
-        for (int c = 0; c < 3; c++)
-            for (int a = 0; a < 3; a++) {
-                double v = axis_of(t->triangles[t->order[i]].p[c], a);
-                b.low[a] = fmin(b.low[a], v);
-                b.high[a] = fmax(b.high[a], v);
-            }
+    for (int a = 0; a < 3; a++) {
+        b->side[0][a] = other->side[0][a] < b->side[0][a] ? other->side[0][a] : b->side[0][a];
+        b->side[1][a] = other->side[1][a] > b->side[1][a] ? other->side[1][a] : b->side[1][a];
+    }
+}
+
+static box box_of(const trace_triangle *f)
+{
+    box b = nothing;
+    for (int c = 0; c < 3; c++) {
+        box corner = {{{f->p[c].x, f->p[c].y, f->p[c].z}, {f->p[c].x, f->p[c].y, f->p[c].z}}};
+        grow(&b, &corner);
+    }
     return b;
+}
+
+/* Half of a box's surface: how many rays meet it. */
+static double surface_of(const box *b)
+{
+    double x = b->side[1][0] - b->side[0][0], y = b->side[1][1] - b->side[0][1], z = b->side[1][2] - b->side[0][2];
+    return x < 0 ? 0 : x * y + y * z + z * x;
 }
 
 static double middle_of(const tracer *t, uint32_t triangle, int axis)
 {
     const trace_triangle *f = &t->triangles[triangle];
-    return axis_of(f->p[0], axis) + axis_of(f->p[1], axis) + axis_of(f->p[2], axis);
+    return (axis_of(f->p[0], axis) + axis_of(f->p[1], axis) + axis_of(f->p[2], axis)) / 3;
 }
 
-/* Splits at the middle of the longest side; when that leaves one half empty, by count. */
-static void split(tracer *t, size_t index, uint32_t first, uint32_t count)
+/* The best of the borders between bins along an axis: the surfaces of both sides, each times what is in it. */
+static double best_border(const tracer *t, uint32_t first, uint32_t count, int axis, double low, double high,
+                          double *border)
 {
-    bvh_node *node = &t->nodes[index];
-    node->bounds = bounds_of(t, first, count);
-    if (count <= LEAF) {
-        node->first = first;
-        node->count = count;
-        return;
+    box      boxes[BINS];
+    uint32_t counts[BINS] = {0}, left_count = 0;
+    double   costs[BINS] = {0}, least = INFINITY, width = (high - low) / BINS;
+    for (int k = 0; k < BINS; k++)
+        boxes[k] = nothing;
+    for (uint32_t i = first; i < first + count; i++) {
+        box own = box_of(&t->triangles[t->order[i]]);
+        int bin = (int)((middle_of(t, t->order[i], axis) - low) / width);
+        bin = bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin;
+        grow(&boxes[bin], &own);
+        counts[bin]++;
     }
-    int axis = 0;
-    for (int a = 1; a < 3; a++)
-        if (node->bounds.high[a] - node->bounds.low[a] > node->bounds.high[axis] - node->bounds.low[axis])
-            axis = a;
-    double   border = 1.5 * (node->bounds.low[axis] + node->bounds.high[axis]);
+    box left = nothing, right = nothing;
+    for (int k = 0; k + 1 < BINS; k++) {
+        grow(&left, &boxes[k]);
+        left_count += counts[k];
+        costs[k] = surface_of(&left) * left_count;
+    }
+    for (int k = BINS - 1; k > 0; k--) {
+        grow(&right, &boxes[k]);
+        uint32_t right_count = 0;
+        for (int i = k; i < BINS; i++)
+            right_count += counts[i];
+        double cost = costs[k - 1] + surface_of(&right) * right_count;
+        if (cost < least) {
+            least = cost;
+            *border = low + k * width;
+        }
+    }
+    return least;
+}
+
+/* Where and along which axis to split; the middles that border lies between. */
+static double border_of(const tracer *t, uint32_t first, uint32_t count, int *axis)
+{
+    double least = INFINITY, border = 0;
+    for (int a = 0; a < 3; a++) {
+        double low = INFINITY, high = -INFINITY, at = 0;
+        for (uint32_t i = first; i < first + count; i++) {
+            double middle = middle_of(t, t->order[i], a);
+            low = middle < low ? middle : low;
+            high = middle > high ? middle : high;
+        }
+        double cost = high > low ? best_border(t, first, count, a, low, high, &at) : INFINITY;
+        if (cost < least) {
+            least = cost;
+            border = at;
+            *axis = a;
+        }
+    }
+    return border;
+}
+
+static uint32_t sort_by(tracer *t, uint32_t first, uint32_t count, int axis, double border)
+{
     uint32_t left = first;
     for (uint32_t i = first; i < first + count; i++)
         if (middle_of(t, t->order[i], axis) < border) {
@@ -94,14 +152,47 @@ static void split(tracer *t, size_t index, uint32_t first, uint32_t count)
             t->order[i] = t->order[left];
             t->order[left++] = moved;
         }
+    return left;
+}
+
+/* Splits where rays then meet the fewest triangles; when that leaves one half empty, by count. */
+static void split(tracer *t, size_t index, uint32_t first, uint32_t count, int level)
+{
+    bvh_node *node = &t->nodes[index];
+    node->bounds = nothing;
+    for (uint32_t i = first; i < first + count; i++) {
+        box own = box_of(&t->triangles[t->order[i]]);
+        grow(&node->bounds, &own);
+    }
+    if (count <= LEAF) {
+        node->first = first;
+        node->count = count;
+        return;
+    }
+    int      axis = 0;
+    double   border = level < DEEP ? border_of(t, first, count, &axis) : 0;
+    uint32_t left = level < DEEP ? sort_by(t, first, count, axis, border) : first;
     if (left == first || left == first + count)
         left = first + count / 2;
     size_t child = t->node_count;
     t->node_count += 2;
     node->first = (uint32_t)child;
     node->axis = axis;
-    split(t, child, first, left - first);
-    split(t, child + 1, left, first + count - left);
+    split(t, child, first, left - first, level + 1);
+    split(t, child + 1, left, first + count - left, level + 1);
+}
+
+/* A hair wider than what is in them: then rounding loses no ray, and none lies in a side. */
+static void pad(tracer *t)
+{
+    double hair = 0;
+    for (int a = 0; a < 3; a++)
+        hair = fmax(hair, fmax(fabs(t->nodes[0].bounds.side[0][a]), fabs(t->nodes[0].bounds.side[1][a])));
+    for (size_t i = 0; i < t->node_count; i++)
+        for (int a = 0; a < 3; a++) {
+            t->nodes[i].bounds.side[0][a] -= 1e-9 * hair;
+            t->nodes[i].bounds.side[1][a] += 1e-9 * hair;
+        }
 }
 
 static tracer *with_tree(tracer *t)
@@ -111,7 +202,9 @@ static tracer *with_tree(tracer *t)
         t->order[i] = i;
     t->nodes = check_alloc(2 * t->count + 1, sizeof *t->nodes);
     t->node_count = 1;
-    split(t, 0, 0, (uint32_t)t->count);
+    split(t, 0, 0, (uint32_t)t->count, 0);
+    if (t->count)
+        pad(t);
     return t;
 }
 
@@ -184,20 +277,31 @@ static bool hit_triangle(const trace_triangle *f, dvec origin, dvec direction, d
     return true;
 }
 
+/* What a ray asks of boxes. */
+typedef struct box_ray {
+    double origin[3], inverse[3];
+    int    back[3]; /* runs towards lower coordinates */
+} box_ray;
+
+/* Along an axis that a ray does not run along, it is in a box for all its length or never: times far beyond any other.
+ */
+static box_ray box_ray_of(dvec origin, dvec direction)
+{
+    box_ray r = {.origin = {origin.x, origin.y, origin.z}};
+    for (int a = 0; a < 3; a++) {
+        double d = axis_of(direction, a);
+        r.inverse[a] = fabs(d) > 1e-200 ? 1 / d : 1e200;
+        r.back[a] = r.inverse[a] < 0;
+    }
+    return r;
+}
+
 /* Comparisons and not fmin and fmax, which are calls of the library: most of a tracer's time is spent here. */
-static bool hit_box(const box *b, const double origin[3], const double inverse[3], double low, double high)
+static inline bool hit_box(const box *b, const box_ray *r, double low, double high)
 {
     for (int a = 0; a < 3; a++) {
-        if (inverse[a] > DBL_MAX || inverse[a] < -DBL_MAX) { /* along the slab: in it or not */
-            if (origin[a] < b->low[a] || origin[a] > b->high[a])
-                return false;
-            continue;
-        }
-        bool   forward = inverse[a] >= 0;
-        double near = ((forward ? b->low[a] : b->high[a]) - origin[a]) * inverse[a],
-               far = ((forward ? b->high[a] : b->low[a]) - origin[a]) * inverse[a];
-        near -= near > 0 ? 1e-12 * near : -1e-12 * near;
-        far += far > 0 ? 1e-12 * far : -1e-12 * far;
+        double near = (b->side[r->back[a]][a] - r->origin[a]) * r->inverse[a],
+               far = (b->side[!r->back[a]][a] - r->origin[a]) * r->inverse[a];
         low = near > low ? near : low;
         high = far < high ? far : high;
     }
@@ -208,8 +312,7 @@ static bool hit_box(const box *b, const double origin[3], const double inverse[3
 static bool search(const tracer *t, dvec origin, dvec direction, double low, double high, const int64_t skip[2],
                    bool any, trace_hit *out)
 {
-    double   o[3] = {origin.x, origin.y, origin.z};
-    double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
+    box_ray  ray = box_ray_of(origin, direction);
     uint32_t stack[STACK];
     int      depth = 0;
     bool     found = false;
@@ -217,10 +320,10 @@ static bool search(const tracer *t, dvec origin, dvec direction, double low, dou
         stack[depth++] = 0;
     while (depth > 0) {
         const bvh_node *node = &t->nodes[stack[--depth]];
-        if (!hit_box(&node->bounds, o, inverse, low, high))
+        if (!hit_box(&node->bounds, &ray, low, high))
             continue;
         if (node->count == 0 && depth + 2 <= STACK) { /* the nearer child is on top */
-            bool nearer = inverse[node->axis] < 0;
+            bool nearer = ray.back[node->axis];
             stack[depth++] = node->first + !nearer;
             stack[depth++] = node->first + nearer;
         }
@@ -268,8 +371,7 @@ static int by_distance(const void *a, const void *b)
 size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, double high, trace_hit *out,
                    size_t capacity)
 {
-    double   o[3] = {origin.x, origin.y, origin.z};
-    double   inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
+    box_ray  ray = box_ray_of(origin, direction);
     uint32_t stack[STACK];
     int      depth = 0;
     size_t   found = 0;
@@ -277,7 +379,7 @@ size_t tracer_hits(const tracer *t, dvec origin, dvec direction, double low, dou
         stack[depth++] = 0;
     while (depth > 0) {
         const bvh_node *node = &t->nodes[stack[--depth]];
-        if (!hit_box(&node->bounds, o, inverse, low, high))
+        if (!hit_box(&node->bounds, &ray, low, high))
             continue;
         if (node->count == 0 && depth + 2 <= STACK) {
             stack[depth++] = node->first;

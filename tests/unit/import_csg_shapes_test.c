@@ -8,6 +8,7 @@
 #include <jansson.h>
 
 #include "construct/construct.h"
+#include "small_input.h"
 
 /* Volume of all operands, mirrored ones counted as they are. */
 static double operand_volume(const lmn_scene *s)
@@ -496,7 +497,7 @@ static void results_agree_with_openscad(void **state)
     char        path[2048];
     const char *folder = data_folder(), *name;
     json_t     *entry;
-    int         checked = 0;
+    int         checked = 0, every = small_input() ? 8 : 1, files = 0;
     if (!folder)
         skip();
     snprintf(path, sizeof path, "%s/csg/ref/reference.json", folder);
@@ -504,7 +505,7 @@ static void results_agree_with_openscad(void **state)
     assert_non_null(reference);
     json_object_foreach(reference, name, entry)
     {
-        if (strcmp(json_string_value(json_object_get(entry, "kind")), "3D") != 0)
+        if (strcmp(json_string_value(json_object_get(entry, "kind")), "3D") != 0 || files++ % every != 0)
             continue;
         snprintf(path, sizeof path, "%s/csg/%s", folder, name);
         lmn_scene *s = load_or_fail(path);
@@ -518,7 +519,7 @@ static void results_agree_with_openscad(void **state)
     }
     json_decref(reference);
     printf("%d files\n", checked);
-    assert_true(checked >= 40);
+    assert_true(checked >= 40 / every);
 }
 
 int main(void)

@@ -147,9 +147,15 @@ static size_t visit_dots(const lmn_sheet *s, visit_fn visit, void *user)
 
 /* --- which dots there are ------------------------------------------------------------------------------- */
 
+/* A triangle's first corner and the two sides from there. */
+typedef struct corner {
+    double at[3], sides[2][3];
+} corner;
+
 typedef struct rays {
     const mark_ground *ground;
     const view_camera *camera;
+    corner            *corners; /* a triangle each */
 } rays;
 
 static void subtract(double out[3], const double a[3], const double b[3])
@@ -169,26 +175,39 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static bool is_hit(const rays *r, const double from[3], const double direction[3], uint32_t triangle)
+static corner *corners_of(const mark_ground *ground)
 {
-    double c[3][3], e1[3], e2[3], p[3], to[3], q[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        const vec3  *v = &r->ground->positions[r->ground->indices[3 * (size_t)triangle + i]];
-        const double position[3] = {(double)v->x + r->ground->origin[0], (double)v->y + r->ground->origin[1],
-                                    (double)v->z + r->ground->origin[2]};
-        memcpy(c[i], position, sizeof position);
+    corner *corners = calloc(ground->surface.triangle_count, sizeof *corners);
+    assert_non_null(corners);
+    for (uint32_t t = 0; t < ground->surface.triangle_count; t++) {
+        double c[3][3];
+        for (uint32_t i = 0; i < 3; i++) {
+            const vec3  *v = &ground->positions[ground->indices[3 * (size_t)t + i]];
+            const double position[3] = {(double)v->x + ground->origin[0], (double)v->y + ground->origin[1],
+                                        (double)v->z + ground->origin[2]};
+            memcpy(c[i], position, sizeof position);
+        }
+        memcpy(corners[t].at, c[0], sizeof c[0]);
+        subtract(corners[t].sides[0], c[1], c[0]);
+        subtract(corners[t].sides[1], c[2], c[0]);
     }
-    subtract(e1, c[1], c[0]);
-    subtract(e2, c[2], c[0]);
-    cross(p, direction, e2);
-    double whole = dot(e1, p);
+    return corners;
+}
+
+static bool is_hit(const corner *c, const double from[3], const double direction[3])
+{
+    double p[3], to[3], q[3];
+    cross(p, direction, c->sides[1]);
+    double whole = dot(c->sides[0], p);
     if (fabs(whole) < 1e-14)
         return false;
-    subtract(to, from, c[0]);
+    subtract(to, from, c->at);
     double u = dot(to, p) / whole;
-    cross(q, to, e1);
+    if (u < 0 || u > 1)
+        return false;
+    cross(q, to, c->sides[0]);
     double v = dot(direction, q) / whole;
-    return u >= 0 && v >= 0 && u + v <= 1 && dot(e2, q) / whole > 1e-5;
+    return v >= 0 && u + v <= 1 && dot(c->sides[1], q) / whole > 1e-5;
 }
 
 /* Surfaces between positions and the eye, by all triangles. */
@@ -202,7 +221,7 @@ static void cast(void *user, const double (*positions)[3], size_t count, uint32_
             subtract(direction, r->camera->eye, positions[i]);
         out[i] = 0;
         for (uint32_t t = 0; t < r->ground->surface.triangle_count; t++)
-            out[i] += is_hit(r, positions[i], direction, t);
+            out[i] += is_hit(&r->corners[t], positions[i], direction);
     }
 }
 
@@ -236,7 +255,8 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     const double crease = 30 * 3.14159265358979 / 180;
     assert_int_equal(pose_create(&at_rest, f->scene, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
-    rays              r = {&ground, &s->views[0].camera};
+    rays r = {&ground, &s->views[0].camera};
+    r.corners = corners_of(&ground);
     mark_page_options options = {.pose = &at_rest,
                                  .look = f->stipple,
                                  .part_count = f->scene->part_count,
@@ -262,6 +282,7 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     assert_int_equal(look_for.unknown, 0);
     assert_int_equal((size_t)report_number(s, "dots"), drawn);
     free(look_for.found);
+    free(r.corners);
     marks_page_release(&page);
     mark_ground_release(&ground);
     pose_release(&at_rest);
