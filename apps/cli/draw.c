@@ -69,8 +69,8 @@ static const option options[] = {
      "surface.change). Default: the model at rest.",
      -1e9, 1e9},
     {"clip", 0, OPTION_TEXT, AT(clip), "NAME|N",
-     "Animations to draw, by name or number from 1 on; several separated by commas. Default: the first, when a time is "
-     "given."},
+     "Animations to draw, by name or number from 1 on; several separated by commas. Default: the first of each INPUT, "
+     "when a time is given."},
     {"fit-time", 0, OPTION_FLAG, AT(fit_time), NULL,
      "Fit the picture to where the model comes at any time of its animation. Frames are always fitted so."},
     {"frames", 0, OPTION_TEXT, AT(frames), "FIRST:LAST:FPS",

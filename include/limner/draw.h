@@ -60,7 +60,7 @@ typedef struct lmn_draw_desc {
     /* A scene with animations is drawn at rest, unless one of `time_given`, `clip` and a time other than 0 asks for
      * the scene at `time_s`. Times outside the clips are brought to their begin or end, with a warning. */
     bool        time_given;
-    const char *clip;     /* clips by name or number from 1 on, separated by commas; NULL: the first */
+    const char *clip;     /* clips by name or number from 1 on, separated by commas; NULL: the first of each file */
     bool        fit_time; /* fits the picture to all times of the clips, so that it stands still from time to time */
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \

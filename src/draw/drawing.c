@@ -96,6 +96,9 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     const upload       *up = &r->up;
     bool                cut_out = false, spares = false;
     warn_of_marks(s, &d->warnings);
+    for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
+        if (rule_use(&look->rules[i], KIND_MOTION))
+            warnings_add(&d->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool             blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;

@@ -365,8 +365,14 @@ static void read_bind_matrices(gltf_reader *r, json_t *object, const char *where
         return;
     }
     float *values = gltf_read_floats(r, &a, 16, where);
-    for (size_t i = 0; values && i < s->joint_count * 16; i++)
-        s->inverse_binds[i / 16].m[i % 16] = isfinite(values[i]) ? values[i] : 0;
+    size_t lost = 0;
+    for (size_t i = 0; values && i < s->joint_count * 16; i++) {
+        bool good = isfinite(values[i]);
+        lost += !good;
+        s->inverse_binds[i / 16].m[i % 16] = good ? values[i] : 0;
+    }
+    if (lost)
+        gltf_warn(r, WARNING_BAD_VALUE, "%s.inverseBindMatrices: %zu values that are not finite became 0", where, lost);
     mem_free(values);
 }
 

@@ -116,6 +116,33 @@ static void bring_within(moment *m, const lmn_scene *scene, warnings *warnings)
         m->seconds = 0; /* not −0, whose bytes differ */
 }
 
+/* The outermost node of what a clip moves, of its first channel that moves one; NONE. Each file has its own. */
+static int32_t root_of(const lmn_scene *scene, const animation *clip)
+{
+    for (size_t k = 0; k < clip->channel_count; k++) {
+        int32_t at = clip->channels[k].target;
+        if (animation_thing_of(clip->channels[k].path) != ANIMATED_NODE)
+            continue;
+        while (scene->nodes[at].parent != NONE)
+            at = scene->nodes[at].parent;
+        return at;
+    }
+    return NONE;
+}
+
+/* The first clip of each file, as far as there may be so many. */
+static void add_first_clips(moment *m, const lmn_scene *scene)
+{
+    for (size_t i = 0; i < scene->animation_count && m->clip_count < CLIPS_AT_ONCE; i++) {
+        int32_t root = root_of(scene, &scene->animations[i]);
+        bool    known = i > 0 && root == NONE;
+        for (size_t k = 0; k < m->clip_count; k++)
+            known = known || root_of(scene, &scene->animations[m->clips[k]]) == root;
+        if (!known)
+            m->clips[m->clip_count++] = (uint32_t)i;
+    }
+}
+
 lmn_status moment_find(moment *out, const lmn_scene *scene, const char *clips, double seconds, warnings *warnings,
                        lmn_error *error)
 {
@@ -125,8 +152,8 @@ lmn_status moment_find(moment *out, const lmn_scene *scene, const char *clips, d
         return error_in_file(error, LMN_USAGE, file_of(scene), 0, "clip '%.100s': the model has no animation", clips);
     if (clips)
         status = add_list(out, scene, clips, error);
-    else if (scene->animation_count)
-        status = add_clip(out, 0, error);
+    else
+        add_first_clips(out, scene);
     if (status != LMN_OK || !out->clip_count)
         return status;
     out->seconds = seconds;

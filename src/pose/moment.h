@@ -18,8 +18,8 @@ typedef struct moment {
 moment moment_at_rest(void);
 
 /* `clips`: names or numbers from 1 on, separated by commas; a name stands for all clips that have it. NULL: the first
- * one, or rest when there is none. Times before or after all of a scene's clips are brought to their begin or end,
- * with a warning (`warnings` may be NULL). Errors: LMN_USAGE. */
+ * of each file, or rest when there is none. Times before or after all of a scene's clips are brought to their begin or
+ * end, with a warning (`warnings` may be NULL). Errors: LMN_USAGE. */
 lmn_status moment_find(moment *out, const lmn_scene *scene, const char *clips, double seconds, warnings *warnings,
                        lmn_error *error);
 

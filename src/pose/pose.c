@@ -1,7 +1,9 @@
 #include "pose/pose.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
 #include "pose/animate.h"
@@ -80,6 +82,25 @@ static void set_boxes(pose *p, const animated_state *moved)
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
 
+/* As the scene's check says it of parts at rest. */
+static lmn_status check_positions(const pose *p, lmn_error *error)
+{
+    const float FARTHEST = 1e18f;
+    for (size_t i = 0; p->when.clip_count && i < p->part_count; i++) {
+        const float *b = &p->part_boxes[i].min.x;
+        bool         near = true;
+        for (int k = 0; k < 6 && !box3_is_empty(p->part_boxes[i]); k++)
+            near = near && b[k] >= -FARTHEST && b[k] <= FARTHEST;
+        if (near)
+            continue;
+        error_set(error, LMN_FORMAT, "at %g s part '%.100s' lies farther than 1e18 from the origin", p->when.seconds,
+                  p->scene->parts[i].name);
+        error_hint(error, "check the animations that move it");
+        return LMN_FORMAT;
+    }
+    return LMN_OK;
+}
+
 static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
 {
     const lmn_scene *scene = p->scene;
@@ -101,7 +122,7 @@ static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
     moved->lights = NULL;
     moved->weight_data = NULL;
     set_boxes(p, moved);
-    return LMN_OK;
+    return check_positions(p, error);
 }
 
 static lmn_status add_rest(pose *p, lmn_error *error)
@@ -218,19 +239,55 @@ void pose_hold(pose *p, const pose *held, const bool *moves)
 
 /* --- over time ------------------------------------------------------------------------------------------ */
 
+static int by_size(const void *left, const void *right)
+{
+    float a = *(const float *)left, b = *(const float *)right;
+    return a < b ? -1 : a > b;
+}
+
+/* The times of all keys of a moment's clips and evenly spread ones between, in order and each once; of too many, evenly
+ * spread ones alone. NULL when memory is gone. */
+static float *times_of(const lmn_scene *scene, const moment *when, size_t *out_count)
+{
+    enum { EVEN = 48, KEYS_MOST = 512, EVEN_AT_MOST = 1024 };
+    double end = moment_duration(when, scene);
+    size_t keys = 0, count = 0, kept = 0;
+    for (size_t i = 0; i < when->clip_count; i++)
+        for (size_t k = 0; k < scene->animations[when->clips[i]].channel_count; k++)
+            keys += scene->animations[when->clips[i]].channels[k].key_count;
+    float *times = mem_alloc((keys + EVEN_AT_MOST + 1) * sizeof *times);
+    if (!times)
+        return NULL;
+    for (size_t i = 0; i < when->clip_count; i++)
+        for (size_t k = 0; k < scene->animations[when->clips[i]].channel_count; k++) {
+            const animation_channel *c = &scene->animations[when->clips[i]].channels[k];
+            memcpy(&times[count], c->times, c->key_count * sizeof *times);
+            count += c->key_count;
+        }
+    qsort(times, count, sizeof *times, by_size);
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || times[i] != times[kept - 1])
+            times[kept++] = times[i];
+    size_t even = kept > KEYS_MOST ? EVEN_AT_MOST : EVEN;
+    kept = kept > KEYS_MOST ? 0 : kept;
+    for (size_t i = 0; i <= even; i++)
+        times[kept++] = (float)(end * (double)i / (double)even);
+    *out_count = end > 0 ? kept : 1;
+    return times;
+}
+
 lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error)
 {
-    enum { SAMPLES = 48 };
-    size_t     count = scene->part_count + scene->ghost_count;
-    double     end = moment_duration(when, scene);
+    size_t     count = scene->part_count + scene->ghost_count, time_count = 0;
     box3      *boxes = mem_alloc(count * sizeof *boxes);
-    lmn_status status = boxes ? LMN_OK : error_memory(error);
+    float     *times = times_of(scene, when, &time_count);
+    lmn_status status = boxes && times ? LMN_OK : error_memory(error);
     for (size_t i = 0; boxes && i < count; i++)
         boxes[i] = box3_empty();
-    for (int k = 0; k <= (end > 0 ? SAMPLES : 0) && status == LMN_OK; k++) {
+    for (size_t k = 0; k < time_count && status == LMN_OK; k++) {
         moment at = *when;
         pose   p;
-        at.seconds = end * k / SAMPLES;
+        at.seconds = (double)times[k] > 0 ? (double)times[k] : 0;
         status = pose_create(&p, scene, &at, error);
         for (size_t i = 0; i < count && status == LMN_OK; i++)
             boxes[i] = box3_union(boxes[i], p.part_boxes[i]);
@@ -238,6 +295,7 @@ lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *wh
         if (status == LMN_OK)
             status = work_check(error);
     }
+    mem_free(times);
     if (status != LMN_OK)
         mem_free(boxes);
     *out = status == LMN_OK ? boxes : NULL;

@@ -34,8 +34,8 @@ typedef struct pose {
     light           *lights;
 } pose;
 
-/* The scene at a moment. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY. Release it
- * also after one. */
+/* The scene at a moment. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY, LMN_FORMAT
+ * (animations put a part where no camera can look). Release it also after one. */
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       pose_release(pose *p);
 

@@ -232,6 +232,52 @@ static void clips_are_found(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A second file has clips of its own, and is not left at rest. */
+static void each_file_moves(void **state)
+{
+    (void)state;
+    lmn_scene *s = fox();
+    lmn_error  error = {0};
+    moment     m;
+    assert_int_equal(lmn_scene_add_file(s, LIMNER_SOURCE_DIR "/examples/box-animated.glb", NULL, &error), LMN_OK);
+    assert_int_equal(moment_find(&m, s, NULL, 0.5, NULL, &error), LMN_OK);
+    assert_true(m.clip_count == 2 && m.clips[0] == 0 && m.clips[1] == 3);
+    lmn_scene_destroy(&s);
+}
+
+/* Motion between two keys that lie close together in a long clip is not missed. */
+static void swept_boxes_hold_keys(void **state)
+{
+    (void)state;
+    lmn_scene         *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/box-animated.glb");
+    lmn_error          error = {0};
+    moment             m;
+    box3              *swept;
+    animation_channel *c = &s->animations[0].channels[0];
+    static float       times[] = {0, 0.001f, 0.002f, 100}, values[] = {0, 0, 0, 500, 0, 0, 0, 0, 0, 0, 0, 0};
+    mem_free(c->times);
+    mem_free(c->values);
+    *c = (animation_channel){.target = s->parts[0].node,
+                             .path = PATH_TRANSLATION,
+                             .key_count = 4,
+                             .components = 3,
+                             .times = mem_copy(times, sizeof times),
+                             .values = mem_copy(values, sizeof values)};
+    s->animations[0].duration = 100;
+    assert_int_equal(moment_find(&m, s, NULL, 0, NULL, &error), LMN_OK);
+    assert_int_equal(pose_swept_boxes(&swept, s, &m, &error), LMN_OK);
+    assert_true(swept[0].max.x > 499);
+    mem_free(swept);
+    /* Where no camera can look it is an error, as at rest. */
+    c->values[3] = 1e25f;
+    pose p;
+    m.seconds = 0.001;
+    assert_int_equal(pose_create(&p, s, &m, &error), LMN_FORMAT);
+    assert_non_null(strstr(error.message, "farther than 1e18"));
+    pose_release(&p);
+    lmn_scene_destroy(&s);
+}
+
 static bool holds(box3 outer, box3 inner)
 {
     return outer.min.x <= inner.min.x && outer.min.y <= inner.min.y && outer.min.z <= inner.min.z &&
@@ -290,6 +336,8 @@ int main(void)
         cmocka_unit_test(clips_are_found),
         cmocka_unit_test(swept_boxes_hold_all_times),
         cmocka_unit_test(failing_memory_is_reported),
+        cmocka_unit_test(each_file_moves),
+        cmocka_unit_test(swept_boxes_hold_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
