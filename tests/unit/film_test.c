@@ -471,11 +471,19 @@ static bool is_running(long id)
     return state != 'Z' && state != 'X';
 }
 
+/* What was killed goes when the system comes to it: on a busy machine a little later. */
+static bool ends(long id)
+{
+    for (int i = 0; i < 1000 && is_running(id); i++)
+        usleep(10000);
+    return !is_running(id);
+}
+
 /* A program that takes nothing and has one of its own, and one that never ends. */
 static void stopping_ends_the_program(void **state)
 {
-    static const char *const ends[] = {"sleep 1000 & echo $! > number; wait",
-                                       "cat > /dev/null; echo $$ > number; exec sleep 1000"};
+    static const char *const scripts[] = {"sleep 1000 & echo $! > number; wait",
+                                          "cat > /dev/null; echo $$ > number; exec sleep 1000"};
     (void)state;
     for (int i = 0; i < 2; i++) {
         char          script[256];
@@ -484,7 +492,7 @@ static void stopping_ends_the_program(void **state)
         lmn_error     error = {0};
         lmn_film_desc d = desc_of(LARGE, LARGE);
         uint8_t      *rgba = calloc((size_t)LARGE * LARGE, 4);
-        snprintf(script, sizeof script, "cd %s; %s", folder, ends[i]);
+        snprintf(script, sizeof script, "cd %s; %s", folder, scripts[i]);
         pretend(script);
         d.progress = go_on;
         d.progress_user = &left;
@@ -496,7 +504,7 @@ static void stopping_ends_the_program(void **state)
         lmn_film_destroy(&film);
         assert_null(film);
         assert_true(number_in_folder() > 0);
-        assert_false(is_running(number_in_folder()));
+        assert_true(ends(number_in_folder()));
         assert_names(0);
         free(rgba);
     }
