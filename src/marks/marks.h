@@ -72,7 +72,7 @@ lmn_status marks_stipple(marks *out, const mark_surface *s, size_t count, uint32
 
 /* The same, found again on disk (base/store.h) where it was made before. */
 lmn_status marks_stipple_kept(marks *out, const mark_surface *s, size_t count, uint32_t seed, lmn_error *error);
-/* The same, of what is longer than wide: `direction` gives the directions of a stroke at a dot, and its length counts.
+/* The same, of what is longer than wide: `direction` gives the direction of a stroke at a dot, and its length counts.
  * NULL: dots. */
 typedef vec3 (*mark_direction_fn)(void *user, const mark_dot *at);
 lmn_status marks_spread(marks *out, const mark_surface *s, size_t count, uint32_t seed, mark_direction_fn direction,
@@ -125,7 +125,7 @@ typedef struct trace_options {
     int    series; /* 1 … 4: sets of strokes that cross; later ones for darker positions */
     float  turn;   /* angle between one set and the next, radians */
     bool   bends; /* strokes run along the direction in which the surface bends: field/direction_field.h. Else in planes
-                     through the   model */
+                     through the model */
     uint32_t seed;
 } trace_options;
 

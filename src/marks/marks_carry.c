@@ -1,40 +1,17 @@
 /* Marks on a surface that has moved and bent: each stays where it is on its triangle. */
+#include "marks/d3.h"
 #include "marks/marks.h"
 
 #include <math.h>
-
-typedef struct d3 {
-    double x, y, z;
-} d3;
-
-static d3 wide(vec3 v)
-{
-    return (d3){(double)v.x, (double)v.y, (double)v.z};
-}
 
 static vec3 narrow(d3 v)
 {
     return (vec3){(float)v.x, (float)v.y, (float)v.z};
 }
 
-static d3 minus(d3 a, d3 b)
-{
-    return (d3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 static d3 plus(d3 a, d3 b, double times)
 {
     return (d3){a.x + times * b.x, a.y + times * b.y, a.z + times * b.z};
-}
-
-static double dot(d3 a, d3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static d3 cross(d3 a, d3 b)
-{
-    return (d3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 static d3 unit(d3 v)
@@ -51,9 +28,9 @@ typedef struct frame {
 static frame frame_of(const mark_surface *s, uint32_t triangle)
 {
     const uint32_t *c = &s->indices[3 * (size_t)triangle];
-    frame           f = {.corner = wide(s->positions[c[0]])};
-    f.right = minus(wide(s->positions[c[1]]), f.corner);
-    f.up = minus(wide(s->positions[c[2]]), f.corner);
+    frame           f = {.corner = of(s->positions[c[0]])};
+    f.right = minus(of(s->positions[c[1]]), f.corner);
+    f.up = minus(of(s->positions[c[2]]), f.corner);
     f.normal = unit(cross(f.right, f.up));
     return f;
 }
@@ -77,8 +54,8 @@ static d3 point_at(const frame *f, d3 c)
 static d3 normal_at(const mark_surface *s, uint32_t triangle, double b, double c)
 {
     const uint32_t *v = &s->indices[3 * (size_t)triangle];
-    d3              sum = plus(plus(plus((d3){0, 0, 0}, wide(s->normals[v[0]]), 1 - b - c), wide(s->normals[v[1]]), b),
-                               wide(s->normals[v[2]]), c);
+    d3              sum = plus(plus(plus((d3){0, 0, 0}, of(s->normals[v[0]]), 1 - b - c), of(s->normals[v[1]]), b),
+                               of(s->normals[v[2]]), c);
     return unit(sum);
 }
 
@@ -96,7 +73,7 @@ static void carry_dots(marks *m, const mark_surface *now)
 static void carry_line(mark_line *l, const mark_surface *before, const mark_surface *now)
 {
     frame from = frame_of(before, l->triangle), to = frame_of(now, l->triangle);
-    d3    a = coordinates(&from, wide(l->a)), b = coordinates(&from, wide(l->b));
+    d3    a = coordinates(&from, of(l->a)), b = coordinates(&from, of(l->b));
     l->a = narrow(point_at(&to, a));
     l->b = narrow(point_at(&to, b));
     double x = fmin(fmax((a.x + b.x) / 2, 0), 1), y = fmin(fmax((a.y + b.y) / 2, 0), 1 - x);
@@ -117,7 +94,7 @@ static void set_middle(mark_line *pieces, size_t count)
     const mark_line *p = &pieces[middle];
     double           span = (double)p->to - (double)p->from, half = (double)p->length / 2 - (double)p->from,
            t = span > 0 ? fmin(fmax(half / span, 0), 1) : 0.5;
-    vec3 at = narrow(plus(wide(p->a), minus(wide(p->b), wide(p->a)), t)), normal = p->normal;
+    vec3 at = narrow(plus(of(p->a), minus(of(p->b), of(p->a)), t)), normal = p->normal;
     for (size_t i = 0; i < count; i++) {
         pieces[i].middle = at;
         pieces[i].middle_normal = normal;
@@ -133,7 +110,7 @@ static void carry_stroke(mark_line *pieces, size_t count, const mark_surface *be
         carry_line(&pieces[i], before, now);
         if (joined) {
             vec3 *end = &pieces[i - 1].b, *begin = &pieces[i].a;
-            *end = *begin = narrow(plus(wide(*end), minus(wide(*begin), wide(*end)), 0.5));
+            *end = *begin = narrow(plus(of(*end), minus(of(*begin), of(*end)), 0.5));
         }
         joined = joins;
     }

@@ -1,6 +1,7 @@
 /* Strokes that follow a surface: from evenly spread positions, each walks over the triangles in a plane of its own, so
  * that it is straight where it is drawn and bends only as the surface does. For meshes without texture coordinates,
  * which Freudenberg's explicit strokes need (2003, section 5.3.2). */
+#include "marks/d3.h"
 #include "marks/marks.h"
 
 #include <math.h>
@@ -16,10 +17,6 @@ enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
 static const double SHARP = 0.5;   /* cosine between faces at which strokes end */
 static const double FEATURE = 0.7; /* radians: edges over which directions do not go on */
-
-typedef struct d3 {
-    double x, y, z;
-} d3;
 
 typedef struct tracer {
     const mark_surface  *surface;
@@ -37,26 +34,6 @@ typedef struct path {
     uint32_t triangles[2 * POINTS_MAX + 1];
     size_t   count;
 } path;
-
-static d3 of(vec3 v)
-{
-    return (d3){(double)v.x, (double)v.y, (double)v.z};
-}
-
-static d3 minus(d3 a, d3 b)
-{
-    return (d3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static double dot(d3 a, d3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static d3 cross(d3 a, d3 b)
-{
-    return (d3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 static d3 along(d3 from, d3 to, double fraction)
 {
