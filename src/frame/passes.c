@@ -9,10 +9,11 @@
 #include "lines/lines.h"
 
 typedef struct pass_params {
-    param_set           sets[5];
-    const pass         *merged;    /* line detection that this pass does too, or NULL */
-    const perturbation *perturbed; /* moves what this pass looks up, or NULL */
-    size_t              count;
+    param_set            sets[5];
+    const pass          *merged;    /* line detection that this pass does too, or NULL */
+    const perturbation  *perturbed; /* moves what this pass looks up, or NULL */
+    const technique_use *made;      /* of motion: has made textures; or NULL */
+    size_t               count;
 } pass_params;
 
 static bool goes_onto_page(const pass *p)
@@ -40,6 +41,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define MERGED\n");
         snprintf(path, sizeof path, "%s+%s", rule_inked_lines(s->figure->rule)->technique->lines->detect, p->shader);
     }
+    if (params->made)
+        used_textures_declare(&prelude, params->made, &s->figure->textures->motion);
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (params->perturbed && goes_onto_page(p)) {
@@ -124,6 +127,8 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
             used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
             frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
         }
+        if (params->made)
+            used_textures_set(f->g, params->made, &s->figure->textures->motion);
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
         if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
@@ -245,6 +250,8 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         forget(f, s, OWNER_LINES);
     s->own_targets = t->targets;
     pass_params params = {.sets = {use_own_set(id, use), use_common_set(id, use)}, .count = 2};
+    if (id == KIND_MOTION)
+        params.made = use;
     /* A composition inks the lines as well, with the parameters that all line techniques share. */
     const technique_use *lines = rule_inked_lines(s->figure->rule);
     if (id == KIND_COMPOSE && lines) {

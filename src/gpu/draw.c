@@ -261,9 +261,9 @@ bool gpu_mesh_has_rest(const gpu_mesh *m)
     return m && m->has_rest;
 }
 
-bool gpu_mesh_has_before(const gpu_mesh *m)
+bool gpu_mesh_has_past(const gpu_mesh *m)
 {
-    return m && m->has_before;
+    return m && m->has_past;
 }
 
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
@@ -297,8 +297,9 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     add_attribute(m, 8, 4, data->vertex_count, data->patches);
     add_attribute(m, 9, 3, data->vertex_count, data->rest);
     m->has_rest = data->rest != NULL;
-    add_attribute(m, 10, 3, data->vertex_count, data->before);
-    m->has_before = data->before != NULL;
+    for (unsigned k = 0; k < GPU_PAST_MAX; k++)
+        add_attribute(m, 10 + k, 3, data->vertex_count, data->past[k]);
+    m->has_past = data->past[0] != NULL;
     glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
     size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;

@@ -113,15 +113,17 @@ size_t       gpu_program_count(const gpu *g);
 
 /* --- meshes --------------------------------------------------------------------------------------------- */
 
+enum { GPU_PAST_MAX = 4 };
+
 /* Vertex data; arrays other than positions may be NULL. Colours are linear, straight alpha. */
 typedef struct gpu_mesh_data {
     uint32_t        vertex_count, index_count;
     const float    *positions, *normals, *uvs[2], *colours;
-    const float    *tensors; /* six numbers a vertex: locations 6 and 7 */
-    const float    *patches; /* four numbers a vertex: location 8 */
-    const float    *rest;    /* positions when nothing has moved: location 9 */
-    const float    *before;  /* positions earlier: location 10 */
-    const uint32_t *keys;    /* a number a vertex; that of a triangle's last corner is the triangle's */
+    const float    *tensors;            /* six numbers a vertex: locations 6 and 7 */
+    const float    *patches;            /* four numbers a vertex: location 8 */
+    const float    *rest;               /* positions when nothing has moved: location 9 */
+    const float    *past[GPU_PAST_MAX]; /* positions earlier: locations 10 and up */
+    const uint32_t *keys;               /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
@@ -129,7 +131,7 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
 bool      gpu_mesh_has_tensors(const gpu_mesh *m);
 bool      gpu_mesh_has_rest(const gpu_mesh *m);
-bool      gpu_mesh_has_before(const gpu_mesh *m);
+bool      gpu_mesh_has_past(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 

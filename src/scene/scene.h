@@ -317,6 +317,8 @@ vec3 mat4_transform_point(const mat4 *m, vec3 p);
 /* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its
  * determinant. */
 double mat4_cofactors(const mat4 *m, double out[9]);
+/* The identity where there is none. */
+mat4   mat4_inverse(const mat4 *m);
 mat4   mat4_from_trs(const double t[3], const double r[4], const double s[3]);
 box3   box3_empty(void);
 bool   box3_is_empty(box3 b);

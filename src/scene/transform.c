@@ -34,6 +34,23 @@ double mat4_cofactors(const mat4 *matrix, double out[9])
     return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
 }
 
+mat4 mat4_inverse(const mat4 *m)
+{
+    double cofactors[9], determinant = mat4_cofactors(m, cofactors);
+    mat4   out = mat4_identity();
+    if (determinant == 0 || !isfinite(determinant))
+        return out;
+    for (int row = 0; row < 3; row++) {
+        double moved = 0;
+        for (int k = 0; k < 3; k++) {
+            out.m[4 * k + row] = cofactors[3 * row + k] / determinant;
+            moved += out.m[4 * k + row] * m->m[12 + k];
+        }
+        out.m[12 + row] = -moved;
+    }
+    return out;
+}
+
 vec3 mat4_transform_point(const mat4 *m, vec3 p)
 {
     const double *e = m->m;

@@ -5,19 +5,16 @@
 
 #include "base/memory.h"
 
-/* `at_rest` (may be NULL) has the vertices where they are when nothing has moved. */
-static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const vertex_arrays *data,
-                                  const vertex_arrays *at_rest, const vertex_arrays *before, lmn_error *error)
+static lmn_status upload_vertex_arrays(upload *u, gpu *g, const upload_part_job *job, size_t i, upload_vertices *v,
+                                       lmn_error *error)
 {
-    vec3      *rest_positions = at_rest ? upload_rest_positions(u, job->part_index, at_rest) : NULL;
-    lmn_status status = at_rest && !rest_positions ? error_memory(error) : LMN_OK;
+    vec3      *rest_positions = v->at_rest ? upload_rest_positions(u, job->part_index, v->at_rest) : NULL;
+    lmn_status status = v->at_rest && !rest_positions ? error_memory(error) : LMN_OK;
+    v->rest_positions = rest_positions;
     if (status == LMN_OK && u->needs.field) {
-        status =
-            upload_with_field(u, g, &job->meshes[i], &job->lapped[i], data, rest_positions, at_rest, before, error);
+        status = upload_with_field(u, g, &job->meshes[i], &job->lapped[i], v, error);
     } else if (status == LMN_OK) {
-        gpu_mesh_data with = upload_data_of(data);
-        with.rest = (const float *)rest_positions;
-        with.before = before ? before->positions : NULL;
+        gpu_mesh_data with = upload_data_over_time(v);
         job->meshes[i] = gpu_mesh_create(g, &with);
     }
     mem_free(rest_positions);
@@ -27,26 +24,32 @@ static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job,
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
-    posed_mesh       now, rest = {.positions = NULL}, before = {.positions = NULL};
-    bool deforms = u->pose->at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field),
-         timed = deforms && u->pose->before;
-    lmn_status status = posed_make(&now, p, u->crease_angle, job->pose, error);
-    if (status == LMN_OK && moved)
-        status = posed_make(&rest, p, u->crease_angle, &u->pose->at_rest->parts[job->part_index], error);
-    if (status == LMN_OK && timed)
-        status = posed_make(&before, p, u->crease_angle, &u->pose->before->parts[job->part_index], error);
+    const pose      *at_rest = u->pose->at_rest;
+    posed_mesh       now, rest = {.positions = NULL}, past[POSE_PAST_MAX] = {{.positions = NULL}};
+    bool deforms = at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field);
+    upload_vertices v = {.now = &now.data};
+    lmn_status      status = posed_make(&now, p, u->crease_angle, job->pose, error);
+    if (status == LMN_OK && moved) {
+        status = posed_make(&rest, p, u->crease_angle, &at_rest->parts[job->part_index], error);
+        v.at_rest = &rest.data;
+    }
+    for (int k = 0; k < u->past_count && deforms && status == LMN_OK; k++) {
+        status = posed_make(&past[k], p, u->crease_angle, &u->pose->past[k]->parts[job->part_index], error);
+        v.past[k] = &past[k].data;
+    }
     if (status == LMN_OK)
-        status =
-            upload_vertices(u, g, job, i, &now.data, moved ? &rest.data : NULL, timed ? &before.data : NULL, error);
+        status = upload_vertex_arrays(u, g, job, i, &v, error);
     posed_release(&now);
     posed_release(&rest);
-    posed_release(&before);
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        posed_release(&past[k]);
     return status;
 }
 
-mat4 upload_before(const upload *u, size_t part_index, size_t instance)
+void upload_set_past(const upload *u, draw_item *item, size_t instance)
 {
-    return pose_instance(u->pose->before ? u->pose->before : u->pose, part_index, instance);
+    for (int k = 0; k < u->past_count; k++)
+        item->past[k] = pose_instance(u->pose->past[k], item->part_index, instance);
 }
 
 static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
@@ -62,7 +65,7 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);
     item.world = *world;
-    item.before = upload_before(u, job->part_index, job->instance);
+    upload_set_past(u, &item, job->instance);
     u->triangles += p->index_count / 3;
     if (status == LMN_OK && !upload_add_item(u, &item))
         status = error_memory(error);
@@ -138,7 +141,8 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->needs = desc->needs;
     out->pose = pose;
     out->when = pose->when;
-    out->before_seconds = pose->before ? pose->before_seconds : 0;
+    out->past_count = pose->past_count;
+    out->past_seconds = pose->past_count ? pose->past_seconds : 0;
     out->has_removed = desc->removed;
     out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
     out->texture_count = scene->image_count * 2;
@@ -175,7 +179,7 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         earlier->marks = NULL;
     }
     for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when) &&
-                       u->before_seconds == earlier->before_seconds;
+                       u->past_seconds == earlier->past_seconds && u->past_count == earlier->past_count;
          i++) {
         u->posed[i] = earlier->posed[i];
         earlier->posed[i] = (upload_mesh){.primitives = NULL};

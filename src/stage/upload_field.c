@@ -156,28 +156,25 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
     return done ? LMN_OK : error_memory(error);
 }
 
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             const vec3 *rest_positions, const vertex_arrays *at_rest, const vertex_arrays *before,
+lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const upload_vertices *v,
                              lmn_error *error)
 {
-    primitive       p = primitive_of(at_rest ? at_rest : data);
+    primitive       p = primitive_of(v->at_rest ? v->at_rest : v->now);
     direction_field field = {0};
     lapped_mesh     patches = {0};
     lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
     float(*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
-    if (status == LMN_OK && (!tensors || (at_rest && !carry_tensors(tensors, &p, data))))
+    if (status == LMN_OK && (!tensors || (v->at_rest && !carry_tensors(tensors, &p, v->now))))
         status = error_memory(error);
     if (status == LMN_OK) {
-        gpu_mesh_data with = upload_data_of(data);
+        gpu_mesh_data with = upload_data_over_time(v);
         with.tensors = (const float *)tensors;
-        with.rest = (const float *)rest_positions;
-        with.before = before ? before->positions : NULL;
         *out = gpu_mesh_create(g, &with);
     }
     if (status == LMN_OK && u->needs.patch > 0) {
         status = lapped_make(&patches, &p, &field, (double)upload_patch_radius(u, p.bounds), PATCH_SEED, error);
         if (status == LMN_OK)
-            status = upload_lapped_mesh(g, lapped, &patches, data, error);
+            status = upload_lapped_mesh(g, lapped, &patches, v->now, error);
     }
     mem_free(tensors);
     lapped_release(&patches);

@@ -16,6 +16,15 @@ gpu_mesh_data upload_data_of(const vertex_arrays *from)
                            .indices = from->indices};
 }
 
+gpu_mesh_data upload_data_over_time(const upload_vertices *v)
+{
+    gpu_mesh_data data = upload_data_of(v->now);
+    data.rest = (const float *)v->rest_positions;
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        data.past[k] = v->past[k] ? v->past[k]->positions : NULL;
+    return data;
+}
+
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
 {
     *out = gpu_mesh_create(g, data);

@@ -20,8 +20,17 @@ typedef struct upload_part_job {
 } upload_part_job;
 
 /* --- upload.c --- */
-/* Where an instance was earlier; where it is when nobody asks. */
-mat4 upload_before(const upload *u, size_t part_index, size_t instance);
+/* Where an instance was earlier: item->past. */
+void upload_set_past(const upload *u, draw_item *item, size_t instance);
+
+/* The vertices of a primitive at several times. */
+typedef struct upload_vertices {
+    const vertex_arrays *now, *at_rest;       /* at_rest: NULL: nobody asks, or it is that */
+    const vertex_arrays *past[POSE_PAST_MAX]; /* as many as there are */
+    const vec3          *rest_positions;      /* of at_rest, in its part's frame */
+} upload_vertices;
+/* What a mesh is made of, with all its times. */
+gpu_mesh_data upload_data_over_time(const upload_vertices *v);
 
 /* --- upload_mesh.c --- */
 gpu_mesh_data upload_data_of(const vertex_arrays *from);
@@ -32,10 +41,9 @@ draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
 /* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else *lapped
- * stays NULL). What is deformed bends as it does at rest, moved along: `at_rest` has the same vertices there (else it
- * is NULL). */
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const vertex_arrays *data,
-                             const vec3 *rest_positions, const vertex_arrays *at_rest, const vertex_arrays *before,
+ * stays NULL). What is deformed bends as it does at rest, moved along: `v->at_rest` has the same vertices there (else
+ * it is NULL). */
+lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const upload_vertices *v,
                              lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
 float upload_patch_radius(const upload *u, box3 bounds);

@@ -16,7 +16,7 @@ typedef enum channel {
     CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
     CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour, linear, premultiplied */
     CHANNEL_REST = 1 << 4,         /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
-    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; 0, 1 */
+    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; window depth before; 1 */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
@@ -131,10 +131,12 @@ typedef struct surface_row {
     void (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
 } surface_row;
 
-/* What tells of motion by pictures of several times. */
+/* What tells of motion: by whole pictures of several times, or by passes over what moves (TARGET_MOVER). */
 typedef struct motion_row {
-    int (*times)(const void *values);                /* how many */
+    int (*times)(const void *values);                /* pictures: how many; NULL: none */
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
+    int (*steps)(
+        const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
 } motion_row;
 
 /* What a line technique is. */
