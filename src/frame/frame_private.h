@@ -136,6 +136,10 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
 /* Where the figure's parts were at `steps` steps of the past (1, 2 or 4), their ids and their depth. */
 void raster_moved(frame *f, figure_state *s, int steps);
+/* --- stretched.c --- */
+/* TARGET_STRETCHED: the figure's meshes pulled from where they were the whole past ago to where they are. */
+void stretched_draw(frame *f, figure_state *s);
+
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */

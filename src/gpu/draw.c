@@ -266,6 +266,21 @@ bool gpu_mesh_has_past(const gpu_mesh *m)
     return m && m->has_past;
 }
 
+static void add_indices(gpu_mesh *m, const gpu_mesh_data *data)
+{
+    GLsizeiptr bytes = (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->index_count),
+               glue = (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->glue_count);
+    m->index_count = data->index_count;
+    m->glue_count = data->glue_count;
+    glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, bytes + glue, glue ? NULL : data->indices, GL_STATIC_DRAW);
+    if (glue) {
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes, data->indices);
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, bytes, glue, data->glue);
+    }
+}
+
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
 {
     if (g->failed)
@@ -275,7 +290,6 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return NULL;
     }
-    m->index_count = data->index_count;
     m->vertex_count = data->vertex_count;
     m->has_colours = data->colours != NULL;
     glGenVertexArrays(1, &m->array);
@@ -300,10 +314,7 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     for (unsigned k = 0; k < GPU_PAST_MAX; k++)
         add_attribute(m, 10 + k, 3, data->vertex_count, data->past[k]);
     m->has_past = data->past[0] != NULL;
-    glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
-    size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
+    add_indices(m, data);
     glBindVertexArray(0);
     if (glGetError() == GL_OUT_OF_MEMORY)
         gpu_fail(g, LMN_MEMORY, "the driver has no memory for a mesh of %u vertices", data->vertex_count);
@@ -390,4 +401,13 @@ void gpu_draw_mesh(gpu *g, gpu_mesh *m)
     if (!m->has_colours)
         glVertexAttrib4f(4, 1, 1, 1, 1);
     gpu_draw_indices(g, m->index_count);
+}
+
+void gpu_draw_glue(gpu *g, gpu_mesh *m)
+{
+    if (g->failed || !g->program || !m || !m->glue_count)
+        return;
+    glBindVertexArray(m->array);
+    draw_range(g, m->index_count, m->index_count + m->glue_count);
+    g->draws++;
 }

@@ -125,6 +125,8 @@ typedef struct gpu_mesh_data {
     const float    *past[GPU_PAST_MAX]; /* positions earlier: locations 10 and up */
     const uint32_t *keys;               /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
+    const uint32_t *glue; /* triangles that only gpu_draw_glue draws */
+    uint32_t        glue_count;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
@@ -220,6 +222,8 @@ bool gpu_has_uniform(gpu *g, const char *name);
 void gpu_draw_screen(gpu *g);
 /* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* Its glue patches alone. */
+void gpu_draw_glue(gpu *g, gpu_mesh *m);
 /* Some of its triangles: runs of indices, first and count. */
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count);
 /* Was any fragment between the two calls left by the tests? The answer of one of GPU_QUERIES occlusion queries is

@@ -15,7 +15,10 @@ static lmn_status upload_vertex_arrays(upload *u, gpu *g, const upload_part_job 
         status = upload_with_field(u, g, &job->meshes[i], &job->lapped[i], v, error);
     } else if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_over_time(v);
-        job->meshes[i] = gpu_mesh_create(g, &with);
+        status = upload_glue(u, &with, error);
+        if (status == LMN_OK)
+            job->meshes[i] = gpu_mesh_create(g, &with);
+        mem_free((void *)(uintptr_t)with.glue);
     }
     mem_free(rest_positions);
     return status == LMN_OK ? gpu_check(g, error) : status;

@@ -169,7 +169,10 @@ lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
     if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_over_time(v);
         with.tensors = (const float *)tensors;
-        *out = gpu_mesh_create(g, &with);
+        status = upload_glue(u, &with, error);
+        if (status == LMN_OK)
+            *out = gpu_mesh_create(g, &with);
+        mem_free((void *)(uintptr_t)with.glue);
     }
     if (status == LMN_OK && u->needs.patch > 0) {
         status = lapped_make(&patches, &p, &field, (double)upload_patch_radius(u, p.bounds), PATCH_SEED, error);

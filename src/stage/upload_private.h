@@ -34,6 +34,10 @@ gpu_mesh_data upload_data_over_time(const upload_vertices *v);
 
 /* --- upload_mesh.c --- */
 gpu_mesh_data upload_data_of(const vertex_arrays *from);
+/* --- upload_glue.c --- */
+/* Gives the mesh its glue patches, where the plan wants them: free data->glue with mem_free, also after an error. */
+lmn_status upload_glue(const upload *u, gpu_mesh_data *data, lmn_error *error);
+
 /* A piece, which the upload owns. */
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
 bool       upload_add_item(upload *u, const draw_item *item);

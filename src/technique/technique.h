@@ -62,6 +62,7 @@ typedef struct mesh_needs {
     bool  field; /* the direction in which surfaces bend */
     float patch; /* radius of patches that cover them, fraction of a mesh's diagonal; 0: none */
     bool  rest;  /* where vertices of deformed parts are when nothing has moved */
+    bool  glue;  /* patches between the two sides of hard edges, which motion pulls apart */
 } mesh_needs;
 
 struct stroke_style;
@@ -137,6 +138,7 @@ typedef struct motion_row {
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
+    bool stretched;          /* they read TARGET_STRETCHED */
 } motion_row;
 
 /* What a line technique is. */

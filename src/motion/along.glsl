@@ -1,0 +1,61 @@
+/* What of a mover crosses a pixel while the shutter is open. Großmann 2011, section 4.5: from the pixel towards where the surface that crosses it is now. What it shows at
+ * a fraction s of the exposure ago is what is now s times its motion further on. The stretched surface guesses that motion, and the surface found there says it exactly, so
+ * that what moves otherwise, in front or behind, is not taken for it; where nothing else is found, the surface that is at the pixel now shows as it moves itself. */
+#include "motion/mover.glsl"
+
+struct crossing {
+    vec2  position; /* the pixel's middle */
+    vec2  guess;    /* pixels moved by what sweeps the pixel */
+    vec2  own;      /* by what is there now */
+    bool  there, is_now, apart; /* swept; something is there now; that moves otherwise */
+    float longest;  /* of both, pixels */
+    float depth;    /* window depth of the nearest that sweeps it */
+};
+
+vec4 velocity_at(vec2 position)
+{
+    return texelFetch(t_velocity, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1), 0);
+}
+
+/* Is the nearest surface near enough, or ahead, so that it may have been here? */
+bool may_cross(vec2 to, vec2 moved)
+{
+    const float BESIDE = 12.0; /* pixels, as far as lines stand beside surfaces */
+    float far = length(to), way = length(moved);
+    return far < BESIDE || (far < way + BESIDE && dot(to, moved) > -BESIDE * way);
+}
+
+crossing crossing_of(ivec2 pixel)
+{
+    crossing c;
+    vec4 swept = texelFetch(t_stretched, pixel, 0), now = texelFetch(t_velocity, pixel, 0),
+         near = texelFetch(t_nearest, pixel / DIRECTION_APART, 0);
+    float depth = mover_depth_at(pixel);
+    c.position = vec2(pixel) + 0.5;
+    c.is_now = now.w > 0.0;
+    bool beside = near.w > 0.0 && may_cross(near.zw - c.position, near.xy);
+    c.guess = swept.w > 0.0 ? swept.xy : c.is_now ? now.xy : near.xy;
+    c.own = c.is_now ? now.xy : c.guess;
+    c.there = swept.w > 0.0 || c.is_now || beside || depth < 1.0;
+    c.apart = c.is_now && distance(c.guess, c.own) > 0.5;
+    c.longest = c.there ? max(length(c.guess), length(c.own)) : 0.0;
+    vec4 seen = texelFetch(t_stretched, ivec2(near.zw), 0);
+    float behind = seen.w > 0.0 ? seen.z : mover_depth_at(ivec2(near.zw));
+    c.depth = min(depth, swept.w > 0.0 ? swept.z : beside ? behind : 1.0);
+    return c;
+}
+
+/* How many samples tell what crosses it: one a pixel of the way, at most so many; 0: nothing does. */
+int samples_of(crossing c, int most)
+{
+    return c.there ? clamp(int(ceil(0.5 * c.longest)), 1, most) : 0;
+}
+
+/* The mover's colour at the pixel a fraction of the exposure ago, premultiplied. */
+vec4 mover_ago(crossing c, float s)
+{
+    vec2 first = c.position + s * c.guess;
+    vec4 found = velocity_at(first);
+    vec2 at = found.w > 0.0 ? c.position + s * found.xy : c.apart ? c.position + s * c.own : first;
+    return textureLod(t_mover, at * u_texel, 0.0);
+}
