@@ -3,6 +3,8 @@
  * that what moves otherwise, in front or behind, is not taken for it; where nothing else is found, the surface that is at the pixel now shows as it moves itself. */
 #include "motion/mover.glsl"
 
+const float BESIDE = 12.0; /* pixels, as far as lines stand beside surfaces */
+
 struct crossing {
     vec2  position; /* the pixel's middle */
     vec2  guess;    /* pixels moved by what sweeps the pixel */
@@ -20,7 +22,6 @@ vec4 velocity_at(vec2 position)
 /* Is the nearest surface near enough, or ahead, so that it may have been here? */
 bool may_cross(vec2 to, vec2 moved)
 {
-    const float BESIDE = 12.0; /* pixels, as far as lines stand beside surfaces */
     float far = length(to), way = length(moved);
     return far < BESIDE || (far < way + BESIDE && dot(to, moved) > -BESIDE * way);
 }
@@ -39,9 +40,7 @@ crossing crossing_of(ivec2 pixel)
     c.there = swept.w > 0.0 || c.is_now || beside || depth < 1.0;
     c.apart = c.is_now && distance(c.guess, c.own) > 0.5;
     c.longest = c.there ? max(length(c.guess), length(c.own)) : 0.0;
-    vec4 seen = texelFetch(t_stretched, ivec2(near.zw), 0);
-    float behind = seen.w > 0.0 ? seen.z : mover_depth_at(ivec2(near.zw));
-    c.depth = min(depth, swept.w > 0.0 ? swept.z : beside ? behind : 1.0);
+    c.depth = min(depth, swept.w > 0.0 ? swept.z : beside ? mover_depth_at(ivec2(near.zw)) : 1.0);
     return c;
 }
 
@@ -51,11 +50,17 @@ int samples_of(crossing c, int most)
     return c.there ? clamp(int(ceil(0.5 * c.longest)), 1, most) : 0;
 }
 
+/* How what is there moves; lines beside surfaces move as the nearest of these, and what is far from all as guessed. */
+vec2 motion_at(crossing c, vec2 position, vec4 found)
+{
+    vec4 near = texelFetch(t_nearest, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1) / DIRECTION_APART, 0);
+    vec2 beside = near.w > 0.0 && distance(near.zw, position) < BESIDE ? near.xy : c.guess;
+    return found.w > 0.0 ? found.xy : c.apart ? c.own : beside;
+}
+
 /* The mover's colour at the pixel a fraction of the exposure ago, premultiplied. */
 vec4 mover_ago(crossing c, float s)
 {
     vec2 first = c.position + s * c.guess;
-    vec4 found = velocity_at(first);
-    vec2 at = found.w > 0.0 ? c.position + s * found.xy : c.apart ? c.position + s * c.own : first;
-    return textureLod(t_mover, at * u_texel, 0.0);
+    return textureLod(t_mover, (c.position + s * motion_at(c, first, velocity_at(first))) * u_texel, 0.0);
 }

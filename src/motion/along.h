@@ -5,7 +5,7 @@
 #include "technique/technique.h"
 
 enum { ALONG_TARGETS = 2 };
-#define TARGET_NEAREST TARGET_OWN(0) /* the nearest pixel that a mover sweeps: nearest.frag */
+#define TARGET_NEAREST TARGET_OWN(0) /* the nearest pixel of a mover: nearest.frag */
 #define TARGET_CELLS TARGET_OWN(1)   /* the mean motion around each texel: cells.frag */
 extern const target_row along_targets[ALONG_TARGETS];
 
@@ -16,7 +16,7 @@ int along_steps(const void *values);
 #define ALONG_NEAREST_PASS                                                                                             \
     {                                                                                                                  \
         .name = "nearest", .shader = "motion/nearest.frag",                                                            \
-        .reads = {TARGET_NEAREST, TARGET_VELOCITY, TARGET_STRETCHED}, .writes = TARGET_NEAREST, .repeat = 7            \
+        .reads = {TARGET_NEAREST, TARGET_VELOCITY}, .writes = TARGET_NEAREST, .repeat = 7            \
     }
 
 /* What along.glsl reads. */

@@ -1,4 +1,4 @@
-/* For each texel, DIRECTION_APART pixels apart, the nearest pixel where a mover is or sweeps, and how that moves: jump flooding (Rong and Tan 2006). What stands beside
+/* For each texel, DIRECTION_APART pixels apart, the nearest pixel where a mover is, and how that moves: jump flooding (Rong and Tan 2006). What stands beside
  * surfaces, as lines do, what has no vertices to be stretched, and open surfaces are found by it. xy: pixels moved; zw: where, pixels; w 0: none is near. */
 layout(location = 0) out vec4 out_nearest;
 
@@ -6,9 +6,8 @@ const int REACH = 32; /* texels, of the first jump */
 
 vec4 found_at(ivec2 pixel)
 {
-    vec4 own = texelFetch(t_velocity, pixel, 0), swept = texelFetch(t_stretched, pixel, 0);
-    vec2 moved = swept.w > 0.0 ? swept.xy : own.xy;
-    return swept.w > 0.0 || own.w > 0.0 ? vec4(moved, vec2(pixel) + 0.5) : vec4(0.0);
+    vec4 own = texelFetch(t_velocity, pixel, 0);
+    return own.w > 0.0 ? vec4(own.xy, vec2(pixel) + 0.5) : vec4(0.0);
 }
 
 #ifdef HAS_NEAREST
