@@ -1,5 +1,6 @@
 /* The area that a mover sweeps: its meshes, pulled from where they were to where they are. Großmann 2011, section
- * 4.5.5, after Wloka and Zeleznik; row 45. Solids have no vertices: techniques find where they were from their pixels. */
+ * 4.5.5, after Wloka and Zeleznik; row 45. Solids have no vertices: techniques find where they were from their pixels.
+ */
 #include "frame/frame_private.h"
 
 #include <string.h>

@@ -8,8 +8,8 @@ const float BESIDE = 12.0; /* pixels, as far as lines stand beside surfaces */
 struct crossing {
     vec2  position; /* the pixel's middle */
     vec2  guess;    /* pixels moved by what sweeps the pixel */
-    vec2  own;      /* by what is there now */
-    bool  there, is_now, apart; /* swept; something is there now; that moves otherwise */
+    vec2  own;      /* by what is there now, or nearest now */
+    bool  there, apart; /* something crosses it; both move otherwise */
     float longest;  /* of both, pixels */
     float depth;    /* window depth of the nearest that sweeps it */
 };
@@ -33,21 +33,20 @@ crossing crossing_of(ivec2 pixel)
          near = texelFetch(t_nearest, pixel / DIRECTION_APART, 0);
     float depth = mover_depth_at(pixel);
     c.position = vec2(pixel) + 0.5;
-    c.is_now = now.w > 0.0;
     bool beside = near.w > 0.0 && may_cross(near.zw - c.position, near.xy);
-    c.guess = swept.w > 0.0 ? swept.xy : c.is_now ? now.xy : near.xy;
-    c.own = c.is_now ? now.xy : c.guess;
-    c.there = swept.w > 0.0 || c.is_now || beside || depth < 1.0;
-    c.apart = c.is_now && distance(c.guess, c.own) > 0.5;
+    c.guess = swept.w > 0.0 ? swept.xy : now.w > 0.0 ? now.xy : near.xy;
+    c.own = now.w > 0.0 ? now.xy : beside ? near.xy : c.guess;
+    c.there = swept.w > 0.0 || now.w > 0.0 || beside || depth < 1.0;
+    c.apart = distance(c.guess, c.own) > 0.5;
     c.longest = c.there ? max(length(c.guess), length(c.own)) : 0.0;
     c.depth = min(depth, swept.w > 0.0 ? swept.z : beside ? mover_depth_at(ivec2(near.zw)) : 1.0);
     return c;
 }
 
-/* How many samples tell what crosses it: one a pixel of the way, at most so many; 0: nothing does. */
+/* How many samples tell what crosses it: each mixes two pixels, and short ways take one a pixel; 0: nothing does. */
 int samples_of(crossing c, int most)
 {
-    return c.there ? clamp(int(ceil(0.5 * c.longest)), 1, most) : 0;
+    return c.there ? clamp(int(ceil(max(0.5 * c.longest, min(c.longest, 8.0)))), 1, most) : 0;
 }
 
 /* How what is there moves; lines beside surfaces move as the nearest of these, and what is far from all as guessed. */

@@ -16,8 +16,9 @@ enum { SIDE = 256 };
 
 static const param params[] = {
     PARAM_INT_ROW(streak_map_values, samples, .def = 32, .min = 8, .max = 64, .unit = UNIT_COUNT,
-                  .doc = "How many samples along the way a pixel takes at most; with fewer, the strokes' density changes "
-                         "in steps."),
+                  .doc =
+                      "How many samples along the way a pixel takes at most; with fewer, the strokes' density changes "
+                      "in steps."),
     PARAM_BOOL_ROW(streak_map_values, over, .def = 0, .variant = true,
                    .doc = "The object stays whole, and strokes are behind it alone."),
     PARAM_COLOUR_ROW(streak_map_values, ink, .def_colour = {0.1f, 0.1f, 0.1f, 1}, .only_if = "ink_tint<1",

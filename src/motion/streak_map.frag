@@ -5,7 +5,7 @@
 #include "surface/halftone/tones.glsl"
 layout(location = 0) out vec4 out_0;
 
-const float DIRECTIONS = 64.0; /* of half a turn: less than 1.5 degrees off, and neighbours that move alike share one */
+const float DIRECTIONS = 128.0; /* of half a turn: at most 0.7 degrees off, and neighbours that move alike share one */
 const float HALF_TURN = 3.14159265;
 
 /* The number of the direction in a patch. */

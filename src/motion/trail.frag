@@ -23,7 +23,7 @@ void main()
         vec4 colour = mover_ago(c, s);
         latest = colour.a > 0.5 ? min(latest, s) : latest;
         float counts = s <= latest + u_smear ? 1.0 : 0.0;
-        trail = max(trail, colour.a * pow(1.0 - s, u_fade));
+        trail = max(trail, colour.a * pow(1.0 - float(i) / float(count), u_fade)); /* since half a sample */
         sum += counts * colour;
     }
     trail *= u_opacity;
