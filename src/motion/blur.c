@@ -10,9 +10,9 @@ typedef struct blur_values {
 } blur_values;
 
 static const param params[] = {
-    PARAM_INT_ROW(blur_values, samples, .def = 32, .min = 8, .max = 64, .unit = UNIT_COUNT,
-                  .doc =
-                      "How many samples along the way a pixel takes at most; fewer show steps where motion is fast."),
+    PARAM_INT_ROW(
+        blur_values, samples, .def = 32, .min = 2, .max = 64, .soft_min = 8, .soft_max = 64, .unit = UNIT_COUNT,
+        .doc = "How many samples along the way a pixel takes at most; fewer show steps where motion is fast."),
     PARAM_FLOAT_ROW(blur_values, glints, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc =
                         "How much of their brightness highlights keep along their way; 0: they are averaged away, as "

@@ -15,10 +15,10 @@ typedef struct streak_map_values {
 enum { SIDE = 256 };
 
 static const param params[] = {
-    PARAM_INT_ROW(streak_map_values, samples, .def = 32, .min = 8, .max = 64, .unit = UNIT_COUNT,
-                  .doc =
-                      "How many samples along the way a pixel takes at most; with fewer, the strokes' density changes "
-                      "in steps."),
+    PARAM_INT_ROW(
+        streak_map_values, samples, .def = 32, .min = 2, .max = 64, .soft_min = 8, .soft_max = 64, .unit = UNIT_COUNT,
+        .doc = "How many samples along the way a pixel takes at most; with fewer, the strokes' density changes "
+               "in steps."),
     PARAM_BOOL_ROW(streak_map_values, over, .def = 0, .variant = true,
                    .doc = "The object stays whole, and strokes are behind it alone."),
     PARAM_COLOUR_ROW(streak_map_values, ink, .def_colour = {0.1f, 0.1f, 0.1f, 1}, .only_if = "ink_tint<1",

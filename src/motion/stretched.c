@@ -12,7 +12,8 @@ typedef struct stretched_values {
 static const char *const blend_names[] = {"blended", "coverage", NULL};
 
 static const param params[] = {
-    PARAM_INT_ROW(stretched_values, samples, .def = 32, .min = 8, .max = 64, .unit = UNIT_COUNT,
+    PARAM_INT_ROW(stretched_values, samples, .def = 32, .min = 2, .max = 64, .soft_min = 8, .soft_max = 64,
+                  .unit = UNIT_COUNT,
                   .doc = "How many samples along the way a pixel takes at most; with fewer, trails fade in steps."),
     PARAM_ENUM_ROW(stretched_values, blend, .names = blend_names, .def = 0, .variant = true,
                    .doc = "blended: what is behind trails shows through; coverage: trails are there at some pixels and "

@@ -483,7 +483,7 @@ static void strokes_lie_along_the_motion(void **state)
         lmn_scene *s = boxes(f, &bar, 1);
         draw(f, s,
              "{" PLAIN ", \"motion\": {\"technique\": \"streak-map\", \"exposure\": 1, \"length\": 1, \"scale\": 2.5, "
-                       "\"width\": 3}}",
+             "\"width\": 3}}",
              pixels);
         double off = remainder(direction_of(pixels, 70, 120, 70, 120) - angles[i], 180);
         printf("strokes of a motion at %g degrees: %.2f degrees off\n", angles[i], off);
