@@ -8,6 +8,7 @@ const float BESIDE = 12.0; /* pixels, as far as lines stand beside surfaces */
 struct crossing {
     vec2  position; /* the pixel's middle */
     vec2  guess;    /* pixels moved by what sweeps the pixel */
+    vec2  bend;     /* how much more is guessed for the whole exposure than for its end: things turn */
     vec2  own;      /* by what is there now, or nearest now */
     bool  there, apart; /* something crosses it; both move otherwise */
     float longest;  /* of both, pixels */
@@ -17,6 +18,21 @@ struct crossing {
 vec4 velocity_at(vec2 position)
 {
     return texelFetch(t_velocity, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1), 0);
+}
+
+/* The nearest surface: lines beside it move as it does. w 0: it is too far away. */
+vec4 nearest_to(vec2 position)
+{
+    vec4 near = texelFetch(t_nearest, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1) / DIRECTION_APART, 0);
+    return vec4(near.xyz, near.w > 0.0 && distance(near.zw, position) < BESIDE ? 1.0 : 0.0);
+}
+
+/* What turns has come from elsewhere than its motion here says: that of what has been here longest ago. */
+vec2 bend_of(vec2 position, vec2 guess)
+{
+    vec4 found = velocity_at(position + guess), near = nearest_to(position + guess);
+    vec2 other = (found.w > 0.0 ? found.xy : near.w > 0.0 ? near.xy : guess) - guess;
+    return length(other) < 0.6 * length(guess) ? other : vec2(0.0);
 }
 
 /* Is the nearest surface near enough, or ahead, so that it may have been here? */
@@ -35,6 +51,7 @@ crossing crossing_of(ivec2 pixel)
     c.position = vec2(pixel) + 0.5;
     bool beside = near.w > 0.0 && may_cross(near.zw - c.position, near.xy);
     c.guess = swept.w > 0.0 ? swept.xy : now.w > 0.0 ? now.xy : near.xy;
+    c.bend = bend_of(c.position, c.guess);
     c.own = now.w > 0.0 ? now.xy : beside ? near.xy : c.guess;
     c.there = swept.w > 0.0 || now.w > 0.0 || beside || depth < 1.0;
     c.apart = distance(c.guess, c.own) > 0.5;
@@ -49,17 +66,11 @@ int samples_of(crossing c, int most)
     return c.there ? clamp(int(ceil(max(0.5 * c.longest, min(c.longest, 8.0)))), 1, most) : 0;
 }
 
-/* How what is there moves; lines beside surfaces move as the nearest of these, and what is far from all as guessed. */
-vec2 motion_at(crossing c, vec2 position, vec4 found)
-{
-    vec4 near = texelFetch(t_nearest, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1) / DIRECTION_APART, 0);
-    vec2 beside = near.w > 0.0 && distance(near.zw, position) < BESIDE ? near.xy : c.guess;
-    return found.w > 0.0 ? found.xy : c.apart ? c.own : beside;
-}
-
 /* The mover's colour at the pixel a fraction of the exposure ago, premultiplied. */
 vec4 mover_ago(crossing c, float s)
 {
-    vec2 first = c.position + s * c.guess;
-    return textureLod(t_mover, (c.position + s * motion_at(c, first, velocity_at(first))) * u_texel, 0.0);
+    vec2 first = c.position + s * (c.guess + s * c.bend);
+    vec4 found = velocity_at(first), near = nearest_to(first);
+    vec2 moved = found.w > 0.0 ? found.xy : c.apart ? c.own : near.w > 0.0 ? near.xy : c.guess;
+    return textureLod(t_mover, (c.position + s * moved) * u_texel, 0.0);
 }
