@@ -124,6 +124,15 @@ static void set_anchor(frame *f)
                  (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
 }
 
+static void set_around(frame *f, const figure_state *s)
+{
+    const int *b = s->around;
+    bool       whole = b[2] <= 0 || b[3] <= 0;
+    gpu_set_vec4(f->g, "u_around",
+                 (float[]){whole ? 0 : (float)b[0], whole ? 0 : (float)b[1], (float)(whole ? f->width : b[0] + b[2]),
+                           (float)(whole ? f->height : b[1] + b[3])});
+}
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -136,6 +145,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     const double *m = f->camera.projection.m;
     gpu_set_vec4(g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
+    set_around(f, s);
     gpu_set_float(g, "u_near", (float)s->near);
     gpu_set_float(g, "u_far", (float)s->far);
     gpu_set_int(g, "u_layer", s->layer);

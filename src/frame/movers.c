@@ -72,12 +72,6 @@ static void release(frame *f, figure_state *s)
     solids_release(f->g, &s->solids);
 }
 
-/* Who looks along the way of what moves looks beyond its pixels, too: all of its pictures are cleared whole. */
-static void look_beyond(figure_state *s)
-{
-    memset(s->around, 0, sizeof s->around);
-}
-
 /* Draws what a mover's technique makes of it, onto the page or, where `layer` is given, into that. */
 static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
 {
@@ -87,8 +81,6 @@ static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
         return;
     const technique_use *use = rule_use(fig->rule, KIND_MOTION);
     find_pixels(f, &s);
-    if (use->technique->motion->stretched)
-        look_beyond(&s);
     draw_alone(f, &s);
     raster_moved(f, &s, use->technique->motion->steps(use->values));
     if (use->technique->motion->stretched)

@@ -15,15 +15,21 @@ struct crossing {
     float depth;    /* window depth of the nearest that sweeps it */
 };
 
+/* Beyond its pictures there is nothing, as along their border. */
+vec2 within(vec2 position)
+{
+    return clamp(position, u_around.xy + 0.5, u_around.zw - 0.5);
+}
+
 vec4 velocity_at(vec2 position)
 {
-    return texelFetch(t_velocity, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1), 0);
+    return texelFetch(t_velocity, ivec2(within(position)), 0);
 }
 
 /* The nearest surface: lines beside it move as it does. w 0: it is too far away. */
 vec4 nearest_to(vec2 position)
 {
-    vec4 near = texelFetch(t_nearest, clamp(ivec2(position), ivec2(0), ivec2(u_size) - 1) / DIRECTION_APART, 0);
+    vec4 near = texelFetch(t_nearest, ivec2(within(position)) / DIRECTION_APART, 0);
     return vec4(near.xyz, near.w > 0.0 && distance(near.zw, position) < BESIDE ? 1.0 : 0.0);
 }
 
@@ -72,5 +78,5 @@ vec4 mover_ago(crossing c, float s)
     vec2 first = c.position + s * (c.guess + s * c.bend);
     vec4 found = velocity_at(first), near = nearest_to(first);
     vec2 moved = found.w > 0.0 ? found.xy : c.apart ? c.own : near.w > 0.0 ? near.xy : c.guess;
-    return textureLod(t_mover, (c.position + s * moved) * u_texel, 0.0);
+    return textureLod(t_mover, within(c.position + s * moved) * u_texel, 0.0);
 }

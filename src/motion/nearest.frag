@@ -29,10 +29,10 @@ void main()
 #else
 void main()
 {
-    ivec2 first = ivec2(gl_FragCoord.xy) * DIRECTION_APART, last = ivec2(u_size) - 1;
+    ivec2 begin = ivec2(u_around.xy), last = ivec2(u_around.zw) - 1, first = ivec2(gl_FragCoord.xy) * DIRECTION_APART;
     vec4 found = vec4(0.0);
     for (int i = 0; i < 4; i++) {
-        vec4 other = found_at(min(first + ivec2(1 + 2 * (i & 1), 1 + (i & 2)), last));
+        vec4 other = found_at(clamp(first + ivec2(1 + 2 * (i & 1), 1 + (i & 2)), begin, last));
         found = found.w > 0.0 ? found : other;
     }
     out_nearest = found;

@@ -14,6 +14,7 @@ uniform float u_time;         /* seconds */
 /* The figure that is drawn, and the pass. */
 uniform float u_near;         /* of the figure, eye depth */
 uniform float u_far;
+uniform vec4  u_around;       /* the pixels of its pictures that are its own: beyond the first and before the last ones there is nothing */
 uniform int   u_figure;       /* its number among those that share their layers */
 uniform int   u_layer;        /* 0 = visible */
 uniform float u_rear;         /* opacity of layers behind an uncovered focus, 1 before */
