@@ -454,6 +454,63 @@ static void open_surfaces_have_no_holes(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Writes a file with the text; its path is lent. */
+static const char *written(const fixture *f, const char *name, const char *content)
+{
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", f->folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(content, file);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+/* A camera 1000 in front that moves to the right by 8 within a second; base64 of 0, 1, (−8, 0, 1000), (0, 0, 1000). */
+static const char *const camera_file =
+    "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"byteLength\": 32, \"uri\": "
+    "\"data:application/octet-stream;base64,AAAAAAAAgD8AAADBAAAAAAAAekQAAAAAAAAAAAAAekQ=\"}],\n"
+    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 32}], \"accessors\": [{\"bufferView\": 0, \"componentType\": "
+    "5126, \"count\": 2, \"type\": \"SCALAR\", \"min\": [0], \"max\": [1]}, {\"bufferView\": 0, \"byteOffset\": 8, "
+    "\"componentType\": 5126, \"count\": 2, \"type\": \"VEC3\"}],\n"
+    "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.019999333373, \"znear\": 1}}],\n"
+    "\"nodes\": [{\"name\": \"eye\", \"camera\": 0, \"translation\": [0, 0, 1000]}], \"scenes\": [{\"nodes\": [0]}], "
+    "\"scene\": 0,\n"
+    "\"animations\": [{\"name\": \"pan\", \"samplers\": [{\"input\": 0, \"output\": 1}], \"channels\": [{\"sampler\": "
+    "0, \"target\": {\"node\": 0, \"path\": \"translation\"}}]}]}\n";
+
+/* Everything moves to the left then: a mesh, and a solid, which has no vertices. */
+static void cameras_move_everything(void **state)
+{
+    const fixture   *f = *state;
+    static uint8_t   pixels[4 * PIXELS];
+    const moving_box bar = {"bar", {1, 0, 0}, {2, 6, 1}, {0.2, 0.4, 0.8}, {0, 0, 0}, 0, -1, false};
+    for (int solid = 0; solid < 2; solid++) {
+        lmn_scene *s = NULL;
+        if (solid) {
+            s = load(
+                written(f, "bar.csg",
+                        "difference() { multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(size = [4, 12, "
+                        "2], center = true); } multmatrix([[1,0,0,0],[0,1,0,5],[0,0,1,0],[0,0,0,1]]) { cube(size "
+                        "= [1, 1, 9], center = true); } }"));
+        } else {
+            s = boxes(f, &bar, 1);
+        }
+        DO(lmn_scene_add_file(s, written(f, "camera.gltf", camera_file), NULL, &error));
+        lmn_draw_desc desc = view_at(1);
+        double        worst = 0;
+        desc.eye_given = false;
+        desc.camera = "eye";
+        desc.clip = "pan";
+        draw_with(f->renderer, s, "{" PLAIN ", " BLUR "}", &desc, pixels);
+        for (int x = 0; x < SIDE; x++)
+            worst = fmax(worst, fabs(alpha_at(pixels, x, SIDE / 2) - bar_coverage((x + 0.5) / UNIT - 10, 1, 2, -8)));
+        printf("a camera that moves, %s: coverage off by %.3f\n", solid ? "a solid" : "a mesh", worst);
+        assert_true(worst < 1.0 / 32 + 0.02); /* the sides of the bar are seen a little */
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* --- streak-map ----------------------------------------------------------------------------------------- */
 
 /* The direction along which a picture changes least, degrees. */
@@ -598,6 +655,7 @@ int main(void)
         cmocka_unit_test(glints_stay_along_the_way),
         cmocka_unit_test(the_stretched_cube_has_no_holes),
         cmocka_unit_test(open_surfaces_have_no_holes),
+        cmocka_unit_test(cameras_move_everything),
         cmocka_unit_test(strokes_lie_along_the_motion),
         cmocka_unit_test(tone_is_the_coverage),
         cmocka_unit_test(over_leaves_objects_whole),
