@@ -9,7 +9,7 @@ struct crossing {
     vec2  position; /* the pixel's middle */
     vec2  guess;    /* pixels moved by what sweeps the pixel */
     vec2  bend;     /* how much more is guessed for the whole exposure than for its end: things turn */
-    vec2  own;      /* by what is there now, or nearest now */
+    vec2  own;      /* by what is there now */
     bool  there, apart; /* something crosses it; both move otherwise */
     float longest;  /* of both, pixels */
     float depth;    /* window depth of the nearest that sweeps it */
@@ -58,7 +58,7 @@ crossing crossing_of(ivec2 pixel)
     bool beside = near.w > 0.0 && may_cross(near.zw - c.position, near.xy);
     c.guess = swept.w > 0.0 ? swept.xy : now.w > 0.0 ? now.xy : near.xy;
     c.bend = bend_of(c.position, c.guess);
-    c.own = now.w > 0.0 ? now.xy : beside ? near.xy : c.guess;
+    c.own = now.w > 0.0 ? now.xy : c.guess;
     c.there = swept.w > 0.0 || now.w > 0.0 || beside || depth < 1.0;
     c.apart = distance(c.guess, c.own) > 0.5;
     c.longest = c.there ? max(length(c.guess), length(c.own)) : 0.0;
