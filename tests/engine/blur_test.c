@@ -408,6 +408,8 @@ static void the_stretched_cube_has_no_holes(void **state)
     lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
     snprintf(folder, sizeof folder, "%s/shaders", f->folder);
     shaders_with(folder, "motion", "blur.frag", area_shader);
+    const char *before = getenv("LIMNER_SHADER_DIR");
+    char       *kept = before ? strdup(before) : NULL;
     setenv("LIMNER_SHADER_DIR", folder, 1);
     DO(lmn_renderer_create(&r, &rd, &error));
     for (int i = 0; i < 3; i++) {
@@ -435,7 +437,11 @@ static void the_stretched_cube_has_no_holes(void **state)
         lmn_scene_destroy(&s);
     }
     lmn_renderer_destroy(&r);
-    unsetenv("LIMNER_SHADER_DIR");
+    if (kept)
+        setenv("LIMNER_SHADER_DIR", kept, 1);
+    else
+        unsetenv("LIMNER_SHADER_DIR");
+    free(kept);
 }
 
 /* A sheet has a border that no patch closes: its pixels are found by where it is now. It moves along itself, and then
