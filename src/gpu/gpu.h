@@ -143,6 +143,8 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
 /* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle
  * must lie inside of what is drawn. */
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
+/* The same drawn as strips of so many vertices, instance by instance: gl_VertexID counts within one. */
+gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 
