@@ -14,7 +14,7 @@
  * NULL after an error. */
 static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
 {
-    bool *hides = mem_calloc(f->up->part_count, sizeof *hides);
+    bool       *hides = mem_calloc(f->up->part_count, sizeof *hides);
     const bool *wanted = fig->mover ? fig->designated : fig->layered ? f->plan->selected : f->plan->opaque;
     for (size_t i = 0; hides && i < f->up->part_count; i++)
         hides[i] = !(f->mirror && f->mirror->designated[i]) && wanted[i];
@@ -157,6 +157,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
     gpu_set_int(f->g, "u_wanted", wanted_bits(&v->options));
     gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
+    gpu_settle(f->g);
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             draw_lines_of(f, store, i, v->options.intersections);
