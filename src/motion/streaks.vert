@@ -97,6 +97,21 @@ float smaller_at(float window)
     return u_scaled && u_perspective > 0.5 ? min(u_depths.x / eye_depth_at(window), 1.0) : 1.0;
 }
 
+/* May a stroke begin here? Großmann 2011, sections 6.4.2 and 9.2.2: validity. */
+bool valid_at(ivec2 pixel)
+{
+    bool valid = true;
+#if WHERE != 0
+    float ahead = dot(texelFetch(t_normal_depth, pixel, 0).xy, places[0].xy - places[STEPS].xy);
+    valid = WHERE == 1 ? ahead < 0.0 : ahead > 0.0;
+#endif
+#ifdef HAS_MASK
+    vec2 mask = textureLod(t_mask, vec3((vec2(pixel) + 0.5) / u_size, 0.0), 0.0).rg;
+    valid = valid && mask.x * mask.y > 0.5;
+#endif
+    return valid;
+}
+
 float fading_of(float whole)
 {
     return u_full > u_begin ? clamp((whole - u_begin) / (u_full - u_begin), 0.0, 1.0) : float(whole >= u_begin);
@@ -128,7 +143,7 @@ void main()
     here.xy += across * vec2(-tangent.y, tangent.x);
     /* A little nearer: along flat sides strokes lie in the very surface. */
     float nearer = window_depth_of(max(eye_depth_at(clamp(here.z, 0.0, 1.0)) - 0.002 * (u_far - u_near), 1e-6));
-    bool drawn = there && opacity >= 0.001 && whole > 0.01 && !left_out(smaller);
+    bool drawn = there && valid_at(pixel) && opacity >= 0.001 && whole > 0.01 && !left_out(smaller);
     gl_Position = drawn ? vec4(2.0 * here.xy / u_size - 1.0, 2.0 * clamp(nearer, 0.0, 1.0) - 1.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     v_stroke = vec2(lengths.y, across);
     v_direction = tangent;

@@ -17,7 +17,7 @@ static void add(char **text, const char *format, ...)
     va_end(arguments);
     size_t had = *text ? strlen(*text) : 0;
     *text = realloc(*text, had + strlen(piece) + 1);
-    strcpy(*text + had, piece);
+    memcpy(*text + had, piece, strlen(piece) + 1);
 }
 
 static const char *comma(int count)
