@@ -113,6 +113,18 @@ static void set_depths(frame *f)
     gpu_set_vec2(f->g, "u_depths", (float)fmax(nearest, f->camera.near), (float)fmax(farthest, f->camera.near));
 }
 
+/* Where it has a position instead: from above, as by the studio's. */
+static void set_first_light(frame *f)
+{
+    double towards[3] = {-0.35, 0.7, 0.62};
+    lights_first_direction(f, towards);
+    double length = sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
+    float  out[3];
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(towards[k] / fmax(length, 1e-30));
+    gpu_set_vec3(f->g, "u_first_light", out);
+}
+
 /* The range is that of all that is drawn, so that figures agree. */
 static void set_focus(frame *f)
 {
@@ -173,6 +185,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_focus(f);
     if (gpu_has_uniform(g, "u_anchor"))
         set_anchor(f);
+    if (gpu_has_uniform(g, "u_first_light"))
+        set_first_light(f);
     if (gpu_has_uniform(g, "u_depths"))
         set_depths(f);
 }

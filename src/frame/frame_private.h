@@ -156,6 +156,8 @@ void frame_draw_figure(frame *f, const figure *fig);
 /* --- movers.c: what moves on the page, each by itself --- */
 /* The last figures of the plan: draws them onto the page by their techniques of motion. */
 void movers_draw(frame *f, const figure *figures, size_t count);
+/* Draws what movers throw shadows with beside themselves into f->shadow. */
+void movers_throw_shadows(frame *f);
 
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */
@@ -171,6 +173,8 @@ void lists_release(frame *f, layer_stack *stack);
 /* --- passes.c: declared passes --- */
 /* What a surface technique looks at when it shades from the G-buffer. */
 void passes_prepare(frame *f, figure_state *s);
+/* What a mover's technique of motion adds to what throws shadows. */
+void passes_throw_shadows(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those
  * before. */

@@ -17,8 +17,8 @@ typedef struct streaks_values {
     motion_common common;
     int32_t       count, seeds, jittered, path, place, ink, where;
     float         margin, jitter, jitter_rate, width, taper, shift_width, shift_length, begin, full, fade, fade_begin,
-        fade_full, opacity, head, tail;
-    bool        scaled;
+        fade_full, opacity, head, tail, round;
+    bool        scaled, shadows;
     colour      colour;
     param_words texture, mask;
 } streaks_values;
@@ -92,6 +92,10 @@ static const param params[] = {
                     .doc = "How much of it is the tail."),
     PARAM_FLOAT_ROW(streaks_values, opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Opacity of strokes."),
+    PARAM_FLOAT_ROW(streaks_values, round, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How far the first light shades strokes as if they were round."),
+    PARAM_BOOL_ROW(streaks_values, shadows, .def = 0, .cpu_only = true,
+                   .doc = "Strokes throw shadows, where the look has some (scene.shadows)."),
     PARAM_ENUM_ROW(streaks_values, ink, .names = ink_names, .def = 0, .variant = true,
                    .doc = "drawing: each stroke has the colour of the object where it begins; colour: all have one."),
     PARAM_COLOUR_ROW(streaks_values, colour, .def_colour = {0.1f, 0.1f, 0.1f, 1}, .only_if = "ink=colour",
@@ -207,6 +211,12 @@ static const pass passes[] = {
      .reads = STREAK_READS,
      .writes = (target)STREAKS,
      .blend = BLEND_OVER,
+     .strips = &strips},
+    {.name = "shadows",
+     .when = "shadows",
+     .shader = "motion/streaks.frag",
+     .reads = STREAK_READS,
+     .writes = TARGET_SHADOW,
      .strips = &strips},
     {.name = "streaks",
      .shader = "motion/streaked.frag",
