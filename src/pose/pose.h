@@ -13,6 +13,10 @@ typedef struct part_pose {
     size_t       joint_count;
     const float *weights; /* of morph targets */
     size_t       weight_count;
+    /* What was posed for the part's box, one a primitive of its mesh; NULL: none. pose_vertices_of reads it. */
+    const primitive *primitives;
+    posed_vertices  *posed;
+    size_t           primitive_count;
 } part_pose;
 
 typedef struct pose {
@@ -30,6 +34,8 @@ typedef struct pose {
     box3             box;            /* of all parts */
     mat4            *joints;         /* of all parts, which point into it */
     float           *weights;        /* of nodes whose weights move; parts point into it */
+    posed_vertices  *posed;          /* of all parts' primitives; parts point into it. NULL: nobody asks */
+    size_t           posed_count;
     camera          *cameras;        /* as the scene's, whose names they borrow */
     light           *lights;
 } pose;
@@ -48,6 +54,10 @@ void pose_hold(pose *p, const pose *held, const bool *moves);
 
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
+
+/* The vertices of this primitive in the pose where they are known already, because the part's box was made of them;
+ * else NULL. */
+const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p);
 
 /* Where an instance of a part is: takes its deformed mesh to the world. `instance` is below node_draw_count. */
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance);

@@ -25,6 +25,27 @@ void posed_release(posed_mesh *m)
     memset(m, 0, sizeof *m);
 }
 
+/* Moves positions and turns normals, unless that was done for the part's box. */
+static bool deform(posed_mesh *out, const primitive *p, const part_pose *pose, const vec3 *normals)
+{
+    const posed_vertices *known = pose_vertices_of(pose, p);
+    uint32_t              count = out->split.vertex_count;
+    if (known && known->normals) {
+        out->data.positions = (const float *)known->positions;
+        out->data.normals = (const float *)known->normals;
+        return true;
+    }
+    out->positions = mem_alloc(sizeof(vec3) * (size_t)count);
+    out->normals = mem_alloc(sizeof(vec3) * (size_t)count);
+    if (!out->positions || !out->normals)
+        return false;
+    mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, out->split.source, count,
+              out->positions, out->normals);
+    out->data.positions = (const float *)out->positions;
+    out->data.normals = (const float *)out->normals;
+    return true;
+}
+
 /* Points at what needs no change and makes the rest. */
 static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_pose *pose, lmn_error *error)
 {
@@ -40,14 +61,7 @@ static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_
                             .positions = (const float *)p->positions,
                             .colours = (const float *)p->colours};
     if (pose_deforms(pose, p)) {
-        out->positions = mem_alloc(sizeof(vec3) * (size_t)count);
-        out->normals = mem_alloc(sizeof(vec3) * (size_t)count);
-        done = out->positions && out->normals;
-        if (done)
-            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, split->source,
-                      count, out->positions, out->normals);
-        data->normals = (const float *)out->normals;
-        data->positions = (const float *)out->positions;
+        done = deform(out, p, pose, normals);
     } else if (split->source) {
         data->positions = posed_gather(p->positions, split->source, count, sizeof(vec3));
         out->positions = (vec3 *)(void *)(uintptr_t)data->positions;
@@ -61,6 +75,20 @@ static lmn_status pose_vertices(posed_mesh *out, const primitive *p, const part_
         data->colours = (const float *)(out->colours = posed_gather(p->colours, split->source, count, sizeof(vec4)));
     done = done && data->positions && data->normals && (!p->colours || data->colours);
     return done ? LMN_OK : error_memory(error);
+}
+
+vec3 *posed_positions(const primitive *p, const part_pose *pose, const render_vertices *split)
+{
+    const posed_vertices *known = pose_vertices_of(pose, p);
+    if (known && split->source)
+        return posed_gather(known->positions, split->source, split->vertex_count, sizeof(vec3));
+    vec3 *out = mem_alloc((size_t)split->vertex_count * sizeof *out);
+    if (out && known)
+        memcpy(out, known->positions, (size_t)split->vertex_count * sizeof *out);
+    else if (out)
+        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, split->source,
+                  split->vertex_count, out, NULL);
+    return out;
 }
 
 lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose, lmn_error *error)

@@ -12,7 +12,7 @@ typedef struct vertex_arrays {
     const uint32_t *indices;
 } vertex_arrays;
 
-/* `data` points into the rest and into the primitive. */
+/* `data` points into the rest, into the primitive and into what the pose keeps. */
 typedef struct posed_mesh {
     vertex_arrays   data;
     render_vertices split;
@@ -25,6 +25,9 @@ typedef struct posed_mesh {
 lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
                       lmn_error *error);
 void       posed_release(posed_mesh *m);
+
+/* Where the vertices of a mesh that was made are in another pose; free with mem_free. NULL when memory is gone. */
+vec3 *posed_positions(const primitive *p, const part_pose *pose, const render_vertices *split);
 
 /* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The
  * caller frees it. */

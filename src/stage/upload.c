@@ -5,20 +5,21 @@
 
 #include "base/memory.h"
 
-/* `at_rest` (may be NULL) has the vertices where they are when nothing has moved. */
-static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const vertex_arrays *data,
-                                  const vertex_arrays *at_rest, const vertex_arrays *before, lmn_error *error)
+static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const upload_vertices *from,
+                                 lmn_error *error)
 {
-    vec3      *rest_positions = at_rest ? upload_rest_positions(u, job->part_index, at_rest) : NULL;
-    lmn_status status = at_rest && !rest_positions ? error_memory(error) : LMN_OK;
+    upload_vertices v = *from;
+    vec3           *rest_positions =
+        v.at_rest ? upload_rest_positions(u, job->part_index, v.at_rest, v.data->vertex_count) : NULL;
+    lmn_status status = v.at_rest && !rest_positions ? error_memory(error) : LMN_OK;
+    v.rest_positions = rest_positions;
     if (status == LMN_OK && u->needs.field) {
-        status =
-            upload_with_field(u, g, &job->meshes[i], &job->lapped[i], data, rest_positions, at_rest, before, error);
+        status = upload_with_field(u, g, job, i, &v, error);
     } else if (status == LMN_OK) {
-        gpu_mesh_data with = upload_data_of(data);
+        gpu_mesh_data with = upload_data_of(v.data);
         with.rest = (const float *)rest_positions;
-        with.before = before ? before->positions : NULL;
-        job->meshes[i] = gpu_mesh_create(g, &with);
+        with.before = (const float *)v.before;
+        job->meshes[i] = upload_mesh_make(g, job, i, &with);
     }
     mem_free(rest_positions);
     return status == LMN_OK ? gpu_check(g, error) : status;
@@ -27,20 +28,22 @@ static lmn_status upload_vertices(upload *u, gpu *g, const upload_part_job *job,
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
-    posed_mesh       now, rest = {.positions = NULL}, before = {.positions = NULL};
+    posed_mesh       now;
+    vec3            *rest = NULL, *before = NULL;
     bool deforms = u->pose->at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field),
          timed = deforms && u->pose->before;
     lmn_status status = posed_make(&now, p, u->crease_angle, job->pose, error);
     if (status == LMN_OK && moved)
-        status = posed_make(&rest, p, u->crease_angle, &u->pose->at_rest->parts[job->part_index], error);
+        rest = posed_positions(p, &u->pose->at_rest->parts[job->part_index], &now.split);
     if (status == LMN_OK && timed)
-        status = posed_make(&before, p, u->crease_angle, &u->pose->before->parts[job->part_index], error);
+        before = posed_positions(p, &u->pose->before->parts[job->part_index], &now.split);
+    if (status == LMN_OK && ((moved && !rest) || (timed && !before)))
+        status = error_memory(error);
     if (status == LMN_OK)
-        status =
-            upload_vertices(u, g, job, i, &now.data, moved ? &rest.data : NULL, timed ? &before.data : NULL, error);
+        status = write_vertices(u, g, job, i, &(upload_vertices){&now.data, rest, before, NULL}, error);
     posed_release(&now);
-    posed_release(&rest);
-    posed_release(&before);
+    mem_free(rest);
+    mem_free(before);
     return status;
 }
 
@@ -118,6 +121,7 @@ static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *e
     if (make_room(made, job.mesh)) {
         job.meshes = made->primitives;
         job.lapped = made->lapped;
+        job.former = made->former;
         status = add_instances(u, g, &job, error);
     } else {
         status = error_memory(error);
@@ -161,9 +165,37 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+static void release_mesh(upload_mesh *m, gpu *g)
+{
+    gpu_mesh ***lists[] = {&m->primitives, &m->lapped, &m->former};
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t k = 0; *lists[i] && k < m->count; k++)
+            gpu_mesh_destroy(g, &(*lists[i])[k]);
+        mem_free(*lists[i]);
+        *lists[i] = NULL;
+    }
+}
+
+/* What is deformed still holds at the same moment; at another one its buffers serve. */
+static void take_posed(upload *u, upload *earlier, const lmn_scene *scene)
+{
+    bool same = moment_equal(&u->when, &earlier->when) && u->before_seconds == earlier->before_seconds;
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
+        upload_mesh *from = &earlier->posed[i], *to = &u->posed[i];
+        int32_t      m = scene->nodes[i].mesh;
+        if (same) {
+            *to = *from;
+            *from = (upload_mesh){.primitives = NULL};
+        } else if (from->primitives && m != NONE && from->revision == scene->meshes[m].revision) {
+            to->former = from->primitives;
+            to->count = from->count;
+            from->primitives = NULL;
+        }
+    }
+}
+
 /* Moves what still holds. A scene never takes anything out of its arrays, and what is at a position there and has the
- * same revision is the same; nodes and images do not change at all.
- * What is deformed is taken at the same moment only. */
+ * same revision is the same; nodes and images do not change at all. */
 static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 {
     for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
@@ -174,12 +206,7 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
-    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when) &&
-                       u->before_seconds == earlier->before_seconds;
-         i++) {
-        u->posed[i] = earlier->posed[i];
-        earlier->posed[i] = (upload_mesh){.primitives = NULL};
-    }
+    take_posed(u, earlier, scene);
     for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
         if (earlier->meshes[i].revision == scene->meshes[i].revision) {
             u->meshes[i] = earlier->meshes[i];
@@ -207,6 +234,12 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
         else if (status == LMN_OK)
             status = upload_part(out, g, i, error);
     }
+    for (size_t i = 0; i < out->node_count && out->posed; i++) { /* what fitted nothing */
+        for (size_t k = 0; out->posed[i].former && k < out->posed[i].count; k++)
+            gpu_mesh_destroy(g, &out->posed[i].former[k]);
+        mem_free(out->posed[i].former);
+        out->posed[i].former = NULL;
+    }
     if (status == LMN_OK)
         status = upload_solids_close(out, g, error);
     return status;
@@ -214,14 +247,8 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
 
 static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
 {
-    for (size_t i = 0; i < count; i++) {
-        for (size_t k = 0; meshes[i].primitives && k < meshes[i].count; k++)
-            gpu_mesh_destroy(g, &meshes[i].primitives[k]);
-        for (size_t k = 0; meshes[i].lapped && k < meshes[i].count; k++)
-            gpu_mesh_destroy(g, &meshes[i].lapped[k]);
-        mem_free(meshes[i].primitives);
-        mem_free(meshes[i].lapped);
-    }
+    for (size_t i = 0; i < count && meshes; i++)
+        release_mesh(&meshes[i], g);
     mem_free(meshes);
 }
 

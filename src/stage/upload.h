@@ -42,6 +42,7 @@ typedef struct upload_mesh {
     uint64_t   revision;
     gpu_mesh **primitives; /* NULL, as each of them: not made yet */
     gpu_mesh **lapped;     /* the same covered with patches, where these are wished for */
+    gpu_mesh **former;     /* of another moment: their buffers are used again. NULL: none */
     size_t     count;
 } upload_mesh;
 

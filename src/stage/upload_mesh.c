@@ -16,6 +16,22 @@ gpu_mesh_data upload_data_of(const vertex_arrays *from)
                            .indices = from->indices};
 }
 
+gpu_mesh *upload_mesh_make(gpu *g, const upload_part_job *job, size_t primitive_index, const gpu_mesh_data *data)
+{
+    gpu_mesh    **former = job->former ? &job->former[primitive_index] : NULL;
+    gpu_mesh_data moved = *data;
+    /* As many as the primitive has are its own ones, which do not change from moment to moment. */
+    if (data->vertex_count == job->mesh->primitives[primitive_index].vertex_count) {
+        moved.uvs[0] = moved.uvs[1] = moved.colours = NULL;
+        moved.indices = NULL;
+    }
+    if (!former || !gpu_mesh_rewrite(g, *former, &moved))
+        return gpu_mesh_create(g, data);
+    gpu_mesh *out = *former;
+    *former = NULL;
+    return out;
+}
+
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)
 {
     *out = gpu_mesh_create(g, data);
