@@ -146,11 +146,17 @@ static lmn_status open_posed(pose *p, lmn_error *error)
 
 static void forget_posed(posed_vertices *posed, size_t count)
 {
-    for (size_t i = 0; posed && i < count; i++) {
-        mem_free(posed[i].positions);
-        mem_free(posed[i].normals);
-        posed[i] = (posed_vertices){NULL, NULL};
+    for (size_t i = 0; posed && i < count; i++)
+        posed[i].made = false;
+}
+
+static void release_posed(pose *p)
+{
+    for (size_t i = 0; p->posed && i < p->posed_count; i++) {
+        mem_free(p->posed[i].positions);
+        mem_free(p->posed[i].normals);
     }
+    mem_free(p->posed);
 }
 
 static lmn_status add_rest(pose *p, lmn_error *error)
@@ -160,8 +166,9 @@ static lmn_status add_rest(pose *p, lmn_error *error)
     return p->at_rest ? pose_create(p->at_rest, p->scene, &when, error) : error_memory(error);
 }
 
-/* `keeps`: what is posed for boxes is drawn, too. */
-static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, bool keeps, lmn_error *error)
+/* `keeps`: what is posed for boxes is drawn, too. `earlier` (may be NULL): of the same scene, it gives what serves. */
+static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, bool keeps, pose *earlier,
+                         lmn_error *error)
 {
     animated_state moved;
     *out = (pose){.scene = scene,
@@ -171,9 +178,17 @@ static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, 
                   .ghost_count = scene->ghost_count,
                   .box = box3_empty()};
     lmn_status status = animate(&moved, scene, when, error);
-    if (status == LMN_OK && when->clip_count)
+    if (earlier && when->clip_count) {
+        out->at_rest = earlier->at_rest;
+        out->posed = earlier->posed;
+        out->posed_count = earlier->posed_count;
+        earlier->at_rest = NULL;
+        earlier->posed = NULL;
+        forget_posed(out->posed, out->posed_count);
+    }
+    if (status == LMN_OK && when->clip_count && !out->at_rest)
         status = add_rest(out, error);
-    if (status == LMN_OK && when->clip_count && keeps)
+    if (status == LMN_OK && when->clip_count && keeps && !out->posed)
         status = open_posed(out, error);
     if (status == LMN_OK)
         status = fill(out, &moved, error);
@@ -183,7 +198,15 @@ static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, 
 
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
 {
-    return create(out, scene, when, true, error);
+    return create(out, scene, when, true, NULL, error);
+}
+
+lmn_status pose_move(pose *p, const moment *when, lmn_error *error)
+{
+    pose       earlier = *p;
+    lmn_status status = create(p, earlier.scene, when, true, &earlier, error);
+    pose_release(&earlier);
+    return status;
 }
 
 lmn_status pose_add_before(pose *p, double seconds, lmn_error *error)
@@ -208,8 +231,7 @@ void pose_release(pose *p)
             pose_release(others[i]);
         mem_free(others[i]);
     }
-    forget_posed(p->posed, p->posed_count);
-    mem_free(p->posed);
+    release_posed(p);
     mem_free(p->worlds);
     mem_free(p->parts);
     mem_free(p->part_boxes);
@@ -229,7 +251,7 @@ const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p
 {
     for (size_t i = 0; i < pose->primitive_count; i++)
         if (&pose->primitives[i] == p)
-            return pose->posed[i].positions ? &pose->posed[i] : NULL;
+            return pose->posed[i].made ? &pose->posed[i] : NULL;
     return NULL;
 }
 
@@ -335,7 +357,7 @@ lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *wh
         moment at = *when;
         pose   p;
         at.seconds = (double)times[k] > 0 ? (double)times[k] : 0;
-        status = create(&p, scene, &at, false, error);
+        status = create(&p, scene, &at, false, NULL, error);
         for (size_t i = 0; i < count && status == LMN_OK; i++)
             boxes[i] = box3_union(boxes[i], p.part_boxes[i]);
         pose_release(&p);

@@ -36,7 +36,7 @@ typedef struct pose {
     float           *weights;        /* of nodes whose weights move; parts point into it */
     posed_vertices  *posed;          /* of all parts' primitives; parts point into it. NULL: nobody asks */
     size_t           posed_count;
-    camera          *cameras;        /* as the scene's, whose names they borrow */
+    camera          *cameras; /* as the scene's, whose names they borrow */
     light           *lights;
 } pose;
 
@@ -44,6 +44,10 @@ typedef struct pose {
  * (animations put a part where no camera can look). Release it also after one. */
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       pose_release(pose *p);
+
+/* Brings a pose to another moment of its scene, which has not changed since: as made anew, but with the memory and the
+ * rest that it has. Errors: as above. */
+lmn_status pose_move(pose *p, const moment *when, lmn_error *error);
 
 /* Adds the pose of `seconds` before, or of the clips' begin; of a scene at rest there is none. Errors: LMN_MEMORY. */
 lmn_status pose_add_before(pose *p, double seconds, lmn_error *error);

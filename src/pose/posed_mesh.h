@@ -21,9 +21,14 @@ typedef struct posed_mesh {
     vec4           *colours;
 } posed_mesh;
 
-/* `crease_angle` in radians. Errors: LMN_MEMORY, those of mesh_make_normals. */
+/* `crease_angle` in radians. A mesh without normals has those that its triangles have in the pose, and creases there.
+ * Errors: LMN_MEMORY, those of mesh_make_normals. */
 lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
                       lmn_error *error);
+/* The same. Which corners are in one position at rest is kept for the next pose (`kept`: zero-initialised at first,
+ * ended with corner_groups_release; may be NULL). */
+lmn_status posed_make_keeping(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
+                              corner_groups *kept, lmn_error *error);
 void       posed_release(posed_mesh *m);
 
 /* Where the vertices of a mesh that was made are in another pose; free with mem_free. NULL when memory is gone. */

@@ -86,22 +86,33 @@ static box3 points_bounds(const vec3 *points, size_t count, const mat4 *m)
     return box;
 }
 
-/* The pose of one primitive in its mesh's space; NULL when nothing moves it or memory is gone. Normals are turned when
- * somebody asks for them (`normals`, may be NULL): they cost less along with the positions than later. */
-static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, const mat4 *joints, size_t joint_count,
-                             const float *weights, vec3 **normals)
+/* Room for a primitive's vertices, that is there already from pose to pose. */
+static bool open_vertices(posed_vertices *v, const primitive *p)
+{
+    if (!v->positions)
+        v->positions = mem_alloc(p->vertex_count * sizeof *v->positions);
+    if (!v->normals && p->normals)
+        v->normals = mem_alloc(p->vertex_count * sizeof *v->normals);
+    return v->positions && (v->normals || !p->normals);
+}
+
+/* Poses one primitive in its mesh's space; false when nothing moves it or memory is gone. Normals are turned when the
+ * vertices are kept: they cost less along with the positions than later. */
+static bool pose_primitive(posed_vertices *out, const primitive *p, const node *n, const mesh *m, const mat4 *joints,
+                           size_t joint_count, const float *weights, bool kept)
 {
     weights = weights ? weights : n->morph_weights ? n->morph_weights : m->morph_weights;
     size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     if (!joints && (p->morph_count == 0 || weight_count == 0))
-        return NULL;
-    vec3 *posed = mem_alloc(p->vertex_count * sizeof *posed), *turned = NULL;
-    if (posed && normals && p->normals)
-        turned = *normals = mem_alloc(p->vertex_count * sizeof *turned);
-    if (posed)
-        mesh_pose(p, weights, weight_count, joints, joint_count, turned ? p->normals : NULL, NULL, p->vertex_count,
-                  posed, turned);
-    return posed;
+        return false;
+    if (!kept)
+        out->positions = mem_alloc(p->vertex_count * sizeof *out->positions);
+    if (kept ? !open_vertices(out, p) : !out->positions)
+        return false;
+    mesh_pose(p, weights, weight_count, joints, joint_count, kept ? p->normals : NULL, NULL, p->vertex_count,
+              out->positions, out->normals);
+    out->made = true;
+    return true;
 }
 
 static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_index)
@@ -146,17 +157,15 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
     size_t joint_count = skinned ? s->skins[n->skin].joint_count : 0;
     if (skinned && !exact)
         return joint_boxes(p->bounds, joints, joint_count);
-    vec3 *posed = exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count, weights,
-                                          keep ? &keep->normals : NULL)
-                        : NULL;
-    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
+    posed_vertices own = {NULL}, *v = keep ? keep : &own;
+    const mesh    *m = &s->meshes[n->mesh];
+    bool  moved = exact && pose_primitive(v, p, n, m, skinned ? joints : NULL, joint_count, weights, keep != NULL);
+    vec3 *posed = moved ? v->positions : NULL;
+    box3  local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
     /* Skinned vertices are already in the world: the node's own position does not move them. */
     if (!skinned || !posed)
         local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
-    if (keep)
-        keep->positions = posed;
-    else
-        mem_free(posed);
+    mem_free(own.positions);
     return local;
 }
 

@@ -297,13 +297,14 @@ const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
 
-/* Vertices of a primitive as a pose has them, in its mesh's axes; both NULL: nothing moves it, or they were not made. */
+/* Vertices of a primitive as a pose has them, in its mesh's axes. */
 typedef struct posed_vertices {
-    vec3 *positions, *normals; /* normals: NULL also where the primitive has none */
+    vec3 *positions, *normals; /* room for all; NULL: not needed yet. Normals are for primitives that have some */
+    bool  made;
 } posed_vertices;
 
 /* The same for any node with a mesh. `weights` (may be NULL: those that it has) are of its morph targets. What is posed
- * for it goes to `keep` (may be NULL), one a primitive: freed by the caller with mem_free. */
+ * for it is left in `keep` (may be NULL), one a primitive of its mesh; the caller frees it with mem_free. */
 box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index, const float *weights,
                  posed_vertices *keep);
 /* The node after this one, depth first, within the tree below `root`; NONE at the end. */

@@ -25,14 +25,31 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
     return status == LMN_OK ? gpu_check(g, error) : status;
 }
 
+/* Where the groups of a primitive's corners are kept. */
+static lmn_status find_corners(upload *u, const upload_part_job *job, size_t i, corner_groups **out, lmn_error *error)
+{
+    const lmn_scene *scene = u->pose->scene;
+    upload_corners  *c = &u->corners[scene->nodes[scene->parts[job->part_index].node].mesh];
+    if (!c->groups) {
+        c->groups = mem_calloc(job->mesh->primitive_count, sizeof *c->groups);
+        c->count = job->mesh->primitive_count;
+        c->revision = job->mesh->revision;
+    }
+    *out = c->groups ? &c->groups[i] : NULL;
+    return c->groups ? LMN_OK : error_memory(error);
+}
+
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
-    posed_mesh       now;
+    posed_mesh       now = {.positions = NULL};
     vec3            *rest = NULL, *before = NULL;
     bool deforms = u->pose->at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field),
          timed = deforms && u->pose->before;
-    lmn_status status = posed_make(&now, p, u->crease_angle, job->pose, error);
+    corner_groups *kept = NULL;
+    lmn_status     status = deforms && !p->normals ? find_corners(u, job, i, &kept, error) : LMN_OK;
+    if (status == LMN_OK)
+        status = posed_make_keeping(&now, p, u->crease_angle, job->pose, kept, error);
     if (status == LMN_OK && moved)
         rest = posed_positions(p, &u->pose->at_rest->parts[job->part_index], &now.split);
     if (status == LMN_OK && timed)
@@ -150,7 +167,8 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->meshes = mem_calloc(scene->mesh_count, sizeof *out->meshes);
     out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
     out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
-    if (!out->textures || !out->meshes || !out->posed || !out->shapes)
+    out->corners = mem_calloc(scene->mesh_count, sizeof *out->corners);
+    if (!out->textures || !out->meshes || !out->posed || !out->shapes || !out->corners)
         return error_memory(error);
     out->mesh_count = scene->mesh_count;
     out->node_count = scene->node_count;
@@ -212,6 +230,10 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
             u->meshes[i] = earlier->meshes[i];
             earlier->meshes[i] = (upload_mesh){.primitives = NULL};
         }
+        if (earlier->corners[i].revision == scene->meshes[i].revision) {
+            u->corners[i] = earlier->corners[i];
+            earlier->corners[i] = (upload_corners){.groups = NULL};
+        }
         if (earlier->shapes[i].revision == scene->meshes[i].revision) {
             u->shapes[i] = earlier->shapes[i];
             earlier->shapes[i] = (upload_shape){.vertices = NULL};
@@ -252,6 +274,16 @@ static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
     mem_free(meshes);
 }
 
+static void release_corners(upload *u)
+{
+    for (size_t i = 0; i < u->mesh_count && u->corners; i++) {
+        for (size_t k = 0; u->corners[i].groups && k < u->corners[i].count; k++)
+            corner_groups_release(&u->corners[i].groups[k]);
+        mem_free(u->corners[i].groups);
+    }
+    mem_free(u->corners);
+}
+
 void upload_release(upload *u, gpu *g)
 {
     for (size_t i = 0; i < u->piece_count; i++)
@@ -272,6 +304,7 @@ void upload_release(upload *u, gpu *g)
     gpu_buffer_release(g, u->program_buffer);
     upload_solids_release(u, g);
     csg_program_release(&u->program);
+    release_corners(u);
     mem_free(u->shapes);
     mem_free(u->planes);
     mem_free(u->operands);

@@ -21,10 +21,10 @@ static primitive primitive_of(const upload_vertices *v)
 {
     const vertex_arrays *data = v->data;
     primitive            p = {.vertex_count = data->vertex_count,
-                   .index_count = data->index_count,
-                   .positions = v->at_rest ? (vec3 *)(uintptr_t)v->at_rest : (vec3 *)(uintptr_t)data->positions,
-                   .indices = (uint32_t *)(uintptr_t)data->indices,
-                   .bounds = box3_empty()};
+                              .index_count = data->index_count,
+                              .positions = v->at_rest ? (vec3 *)(uintptr_t)v->at_rest : (vec3 *)(uintptr_t)data->positions,
+                              .indices = (uint32_t *)(uintptr_t)data->indices,
+                              .bounds = box3_empty()};
     for (uint32_t i = 0; i < p.vertex_count; i++)
         p.bounds = box3_union(p.bounds, (box3){p.positions[i], p.positions[i]});
     return p;
