@@ -57,8 +57,10 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     }
     if (status == LMN_OK && options->maps)
         status = pose_add_before(&r->pose, time_exposure(look), error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
         r->pose.fit_boxes = r->pose.part_boxes;
+        pose_warn_of_flat(&r->pose, warnings);
+    }
     if (status == LMN_OK && desc->fit_time)
         status = swept_boxes_fit(&r->swept, &r->pose, error);
     if (status != LMN_OK)

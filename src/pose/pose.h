@@ -56,6 +56,9 @@ lmn_status pose_add_before(pose *p, double seconds, lmn_error *error);
  * then one a ghost), and unless all have it, cameras and lights. */
 void pose_hold(pose *p, const pose *held, const bool *moves);
 
+/* Says which parts have no extent because all the joints that they follow have none. */
+void pose_warn_of_flat(const pose *p, warnings *warnings);
+
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
 
