@@ -1,7 +1,7 @@
 /* Parts of which a pose leaves nothing to see. */
 #include "pose/pose.h"
 
-#include <string.h>
+#include <stdio.h>
 
 /* Does a vertex follow some joint that has an extent? */
 static bool is_held(const pose *p, const skin *s, const primitive *q, uint32_t vertex)
@@ -47,9 +47,11 @@ static void warn_of_part(const pose *p, size_t part_index, warnings *warnings)
     if (held)
         return;
     const char *name = scene->nodes[joint].name;
+    char        number[32];
+    snprintf(number, sizeof number, "%d", n->skin + 1);
     warnings_add(warnings, WARNING_BAD_GEOMETRY,
                  "part '%.100s' is flat: the joints of skin '%.100s' that it follows, as '%.100s', have a scale of 0",
-                 scene->parts[part_index].name, s->name ? s->name : "", name ? name : "");
+                 scene->parts[part_index].name, s->name ? s->name : number, name ? name : "");
 }
 
 void pose_warn_of_flat(const pose *p, warnings *warnings)
