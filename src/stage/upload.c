@@ -224,6 +224,10 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
+    for (int i = 0; i < 2 && u->revision == earlier->revision; i++) {
+        u->strokes[i] = earlier->strokes[i]; /* these know their moment, too */
+        earlier->strokes[i] = NULL;
+    }
     take_posed(u, earlier, scene);
     for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
         if (earlier->meshes[i].revision == scene->meshes[i].revision) {
