@@ -41,7 +41,7 @@ lmn_status exposure_find(exposure *out, const plan *p, lmn_error *error)
         return LMN_OK;
     for (size_t i = 0; i < p->figure_count; i++) {
         const technique_use *use = rule_use(p->figures[i].rule, KIND_MOTION);
-        if (!use)
+        if (!use || !use->technique->motion->times)
             continue;
         if (out->technique && !agrees(out, use)) {
             error_set(error, LMN_USAGE, "two rules of the look ask for different motion");

@@ -7,6 +7,7 @@
 #include "finish/finish.h"
 #include "frame/capacity.h"
 #include "light/light.h"
+#include "plan/movers.h"
 #include "plan/refuse.h"
 
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error)
@@ -55,8 +56,11 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
         if (status == LMN_OK && options->held)
             pose_hold(&r->pose, options->held, options->moves);
     }
-    if (status == LMN_OK && options->maps)
-        status = pose_add_before(&r->pose, time_exposure(look), error);
+    int steps = movers_steps(look);
+    if (status == LMN_OK)
+        status = time_check(look, error);
+    if (status == LMN_OK && (options->maps || steps))
+        status = pose_add_past(&r->pose, time_exposure(look), steps ? steps : 1, error);
     if (status == LMN_OK) {
         r->pose.fit_boxes = r->pose.part_boxes;
         pose_warn_of_flat(&r->pose, warnings);
@@ -79,7 +83,8 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
                  r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&
-                 r->up.before_seconds == (r->pose.before ? r->pose.before_seconds : 0);
+                 r->up.past_count == r->pose.past_count &&
+                 (!r->up.past_count || r->up.past_seconds == r->pose.past_seconds);
     if (there && section_equal(&r->up.section, &p->section, scene->part_count + scene->ghost_count))
         return LMN_OK;
     upload earlier = r->up;
@@ -123,6 +128,45 @@ static void warn_of_lights(const lmn_scene *scene, const lmn_look *look, warning
     }
 }
 
+/* The camera now and in the past. */
+static lmn_status place_cameras(session *s, const draw_options *options, warnings *warnings, lmn_error *error)
+{
+    frame      *f = &s->frame;
+    const pose *now = s->plan.pose;
+    lmn_status  status = LMN_OK;
+    if (options->camera)
+        f->camera = *options->camera;
+    else
+        status = camera_place(&f->camera, options->desc, now, s->plan.fit_box, error);
+    if (status != LMN_OK)
+        return status;
+    plan_camera_range(&s->plan, &f->camera, warnings);
+    for (int k = 0; k < now->past_count && status == LMN_OK; k++) {
+        view_camera *past = &f->camera_past[k];
+        *past = f->camera;
+        if (!options->desc->camera || options->camera)
+            continue;
+        status = camera_place(past, options->desc, now->past[k], s->plan.fit_box, error);
+        /* The same depths as now. */
+        camera_set_range(past, f->camera.near, f->camera.far);
+        past->near = f->camera.near;
+        past->far = f->camera.far;
+        past->projection.m[10] = f->camera.projection.m[10];
+        past->projection.m[14] = f->camera.projection.m[14];
+    }
+    return status;
+}
+
+/* What moves on the page is drawn by itself where rules tell of motion so. */
+static lmn_status split_movers(session *s, const draw_options *options, int side, lmn_error *error)
+{
+    enum { REST_PARTS = 4 }; /* of a pixel that is seen: less is no motion */
+    const lmn_draw_desc *desc = options->desc;
+    movers_view          view = {&s->frame.camera, s->frame.camera_past, desc->width * side, desc->height * side,
+                                 (double)side / REST_PARTS};
+    return options->maps || options->surfaces_only ? LMN_OK : plan_split_movers(&s->plan, &view, error);
+}
+
 /* The plan, and on the GPU what it needs. */
 static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side,
                           warnings *warnings, lmn_error *error)
@@ -139,6 +183,10 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
         status = bring_pose(r, scene, look, w, warnings, error);
     if (status == LMN_OK)
         status = plan_create(&s->plan, &r->pose, look, &options, warnings, error);
+    if (status == LMN_OK)
+        status = place_cameras(s, w, warnings, error);
+    if (status == LMN_OK)
+        status = split_movers(s, w, side, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
@@ -164,16 +212,6 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     s->renderer = r;
     gpu_make_current(r->g);
     lmn_status status = prepare(s, scene, look, options, side, warnings, error);
-    if (status == LMN_OK && options->camera)
-        f->camera = *options->camera;
-    else if (status == LMN_OK)
-        status = camera_place(&f->camera, desc, &r->pose, s->plan.fit_box, error);
-    if (status != LMN_OK)
-        return status;
-    plan_camera_range(&s->plan, &f->camera, warnings);
-    f->camera_before = f->camera;
-    if (r->pose.before && desc->camera)
-        status = camera_place(&f->camera_before, desc, r->pose.before, s->plan.fit_box, error);
     if (status != LMN_OK)
         return status;
     r->width = desc->width;

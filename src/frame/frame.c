@@ -50,7 +50,7 @@ static void draw_sprite(frame *f, figure_state *s)
     bool one_by_one =
         !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
     s->filled = true;
-    for (int k = KIND_LAYERS; k < KIND_FINISH; k++) {
+    for (int k = KIND_LAYERS; k < KIND_MOTION; k++) {
         bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
         if (wanted && !(one_by_one && (k == KIND_LINES || k == KIND_COMPOSE)))
             passes_run_kind(f, s, (kind_id)k);
@@ -61,7 +61,7 @@ static void draw_sprite(frame *f, figure_state *s)
         collect_figure(f, s);
 }
 
-static void draw_figure(frame *f, const figure *fig)
+void frame_draw_figure(frame *f, const figure *fig)
 {
     figure_state s;
     if (!figure_open(f, &s, fig))
@@ -90,12 +90,17 @@ static void draw_figures(frame *f)
     const plan *p = f->plan;
     for (size_t i = 0, next; i < p->figure_count; i = next) {
         next = i + 1;
+        if (p->figures[i].mover && !f->mirror) { /* they are the last; in mirrors they are as all others */
+            movers_draw(f, &p->figures[i], p->figure_count - i);
+            return;
+        }
         if (!p->figures[i].layered) {
             if (&p->figures[i] != f->mirror)
-                draw_figure(f, &p->figures[i]);
+                frame_draw_figure(f, &p->figures[i]);
             continue;
         }
-        while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX)
+        while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX &&
+               p->figures[next].mover == p->figures[i].mover)
             next++;
         layered_draw(f, &p->figures[i], (int)(next - i));
     }

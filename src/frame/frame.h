@@ -17,9 +17,9 @@ typedef struct frame {
     const plan          *plan;
     const used_textures *sheet; /* of the plan's sheet */
     view_camera          camera;
-    view_camera          camera_before; /* where velocities are measured: the camera earlier */
-    int                  width, height; /* of the page, supersamples counted */
-    int                  samples;       /* a side */
+    view_camera          camera_past[POSE_PAST_MAX]; /* where it was at the steps of the pose's past */
+    int                  width, height;              /* of the page, supersamples counted */
+    int                  samples;                    /* a side */
     colour               ground;
     uint32_t             seed;
     double               time_s;

@@ -134,6 +134,8 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
 /* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their
  * surfaces are made for one position. */
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
+/* Where the figure's parts were at `steps` steps of the past (1, 2 or 4), their ids and their depth. */
+void raster_moved(frame *f, figure_state *s, int steps);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */
@@ -147,6 +149,13 @@ void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 bool figure_has_marks(const figure *fig);
 /* Those of the figure's surface technique, where its surface is what is seen, over a picture. */
 void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
+
+/* --- frame.c --- */
+void frame_draw_figure(frame *f, const figure *fig);
+
+/* --- movers.c: what moves on the page, each by itself --- */
+/* The last figures of the plan: draws them onto the page by their techniques of motion. */
+void movers_draw(frame *f, const figure *figures, size_t count);
 
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */

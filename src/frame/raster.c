@@ -95,9 +95,14 @@ static void set_material(gpu *g, const material *m, item_textures t, bool layere
 /* What the geometry pass writes and where. */
 typedef struct outputs {
     int normal_depth, id, albedo, shade, rest, velocity; /* attachment, −1 = not */
+    int between[POSE_PAST_MAX - 1]; /* of the steps of the past before the last one, which is the velocity */
 } outputs;
 
-static const outputs no_outputs = {-1, -1, -1, -1, -1, -1};
+#define NO_STEPS                                                                                                       \
+    {                                                                                                                  \
+        -1, -1, -1                                                                                                     \
+    }
+static const outputs no_outputs = {-1, -1, -1, -1, -1, -1, NO_STEPS};
 
 /* One run over the parts. */
 typedef struct raster_job {
@@ -116,6 +121,27 @@ typedef struct raster_job {
     unsigned            node_limit;
 } raster_job;
 
+/* How many steps of the past are written. */
+static int steps_of(const outputs *at)
+{
+    int steps = at->velocity >= 0;
+    for (int k = 0; k < POSE_PAST_MAX - 1; k++)
+        steps += at->between[k] >= 0;
+    return steps;
+}
+
+/* Where an item was at each of them: the last one is the whole past. */
+static void set_past(frame *f, const outputs *at, const draw_item *item)
+{
+    for (int steps = steps_of(at), k = 0; k < steps; k++) {
+        int which = (k + 1) * f->up->past_count / steps - 1;
+        if (item->is_solid)
+            view_set_past_of_eye(f->g, k + 1, &f->camera_past[which], &item->past[which], &f->camera, &item->world);
+        else
+            view_set_past(f->g, k + 1, &f->camera_past[which], &item->past[which]);
+    }
+}
+
 static void declare_outputs(text *prelude, const raster_job *job)
 {
     const struct {
@@ -126,10 +152,15 @@ static void declare_outputs(text *prelude, const raster_job *job)
                 {"ALBEDO", job->at.albedo},
                 {"SHADE", job->at.shade},
                 {"REST", job->at.rest},
-                {"VELOCITY", job->at.velocity}};
+                {"VELOCITY", job->at.velocity},
+                {"PAST_1", job->at.between[0]},
+                {"PAST_2", job->at.between[1]},
+                {"PAST_3", job->at.between[2]}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].at >= 0)
             text_append(prelude, "#define AT_%s %d\n", rows[i].name, rows[i].at);
+    if (job->at.velocity >= 0)
+        text_append(prelude, "#define PAST_STEPS %d\n", steps_of(&job->at));
     if (job->at.shade < 0 && !job->stack)
         text_append(prelude, "#define DEFERRED\n");
     if (job->stack)
@@ -213,7 +244,7 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, has_before, ready;
+    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, has_past, ready;
     uint32_t            triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
@@ -284,11 +315,10 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
-    bool before = job->at.velocity >= 0 && gpu_mesh_has_before(item->mesh);
+    bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
-        field == last->has_field && patches == last->has_patches && rest == last->has_rest &&
-        before == last->has_before)
+        field == last->has_field && patches == last->has_patches && rest == last->has_rest && past == last->has_past)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -299,8 +329,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                 field && !patches ? "#define HAS_FIELD\n" : "");
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
-    if (before)
-        text_append(&prelude, "#define HAS_BEFORE\n");
+    if (past)
+        text_append(&prelude, "#define HAS_PAST\n");
     if (wants_light_map(job, s, item))
         text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));
@@ -318,7 +348,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                            .has_field = field,
                            .has_patches = patches,
                            .has_rest = rest,
-                           .has_before = before,
+                           .has_past = past,
                            .ready = true,
                            .triangles = last->triangles};
 }
@@ -430,7 +460,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     view_set_transform(f->g, &f->camera, &item->world);
     frame_set_rest(f, item->part_index);
     if (job->at.velocity >= 0)
-        view_set_before(f->g, &f->camera_before, &item->before);
+        set_past(f, &job->at, item);
     set_ids(f, job, s, item, last->triangles);
     if (job->enlarge > 0) /* in clip space at distance 1: two are the picture's height */
         gpu_set_float(f->g, "u_enlarge", 2 * job->enlarge / (float)f->height / (float)f->camera.projection.m[5]);
@@ -463,6 +493,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
     frame_set_rest(f, item->part_index);
+    set_past(f, &job->at, item);
     set_ids(f, job, s, item, 0);
     int box[1][4];
     camera_pixels(&f->camera, f->up->pose->part_boxes[item->part_index], f->width, f->height, 2, box[0]);
@@ -600,6 +631,21 @@ void raster_figure(frame *f, figure_state *s)
     watch_stop(&f->profile, w, "", "geometry");
 }
 
+void raster_moved(frame *f, figure_state *s, int steps)
+{
+    static const target between[] = {TARGET_PAST_1, TARGET_PAST_2, TARGET_PAST_3};
+    stopwatch           w = watch_start(&f->profile);
+    gpu_pass            pass = {0};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    outputs o = open_outputs(f, CHANNEL_ID | CHANNEL_VELOCITY, s->targets, &pass, s->far);
+    for (int k = 0; k < steps - 1; k++)
+        o.between[k] = add_output(f, s->targets, &pass, between[k], s->far);
+    if (!gpu_failed(f->g))
+        draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
+    watch_stop(&f->profile, w, "motion", "velocity");
+}
+
 void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
 {
     gpu_pass     pass = {.clear = true, .colour_count = 1};
@@ -615,7 +661,8 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
         draw_parts(&wide, &pass,
-                   &(raster_job){.state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1, -1}, .enlarge = pixels});
+                   &(raster_job){
+                       .state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1, -1, NO_STEPS}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -671,7 +718,7 @@ void raster_direct(frame *f, figure_state *s)
     stopwatch w = watch_start(&f->profile);
     gpu_pass  pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1, -1}});
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1, -1, NO_STEPS}});
     watch_stop(&f->profile, w, "", "geometry");
 }
 
@@ -684,7 +731,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
     draw_parts(f, &onto,
                &(raster_job){.state = s,
                              .solids = &s->solids,
-                             .at = {-1, -1, -1, 0, -1, -1},
+                             .at = {-1, -1, -1, 0, -1, -1, NO_STEPS},
                              .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 

@@ -261,9 +261,9 @@ bool gpu_mesh_has_rest(const gpu_mesh *m)
     return m && m->has_rest;
 }
 
-bool gpu_mesh_has_before(const gpu_mesh *m)
+bool gpu_mesh_has_past(const gpu_mesh *m)
 {
-    return m && m->has_before;
+    return m && m->has_past;
 }
 
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
@@ -297,8 +297,9 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     add_attribute(m, 8, 4, data->vertex_count, data->patches);
     add_attribute(m, 9, 3, data->vertex_count, data->rest);
     m->has_rest = data->rest != NULL;
-    add_attribute(m, 10, 3, data->vertex_count, data->before);
-    m->has_before = data->before != NULL;
+    for (unsigned k = 0; k < GPU_PAST_MAX; k++)
+        add_attribute(m, 10 + k, 3, data->vertex_count, data->past[k]);
+    m->has_past = data->past[0] != NULL;
     glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
     size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
@@ -321,16 +322,21 @@ bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
 {
     if (g->failed || !m || m->vertex_count != data->vertex_count || m->index_count != data->index_count ||
         m->has_tensors != (data->tensors != NULL) || m->has_rest != (data->rest != NULL) ||
-        m->has_before != (data->before != NULL))
+        m->has_past != (data->past[0] != NULL))
         return false;
+    for (int k = 1; k < GPU_PAST_MAX; k++)
+        if ((m->buffers[10 + k] != 0) != (data->past[k] != NULL))
+            return false;
     const struct {
         int         buffer, components;
         const void *values;
-    } rows[] = {{0, 3, data->positions}, {1, 3, data->normals}, {2, 2, data->uvs[0]},  {3, 2, data->uvs[1]},
-                {4, 4, data->colours},   {5, 1, data->keys},    {6, 6, data->tensors}, {8, 4, data->patches},
-                {9, 3, data->rest},      {10, 3, data->before}};
+    } rows[] = {{0, 3, data->positions}, {1, 3, data->normals}, {2, 2, data->uvs[0]},
+                {3, 2, data->uvs[1]},    {4, 4, data->colours}, {5, 1, data->keys},
+                {6, 6, data->tensors},   {8, 4, data->patches}, {9, 3, data->rest}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         rewrite(m, rows[i].buffer, rows[i].components, rows[i].values);
+    for (int k = 0; k < GPU_PAST_MAX; k++)
+        rewrite(m, 10 + k, 3, data->past[k]);
     if (data->indices) {
         glBindVertexArray(m->array); /* the indices' binding belongs to it */
         glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, (GLsizeiptr)(sizeof(uint32_t) * (size_t)m->index_count),

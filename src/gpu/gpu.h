@@ -113,15 +113,17 @@ size_t       gpu_program_count(const gpu *g);
 
 /* --- meshes --------------------------------------------------------------------------------------------- */
 
+enum { GPU_PAST_MAX = 4 };
+
 /* Vertex data; arrays other than positions may be NULL. Colours are linear, straight alpha. */
 typedef struct gpu_mesh_data {
     uint32_t        vertex_count, index_count;
     const float    *positions, *normals, *uvs[2], *colours;
-    const float    *tensors; /* six numbers a vertex: locations 6 and 7 */
-    const float    *patches; /* four numbers a vertex: location 8 */
-    const float    *rest;    /* positions when nothing has moved: location 9 */
-    const float    *before;  /* positions earlier: location 10 */
-    const uint32_t *keys;    /* a number a vertex; that of a triangle's last corner is the triangle's */
+    const float    *tensors;            /* six numbers a vertex: locations 6 and 7 */
+    const float    *patches;            /* four numbers a vertex: location 8 */
+    const float    *rest;               /* positions when nothing has moved: location 9 */
+    const float    *past[GPU_PAST_MAX]; /* positions earlier: locations 10 and up */
+    const uint32_t *keys;               /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
@@ -132,7 +134,7 @@ bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
 uint32_t gpu_mesh_triangles(const gpu_mesh *m);
 bool     gpu_mesh_has_tensors(const gpu_mesh *m);
 bool     gpu_mesh_has_rest(const gpu_mesh *m);
-bool     gpu_mesh_has_before(const gpu_mesh *m);
+bool     gpu_mesh_has_past(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 
@@ -144,6 +146,8 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
 /* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle
  * must lie inside of what is drawn. */
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
+/* The same drawn as strips of so many vertices, instance by instance: gl_VertexID counts within one. */
+gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 

@@ -36,18 +36,19 @@ struct gpu_program {
     int          uniform_count;
 };
 
-enum { GPU_BUFFERS = 12 };
+enum { GPU_BUFFERS = 15 };
 
 struct gpu_mesh {
     GLuint   array, buffers[GPU_BUFFERS]; /* by attribute, the last for indices */
     uint32_t index_count, vertex_count;
-    bool     has_colours, has_tensors, has_rest, has_before;
+    bool     has_colours, has_tensors, has_rest, has_past;
 };
 
 struct gpu_marks {
     GLuint array, buffers[2]; /* corners, indices; no indices of points */
     size_t count;
     bool   points;
+    int    strip; /* vertices of one; 0: no strips */
 };
 
 /* A framebuffer object for one set of attachments. */

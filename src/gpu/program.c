@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-enum { FILES_MAX = 24, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
+enum { FILES_MAX = 32, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
 
 /* The files a shader was put together from. Drivers refuse their names in #line, and Mesa forgets their numbers in
  * errors about meaning: so a line's number says which file it is in. The file at i begins at line (i + 1) ·

@@ -368,12 +368,12 @@ static void mend_flat_binds(gltf_reader *r, const char *where, skin *s)
     for (size_t i = 0; i < s->joint_count; i++) {
         if (!mat4_is_flat(&s->inverse_binds[i]))
             continue;
-        mat4 world = scene_world_matrix(r->scene, s->joints[i]), inverse;
+        mat4 world = scene_world_matrix(r->scene, s->joints[i]);
         first = flat == 0 ? i : first;
         flat++;
-        if (!is_all_zeros(&s->inverse_binds[i]) || !mat4_invert(&world, &inverse))
+        if (!is_all_zeros(&s->inverse_binds[i]) || mat4_is_flat(&world))
             continue;
-        s->inverse_binds[i] = inverse;
+        s->inverse_binds[i] = mat4_inverse(&world);
         zeros++;
     }
     if (!flat)

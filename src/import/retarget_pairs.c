@@ -208,12 +208,31 @@ static bind_pose *find_binds(const lmn_scene *s)
     return binds;
 }
 
+/* False when the matrix is flat; then *out is all zeros. */
+static bool invert_affine(const mat4 *m, mat4 *out)
+{
+    double c[9], determinant = mat4_cofactors(m, c);
+    bool   good = true;
+    *out = (mat4){{0}};
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            out->m[4 * column + row] = c[3 * row + column] / determinant;
+    for (int row = 0; row < 3; row++)
+        out->m[12 + row] = -(out->m[row] * m->m[12] + out->m[4 + row] * m->m[13] + out->m[8 + row] * m->m[14]);
+    out->m[15] = 1;
+    for (int i = 0; i < 16; i++)
+        good = good && isfinite(out->m[i]);
+    if (!good)
+        *out = (mat4){{0}};
+    return good;
+}
+
 /* The joint's matrix in the world at rest. */
 static mat4 rest_matrix(const lmn_scene *s, const pair *p, const bind_pose *binds)
 {
     const bind_pose *b = &binds[p->skin];
     mat4             bound;
-    if (b->known && mat4_invert(&s->skins[p->skin].inverse_binds[p->joint], &bound))
+    if (b->known && invert_affine(&s->skins[p->skin].inverse_binds[p->joint], &bound))
         return mat4_multiply(&b->mesh, &bound);
     return scene_world_matrix(s, p->model);
 }
@@ -251,7 +270,7 @@ static bool set_rest(pair_list *list, const lmn_scene *s, const bind_pose *binds
         int32_t    parent = s->nodes[p->model].parent;
         const mat4 world = parent == NONE ? mat4_identity() : scene_world_matrix(s, parent);
         set_parent_rest(list, s, p, &world);
-        mat4_invert(&world, &p->from_world);
+        invert_affine(&world, &p->from_world);
     }
     return !work_stopped();
 }

@@ -37,9 +37,7 @@ layout(location = AT_REST) out vec4 out_rest;
 #endif
 #ifdef AT_VELOCITY
 layout(location = AT_VELOCITY) out vec4 out_velocity;
-#ifndef SOLID
-in vec4 v_before;
-#endif
+#include "layer/moved.glsl"
 #endif
 #ifdef AT_SHADE
 #ifdef INTO_LISTS
@@ -173,12 +171,7 @@ void main()
     out_albedo = albedo;
 #endif
 #ifdef AT_VELOCITY
-#ifdef SOLID
-    out_velocity = vec4(0.0);
-#else
-    /* Divided here: positions on the page do not change evenly along a surface. */
-    out_velocity = vec4(v_before.w > 0.0 ? gl_FragCoord.xy - 0.5 * (v_before.xy / v_before.w + 1.0) * u_size : vec2(0.0), 0.0, 1.0);
-#endif
+    write_moved(v_eye);
 #endif
 #ifdef AT_REST
 #ifdef HAS_REST

@@ -20,6 +20,10 @@ layout(location = 9) in vec3 a_rest;
 out vec3 v_rest;
 #endif
 
+#ifdef PAST_STEPS
+#include "layer/past.glsl"
+#endif
+
 #ifdef CUT_FACE
 uniform float u_nearer; /* in clip space */
 #endif
@@ -79,6 +83,9 @@ void main()
     v_rest = a_rest;
 #endif
     gl_Position = u_projection * eye;
+#ifdef PAST_STEPS
+    find_past();
+#endif
 #ifdef UNWRAPPED
 #ifdef HAS_UV1
     gl_Position = vec4(2.0 * a_uv1 - 1.0, 0.0, 1.0);

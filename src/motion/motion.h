@@ -7,6 +7,7 @@
 extern const kind kind_motion;
 
 extern const technique motion_accumulate;
+extern const technique motion_streaks;
 
 /* What all techniques of the kind have first. */
 typedef struct motion_common {

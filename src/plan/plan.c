@@ -179,12 +179,16 @@ static bool is_seen_through(const rule *r)
 
 static void find_opaque_parts(plan *p)
 {
-    for (size_t i = 0; i < p->figure_count; i++)
-        for (size_t part = 0; part < p->part_count && !is_seen_through(p->figures[i].rule); part++)
+    memset(p->opaque, 0, p->part_count * sizeof *p->opaque);
+    p->opaque_count = 0;
+    for (size_t i = 0; i < p->figure_count; i++) {
+        bool hides = !is_seen_through(p->figures[i].rule) && !p->figures[i].mover; /* movers may fade */
+        for (size_t part = 0; part < p->part_count && hides; part++)
             if (p->figures[i].designated[part]) {
                 p->opaque[part] = true;
                 p->opaque_count++;
             }
+    }
 }
 
 static bool has_ghosts_alone(const plan *p, const figure *f)
@@ -208,7 +212,7 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID;
     if (wants_rest(p, f))
         f->channels |= CHANNEL_REST;
-    if (as_sprites && p->pose->before)
+    if (as_sprites && p->pose->past_count)
         f->channels |= CHANNEL_VELOCITY;
 }
 
@@ -235,8 +239,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
                  params_condition(shader->surface->deferred_when, shader->params, shader->param_count, surface->values);
     f->deferred = surface && (f->layering.deferred || later) && !shades_with_geometry(surface);
     /* A perturbed figure looks beside the pixel for what it shows there: it must not find others in front of it. */
-    f->complement =
-        f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count && !perturbed;
+    f->complement = f->layering.complement && r->use_counts[KIND_LINES] > 0 && f->part_count < p->opaque_count &&
+                    !perturbed && !f->mover;
     f->reflects = surface && surface->technique->surface->reflects;
     bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
     f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
@@ -250,13 +254,13 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH;
     if (wants_rest(p, f))
         f->channels |= CHANNEL_REST;
-    if (as_sprites && p->pose->before)
+    if (as_sprites && p->pose->past_count)
         f->channels |= CHANNEL_VELOCITY;
 }
 
 static int figure_rank(const figure *f)
 {
-    return f->direct ? 0 : f->layered ? 3 : f->reflects ? 2 : 1;
+    return f->mover ? 4 : f->direct ? 0 : f->layered ? 3 : f->reflects ? 2 : 1;
 }
 
 /* A stable insertion sort: opaque plain figures first, then mirrors, and last what is seen through. */
@@ -611,6 +615,14 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     return status;
 }
 
+void plan_settle(plan *p, bool as_sprites)
+{
+    find_opaque_parts(p);
+    for (size_t i = 0; i < p->figure_count; i++)
+        settle_figure(&p->figures[i], p, as_sprites);
+    order_figures(p);
+}
+
 static lmn_status plan_figures(plan *p, const plan_options *options, warnings *warnings, lmn_error *error)
 {
     lmn_status status = make_figures(p, options, warnings, error);
@@ -620,10 +632,7 @@ static lmn_status plan_figures(plan *p, const plan_options *options, warnings *w
         status = prepare_layers(p, warnings, error);
     if (status != LMN_OK)
         return status;
-    find_opaque_parts(p);
-    for (size_t i = 0; i < p->figure_count; i++)
-        settle_figure(&p->figures[i], p, options->as_sprites);
-    order_figures(p);
+    plan_settle(p, options->as_sprites);
     return LMN_OK;
 }
 

@@ -25,6 +25,7 @@ typedef struct figure {
     bool                          layered;  /* composed layer by layer */
     bool                          ghostly;  /* of ghosts alone */
     bool                          unmarked; /* marks of its surface are left out */
+    bool                          mover;    /* moves on the page, and is drawn by itself: src/plan/movers.h */
     layering                      layering;
     int                           layer_count; /* layers at most */
     const struct figure_textures *textures;    /* that who draws has made for it */
@@ -52,8 +53,8 @@ typedef struct plan {
     colour  ground; /* of the page */
     rule   *rules; /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
     size_t  rule_count;
-    figure *figures; /* drawn in this order: direct ones, others, mirrors, what is seen through; among these
-                        as their rules. Rules without parts have none */
+    figure *figures; /* drawn in this order: direct ones, others, mirrors, what is seen through, movers; among
+                        these as their rules. Rules without parts have none */
     size_t figure_count;
 } plan;
 
@@ -72,6 +73,9 @@ typedef struct plan_options {
 lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const plan_options *options,
                        warnings *warnings, lmn_error *error);
 void       plan_release(plan *p);
+
+/* Works out again how figures are drawn, and in which order, after they have changed. */
+void plan_settle(plan *p, bool as_sprites);
 
 /* The look's rule that draws a part; NULL: none does. */
 const rule *plan_rule(const plan *p, size_t part_index);

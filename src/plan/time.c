@@ -18,6 +18,23 @@ lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc 
     return status;
 }
 
+lmn_status time_check(const lmn_look *look, lmn_error *error)
+{
+    const motion_common *first = NULL;
+    for (size_t i = 0; i < look->rule_count; i++) {
+        const motion_common *own =
+            look->rules[i].use_counts[KIND_MOTION] ? look->rules[i].uses[KIND_MOTION][0].values : NULL;
+        if (first && own && own->exposure != first->exposure) {
+            error_set(error, LMN_USAGE, "two rules of the look ask for different motion: exposures of %g s and %g s",
+                      (double)first->exposure, (double)own->exposure);
+            error_hint(error, "a picture has one exposure: give them the same motion.exposure");
+            return LMN_USAGE;
+        }
+        first = own ? own : first;
+    }
+    return LMN_OK;
+}
+
 double time_exposure(const lmn_look *look)
 {
     for (size_t i = 0; i < look->rule_count; i++)

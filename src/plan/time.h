@@ -10,6 +10,9 @@
 lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
                        lmn_error *error);
 
+/* Do all of the look's rules for motion have one exposure? Errors: LMN_USAGE. */
+lmn_status time_check(const lmn_look *look, lmn_error *error);
+
 /* How long the shutter is open: as the look's rules for motion say, which agree; else as the kind does. Seconds. */
 double time_exposure(const lmn_look *look);
 

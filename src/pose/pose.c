@@ -209,28 +209,42 @@ lmn_status pose_move(pose *p, const moment *when, lmn_error *error)
     return status;
 }
 
-lmn_status pose_add_before(pose *p, double seconds, lmn_error *error)
+static void release_past(pose *p)
+{
+    for (int i = 0; i < POSE_PAST_MAX; i++) {
+        if (p->past[i])
+            pose_release(p->past[i]);
+        mem_free(p->past[i]);
+        p->past[i] = NULL;
+    }
+    p->past_count = 0;
+}
+
+lmn_status pose_add_past(pose *p, double seconds, int count, lmn_error *error)
 {
     moment when = p->when;
-    if (!p->at_rest || (p->before && p->before_seconds == seconds))
+    double now = when.held ? when.held_seconds : when.seconds, reached = now < seconds ? now : seconds; /* clips
+                                                                                              begin at 0 */
+    lmn_status status = LMN_OK;
+    if (!p->at_rest || (p->past_count == count && p->past_seconds == seconds))
         return LMN_OK;
-    if (p->before)
-        pose_release(p->before);
-    mem_free(p->before);
-    p->before = mem_calloc(1, sizeof *p->before);
-    p->before_seconds = seconds;
-    when.seconds = when.seconds > seconds ? when.seconds - seconds : 0;
-    return p->before ? pose_create(p->before, p->scene, &when, error) : error_memory(error);
+    release_past(p);
+    p->past_seconds = seconds;
+    for (int i = 0; i < count && status == LMN_OK; i++) {
+        p->past[i] = mem_calloc(1, sizeof *p->past[i]);
+        when.seconds = now - reached * (i + 1) / count;
+        status = p->past[i] ? pose_create(p->past[i], p->scene, &when, error) : error_memory(error);
+        p->past_count = i + 1;
+    }
+    return status;
 }
 
 void pose_release(pose *p)
 {
-    struct pose *others[] = {p->at_rest, p->before};
-    for (size_t i = 0; i < 2; i++) {
-        if (others[i])
-            pose_release(others[i]);
-        mem_free(others[i]);
-    }
+    release_past(p);
+    if (p->at_rest)
+        pose_release(p->at_rest);
+    mem_free(p->at_rest);
     release_posed(p);
     mem_free(p->worlds);
     mem_free(p->parts);

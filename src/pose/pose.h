@@ -19,6 +19,8 @@ typedef struct part_pose {
     size_t           primitive_count;
 } part_pose;
 
+enum { POSE_PAST_MAX = 4 };
+
 typedef struct pose {
     const lmn_scene *scene;
     uint64_t         revision; /* of the scene, when it was posed */
@@ -28,16 +30,17 @@ typedef struct pose {
     box3            *part_boxes; /* per part, then per ghost: deformed, world axes */
     const box3      *fit_boxes; /* of the same parts: what pictures are fitted to; `part_boxes`, or lent by who poses */
     size_t           part_count, ghost_count;
-    struct pose     *at_rest;        /* the same scene when nothing has moved; NULL: it is that */
-    struct pose     *before;         /* the same scene earlier, which velocities are measured from; NULL: nobody asks */
-    double           before_seconds; /* by how much */
-    box3             box;            /* of all parts */
-    mat4            *joints;         /* of all parts, which point into it */
-    float           *weights;        /* of nodes whose weights move; parts point into it */
-    posed_vertices  *posed;          /* of all parts' primitives; parts point into it. NULL: nobody asks */
-    size_t           posed_count;
-    camera          *cameras; /* as the scene's, whose names they borrow */
-    light           *lights;
+    struct pose     *at_rest;         /* the same scene when nothing has moved; NULL: it is that */
+    struct pose *past[POSE_PAST_MAX]; /* the same scene earlier, at equal steps: which velocities are measured from */
+    int          past_count;          /* 0: nobody asks */
+    double       past_seconds;        /* how much earlier the last one is */
+    box3         box;                 /* of all parts */
+    mat4        *joints;              /* of all parts, which point into it */
+    float       *weights;             /* of nodes whose weights move; parts point into it */
+    posed_vertices *posed;            /* of all parts' primitives; parts point into it. NULL: nobody asks */
+    size_t          posed_count;
+    camera         *cameras; /* as the scene's, whose names they borrow */
+    light          *lights;
 } pose;
 
 /* The scene at a moment. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY, LMN_FORMAT
@@ -49,8 +52,9 @@ void       pose_release(pose *p);
  * rest that it has. Errors: as above. */
 lmn_status pose_move(pose *p, const moment *when, lmn_error *error);
 
-/* Adds the pose of `seconds` before, or of the clips' begin; of a scene at rest there is none. Errors: LMN_MEMORY. */
-lmn_status pose_add_before(pose *p, double seconds, lmn_error *error);
+/* Adds `count` poses of earlier times, the last of them `seconds` before, none before the clips' begin; of a scene at
+ * rest there are none. Errors: LMN_MEMORY. */
+lmn_status pose_add_past(pose *p, double seconds, int count, lmn_error *error);
 
 /* Brings what does not move back to where it is in another pose of the same scene: parts without `moves` (one a part,
  * then one a ghost), and unless all have it, cameras and lights. */

@@ -325,10 +325,10 @@ vec3 mat4_transform_point(const mat4 *m, vec3 p);
 /* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its
  * determinant. */
 double mat4_cofactors(const mat4 *m, double out[9]);
-/* Of an affine matrix; false when it has none, and *out is all zeros. */
-bool mat4_invert(const mat4 *m, mat4 *out);
 /* Does it send solids to a plane, a line or a point, however large it is? */
-bool   mat4_is_flat(const mat4 *m);
+bool mat4_is_flat(const mat4 *m);
+/* The identity where there is none. */
+mat4   mat4_inverse(const mat4 *m);
 mat4   mat4_from_trs(const double t[3], const double r[4], const double s[3]);
 box3   box3_empty(void);
 bool   box3_is_empty(box3 b);

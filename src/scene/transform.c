@@ -34,24 +34,6 @@ double mat4_cofactors(const mat4 *matrix, double out[9])
     return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
 }
 
-bool mat4_invert(const mat4 *m, mat4 *out)
-{
-    double c[9], determinant = mat4_cofactors(m, c);
-    bool   good = true;
-    *out = (mat4){{0}};
-    for (int column = 0; column < 3; column++)
-        for (int row = 0; row < 3; row++)
-            out->m[4 * column + row] = c[3 * row + column] / determinant;
-    for (int row = 0; row < 3; row++)
-        out->m[12 + row] = -(out->m[row] * m->m[12] + out->m[4 + row] * m->m[13] + out->m[8 + row] * m->m[14]);
-    out->m[15] = 1;
-    for (int i = 0; i < 16; i++)
-        good = good && isfinite(out->m[i]);
-    if (!good)
-        *out = (mat4){{0}};
-    return good;
-}
-
 bool mat4_is_flat(const mat4 *m)
 {
     const double SLIGHT = 1e-12;
@@ -61,6 +43,23 @@ bool mat4_is_flat(const mat4 *m)
         lengths *= sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
     return !(fabs(mat4_cofactors(m, c)) > SLIGHT * lengths);
+}
+
+mat4 mat4_inverse(const mat4 *m)
+{
+    double cofactors[9], determinant = mat4_cofactors(m, cofactors);
+    mat4   out = mat4_identity();
+    if (determinant == 0 || !isfinite(determinant))
+        return out;
+    for (int row = 0; row < 3; row++) {
+        double moved = 0;
+        for (int k = 0; k < 3; k++) {
+            out.m[4 * k + row] = cofactors[3 * row + k] / determinant;
+            moved += out.m[4 * k + row] * m->m[12 + k];
+        }
+        out.m[12 + row] = -moved;
+    }
+    return out;
 }
 
 vec3 mat4_transform_point(const mat4 *m, vec3 p)

@@ -52,6 +52,8 @@ static lmn_status make_of_figure(struct figure_textures *out, made_textures *all
         warn_of_textures(out, surface, p, warnings);
     if (status == LMN_OK)
         status = made_textures_find(all, g, rule_use(fig->rule, KIND_PERTURB), &out->perturb, error);
+    if (status == LMN_OK && fig->mover)
+        status = made_textures_find(all, g, rule_use(fig->rule, KIND_MOTION), &out->motion, error);
     mem_free(plain.values);
     return status;
 }

@@ -7,7 +7,7 @@
 
 /* figure.textures of the plan points at these. */
 struct figure_textures {
-    used_textures  surface, perturb;
+    used_textures  surface, perturb, motion;
     used_textures *by_material; /* those of the surface, one a material of the scene, where these differ; else NULL */
 };
 

@@ -5,20 +5,17 @@
 
 #include "base/memory.h"
 
-static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, const upload_vertices *from,
+static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, upload_vertices *v,
                                  lmn_error *error)
 {
-    upload_vertices v = *from;
-    vec3           *rest_positions =
-        v.at_rest ? upload_rest_positions(u, job->part_index, v.at_rest, v.data->vertex_count) : NULL;
-    lmn_status status = v.at_rest && !rest_positions ? error_memory(error) : LMN_OK;
-    v.rest_positions = rest_positions;
+    vec3 *rest_positions =
+        v->at_rest ? upload_rest_positions(u, job->part_index, v->at_rest, v->now->vertex_count) : NULL;
+    lmn_status status = v->at_rest && !rest_positions ? error_memory(error) : LMN_OK;
+    v->rest_positions = rest_positions;
     if (status == LMN_OK && u->needs.field) {
-        status = upload_with_field(u, g, job, i, &v, error);
+        status = upload_with_field(u, g, job, i, v, error);
     } else if (status == LMN_OK) {
-        gpu_mesh_data with = upload_data_of(v.data);
-        with.rest = (const float *)rest_positions;
-        with.before = (const float *)v.before;
+        gpu_mesh_data with = upload_data_over_time(v);
         job->meshes[i] = upload_mesh_make(g, job, i, &with);
     }
     mem_free(rest_positions);
@@ -42,31 +39,38 @@ static lmn_status find_corners(upload *u, const upload_part_job *job, size_t i, 
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
+    const pose      *at_rest = u->pose->at_rest;
     posed_mesh       now = {.positions = NULL};
-    vec3            *rest = NULL, *before = NULL;
-    bool deforms = u->pose->at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field),
-         timed = deforms && u->pose->before;
+    vec3            *rest = NULL, *past[POSE_PAST_MAX] = {NULL};
+    bool deforms = at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field);
     corner_groups *kept = NULL;
     lmn_status     status = deforms && !p->normals ? find_corners(u, job, i, &kept, error) : LMN_OK;
     if (status == LMN_OK)
         status = posed_make_keeping(&now, p, u->crease_angle, job->pose, kept, error);
     if (status == LMN_OK && moved)
-        rest = posed_positions(p, &u->pose->at_rest->parts[job->part_index], &now.split);
-    if (status == LMN_OK && timed)
-        before = posed_positions(p, &u->pose->before->parts[job->part_index], &now.split);
-    if (status == LMN_OK && ((moved && !rest) || (timed && !before)))
+        rest = posed_positions(p, &at_rest->parts[job->part_index], &now.split);
+    if (status == LMN_OK && moved && !rest)
         status = error_memory(error);
+    for (int k = 0; k < u->past_count && deforms && status == LMN_OK; k++) {
+        past[k] = posed_positions(p, &u->pose->past[k]->parts[job->part_index], &now.split);
+        status = past[k] ? LMN_OK : error_memory(error);
+    }
+    upload_vertices v = {.now = &now.data, .at_rest = rest};
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        v.past[k] = past[k];
     if (status == LMN_OK)
-        status = write_vertices(u, g, job, i, &(upload_vertices){&now.data, rest, before, NULL}, error);
+        status = write_vertices(u, g, job, i, &v, error);
     posed_release(&now);
     mem_free(rest);
-    mem_free(before);
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        mem_free(past[k]);
     return status;
 }
 
-mat4 upload_before(const upload *u, size_t part_index, size_t instance)
+void upload_set_past(const upload *u, draw_item *item, size_t instance)
 {
-    return pose_instance(u->pose->before ? u->pose->before : u->pose, part_index, instance);
+    for (int k = 0; k < u->past_count; k++)
+        item->past[k] = pose_instance(u->pose->past[k], item->part_index, instance);
 }
 
 static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, const mat4 *world, lmn_error *error)
@@ -82,7 +86,7 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);
     item.world = *world;
-    item.before = upload_before(u, job->part_index, job->instance);
+    upload_set_past(u, &item, job->instance);
     u->triangles += p->index_count / 3;
     if (status == LMN_OK && !upload_add_item(u, &item))
         status = error_memory(error);
@@ -159,7 +163,8 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->needs = desc->needs;
     out->pose = pose;
     out->when = pose->when;
-    out->before_seconds = pose->before ? pose->before_seconds : 0;
+    out->past_count = pose->past_count;
+    out->past_seconds = pose->past_count ? pose->past_seconds : 0;
     out->has_removed = desc->removed;
     out->part_count = scene->part_count + (desc->removed ? scene->ghost_count : 0);
     out->texture_count = scene->image_count * 2;
@@ -197,7 +202,8 @@ static void release_mesh(upload_mesh *m, gpu *g)
 /* What is deformed still holds at the same moment; at another one its buffers serve. */
 static void take_posed(upload *u, upload *earlier, const lmn_scene *scene)
 {
-    bool same = moment_equal(&u->when, &earlier->when) && u->before_seconds == earlier->before_seconds;
+    bool same = moment_equal(&u->when, &earlier->when) && u->past_seconds == earlier->past_seconds &&
+                u->past_count == earlier->past_count;
     for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
         upload_mesh *from = &earlier->posed[i], *to = &u->posed[i];
         int32_t      m = scene->nodes[i].mesh;

@@ -65,7 +65,7 @@ typedef struct upload_shape {
 typedef struct draw_item {
     gpu_mesh *mesh, *lapped; /* lapped: NULL: there is none */
     float     patch_radius;
-    mat4      world, before; /* before: where it was earlier, when somebody asks */
+    mat4      world, past[POSE_PAST_MAX]; /* past: where it was earlier, as many as the pose has */
     uint32_t  part_id, surface_id;
     size_t    part_index;
     int32_t   material;
@@ -84,13 +84,14 @@ typedef struct upload {
     double          crease_angle;       /* radians */
     mesh_needs      needs;              /* of all techniques */
     section         section;
-    size_t          open_parts;     /* some of whose sections are not closed */
-    double          extent;         /* of the scene as it is posed */
-    const pose     *pose;           /* that it was made of; lent */
-    moment          when;           /* of that one, as it was then */
-    double          before_seconds; /* of its pose before; 0: there was none */
-    size_t          part_count;     /* with the ghosts when the look asks for them */
-    bool            has_removed;    /* it does */
+    size_t          open_parts;   /* some of whose sections are not closed */
+    double          extent;       /* of the scene as it is posed */
+    const pose     *pose;         /* that it was made of; lent */
+    moment          when;         /* of that one, as it was then */
+    double          past_seconds; /* how much earlier its last pose of the past is; 0: there was none */
+    int             past_count;
+    size_t          part_count;  /* with the ghosts when the look asks for them */
+    bool            has_removed; /* it does */
     draw_item      *items;
     size_t          item_count, item_capacity;
     gpu_mesh      **pieces; /* what sections left */

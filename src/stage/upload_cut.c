@@ -153,7 +153,7 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
                               .indices = indices};
         draw_item     item = upload_item(job, i);
         item.world = *world;
-        item.before = upload_before(u, job->part_index, job->instance);
+        upload_set_past(u, &item, job->instance);
         status = upload_add_piece(u, g, &item.mesh, &data, error);
         u->triangles += count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
@@ -187,7 +187,7 @@ static lmn_status add_cap(upload *u, gpu *g, upload_part_job *job, const cut_cap
                           .indices = indices};
     draw_item     item = upload_item(job, cap->primitive);
     item.world = *world;
-    item.before = upload_before(u, job->part_index, job->instance);
+    upload_set_past(u, &item, job->instance);
     item.is_cut = true;
     item.nearer = job->nearer;
     item.has_uvs = item.has_colours = false;

@@ -19,7 +19,7 @@ float upload_patch_radius(const upload *u, box3 b)
 /* As fields and patches are made of: of vertices as they are drawn, or where they are at rest. It borrows. */
 static primitive primitive_of(const upload_vertices *v)
 {
-    const vertex_arrays *data = v->data;
+    const vertex_arrays *data = v->now;
     primitive            p = {.vertex_count = data->vertex_count,
                               .index_count = data->index_count,
                               .positions = v->at_rest ? (vec3 *)(uintptr_t)v->at_rest : (vec3 *)(uintptr_t)data->positions,
@@ -164,19 +164,17 @@ lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job
     lapped_mesh     patches = {0};
     lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
     float(*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
-    if (status == LMN_OK && (!tensors || (v->at_rest && !carry_tensors(tensors, &p, v->data))))
+    if (status == LMN_OK && (!tensors || (v->at_rest && !carry_tensors(tensors, &p, v->now))))
         status = error_memory(error);
     if (status == LMN_OK) {
-        gpu_mesh_data with = upload_data_of(v->data);
+        gpu_mesh_data with = upload_data_over_time(v);
         with.tensors = (const float *)tensors;
-        with.rest = (const float *)v->rest_positions;
-        with.before = (const float *)v->before;
         job->meshes[primitive_index] = upload_mesh_make(g, job, primitive_index, &with);
     }
     if (status == LMN_OK && u->needs.patch > 0) {
         status = lapped_make(&patches, &p, &field, (double)upload_patch_radius(u, p.bounds), PATCH_SEED, error);
         if (status == LMN_OK)
-            status = upload_lapped_mesh(g, &job->lapped[primitive_index], &patches, v->data, error);
+            status = upload_lapped_mesh(g, &job->lapped[primitive_index], &patches, v->now, error);
     }
     mem_free(tensors);
     lapped_release(&patches);

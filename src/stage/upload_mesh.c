@@ -16,6 +16,15 @@ gpu_mesh_data upload_data_of(const vertex_arrays *from)
                            .indices = from->indices};
 }
 
+gpu_mesh_data upload_data_over_time(const upload_vertices *v)
+{
+    gpu_mesh_data data = upload_data_of(v->now);
+    data.rest = (const float *)v->rest_positions;
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        data.past[k] = (const float *)v->past[k];
+    return data;
+}
+
 gpu_mesh *upload_mesh_make(gpu *g, const upload_part_job *job, size_t primitive_index, const gpu_mesh_data *data)
 {
     gpu_mesh    **former = job->former ? &job->former[primitive_index] : NULL;

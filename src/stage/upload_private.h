@@ -21,8 +21,18 @@ typedef struct upload_part_job {
 } upload_part_job;
 
 /* --- upload.c --- */
-/* Where an instance was earlier; where it is when nobody asks. */
-mat4 upload_before(const upload *u, size_t part_index, size_t instance);
+/* Where an instance was earlier: item->past. */
+void upload_set_past(const upload *u, draw_item *item, size_t instance);
+
+/* The vertices of a primitive at several times. */
+typedef struct upload_vertices {
+    const vertex_arrays *now;
+    const vec3          *at_rest;             /* the same vertices; NULL: nobody asks, or it is that */
+    const vec3          *past[POSE_PAST_MAX]; /* likewise; as many as there are */
+    const vec3          *rest_positions;      /* of at_rest, in its part's frame */
+} upload_vertices;
+/* What a mesh is made of, with all its times. */
+gpu_mesh_data upload_data_over_time(const upload_vertices *v);
 
 /* --- upload_mesh.c --- */
 gpu_mesh_data upload_data_of(const vertex_arrays *from);
@@ -34,13 +44,6 @@ bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
-/* A primitive's vertices, and the same ones elsewhere. */
-typedef struct upload_vertices {
-    const vertex_arrays *data;
-    const vec3          *at_rest, *before; /* when nothing has moved, and earlier; NULL: nobody asks */
-    const vec3          *rest_positions;   /* those at rest, in their part's frame */
-} upload_vertices;
-
 /* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else that
  * one stays NULL). What is deformed bends as it does at rest, moved along. */
 lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job, size_t primitive_index,

@@ -430,6 +430,7 @@ static lmn_status add_items(upload *u, size_t part_index, size_t solid_index, co
     lmn_status    status = add_planes(u, s) ? LMN_OK : error_memory(error);
     for (size_t k = 0; k < count && status == LMN_OK; k++) {
         item.world = worlds[k];
+        upload_set_past(u, &item, k);
         item.first_operand = (uint32_t)u->program.operand_count;
         item.reach = reach_of(s, &item.world);
         status = add_program(u, s, part_index, error);

@@ -22,13 +22,27 @@ void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world)
     gpu_set_mat3(g, "u_normal_matrix", normal);
 }
 
-void view_set_before(gpu *g, const view_camera *camera, const mat4 *world)
+static void set_past(gpu *g, int step, const mat4 *full)
 {
-    mat4  both = mat4_multiply(&camera->view, world), full = mat4_multiply(&camera->projection, &both);
-    float out[16];
+    const char *const names[] = {"u_past_1", "u_past_2", "u_past_3", "u_past_4"};
+    float             out[16];
     for (int i = 0; i < 16; i++)
-        out[i] = (float)full.m[i];
-    gpu_set_mat4(g, "u_before", out);
+        out[i] = (float)full->m[i];
+    gpu_set_mat4(g, names[step - 1], out);
+}
+
+void view_set_past(gpu *g, int step, const view_camera *then, const mat4 *past)
+{
+    mat4 both = mat4_multiply(&then->view, past), full = mat4_multiply(&then->projection, &both);
+    set_past(g, step, &full);
+}
+
+void view_set_past_of_eye(gpu *g, int step, const view_camera *then, const mat4 *past, const view_camera *now,
+                          const mat4 *world)
+{
+    mat4 seen = mat4_multiply(&now->view, world), back = mat4_inverse(&seen), both = mat4_multiply(&then->view, past);
+    mat4 full = mat4_multiply(&then->projection, &both), whole = mat4_multiply(&full, &back);
+    set_past(g, step, &whole);
 }
 
 void view_set_projection(gpu *g, const view_camera *camera)

@@ -9,8 +9,11 @@
 /* u_model_view, in double precision first, and u_normal_matrix: its inverse transpose, up to a positive scale. */
 void view_set_transform(gpu *g, const view_camera *camera, const mat4 *world);
 /* u_projection. */
-/* From an item's axes to clip space as it was earlier. */
-void view_set_before(gpu *g, const view_camera *camera, const mat4 *world);
+/* u_past_STEP: to clip space as it was at a step of the past, from 1 on. Of meshes from their axes; of what has no
+ * vertices from the eye's, where `now` sees it in `world`. */
+void view_set_past(gpu *g, int step, const view_camera *then, const mat4 *past);
+void view_set_past_of_eye(gpu *g, int step, const view_camera *then, const mat4 *past, const view_camera *now,
+                          const mat4 *world);
 void view_set_projection(gpu *g, const view_camera *camera);
 /* From eye space to the world, measured from `origin`: columns. */
 void view_world_from_eye(const view_camera *camera, const double origin[3], double out[16]);

@@ -40,4 +40,7 @@ uniform float u_empty;        /* eye depth where nothing is drawn */
 uniform mat4  u_model_view;
 uniform mat3  u_normal_matrix;
 uniform mat4  u_projection;
-uniform mat4  u_before;       /* to clip space, as it was earlier */
+uniform mat4  u_past_1;       /* to clip space, as it was earlier: from the geometry's axes, or without geometry from the eye's */
+uniform mat4  u_past_2;
+uniform mat4  u_past_3;
+uniform mat4  u_past_4;

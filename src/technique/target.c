@@ -8,6 +8,10 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_SHADE] = {"t_shade", TEXEL_RGBA16F, .owner = OWNER_LAYER, .filtered = true},
     [TARGET_REST] = {"t_rest_position", TEXEL_RGBA32F, .owner = OWNER_LAYER},
     [TARGET_VELOCITY] = {"t_velocity", TEXEL_RGBA32F, .owner = OWNER_LAYER},
+    /* The same at steps of the past between now and then, where techniques of motion read several. */
+    [TARGET_PAST_1] = {"t_past_1", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
+    [TARGET_PAST_2] = {"t_past_2", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
+    [TARGET_PAST_3] = {"t_past_3", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
     [TARGET_DEPTH] = {"t_depth", TEXEL_DEPTH32F, .owner = OWNER_LAYER},
 
     /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this
@@ -36,6 +40,12 @@ const target_row target_rows[TARGET_COUNT] = {
     /* The directions strokes lie on the page as s · (cos 2θ, sin 2θ), θ from the x axis, s how sure; a: 1 where there
      * is a surface. */
     [TARGET_DIRECTION] = {"t_direction", TEXEL_RGBA16F, SCALE_APART, OWNER_FIGURE, .filtered = true},
+
+    /* A mover as its rule draws it, alone: colour, premultiplied, and depth. And the depth of all that does not move,
+     * and of what was drawn before. */
+    [TARGET_MOVER] = {"t_mover", TEXEL_RGBA16F, .owner = OWNER_FIGURE, .filtered = true},
+    [TARGET_MOVER_DEPTH] = {"t_mover_depth", TEXEL_DEPTH32F, .owner = OWNER_FIGURE},
+    [TARGET_SCENE_DEPTH] = {"t_scene_depth", TEXEL_DEPTH32F, .owner = OWNER_FRAME},
 
     /* What the layers so far add up to, front to back; alpha is what still shows through. */
     [TARGET_LAYERS] = {"t_layers", TEXEL_RGBA16F, .owner = OWNER_LAYERS, .empty = {0, 0, 0, 1}},

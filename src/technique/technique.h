@@ -16,7 +16,7 @@ typedef enum channel {
     CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
     CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour, linear, premultiplied */
     CHANNEL_REST = 1 << 4,         /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
-    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; 0, 1 */
+    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; window depth before; 1 */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
@@ -32,6 +32,21 @@ typedef struct pass_pixels {
     float          scale; /* pixels of the picture to one that is seen: more than 1 with several samples */
     bool           perspective;
 } pass_pixels;
+
+/* Where strips are needed. */
+typedef struct strip_view {
+    int      width, height, box[4]; /* of the page, and of the object on it, pixels */
+    uint32_t seed;
+    double   time_s;
+} strip_view;
+
+/* Strips of triangles that a pass draws instead of the screen: one a record. */
+typedef struct strip_source {
+    const char *vertex;                  /* path below src/ */
+    int (*vertices)(const void *values); /* of one */
+    /* Records of four floats, attribute 0 of all its vertices; free with mem_free. NULL when memory is gone. */
+    float *(*make)(size_t *count, const void *values, const strip_view *view);
+} strip_source;
 
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
 typedef struct pass {
@@ -49,9 +64,11 @@ typedef struct pass {
     /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of
      * the figure's line techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
     bool (*process)(const pass_pixels *in, void *out, const void *values);
-    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
-    int         repeat;  /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
-    const char *when;    /* condition on the technique's parameters; NULL: always */
+    bool strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
+    const strip_source *strips; /* these instead of the screen, one over the other; into a picture of depth the nearest
+                                   (DEPTH_ALONE) */
+    int         repeat;         /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    const char *when;           /* condition on the technique's parameters; NULL: always */
     bool prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded
                       with its geometry */
     bool stylised; /* left out in maps, which show what was detected */
@@ -131,10 +148,12 @@ typedef struct surface_row {
     void (*as_marks)(void *values); /* changes values so that one pen can draw its marks, all alike; NULL: they are */
 } surface_row;
 
-/* What tells of motion by pictures of several times. */
+/* What tells of motion: by whole pictures of several times, or by passes over what moves (TARGET_MOVER). */
 typedef struct motion_row {
-    int (*times)(const void *values);                /* how many */
+    int (*times)(const void *values);                /* pictures: how many; NULL: none */
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
+    int (*steps)(
+        const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
 } motion_row;
 
 /* What a line technique is. */
