@@ -141,9 +141,10 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        f->camera_past[k] = f->camera;
     for (int k = 0; k < now->past_count && status == LMN_OK; k++) {
         view_camera *past = &f->camera_past[k];
-        *past = f->camera;
         if (!options->desc->camera || options->camera)
             continue;
         status = camera_place(past, options->desc, now->past[k], s->plan.fit_box, error);

@@ -134,8 +134,8 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
 /* The depth of its own parts' faces that look away, moved outwards across the page. Solids have none: their
  * surfaces are made for one position. */
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
-/* Where the figure's parts were at `steps` steps of the past (1, 2 or 4), their ids and their depth. */
-void raster_moved(frame *f, figure_state *s, int steps);
+/* Where the figure's parts were at `steps` steps of the past (1, 2 or 4), and their depth; with more channels. */
+void raster_moved(frame *f, figure_state *s, int steps, unsigned channels);
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */

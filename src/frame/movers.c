@@ -82,7 +82,7 @@ static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
     const technique_use *use = rule_use(fig->rule, KIND_MOTION);
     find_pixels(f, &s);
     draw_alone(f, &s);
-    raster_moved(f, &s, use->technique->motion->steps(use->values));
+    raster_moved(f, &s, use->technique->motion->steps(use->values), use->technique->motion->moved);
     s.geometry = s.targets[TARGET_NORMAL_DEPTH];
     s.targets[TARGET_SCENE_DEPTH] = page.page_depth;
     if (layer) {

@@ -109,6 +109,7 @@ static void draw_strips(frame *f, const figure_state *s, const pass *p, const te
     gpu_marks *strips =
         count ? gpu_marks_create_strips(f->g, 1, records, count, p->strips->vertices(use->values)) : NULL;
     mem_free(records);
+    gpu_settle(f->g);
     gpu_draw_marks(f->g, strips);
     gpu_marks_destroy(f->g, &strips);
 }

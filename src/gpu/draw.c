@@ -256,6 +256,12 @@ bool gpu_mesh_has_tensors(const gpu_mesh *m)
     return m && m->has_tensors;
 }
 
+void gpu_settle(gpu *g)
+{
+    if (g->capabilities.software && !g->failed)
+        gpu_finish(g);
+}
+
 bool gpu_mesh_has_rest(const gpu_mesh *m)
 {
     return m && m->has_rest;

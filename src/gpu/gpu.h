@@ -206,6 +206,9 @@ typedef struct gpu_state {
 } gpu_state;
 /* Selects program and state for what follows; textures of the last program are forgotten. */
 void gpu_use(gpu *g, gpu_program *p, gpu_state state);
+/* Before a draw whose vertex shader reads what was drawn before: software drivers run it at once, while the pictures
+ * may still be in the making. */
+void gpu_settle(gpu *g);
 /* Changes which faces are left out; all else stays. */
 void gpu_cull_faces(gpu *g, gpu_cull cull);
 /* Uniforms of the program in use; names that it does not have are ignored. */

@@ -3,21 +3,27 @@
 #include "motion/mover.glsl"
 layout(location = 0) out vec4 out_0;
 
+#ifdef WITH_FADE
 float faded(ivec2 pixel)
 {
     float speed = length(velocity_near(pixel).xy);
     float fast = u_fade_full > u_fade_begin ? clamp((speed - u_fade_begin) / (u_fade_full - u_fade_begin), 0.0, 1.0) : float(speed > u_fade_begin);
     return 1.0 - u_fade * fast;
 }
+#endif
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float scene = texelFetch(t_scene_depth, pixel, 0).r;
     vec4 object = texelFetch(t_mover, pixel, 0), strokes = texelFetch(t_streaks, pixel, 0);
+    if (max(object.a, strokes.a) <= 0.0)
+        discard;
+    float scene = texelFetch(t_scene_depth, pixel, 0).r;
     float object_depth = mover_depth_at(pixel), strokes_depth = texelFetch(t_streaks_depth, pixel, 0).r;
-    if (object.a > 0.0)
-        object *= object_depth > scene ? 0.0 : faded(pixel);
+#ifdef WITH_FADE
+    object *= faded(pixel);
+#endif
+    object *= object_depth > scene ? 0.0 : 1.0;
 #if PLACE == 0
     bool over = strokes_depth <= object_depth;
 #else

@@ -64,7 +64,7 @@ static const param params[] = {
                     .doc = "Shorter strokes are not drawn; a stroke that is drawn is at least as long as it is wide."),
     PARAM_FLOAT_ROW(streaks_values, full, .def = 24, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
                     .along = true, .doc = "Strokes of this length are whole; between, they fade in."),
-    PARAM_FLOAT_ROW(streaks_values, fade, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+    PARAM_FLOAT_ROW(streaks_values, fade, .toggles = true, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far what moves fast fades behind its strokes; 0 leaves the object whole and adds speed "
                            "lines alone."),
     PARAM_FLOAT_ROW(streaks_values, fade_begin, .def = 12, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
@@ -101,7 +101,7 @@ static int steps_of(const void *values)
 /* Two vertices at each end of each of its segments. */
 static int strip_vertices(const void *values)
 {
-    static const int segments[] = {1, 8, 16};
+    static const int segments[] = {1, 5, 16};
     return 2 * (segments[((const streaks_values *)values)->path] + 1);
 }
 

@@ -11,7 +11,7 @@ flat out vec4 v_colour;      /* straight alpha */
 #if PATH == 0
 const int STEPS = 1, SEGMENTS = 1;
 #elif PATH == 1
-const int STEPS = 2, SEGMENTS = 8;
+const int STEPS = 2, SEGMENTS = 5;
 #else
 const int STEPS = 4, SEGMENTS = 16;
 #endif
@@ -55,18 +55,16 @@ vec3 place_at(float t)
 #endif
 }
 
-/* Length from the parameter t0 to 1, and up to `segment`. */
-vec2 lengths_from(float t0, int segment)
+float length_of_path()
 {
-    vec2 sums = vec2(0.0);
-    vec2 last = place_at(t0).xy;
-    for (int i = 1; i <= SEGMENTS; i++) {
-        vec2 next = place_at(mix(t0, 1.0, float(i) / float(SEGMENTS))).xy;
-        float part = distance(last, next);
-        sums += vec2(part, i <= segment ? part : 0.0);
+    float sum = 0.0;
+    vec2 last = places[0].xy;
+    for (int i = 1; i <= 2 * STEPS; i++) {
+        vec2 next = place_at(float(i) / float(2 * STEPS)).xy;
+        sum += distance(last, next);
         last = next;
     }
-    return sums;
+    return sum;
 }
 
 /* The object's colour around the seed, so that hatching does not make striped strokes. */
@@ -76,6 +74,9 @@ vec4 colour_around(ivec2 pixel, float radius)
     return u_colour;
 #else
     vec4 sum = texelFetch(t_mover, pixel, 0);
+#ifdef DEPTH_ALONE
+    return sum;
+#endif
     for (int i = 0; i < 4; i++) {
         vec2 beside = vec2(float(i & 1) - 0.5, float(i >> 1) - 0.5) * radius;
         sum += texelFetch(t_mover, clamp(pixel + ivec2(round(beside)), ivec2(0), ivec2(u_size) - 1), 0);
@@ -84,59 +85,53 @@ vec4 colour_around(ivec2 pixel, float radius)
 #endif
 }
 
-void hide()
+/* Is the seed left out, so that what is farther has as many more strokes as they are smaller? */
+bool left_out(float smaller)
 {
-    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    v_stroke = v_direction = vec2(0.0);
-    v_shape = vec3(0.0);
-    v_colour = vec4(0.0);
+    float least = u_perspective > 0.5 ? u_depths.x / u_depths.y : 1.0;
+    return u_scaled && a_seed.z * smaller * smaller > least * least;
+}
+
+float smaller_at(float window)
+{
+    return u_scaled && u_perspective > 0.5 ? min(u_depths.x / eye_depth_at(window), 1.0) : 1.0;
+}
+
+float fading_of(float whole)
+{
+    return u_full > u_begin ? clamp((whole - u_begin) / (u_full - u_begin), 0.0, 1.0) : float(whole >= u_begin);
 }
 
 void main()
 {
     ivec2 pixel = clamp(ivec2(floor(a_seed.xy)), ivec2(0), ivec2(u_size) - 1);
-    if (texelFetch(t_velocity, pixel, 0).w <= 0.0) {
-        hide();
-        return;
-    }
+    bool there = texelFetch(t_velocity, pixel, 0).w > 0.0;
     find_places(pixel);
-    float half_width = 0.5 * u_width;
-    if (u_scaled) {
-        float eye = eye_depth_at(places[0].z), far = max(u_far, eye), near = u_near > 0.0 ? u_near : far;
-        float farther = u_perspective > 0.5 ? near / eye : 1.0;
-        float most = u_perspective > 0.5 ? near / far : 1.0;
-        half_width *= farther;
-        if (a_seed.z > (most * most) / (farther * farther)) { /* as many more as they are smaller */
-            hide();
-            return;
-        }
-    }
+    float smaller = smaller_at(places[0].z), half_width = 0.5 * u_width * smaller;
     int segment = gl_VertexID >> 1;
-    float whole = lengths_from(0.0, 0).x;
-    float fading = u_full > u_begin ? clamp((whole - u_begin) / (u_full - u_begin), 0.0, 1.0) : float(whole >= u_begin);
+    float whole = max(length_of_path(), 1e-3);
     vec4 colour = colour_around(pixel, half_width);
-    if (fading * colour.a * u_opacity < 0.001 || whole < 0.01) {
-        hide();
-        return;
-    }
+    float opacity = fading_of(whole) * u_opacity * min(colour.a, 1.0);
     float shift = min(max(u_shift_width * half_width, u_shift_length * whole) / whole, 1.0);
-    vec2 lengths = lengths_from(shift, segment);
-    float t = mix(shift, 1.0, float(segment) / float(SEGMENTS));
+    /* Where it was between is taken for evenly spaced along the stroke: its ends are exact. */
+    float part = float(segment) / float(SEGMENTS), t = mix(shift, 1.0, part), length_left = whole * (1.0 - shift);
+    vec2 lengths = length_left * vec2(1.0, part);
     vec3 here = place_at(t);
     vec2 tangent = place_at(max(t - 0.01, 0.0)).xy - place_at(min(t + 0.01, 1.0)).xy;
     tangent = length(tangent) > 1e-5 ? normalize(tangent) : normalize(places[0].xy - places[STEPS].xy + vec2(1e-6, 0.0));
     /* As long as it is wide at least: its caps fill it. */
     float missing = max(2.0 * half_width - lengths.x, 0.0);
-    here.xy -= tangent * (missing * float(segment) / float(SEGMENTS));
-    lengths += missing * vec2(1.0, float(segment) / float(SEGMENTS));
+    here.xy -= tangent * (missing * part);
+    lengths += missing * vec2(1.0, part);
     float side = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
     float across = side * (half_width * (1.0 - u_taper * lengths.y / max(lengths.x, 1e-6)) + 0.5);
     here.xy += across * vec2(-tangent.y, tangent.x);
     /* A little nearer: along flat sides strokes lie in the very surface. */
     float nearer = window_depth_of(max(eye_depth_at(clamp(here.z, 0.0, 1.0)) - 0.002 * (u_far - u_near), 1e-6));
-    gl_Position = vec4(2.0 * here.xy / u_size - 1.0, 2.0 * clamp(nearer, 0.0, 1.0) - 1.0, 1.0);
+    bool drawn = there && opacity >= 0.001 && whole > 0.01 && !left_out(smaller);
+    gl_Position = drawn ? vec4(2.0 * here.xy / u_size - 1.0, 2.0 * clamp(nearer, 0.0, 1.0) - 1.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     v_stroke = vec2(lengths.y, across);
     v_direction = tangent;
-    v_shape = vec3(lengths.x, half_width, fading * u_opacity * min(colour.a, 1.0));
+    v_shape = vec3(lengths.x, half_width, opacity);
     v_colour = vec4(colour.rgb, 1.0);
 }

@@ -154,6 +154,7 @@ typedef struct motion_row {
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
+    unsigned moved;          /* channels that they read of what moves, besides its velocity */
 } motion_row;
 
 /* What a line technique is. */
