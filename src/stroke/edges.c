@@ -435,9 +435,9 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
 /* Calls for all edges, once their buckets are sorted; false ends it. */
 typedef bool (*edge_visit)(builder *b, uint32_t low, const half_edge *group, size_t count);
 
-static bool each_edge(builder *b, edge_visit visit)
+static bool each_edge_of(builder *b, uint32_t first, uint32_t end_vertex, edge_visit visit)
 {
-    for (uint32_t v = 0; v < b->mesh->vertex_count; v++) {
+    for (uint32_t v = first; v < end_vertex; v++) {
         const half_edge *bucket = b->halves + b->starts[v];
         size_t           size = b->starts[v + 1] - b->starts[v];
         for (size_t begin = 0, end = 0; begin < size; begin = end) {
@@ -448,6 +448,11 @@ static bool each_edge(builder *b, edge_visit visit)
         }
     }
     return true;
+}
+
+static bool each_edge(builder *b, edge_visit visit)
+{
+    return each_edge_of(b, 0, b->mesh->vertex_count, visit);
 }
 
 static bool take_edges(builder *b)
@@ -665,11 +670,61 @@ static bool copy_topology(edge_mesh *out, const edge_topology *t)
            (out->said || !from->said);
 }
 
+/* Edges of a range of vertices: of a copy of the mesh, which has no other ones. */
+typedef struct edge_range {
+    edge_mesh mesh;
+    builder   b;
+    uint32_t  first, end;
+    bool      done;
+} edge_range;
+
+static void take_ranges(size_t begin, size_t end, void *user)
+{
+    edge_range *ranges = user;
+    for (size_t i = begin; i < end; i++)
+        ranges[i].done = each_edge_of(&ranges[i].b, ranges[i].first, ranges[i].end, take_edge);
+}
+
+/* Ranges side by side, put one behind the other: as each_edge has them. */
+static bool take_edges_again(builder *b)
+{
+    enum { RANGES = 16, LEAST = 4096 };
+    edge_range ranges[RANGES];
+    edge_mesh *m = b->mesh;
+    uint32_t   count = m->vertex_count < LEAST ? 1 : RANGES;
+    bool       done = true;
+    for (uint32_t i = 0; i < count; i++) {
+        edge_range *r = &ranges[i];
+        *r = (edge_range){.mesh = *m,
+                          .b = *b,
+                          .first = (uint32_t)((uint64_t)m->vertex_count * i / count),
+                          .end = (uint32_t)((uint64_t)m->vertex_count * (i + 1) / count)};
+        r->b.mesh = &r->mesh;
+    }
+    threads_for(count, 1, take_ranges, ranges);
+    size_t edges = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        edges += ranges[i].mesh.edge_count;
+        done = done && ranges[i].done;
+    }
+    m->edges = done ? mem_alloc(edges * sizeof *m->edges) : NULL;
+    for (uint32_t i = 0; i < count; i++) {
+        const edge_mesh *from = &ranges[i].mesh;
+        if (m->edges && from->edge_count)
+            memcpy(m->edges + m->edge_count, from->edges, from->edge_count * sizeof *m->edges);
+        m->edge_count += from->edge_count;
+        m->all_edges += from->all_edges;
+        m->loose_edges += from->loose_edges;
+        mem_free(ranges[i].mesh.edges);
+    }
+    return m->edges;
+}
+
 /* Edges, with faces and half-edges that are there. */
 static lmn_status judge_again(builder *b, const edge_topology *t, lmn_error *error)
 {
     edge_mesh *m = b->mesh;
-    double    *volumes = each_edge(b, take_edge) ? measure_pieces(m) : NULL;
+    double    *volumes = take_edges_again(b) ? measure_pieces(m) : NULL;
     if (!volumes)
         return error_memory(error);
     memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
