@@ -128,10 +128,13 @@ typedef struct gpu_mesh_data {
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
-uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
-bool      gpu_mesh_has_tensors(const gpu_mesh *m);
-bool      gpu_mesh_has_rest(const gpu_mesh *m);
-bool      gpu_mesh_has_past(const gpu_mesh *m);
+/* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
+ * mesh has as many vertices and indices, and tensors and positions at rest and earlier just where these are given. */
+bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+uint32_t gpu_mesh_triangles(const gpu_mesh *m);
+bool     gpu_mesh_has_tensors(const gpu_mesh *m);
+bool     gpu_mesh_has_rest(const gpu_mesh *m);
+bool     gpu_mesh_has_past(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 
