@@ -31,16 +31,14 @@ static int tear_down(void **state)
 }
 
 /* A picture of the scene's own camera; `motion`: of its only rule, JSON, or NULL. Row 0 at the bottom. */
-static void draw_rules(const char *path, const char *rules, double seconds, uint8_t (*out)[4])
+static void draw_look(const char *path, const char *json, double seconds, uint8_t (*out)[4])
 {
-    char          json[2048];
     lmn_scene    *s = NULL;
     lmn_look     *look = NULL;
     lmn_drawing  *d = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     DO(lmn_scene_create(&s, &error));
     DO(lmn_scene_add_file(s, path, NULL, &error));
-    snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
     desc.camera = "eye";
@@ -53,6 +51,13 @@ static void draw_rules(const char *path, const char *rules, double seconds, uint
     lmn_drawing_destroy(&d);
     lmn_look_destroy(&look);
     lmn_scene_destroy(&s);
+}
+
+static void draw_rules(const char *path, const char *rules, double seconds, uint8_t (*out)[4])
+{
+    char json[2048];
+    snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
+    draw_look(path, json, seconds, out);
 }
 
 static void draw(const char *path, const char *motion, double seconds, uint8_t (*out)[4])
@@ -703,6 +708,38 @@ static void strokes_begin_where_they_may(void **state)
     assert_int_equal(masked, 0);
 }
 
+/* Strokes throw shadows onto what lies below, when they are told to and the look has shadows; row 76e. */
+static void strokes_throw_shadows(void **state)
+{
+    static uint8_t pictures[4][PIXELS][4];
+    moving_scene   m;
+    const double   half[3] = {0.25, 0.25, 0.25}, floor[3] = {0.95, 0.95, 0.02};
+    int            darker = 0, same = 0;
+    (void)state;
+    moving_scene_begin(&m);
+    m.lit = true;
+    moving_scene_box(&m, 0, 0, -0.6, floor, grey);
+    int box = moving_scene_box(&m, 0, 0.2, 0, half, red);
+    moving_scene_keys(&m, box, "translation", 2, (double[]){1, 2}, (double[]){-0.5, 0.2, 0, 0.5, 0.2, 0});
+    moving_scene_camera(&m, 0, 0, 10, true, 1);
+    moving_scene_write(&m, path_of("shadow"));
+    for (int k = 0; k < 4; k++) {
+        char json[600];
+        snprintf(json, sizeof json,
+                 "{\"version\": 1, \"scene\": {\"shadows\": %s}, \"rules\": [{\"surface\": \"lit\", \"motion\": "
+                 "{\"technique\": \"streaks\", \"exposure\": 1, \"width\": 9, \"count\": 3000, \"shadows\": %s}}]}",
+                 k < 2 ? "true" : "false", k % 2 ? "true" : "false");
+        draw_look(path_of("shadow"), json, 2, pictures[k]);
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        darker += pictures[1][i][1] < pictures[0][i][1] - 20;
+        same += memcmp(pictures[2][i], pictures[3][i], 4) == 0;
+    }
+    printf("%d pixels lie in the shadow of strokes\n", darker);
+    assert_true(darker > 1000);
+    assert_int_equal(same, PIXELS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest_nothing_changes),
@@ -718,6 +755,7 @@ int main(void)
                                        cmocka_unit_test(scaled_strokes_shrink_with_distance),
                                        cmocka_unit_test(rules_have_their_own),
                                        cmocka_unit_test(a_zoom_leaves_no_band),
-                                       cmocka_unit_test(strokes_begin_where_they_may)};
+                                       cmocka_unit_test(strokes_begin_where_they_may),
+                                       cmocka_unit_test(strokes_throw_shadows)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
