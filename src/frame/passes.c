@@ -43,6 +43,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (params->made)
         used_textures_declare(&prelude, params->made, &s->figure->textures->motion);
+    if (s->figure->layered)
+        text_append(&prelude, "#define SEEN_THROUGH\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (params->perturbed && goes_onto_page(p)) {
