@@ -8,7 +8,8 @@
 typedef struct bench_values {
     word_list     looks;
     option_size   size;
-    option_number repeat;
+    option_number repeat, time;
+    const char   *clip;
     option_vector eye, target;
     int           view, up_axis;
     bool          orthographic, json, quiet;
@@ -28,6 +29,8 @@ static const option options[] = {
     {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
     {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
+    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "The model as it is then.", 0, 1e6},
+    {"clip", 0, OPTION_TEXT, AT(clip), "NAME|N", "Which animation. Default: the first of each file."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
@@ -61,6 +64,9 @@ static void place_view(const bench_values *v, const lmn_scene *scene, lmn_draw_d
     if (v->view >= 0)
         desc->view = (lmn_view)v->view;
     desc->orthographic = v->orthographic;
+    desc->clip = v->clip;
+    desc->time_given = v->time.given;
+    desc->time_s = v->time.given ? v->time.value : 0;
     desc->eye_given = v->eye.given;
     for (int i = 0; i < 3; i++) {
         desc->eye[i] = v->eye.value[i];

@@ -459,7 +459,7 @@ static void fill_desc(session *s)
     d.time_s = v->time.given ? v->time.value : d.time_s;
     d.time_given = v->time.given || v->frames;
     d.clip = v->clip;
-    d.fit_time = v->fit_time || v->frames;
+    d.fit_time = v->fit_time;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
     d.samples = v->samples.given ? (int)v->samples.value : d.samples;
     d.background = v->background;
@@ -472,11 +472,12 @@ static void fill_desc(session *s)
     s->desc = d;
 }
 
-/* Target and up that were not given come from the scene. */
-static void place_eye(session *s, const lmn_scene *scene)
+/* Target and up that were not given come from the scene; frames are fitted to its clips if it has any. */
+static void place_view(session *s, const lmn_scene *scene)
 {
     const draw_values *v = s->values;
     lmn_scene_info     info = lmn_scene_info_of(scene);
+    s->desc.fit_time = v->fit_time || (v->frames && info.animations > 0);
     s->desc.eye_given = v->eye.given;
     for (int i = 0; i < 3; i++) {
         s->desc.eye[i] = v->eye.value[i];
@@ -758,7 +759,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
         if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
             status = message_error(&error);
     }
-    place_eye(s, scene);
+    place_view(s, scene);
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];

@@ -74,6 +74,19 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     return LMN_OK;
 }
 
+/* Layers of what moves and of what rests do not interleave. */
+static void warn_of_movers(const session *s, warnings *warnings)
+{
+    bool moves = false, rests = false;
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        moves = moves || (s->plan.figures[i].mover && s->plan.figures[i].layered);
+        rests = rests || (!s->plan.figures[i].mover && s->plan.figures[i].layered);
+    }
+    if (moves && rests)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion: of what is seen through, moving parts are drawn over those that rest");
+}
+
 static void warn_of_marks(const session *s, warnings *warnings)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
@@ -96,6 +109,7 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     const upload       *up = &r->up;
     bool                cut_out = false, spares = false;
     warn_of_marks(s, &d->warnings);
+    warn_of_movers(s, &d->warnings);
     for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
         if (rule_use(&look->rules[i], KIND_MOTION))
             warnings_add(&d->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");

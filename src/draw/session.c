@@ -47,10 +47,12 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     const lmn_draw_desc *desc = options->desc;
     moment               when;
     lmn_status           status = time_moment(&when, scene, desc, warnings, error);
-    bool posed = r->pose.scene == scene && r->pose.revision == scene->revision && moment_equal(&r->pose.when, &when);
+    bool                 same = r->pose.scene == scene && r->pose.revision == scene->revision,
+         posed = same && moment_equal(&r->pose.when, &when);
     if (status == LMN_OK && !posed) {
-        pose_release(&r->pose);
-        status = pose_create(&r->pose, scene, &when, error);
+        if (!same)
+            pose_release(&r->pose);
+        status = same ? pose_move(&r->pose, &when, error) : pose_create(&r->pose, scene, &when, error);
         if (status == LMN_OK && options->held)
             pose_hold(&r->pose, options->held, options->moves);
     }
@@ -59,8 +61,10 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
         status = time_check(look, error);
     if (status == LMN_OK && (options->maps || steps))
         status = pose_add_past(&r->pose, time_exposure(look), steps ? steps : 1, error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
         r->pose.fit_boxes = r->pose.part_boxes;
+        pose_warn_of_flat(&r->pose, warnings);
+    }
     if (status == LMN_OK && desc->fit_time)
         status = swept_boxes_fit(&r->swept, &r->pose, error);
     if (status != LMN_OK)
@@ -137,9 +141,10 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        f->camera_past[k] = f->camera;
     for (int k = 0; k < now->past_count && status == LMN_OK; k++) {
         view_camera *past = &f->camera_past[k];
-        *past = f->camera;
         if (!options->desc->camera || options->camera)
             continue;
         status = camera_place(past, options->desc, now->past[k], s->plan.fit_box, error);

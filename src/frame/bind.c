@@ -99,12 +99,38 @@ static float forward_of(const frame *f, const figure *fig)
     return fig->ghostly && range > 0 ? (float)fmin(2e-6 + 5e-7 * far / range, 1e-3) : 0;
 }
 
+static void find_depths(const frame *f, double *nearest, double *farthest)
+{
+    *nearest = INFINITY;
+    *farthest = -INFINITY;
+    camera_depth_range(&f->camera, f->plan->box, nearest, farthest);
+}
+
+static void set_depths(frame *f)
+{
+    double nearest, farthest;
+    find_depths(f, &nearest, &farthest);
+    gpu_set_vec2(f->g, "u_depths", (float)fmax(nearest, f->camera.near), (float)fmax(farthest, f->camera.near));
+}
+
+/* Where it has a position instead: from above, as by the studio's. */
+static void set_first_light(frame *f)
+{
+    double towards[3] = {-0.35, 0.7, 0.62};
+    lights_first_direction(f, towards);
+    double length = sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
+    float  out[3];
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(towards[k] / fmax(length, 1e-30));
+    gpu_set_vec3(f->g, "u_first_light", out);
+}
+
 /* The range is that of all that is drawn, so that figures agree. */
 static void set_focus(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    double              nearest = INFINITY, farthest = -INFINITY;
-    camera_depth_range(&f->camera, f->plan->box, &nearest, &farthest);
+    double              nearest, farthest;
+    find_depths(f, &nearest, &farthest);
     double range = fmax(farthest - nearest, 1e-30);
     gpu_set_vec4(f->g, "u_focus",
                  (float[]){v->focus, (float)(nearest + (double)v->focus_at * range),
@@ -169,6 +195,10 @@ void frame_set_common(frame *f, const figure_state *s)
         set_focus(f);
     if (gpu_has_uniform(g, "u_anchor"))
         set_anchor(f);
+    if (gpu_has_uniform(g, "u_first_light"))
+        set_first_light(f);
+    if (gpu_has_uniform(g, "u_depths"))
+        set_depths(f);
 }
 
 /* The normal matrix in single precision is scaled so that it neither over- nor underflows. */

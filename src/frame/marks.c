@@ -81,6 +81,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
         mark_style style = {.diameter = 1};
         surface_mark_style(&style, surface);
+        gpu_settle(f->g);
         gpu_draw_first_marks(f->g, set->marks, count_to_draw(f, s->figure, set, &style));
     }
     if (!p) {

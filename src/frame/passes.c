@@ -18,7 +18,7 @@ typedef struct pass_params {
 
 static bool goes_onto_page(const pass *p)
 {
-    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS;
+    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || p->writes == TARGET_SHADOW;
 }
 
 /* Is the pass drawn in the tiles that have something, instead of everywhere? */
@@ -43,6 +43,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (params->made)
         used_textures_declare(&prelude, params->made, &s->figure->textures->motion);
+    if (s->figure->layered)
+        text_append(&prelude, "#define SEEN_THROUGH\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (params->perturbed && goes_onto_page(p)) {
@@ -53,7 +55,10 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
         snprintf(path, sizeof path, "%s+%s", params->perturbed->positions, p->shader);
     }
-    return program_of(f, GPU_FLOOR, in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert", path, &prelude);
+    if (p->strips && target_row_of(s, p->writes)->format == TEXEL_DEPTH32F)
+        text_append(&prelude, "#define DEPTH_ALONE\n%s", p->writes == TARGET_SHADOW ? "#define INTO_SHADOW\n" : "");
+    const char *vertex = p->strips ? p->strips->vertex : in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert";
+    return program_of(f, GPU_FLOOR, vertex, path, &prelude);
 }
 
 /* The value of a parameter that is a length. */
@@ -78,6 +83,8 @@ static void run_geometry(frame *f, figure_state *s, const pass *p, kind_id id, c
 /* Where a pass draws: the figure's pixels, or the coarse texels over them. */
 static void set_scissor(const frame *f, const figure_state *s, const pass *p, gpu_pass *out)
 {
+    if (p->writes == TARGET_SHADOW) /* another eye's */
+        return;
     memcpy(out->scissor, p->writes == TARGET_LAYERS ? s->band : s->pixels, sizeof out->scissor);
     memcpy(out->clear_box, s->around, sizeof out->clear_box);
     target_scale scale = target_row_of(s, p->writes)->scale;
@@ -95,29 +102,60 @@ static void set_scissor(const frame *f, const figure_state *s, const pass *p, gp
     }
 }
 
+static void draw_strips(frame *f, const figure_state *s, const pass *p, const technique_use *use)
+{
+    strip_view view = {f->width, f->height, {0}, f->seed, f->time_s};
+    size_t     count = 0;
+    camera_pixels(&f->camera, s->figure->box, f->width, f->height, 0, view.box);
+    float *records = p->strips->make(&count, use->values, &view);
+    if (!records)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    gpu_marks *strips =
+        count ? gpu_marks_create_strips(f->g, 1, records, count, p->strips->vertices(use->values)) : NULL;
+    mem_free(records);
+    gpu_settle(f->g);
+    gpu_draw_marks(f->g, strips);
+    gpu_marks_destroy(f->g, &strips);
+}
+
+/* What a pass draws into. */
+static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written)
+{
+    bool     page = goes_onto_page(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
+    gpu_pass target = {.colours = {depth_alone ? NULL : written},
+                       .colour_count = !depth_alone,
+                       .depth = depth_alone ? written
+                                : p->depth  ? f->page_depth
+                                            : NULL,
+                       .clear = !page,
+                       .keep_depth = !depth_alone};
+    target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
+    return target;
+}
+
+static gpu_state pass_state(const figure_state *s, const pass *p)
+{
+    bool depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
+    return (gpu_state){.depth_test = p->depth || depth_alone,
+                       .depth_write = depth_alone || (p->depth && p->writes != TARGET_LAYERS),
+                       .blend = p->blend == BLEND_OVER    ? GPU_BLEND_OVER
+                                : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
+                                : p->blend == BLEND_MIN   ? GPU_BLEND_MIN
+                                                          : GPU_BLEND_NONE};
+}
+
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group,
                      int iteration)
 {
     stopwatch    w = watch_start(&f->profile);
     gpu_program *program = pass_program(f, s, p, params);
-    bool         layers = p->writes == TARGET_LAYERS, page = goes_onto_page(p); /* pictures that are added to */
+    bool         page = goes_onto_page(p); /* pictures that are added to */
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     if (program && written && !gpu_failed(f->g)) {
-        gpu_pass target = {.colours = {written},
-                           .colour_count = 1,
-                           .depth = p->depth ? f->page_depth : NULL,
-                           .clear = !page,
-                           .keep_depth = true};
-        target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
+        gpu_pass target = pass_target(f, s, p, written);
         set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
-        gpu_use(f->g, program,
-                (gpu_state){.depth_test = p->depth,
-                            .depth_write = p->depth && !layers,
-                            .blend = p->blend == BLEND_OVER    ? GPU_BLEND_OVER
-                                     : p->blend == BLEND_UNDER ? GPU_BLEND_UNDER
-                                     : p->blend == BLEND_MIN   ? GPU_BLEND_MIN
-                                                               : GPU_BLEND_NONE});
+        gpu_use(f->g, program, pass_state(s, p));
         frame_set_common(f, s);
         gpu_set_int(f->g, "u_iteration", iteration);
         for (size_t i = 0; i < params->count; i++)
@@ -130,7 +168,9 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         if (params->made)
             used_textures_set(f->g, params->made, &s->figure->textures->motion);
         gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
-        if (in_boxes(s, p))
+        if (p->strips)
+            draw_strips(f, s, p, params->made);
+        else if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
         else
             gpu_draw_screen(f->g);
@@ -240,7 +280,7 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
 /* Does the pass belong to this run: before the figure is shaded, or after? */
 static bool is_due(const frame *f, const pass *p, bool before)
 {
-    return p->prepares == before && !(p->stylised && f->maps);
+    return p->prepares == before && !(p->stylised && f->maps) && p->writes != TARGET_SHADOW;
 }
 
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
@@ -280,6 +320,18 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
                 run_pass(f, s, p, &params, kinds[id]->name, k);
     }
     forget_own(f, s);
+}
+
+void passes_throw_shadows(frame *f, figure_state *s)
+{
+    const technique_use *use = rule_use(s->figure->rule, KIND_MOTION);
+    pass_params          params = {
+                 .sets = {use_own_set(KIND_MOTION, use), use_common_set(KIND_MOTION, use)}, .count = 2, .made = use};
+    s->own_targets = use->technique->targets;
+    for (size_t i = 0; i < use->technique->pass_count; i++)
+        if (use->technique->passes[i].writes == TARGET_SHADOW &&
+            pass_applies(KIND_MOTION, &use->technique->passes[i], use))
+            run_pass(f, s, &use->technique->passes[i], &params, kinds[KIND_MOTION]->name, 0);
 }
 
 /* Takes what a line technique found into the picture before the next one looks. */

@@ -645,14 +645,14 @@ void raster_figure(frame *f, figure_state *s)
     watch_stop(&f->profile, w, "", "geometry");
 }
 
-void raster_moved(frame *f, figure_state *s, int steps)
+void raster_moved(frame *f, figure_state *s, int steps, unsigned channels)
 {
     static const target between[] = {TARGET_PAST_1, TARGET_PAST_2, TARGET_PAST_3};
     stopwatch           w = watch_start(&f->profile);
     gpu_pass            pass = {0};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
-    outputs o = open_outputs(f, CHANNEL_ID | CHANNEL_VELOCITY, s->targets, &pass, s->far);
+    outputs o = open_outputs(f, channels | CHANNEL_VELOCITY, s->targets, &pass, s->far);
     for (int k = 0; k < steps - 1; k++)
         o.between[k] = add_output(f, s->targets, &pass, between[k], s->far);
     if (!gpu_failed(f->g))

@@ -10,13 +10,14 @@
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
 
-/* Of parts that may hide the figure's lines: of what is not seen through, for layers of all. NULL after an error. */
+/* Of parts that may hide the figure's lines: of what is not seen through, for layers of all, of movers themselves.
+ * NULL after an error. */
 static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
 {
-    bool *hides = mem_calloc(f->up->part_count, sizeof *hides);
+    bool       *hides = mem_calloc(f->up->part_count, sizeof *hides);
+    const bool *wanted = fig->mover ? fig->designated : fig->layered ? f->plan->selected : f->plan->opaque;
     for (size_t i = 0; hides && i < f->up->part_count; i++)
-        hides[i] =
-            !(f->mirror && f->mirror->designated[i]) && (fig->layered ? f->plan->selected[i] : f->plan->opaque[i]);
+        hides[i] = !(f->mirror && f->mirror->designated[i]) && wanted[i];
     if (!hides)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     stroke_store_options options = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
@@ -156,6 +157,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     gpu_set_vec2(f->g, "u_half_widths", v->common.width / 2, v->common.width * v->style.crease_width / 2);
     gpu_set_int(f->g, "u_wanted", wanted_bits(&v->options));
     gpu_set_int(f->g, "u_inside", !eye_is_outside(f));
+    gpu_settle(f->g);
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             draw_lines_of(f, store, i, v->options.intersections);

@@ -130,10 +130,13 @@ typedef struct gpu_mesh_data {
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
-uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
-bool      gpu_mesh_has_tensors(const gpu_mesh *m);
-bool      gpu_mesh_has_rest(const gpu_mesh *m);
-bool      gpu_mesh_has_past(const gpu_mesh *m);
+/* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
+ * mesh has as many vertices and indices, and tensors and positions at rest and earlier just where these are given. */
+bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+uint32_t gpu_mesh_triangles(const gpu_mesh *m);
+bool     gpu_mesh_has_tensors(const gpu_mesh *m);
+bool     gpu_mesh_has_rest(const gpu_mesh *m);
+bool     gpu_mesh_has_past(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 
@@ -145,6 +148,8 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
 /* The same drawn as points, one vertex a record: gl_PointSize is at most gpu_capabilities.max_point, and the middle
  * must lie inside of what is drawn. */
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
+/* The same drawn as strips of so many vertices, instance by instance: gl_VertexID counts within one. */
+gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 
@@ -203,6 +208,9 @@ typedef struct gpu_state {
 } gpu_state;
 /* Selects program and state for what follows; textures of the last program are forgotten. */
 void gpu_use(gpu *g, gpu_program *p, gpu_state state);
+/* Before a draw whose vertex shader reads what was drawn before: software drivers run it at once, while the pictures
+ * may still be in the making. */
+void gpu_settle(gpu *g);
 /* Changes which faces are left out; all else stays. */
 void gpu_cull_faces(gpu *g, gpu_cull cull);
 /* Uniforms of the program in use; names that it does not have are ignored. */

@@ -48,6 +48,7 @@ struct gpu_marks {
     GLuint array, buffers[2]; /* corners, indices; no indices of points */
     size_t count;
     bool   points;
+    int    strip; /* vertices of one; 0: no strips */
 };
 
 /* A framebuffer object for one set of attachments. */

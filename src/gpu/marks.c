@@ -89,13 +89,27 @@ gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, si
     return m;
 }
 
+gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices)
+{
+    gpu_marks *m = gpu_marks_create_points(g, vectors, records, count);
+    if (!m)
+        return NULL;
+    m->points = false;
+    m->strip = vertices;
+    glBindVertexArray(m->array);
+    for (int i = 0; i < vectors; i++)
+        glVertexAttribDivisor((GLuint)i, 1);
+    glBindVertexArray(0);
+    return m;
+}
+
 void gpu_marks_destroy(gpu *g, gpu_marks **m)
 {
     (void)g;
     if (!*m)
         return;
     glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers((*m)->points ? 1 : 2, (*m)->buffers);
+    glDeleteBuffers((*m)->points || (*m)->strip ? 1 : 2, (*m)->buffers);
     mem_free(*m);
     *m = NULL;
 }
@@ -111,6 +125,12 @@ void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)
         return;
     count = count < m->count ? count : m->count;
     glBindVertexArray(m->array);
+    if (m->strip) {
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, m->strip, (GLsizei)count);
+        pace_drawn(g, (uint32_t)(count * (size_t)m->strip), 0);
+        g->draws++;
+        return;
+    }
     if (!m->points) {
         gpu_draw_indices(g, (uint32_t)(INDICES * count));
         return;

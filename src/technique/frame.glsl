@@ -8,6 +8,8 @@ uniform vec2  u_texel;        /* 1 / u_size */
 uniform float u_perspective;  /* 1, or 0 for parallel rays */
 uniform vec2  u_unproject;    /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
+uniform vec3  u_first_light;  /* towards the first light that has a direction, eye space */
+uniform vec2  u_depths;       /* eye depth of the nearest and the farthest that is drawn */
 uniform vec2  u_anchor;       /* where the middle of the model is on the page, pixels */
 uniform float u_time;         /* seconds */
 

@@ -33,6 +33,21 @@ typedef struct pass_pixels {
     bool           perspective;
 } pass_pixels;
 
+/* Where strips are needed. */
+typedef struct strip_view {
+    int      width, height, box[4]; /* of the page, and of the object on it, pixels */
+    uint32_t seed;
+    double   time_s;
+} strip_view;
+
+/* Strips of triangles that a pass draws instead of the screen: one a record. */
+typedef struct strip_source {
+    const char *vertex;                  /* path below src/ */
+    int (*vertices)(const void *values); /* of one */
+    /* Records of four floats, attribute 0 of all its vertices; free with mem_free. NULL when memory is gone. */
+    float *(*make)(size_t *count, const void *values, const strip_view *view);
+} strip_source;
+
 /* One full-screen pass. Reading what it writes is allowed: the runner gives it a second picture. */
 typedef struct pass {
     const char *name;
@@ -49,9 +64,11 @@ typedef struct pass {
     /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of
      * the figure's line techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
     bool (*process)(const pass_pixels *in, void *out, const void *values);
-    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
-    int         repeat;  /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
-    const char *when;    /* condition on the technique's parameters; NULL: always */
+    bool strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
+    const strip_source *strips; /* these instead of the screen, one over the other; into a picture of depth the nearest
+                                   (DEPTH_ALONE) */
+    int         repeat;         /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    const char *when;           /* condition on the technique's parameters; NULL: always */
     bool prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded
                       with its geometry */
     bool stylised; /* left out in maps, which show what was detected */
@@ -138,7 +155,8 @@ typedef struct motion_row {
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
-    bool stretched;          /* they read TARGET_STRETCHED */
+    unsigned (*moved)(const void *values); /* channels that they read of what moves, besides its velocity; NULL: none */
+    bool stretched;                        /* they read TARGET_STRETCHED */
 } motion_row;
 
 /* What a line technique is. */

@@ -1,0 +1,37 @@
+/* What is left of a mover, and its strokes: of each pixel what is nearer over the other, both only where nothing that stands still hides them. Großmann 2011, sections 6.4.4 and
+ * 6.5.2. */
+#include "motion/mover.glsl"
+layout(location = 0) out vec4 out_0;
+
+#ifdef WITH_FADE
+float faded(ivec2 pixel)
+{
+    float speed = length(velocity_near(pixel).xy);
+    float fast = u_fade_full > u_fade_begin ? clamp((speed - u_fade_begin) / (u_fade_full - u_fade_begin), 0.0, 1.0) : float(speed > u_fade_begin);
+    return 1.0 - u_fade * fast;
+}
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 object = texelFetch(t_mover, pixel, 0), strokes = texelFetch(t_streaks, pixel, 0);
+    if (max(object.a, strokes.a) <= 0.0)
+        discard;
+    float scene = texelFetch(t_scene_depth, pixel, 0).r;
+    float object_depth = mover_depth_at(pixel), strokes_depth = texelFetch(t_streaks_depth, pixel, 0).r;
+#ifdef WITH_FADE
+    object *= faded(pixel);
+#endif
+    object *= object_depth > scene ? 0.0 : 1.0;
+#if PLACE == 0
+    bool over = strokes_depth <= object_depth;
+#else
+    bool over = PLACE == 2;
+#endif
+    vec4 near = over ? strokes : object, far = over ? object : strokes;
+    out_0 = near + far * (1.0 - near.a);
+    if (out_0.a <= 0.0)
+        discard;
+    gl_FragDepth = min(object.a > 0.0 ? object_depth : 1.0, strokes.a > 0.0 ? strokes_depth : 1.0);
+}
