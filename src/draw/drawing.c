@@ -74,6 +74,20 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     return LMN_OK;
 }
 
+/* Their vertices are drawn where they were. */
+static lmn_status refuse_scattered(const refusal *r, const session *s)
+{
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure        *fig = &s->plan.figures[i];
+        const technique_use *motion = rule_use(fig->rule, KIND_MOTION);
+        if (!fig->mover || !motion->technique->motion->of_meshes || !figure_has_solids(&s->plan, fig))
+            continue;
+        return refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'blur' and 'accumulate' blur solids, too",
+                      "motion '%s' is that of meshes: solids have no vertices", motion->technique->name);
+    }
+    return LMN_OK;
+}
+
 /* Layers of what moves and of what rests do not interleave. */
 static void warn_of_movers(const session *s, warnings *warnings)
 {
@@ -155,6 +169,8 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
                         "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
     if (status == LMN_OK)
         status = refuse_strokes(&refusals, s, &r->up);
+    if (status == LMN_OK)
+        status = refuse_scattered(&refusals, s);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;
 }
 

@@ -165,6 +165,9 @@ void movers_draw(frame *f, const figure *figures, size_t count);
 /* Draws what movers throw shadows with beside themselves into f->shadow. */
 void movers_throw_shadows(frame *f);
 
+/* --- scattered.c: a mover at moments of each pixel's own --- */
+void scattered_draw(frame *f, figure_state *s, const pass *p, int samples);
+
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */
 void layered_draw(frame *f, const figure *figures, int count);

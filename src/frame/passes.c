@@ -277,6 +277,14 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
     watch_stop(&f->profile, w, group, p->name);
 }
 
+static void run_scattered(frame *f, figure_state *s, const pass *p, const technique_use *use)
+{
+    const param *samples = kind_find_param(kinds[KIND_MOTION], use->technique, p->scattered);
+    stopwatch    w = watch_start(&f->profile);
+    scattered_draw(f, s, p, *(const int32_t *)param_field(samples, use->values));
+    watch_stop(&f->profile, w, kinds[KIND_MOTION]->name, p->name);
+}
+
 /* Does the pass belong to this run: before the figure is shaded, or after? */
 static bool is_due(const frame *f, const pass *p, bool before)
 {
@@ -311,6 +319,8 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
             continue;
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->scattered)
+            run_scattered(f, s, p, use);
         else if (p->geometry)
             run_geometry(f, s, p, id, use);
         else if (p->process)
