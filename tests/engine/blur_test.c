@@ -560,6 +560,28 @@ static void strokes_lie_along_the_motion(void **state)
     }
 }
 
+/* Another rule's technique that reads four steps of the past changes nothing for one that reads the whole. */
+static void other_rules_steps_change_nothing(void **state)
+{
+    const fixture *f = *state;
+    static uint8_t alone[4 * PIXELS], beside[4 * PIXELS];
+    lmn_draw_desc  desc = LMN_DRAW_DESC_INIT;
+    const char    *rule = "{" PLAIN ", \"motion\": {\"technique\": \"blur\", \"exposure\": 0.1}}";
+    char           rules[512];
+    desc.width = desc.height = SIDE;
+    desc.background = "none";
+    desc.clip = "Run";
+    desc.time_s = 0.4;
+    desc.fit_time = true;
+    draw_with(f->renderer, f->fox, rule, &desc, alone);
+    snprintf(rules, sizeof rules,
+             "%s, {\"select\": \"nothing\", " PLAIN ", \"motion\": {\"technique\": \"streaks\", \"path\": "
+             "\"winding\", \"exposure\": 0.1}}",
+             rule);
+    draw_with(f->renderer, f->fox, rules, &desc, beside);
+    assert_memory_equal(alone, beside, sizeof alone);
+}
+
 /* Of each column, how much is inked. */
 static void inks_of(const uint8_t *pixels, double out[SIDE])
 {
@@ -668,6 +690,7 @@ int main(void)
         cmocka_unit_test(open_surfaces_have_no_holes),
         cmocka_unit_test(cameras_move_everything),
         cmocka_unit_test(strokes_lie_along_the_motion),
+        cmocka_unit_test(other_rules_steps_change_nothing),
         cmocka_unit_test(tone_is_the_coverage),
         cmocka_unit_test(over_leaves_objects_whole),
         cmocka_unit_test(trails_fade_into_the_past),
