@@ -48,7 +48,7 @@ lmn_status streak_texture_check(const char *name, lmn_error *error)
     bool        border;
     if (!name[0] || find_name(name, &fill, &border) || is_picture(name))
         return LMN_OK;
-    error_set(error, LMN_USAGE, "'%.100s' is no texture of streaks", name);
+    error_set(error, LMN_USAGE, "texture is '%.100s'; allowed is a texture of streaks, or a picture", name);
     error_hint(error, "solid, clear, gradient, solid-border, clear-border, gradient-border, or a picture (.png, .jpg, "
                       ".webp) from tail to head");
     return LMN_USAGE;
@@ -139,8 +139,8 @@ lmn_status streak_mask_check(const char *name, lmn_error *error)
 {
     if (!name[0] || strcmp(name, "checker") == 0 || is_picture(name))
         return LMN_OK;
-    error_set(error, LMN_USAGE, "'%.100s' is no mask", name);
-    error_hint(error, "checker, or a picture (.png, .jpg, .webp)");
+    error_set(error, LMN_USAGE, "mask is '%.100s'; allowed is checker, or a picture", name);
+    error_hint(error, "pictures end in .png, .jpg or .webp");
     return LMN_USAGE;
 }
 
