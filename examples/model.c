@@ -150,24 +150,38 @@ static void put_camera_node(FILE *json, const model *m, int index)
             -sin(turn) * sin(tilt), cos(turn) * cos(tilt));
 }
 
-/* Node 0 is the whole, then come the groups, then the parts, then the cameras. Every group has a part. */
+static const char *put_child(FILE *json, const char *before, int node)
+{
+    fprintf(json, "%s%d", before, node);
+    return ",";
+}
+
+/* What is in group `inside` − 1: groups, parts, cameras. In none are groups alone; cameras are roots then. */
+static void put_children(FILE *json, const model *m, int inside)
+{
+    const char *before = ",\"children\":[";
+    for (int k = 0; k < m->group_count; k++)
+        if (m->groups[k].inside == inside)
+            before = put_child(json, before, 1 + k);
+    for (int i = 0; i < m->part_count && inside; i++)
+        if (1 + m->parts[i].group == inside)
+            before = put_child(json, before, 1 + m->group_count + i);
+    for (int i = 0; i < m->camera_count && inside; i++)
+        if (m->cameras[i].inside == inside)
+            before = put_child(json, before, 1 + m->group_count + m->part_count + i);
+    fprintf(json, "]}");
+}
+
+/* Node 0 is the whole, then come the groups, then the parts, then the cameras. Every group has something in it. */
 static void put_nodes(FILE *json, const model *m, const int *mesh_of)
 {
-    fprintf(json, "\"nodes\":[{\"name\":\"%s\",\"children\":[1", m->name);
-    for (int k = 1; k < m->group_count; k++)
-        fprintf(json, ",%d", 1 + k);
-    fprintf(json, "]}");
+    fprintf(json, "\"nodes\":[{\"name\":\"%s\"", m->name);
+    put_children(json, m, 0);
     for (int k = 0; k < m->group_count; k++) {
         fprintf(json, ",{\"name\":\"%s\"", m->groups[k].name);
         put_translation(json, m->groups[k].at, m->units_per_metre);
         put_rotation(json, m->groups[k].quarter_turns);
-        const char *before = ",\"children\":[";
-        for (int i = 0; i < m->part_count; i++)
-            if (m->parts[i].group == k) {
-                fprintf(json, "%s%d", before, 1 + m->group_count + i);
-                before = ",";
-            }
-        fprintf(json, "]}");
+        put_children(json, m, 1 + k);
     }
     for (int i = 0; i < m->part_count; i++) {
         fprintf(json, ",{\"name\":\"%s\",\"mesh\":%d", m->parts[i].name, mesh_of[i]);
@@ -213,7 +227,8 @@ bool model_write(const model *m, const char *path)
             "\"scene\":0,\"scenes\":[{\"nodes\":[0",
             m->generator);
     for (int i = 0; i < m->camera_count; i++)
-        fprintf(json.stream, ",%d", 1 + m->group_count + m->part_count + i);
+        if (!m->cameras[i].inside)
+            fprintf(json.stream, ",%d", 1 + m->group_count + m->part_count + i);
     fprintf(json.stream, "]}],");
     int *mesh_of = put_meshes(&g, m);
     put_nodes(json.stream, m, mesh_of);

@@ -16,6 +16,7 @@ typedef struct model_group {
     const char *name;
     double      at[3];
     int         quarter_turns; /* about +y */
+    int         inside;        /* 1 + the group that it belongs to and moves with; 0: none */
 } model_group;
 
 typedef struct model_part {
@@ -30,6 +31,7 @@ typedef struct model_part {
 typedef struct model_camera {
     const char *name;
     double      at[3], target[3], fov_y; /* degrees; fov_y is the vertical angle */
+    int         inside;                  /* like a group's; `at` and `target` are then that group's */
 } model_camera;
 
 typedef struct glb glb;
