@@ -58,8 +58,8 @@ lmn_status exposure_find(exposure *out, const plan *p, lmn_error *error)
 
 /* The i-th picture of the exposure; the last one is of the time that is drawn. */
 static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r, const lmn_scene *scene,
-                           const lmn_look *look, const draw_options *options, gpu_texture **mean, double part,
-                           lmn_error *error)
+                           const lmn_look *look, const draw_options *options, box3 anchor, gpu_texture **mean,
+                           double part, lmn_error *error)
 {
     lmn_draw_desc desc = *options->desc;
     draw_options  one = *options;
@@ -69,6 +69,7 @@ static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r
     one.desc = &desc;
     lmn_status status = session_open(s, r, scene, look, &one, &said, error);
     if (status == LMN_OK) {
+        s->frame.anchor = anchor;
         s->frame.time_s = options->desc->time_s; /* what boils does so from picture to picture, not within one */
         frame_draw_into_mean(&s->frame, mean, part);
         status = gpu_check(r->g, error);
@@ -93,6 +94,7 @@ lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, co
     lmn_renderer        *r = s->renderer;
     const lmn_scene     *scene = s->plan.scene;
     view_camera          camera = s->frame.camera;
+    box3                 anchor = s->frame.anchor;
     gpu_texture         *mean = NULL;
     draw_options         one = *options;
     pose                 held;
@@ -111,7 +113,7 @@ lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, co
         if (i > 0)
             session_close(s);
         if (status == LMN_OK)
-            status = draw_one(e, i, s, r, scene, look, &one, &mean, sum > 0 ? weight / sum : 1, error);
+            status = draw_one(e, i, s, r, scene, look, &one, anchor, &mean, sum > 0 ? weight / sum : 1, error);
     }
     if (status == LMN_OK) {
         frame_encode_mean(&s->frame, mean, s->out);

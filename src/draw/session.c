@@ -159,13 +159,13 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
 }
 
 /* What moves on the page is drawn by itself where rules tell of motion so. */
-static lmn_status split_movers(session *s, const draw_options *options, int side, lmn_error *error)
+static lmn_status split_movers(session *s, const draw_options *options, int side, warnings *warnings, lmn_error *error)
 {
     enum { REST_PARTS = 4 }; /* of a pixel that is seen: less is no motion */
     const lmn_draw_desc *desc = options->desc;
     movers_view          view = {&s->frame.camera, s->frame.camera_past, desc->width * side, desc->height * side,
                                  (double)side / REST_PARTS};
-    return options->maps || options->surfaces_only ? LMN_OK : plan_split_movers(&s->plan, &view, error);
+    return options->maps || options->surfaces_only ? LMN_OK : plan_split_movers(&s->plan, &view, warnings, error);
 }
 
 /* The plan, and on the GPU what it needs. */
@@ -187,7 +187,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     if (status == LMN_OK)
         status = place_cameras(s, w, warnings, error);
     if (status == LMN_OK)
-        status = split_movers(s, w, side, error);
+        status = split_movers(s, w, side, warnings, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
     if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
@@ -227,6 +227,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->width = desc->width * side;
     f->height = desc->height * side;
     f->ground = s->plan.ground;
+    f->anchor = s->plan.box;
     f->seed = desc->seed;
     f->time_s = desc->time_s;
     if (!options->maps)

@@ -142,7 +142,7 @@ static void set_anchor(frame *f)
 {
     const double *view = f->camera.view.m, *projection = f->camera.projection.m;
     double        middle[3], eye[3];
-    box3_middle(f->plan->box, middle);
+    box3_middle(f->anchor, middle);
     for (int k = 0; k < 3; k++)
         eye[k] = view[k] * middle[0] + view[4 + k] * middle[1] + view[8 + k] * middle[2] + view[12 + k];
     double depth = f->camera.orthographic ? 1 : fmax(-eye[2], f->camera.near);

@@ -21,6 +21,7 @@ typedef struct frame {
     int                  width, height;              /* of the page, supersamples counted */
     int                  samples;                    /* a side */
     colour               ground;
+    box3                 anchor; /* strokes that lie on the page move with its middle */
     uint32_t             seed;
     double               time_s;
     gpu_profile          profile;

@@ -129,23 +129,27 @@ void movers_throw_shadows(frame *f)
     }
 }
 
-/* Puts layers over the page, for each pixel the farthest first. */
-static void put_on_page(frame *f, const mover_layer *layers, int count)
+/* Puts layers over the page, for each pixel the farthest first: their colours, or where they hide what lies behind
+ * them, their depth. */
+static void put_on_page(frame *f, const mover_layer *layers, int count, bool depth)
 {
     stopwatch w = watch_start(&f->profile);
     text      prelude = {0};
     int       box[4] = {0, 0, 0, 0};
-    text_append(&prelude, "#define LAYERS %d\n", count);
+    text_append(&prelude, "#define LAYERS %d\n%s", count, depth ? "#define DEPTH_ALONE\n" : "");
     for (int i = 0; i < count; i++) {
         text_append(&prelude, "uniform sampler2D t_colour_%d, t_depth_%d;\nuniform vec4 u_box_%d;\n", i, i, i);
         camera_widen_pixels(box, layers[i].pixels);
     }
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "motion/together.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
-        gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
+        gpu_pass pass = {
+            .colours = {depth ? NULL : f->page}, .colour_count = !depth, .depth = depth ? f->page_depth : NULL};
         memcpy(pass.scissor, box, sizeof pass.scissor);
         gpu_pass_begin(f->g, &pass);
-        gpu_use(f->g, p, (gpu_state){.depth_test = true, .depth_write = true, .blend = GPU_BLEND_OVER});
+        gpu_use(
+            f->g, p,
+            (gpu_state){.depth_test = depth, .depth_write = depth, .blend = depth ? GPU_BLEND_NONE : GPU_BLEND_OVER});
         for (int i = 0; i < count; i++) {
             char       name[24];
             const int *b = layers[i].pixels;
@@ -161,7 +165,8 @@ static void put_on_page(frame *f, const mover_layer *layers, int count)
     watch_stop(&f->profile, w, "motion", "together");
 }
 
-static void draw_together(frame *f, const figure *const *figures, int count)
+/* `more`: others follow. */
+static void draw_together(frame *f, const figure *const *figures, int count, bool more)
 {
     mover_layer layers[TOGETHER_MAX];
     int         drawn = 0;
@@ -171,7 +176,9 @@ static void draw_together(frame *f, const figure *const *figures, int count)
         drawn += layers[drawn].colour != NULL;
     }
     if (drawn && !gpu_failed(f->g))
-        put_on_page(f, layers, drawn);
+        put_on_page(f, layers, drawn, false);
+    if (drawn && more && !gpu_failed(f->g))
+        put_on_page(f, layers, drawn, true);
     for (int i = 0; i < drawn; i++) {
         gpu_target_release(f->g, layers[i].colour);
         gpu_target_release(f->g, layers[i].depth);
@@ -220,7 +227,7 @@ void movers_draw(frame *f, const figure *figures, size_t count)
         step = (count - i) % TOGETHER_MAX ? (count - i) % TOGETHER_MAX : TOGETHER_MAX;
         for (size_t k = 0; k < step; k++)
             group[k] = order[i + k].figure;
-        draw_together(f, group, (int)step);
+        draw_together(f, group, (int)step, i + step < count);
     }
     mem_free(order);
 }

@@ -52,13 +52,17 @@ void main()
     crossing c = crossing_of(pixel);
     int count = c.depth <= texelFetch(t_scene_depth, pixel, 0).r ? samples_of(c, u_samples) : 0;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < count; i++)
-        sum += mover_ago(c, count > 1 ? (float(i) + 0.5) / float(count) : 0.0);
-    float cover = sum.a / float(max(count, 1));
+    float opacity = 0.0; /* of what crosses: glass covers as much as wood, and is as clear under strokes */
+    for (int i = 0; i < count; i++) {
+        vec4 colour = mover_ago(c, count > 1 ? (float(i) + 0.5) / float(count) : 0.0);
+        sum += colour;
+        opacity = max(opacity, colour.a);
+    }
+    float cover = sum.a / (float(max(count, 1)) * max(opacity, 1e-4));
     vec3 own = sum.rgb / max(sum.a, 1e-4);
     /* What is always covered is whole: strokes close where no tone is as dark. */
     float ink = mix(strokes_of(min(cover, u_tones_facts.w)), 1.0, smoothstep(u_tones_facts.w, 1.0, cover)) * step(1e-3, cover);
-    vec4 colour = vec4(mix(u_ink.rgb, own, u_ink_tint), 1.0) * ink;
+    vec4 colour = vec4(mix(u_ink.rgb, own, u_ink_tint), 1.0) * (ink * opacity);
 #if OVER
     vec4 whole = c.there ? texelFetch(t_mover, pixel, 0) : vec4(0.0);
     colour = whole + (1.0 - whole.a) * colour;

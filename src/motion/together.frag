@@ -1,5 +1,7 @@
 /* Movers over the page: of each pixel the farthest first. Großmann 2011, section 6.5.2, for any number of objects. The sprites are premultiplied. */
+#ifndef DEPTH_ALONE
 layout(location = 0) out vec4 out_0;
+#endif
 
 vec4 colours[LAYERS];
 float depths[LAYERS];
@@ -59,10 +61,15 @@ void main()
     float nearest = 1.0;
     for (int i = 0; i < LAYERS; i++) {
         sum = colours[i] + sum * (1.0 - colours[i].a);
-        nearest = colours[i].a > 0.0 ? min(nearest, depths[i]) : nearest;
+        nearest = colours[i].a > 0.5 ? min(nearest, depths[i]) : nearest;
     }
+#ifdef DEPTH_ALONE
+    if (nearest >= 1.0)
+        discard;
+    gl_FragDepth = nearest;
+#else
     if (sum.a <= 0.0)
         discard;
     out_0 = sum;
-    gl_FragDepth = nearest;
+#endif
 }

@@ -17,11 +17,12 @@ void main()
     crossing c = crossing_of(pixel);
     int count = c.depth <= texelFetch(t_scene_depth, pixel, 0).r ? samples_of(c, u_samples) : 0;
     vec4 sum = vec4(0.0);
-    float trail = 0.0, latest = 2.0;
+    float trail = 0.0, latest = 2.0, opacity = 0.0;
     for (int i = 0; i < count; i++) {
         float s = (float(i) + 0.5) / float(count);
         vec4 colour = mover_ago(c, s);
         latest = colour.a > 0.5 ? min(latest, s) : latest;
+        opacity = max(opacity, colour.a);
         float counts = s <= latest + u_smear ? 1.0 : 0.0;
         trail = max(trail, colour.a * pow(1.0 - float(i) / float(count), u_fade)); /* since half a sample */
         sum += counts * colour;
@@ -31,6 +32,10 @@ void main()
     trail = covered(trail, pixel);
 #endif
     vec4 colour = sum.a > 0.0 ? sum / sum.a * trail : vec4(0.0), whole = count > 0 ? texelFetch(t_mover, pixel, 0) : vec4(0.0);
+#ifdef SEEN_THROUGH
+    /* It lies on no trail of its own. */
+    colour *= max(1.0 - whole.a / max(opacity, max(whole.a, 1e-4)), 0.0);
+#endif
     colour = whole + (1.0 - whole.a) * colour;
     if (colour.a < 1.0 / 1024.0)
         discard;

@@ -7,7 +7,7 @@
 #include "motion/motion.h"
 
 /* Objects of one rule; what is more shares the last one's figure. */
-enum { MOVERS_MAX = 64 };
+enum { MOVERS_MAX = 2048 };
 
 int movers_steps(const lmn_look *look)
 {
@@ -158,10 +158,10 @@ static void move_part(plan *p, size_t from, size_t to, size_t part)
     p->figures[to].box = box3_union(p->figures[to].box, p->pose->part_boxes[part]);
 }
 
-static lmn_status split_figure(plan *p, size_t index, const movers_view *view, lmn_error *error)
+static lmn_status split_figure(plan *p, size_t index, const movers_view *view, warnings *warnings, lmn_error *error)
 {
     int32_t objects[MOVERS_MAX];
-    size_t  first = p->figure_count, count = 0;
+    size_t  first = p->figure_count, count = 0, shared = 0;
     for (size_t part = 0; part < p->part_count; part++) {
         if (!p->figures[index].designated[part] || !part_moves(view, p->pose, part))
             continue;
@@ -174,8 +174,13 @@ static lmn_status split_figure(plan *p, size_t index, const movers_view *view, l
             if (!add_mover(p, index))
                 return error_memory(error);
         }
+        shared += objects[k] != object;
         move_part(p, index, first + k, part);
     }
+    if (shared)
+        warnings_add(warnings, WARNING_REDUCED,
+                     "motion: more than %d objects of a rule move; %zu parts are drawn as one object", MOVERS_MAX,
+                     shared);
     p->figures[index].box = box3_empty();
     for (size_t part = 0; part < p->part_count; part++)
         if (p->figures[index].designated[part])
@@ -197,13 +202,13 @@ static void drop_empty(plan *p)
     p->figure_count = kept;
 }
 
-lmn_status plan_split_movers(plan *p, const movers_view *view, lmn_error *error)
+lmn_status plan_split_movers(plan *p, const movers_view *view, warnings *warnings, lmn_error *error)
 {
     size_t count = p->figure_count;
     if (!p->pose->past_count)
         return LMN_OK;
     for (size_t i = 0; i < count; i++) {
-        lmn_status status = draws_movers(&p->figures[i]) ? split_figure(p, i, view, error) : LMN_OK;
+        lmn_status status = draws_movers(&p->figures[i]) ? split_figure(p, i, view, warnings, error) : LMN_OK;
         if (status != LMN_OK)
             return status;
     }

@@ -19,6 +19,6 @@ int movers_steps(const lmn_look *look);
 /* Takes the parts that move out of figures whose rules draw movers, and adds a figure for each object: the parts below
  * the uppermost node that moves; what only the camera moves together is one. Figures without parts end. Errors:
  * LMN_MEMORY. */
-lmn_status plan_split_movers(plan *p, const movers_view *view, lmn_error *error);
+lmn_status plan_split_movers(plan *p, const movers_view *view, warnings *warnings, lmn_error *error);
 
 #endif

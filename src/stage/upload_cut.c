@@ -116,6 +116,21 @@ static void mend_normals(float *normals, const vertex_arrays *from, const cut_su
     }
 }
 
+/* Where the pieces of a bent part were earlier: data->past, the caller's to free. */
+static lmn_status add_past(const upload *u, const upload_part_job *job, size_t i, const cut_surface *s,
+                           gpu_mesh_data *data, lmn_error *error)
+{
+    const primitive *p = &job->mesh->primitives[i];
+    bool             done = true;
+    for (int k = 0; k < u->past_count && pose_deforms(job->pose, p) && done; k++) {
+        vec3 *was = posed_positions(p, &u->pose->past[k]->parts[job->part_index], &job->posed[i].split);
+        data->past[k] = was ? extend(&job->posed[i].data, (const float *)was, 3, s, &done) : NULL;
+        done = done && was;
+        mem_free(was);
+    }
+    return done ? LMN_OK : error_memory(error);
+}
+
 static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i, const cut_surface *s,
                               const mat4 *world, lmn_error *error)
 {
@@ -154,10 +169,14 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
         draw_item     item = upload_item(job, i);
         item.world = *world;
         upload_set_past(u, &item, job->instance);
-        status = upload_glue(u, &data, error);
+        status = add_past(u, job, i, s, &data, error);
+        if (status == LMN_OK)
+            status = upload_glue(u, &data, error);
         if (status == LMN_OK)
             status = upload_add_piece(u, g, &item.mesh, &data, error);
         mem_free((void *)(uintptr_t)data.glue);
+        for (int k = 0; k < POSE_PAST_MAX; k++)
+            mem_free((void *)(uintptr_t)data.past[k]);
         u->triangles += count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);

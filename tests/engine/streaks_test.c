@@ -423,6 +423,30 @@ static void crossing_movers_are_no_darker(void **state)
     assert_true(crossed > 500 && through > 100);
 }
 
+/* However many move: two that cross look as they do alone when seventy others move far behind them, and come first. */
+static void many_movers_are_each_by_themselves(void **state)
+{
+    static uint8_t alone[PIXELS][4], among[PIXELS][4];
+    const double   times[] = {1, 2}, tall[3] = {0.12, 0.6, 0.05}, wide[3] = {0.6, 0.12, 0.05},
+                 speck[3] = {0.001, 0.001, 0.001};
+    (void)state;
+    for (int others = 0; others <= 70; others += 70) {
+        moving_scene m;
+        moving_scene_begin(&m);
+        for (int k = 0; k < others; k++) {
+            int box = moving_scene_box(&m, 0, -0.9, -4, speck, grey);
+            moving_scene_keys(&m, box, "translation", 2, times, (double[]){-0.9, -0.97, -4, 0.9, -0.97, -4});
+        }
+        int first = moving_scene_box(&m, 0, 0, 0, tall, blue), second = moving_scene_box(&m, 0, 0, 0, wide, green);
+        moving_scene_keys(&m, first, "translation", 2, times, (double[]){-0.2, 0, 0.2, 0.1, 0, 0.2});
+        moving_scene_keys(&m, second, "translation", 2, times, (double[]){0, 0.3, -0.2, 0, 0, -0.2});
+        moving_scene_camera(&m, 0, 0, 10, true, 1);
+        moving_scene_write(&m, path_of("many"));
+        draw(path_of("many"), "\"exposure\": 1, \"count\": 1000, \"path\": \"straight\"", 2, others ? among : alone);
+    }
+    assert_memory_equal(&alone[PIXELS / 4], &among[PIXELS / 4], sizeof alone / 4 * 3);
+}
+
 /* A mover behind a wall with a slit: the wall keeps its bits, in the slit strokes are seen; row 71, scene S6. */
 static void walls_hide_strokes(void **state)
 {
@@ -748,6 +772,7 @@ int main(void)
                                        cmocka_unit_test(strokes_are_as_wide_and_lie_as_told),
                                        cmocka_unit_test(the_border_is_as_dense),
                                        cmocka_unit_test(crossing_movers_are_no_darker),
+                                       cmocka_unit_test(many_movers_are_each_by_themselves),
                                        cmocka_unit_test(walls_hide_strokes),
                                        cmocka_unit_test(fading_is_smooth),
                                        cmocka_unit_test(strokes_follow_arcs),

@@ -185,6 +185,50 @@ static void cameras_move_too(void **state)
     lmn_renderer_destroy(&renderer);
 }
 
+/* What a section leaves of a skin moves as the skin does. */
+static void sections_of_skins_move(void **state)
+{
+    lmn_renderer     *renderer = NULL;
+    lmn_scene        *s = NULL;
+    lmn_look         *look = NULL;
+    lmn_drawing      *d[2] = {NULL};
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    double            off = 0;
+    int               same = 0;
+    (void)state;
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, EXAMPLES "/fox.glb", NULL, &error));
+    DO(lmn_look_load(&look, "plain", &error));
+    DO(lmn_look_set(look, "motion.technique", "blur", &error));
+    DO(lmn_look_set(look, "motion.exposure", "0.1", &error));
+    desc.width = desc.height = SIDE;
+    desc.maps = true;
+    desc.clip = "Run";
+    desc.time_s = 0.5;
+    for (int cut = 0; cut < 2; cut++) {
+        if (cut)
+            DO(lmn_look_set(look, "scene.cut", "z=50%", &error));
+        DO(lmn_draw(&d[cut], renderer, s, look, &desc, &error));
+    }
+    for (size_t i = 0; i < SIDE * SIDE; i++) {
+        const frame_maps *whole = &d[0]->maps, *part = &d[1]->maps;
+        if (!part->id[i] || fabs((double)whole->depth[i] - (double)part->depth[i]) > 1e-3)
+            continue;
+        off = fmax(off, hypot((double)whole->velocity[3 * i] - (double)part->velocity[3 * i],
+                              (double)whole->velocity[3 * i + 1] - (double)part->velocity[3 * i + 1]));
+        same++;
+    }
+    printf("what a section leaves: %d pixels, %.4f px off at most\n", same, off);
+    assert_true(same > 1000 && off < 0.1);
+    for (int cut = 0; cut < 2; cut++)
+        lmn_drawing_destroy(&d[cut]);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&s);
+    lmn_renderer_destroy(&renderer);
+}
+
 static void scenes_at_rest_have_none(void **state)
 {
     (void)state;
@@ -211,6 +255,7 @@ static void scenes_at_rest_have_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(velocities_are_those_of_surfaces),
-                                       cmocka_unit_test(cameras_move_too), cmocka_unit_test(scenes_at_rest_have_none)};
+                                       cmocka_unit_test(cameras_move_too), cmocka_unit_test(sections_of_skins_move),
+                                       cmocka_unit_test(scenes_at_rest_have_none)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
