@@ -120,8 +120,10 @@ int moving_scene_sphere(moving_scene *m, double x, double y, double z, double ra
             if (row == ROWS || column == COLUMNS)
                 continue;
             unsigned a = (unsigned)v, b = a + COLUMNS + 1, order[6] = {a, b, a + 1, a + 1, b, b + 1};
-            memcpy(&indices[n], order, sizeof order);
-            n += 6;
+            /* At the poles one of the two has no area. */
+            int from = row == 0 ? 3 : 0, count = row == 0 || row == ROWS - 1 ? 3 : 6;
+            memcpy(&indices[n], &order[from], (size_t)count * sizeof *order);
+            n += count;
         }
     return add_mesh(m, x, y, z, (const float(*)[3])positions, (const float(*)[3])normals, VERTICES, indices, n, radius,
                     colour);

@@ -117,7 +117,9 @@ static void sideways_box(void)
         moving_scene m;
         char         name[16];
         moving_scene_begin(&m);
-        pass(&m, cornell_box(&m), units(speeds[i], distance), 0, 0, 0, 0);
+        int all = cornell_box(&m);
+        scaled(&m, all, 1.2, 1.2, 1.2); /* beyond the page, so that it comes in at the border */
+        pass(&m, all, units(speeds[i], distance), 0, 0, 0, 0);
         eye(&m);
         snprintf(name, sizeof name, "S1-%d", speeds[i]);
         finish(&m, name);
@@ -291,7 +293,7 @@ static void bounce(void)
     int ball = ball_in(&m, -1, 0, 0, 0, radius, red);
     moving_scene_name(&m, ball, "ball");
     moving_scene_cubic_keys(&m, ball, "translation", KEYS, times, values);
-    moving_scene_name(&m, box_in(&m, -1, 0, ground - 0.04, 0, 1.6, 0.04, 0.6, brown), "ground");
+    moving_scene_name(&m, box_in(&m, -1, 0, ground - 0.04, 0, 1.8, 0.04, 0.6, brown), "ground");
     eye(&m);
     finish(&m, "S10");
 }
