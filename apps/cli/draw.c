@@ -425,18 +425,39 @@ static int check_set_once(const draw_values *v, size_t index)
     return EXIT_DONE;
 }
 
+/* "motion.technique=…", "lines.operator=…": which technique's parameters there are to set. */
+static bool names_technique(const char *assignment)
+{
+    size_t            length = strcspn(assignment, "=");
+    const char *const endings[] = {".technique", ".operator"};
+    for (size_t i = 0; i < 2; i++)
+        if (length > strlen(endings[i]) &&
+            strncmp(assignment + length - strlen(endings[i]), endings[i], strlen(endings[i])) == 0)
+            return true;
+    return false;
+}
+
+/* Techniques before their parameters, whichever was written first. */
+static int set_all(const draw_values *v, lmn_look *look)
+{
+    int status = EXIT_DONE;
+    for (int round = 0; round < 2; round++)
+        for (size_t i = 0; i < v->sets.count && status == EXIT_DONE; i++) {
+            status = check_set_once(v, i);
+            if (status == EXIT_DONE && names_technique(v->sets.items[i]) == (round == 0))
+                status = set_one(look, v->sets.items[i]);
+        }
+    return status;
+}
+
 static int load_look(session *s)
 {
     lmn_error error = {0};
     if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
         return message_error(&error);
-    for (size_t i = 0; i < s->values->sets.count; i++) {
-        int status = check_set_once(s->values, i);
-        if (status == EXIT_DONE)
-            status = set_one(s->look, s->values->sets.items[i]);
-        if (status != EXIT_DONE)
-            return status;
-    }
+    int status = set_all(s->values, s->look);
+    if (status != EXIT_DONE)
+        return status;
     if (s->values->cut && lmn_look_set(s->look, "scene.cut", s->values->cut, &error) != LMN_OK)
         return message_error(&error);
     return EXIT_DONE;
@@ -459,7 +480,7 @@ static void fill_desc(session *s)
     d.time_s = v->time.given ? v->time.value : d.time_s;
     d.time_given = v->time.given || v->frames;
     d.clip = v->clip;
-    d.fit_time = v->fit_time || v->frames;
+    d.fit_time = v->fit_time;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
     d.samples = v->samples.given ? (int)v->samples.value : d.samples;
     d.background = v->background;
@@ -472,11 +493,12 @@ static void fill_desc(session *s)
     s->desc = d;
 }
 
-/* Target and up that were not given come from the scene. */
-static void place_eye(session *s, const lmn_scene *scene)
+/* Target and up that were not given come from the scene; frames are fitted to its clips if it has any. */
+static void place_view(session *s, const lmn_scene *scene)
 {
     const draw_values *v = s->values;
     lmn_scene_info     info = lmn_scene_info_of(scene);
+    s->desc.fit_time = v->fit_time || (v->frames && info.animations > 0);
     s->desc.eye_given = v->eye.given;
     for (int i = 0; i < 3; i++) {
         s->desc.eye[i] = v->eye.value[i];
@@ -758,7 +780,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
         if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
             status = message_error(&error);
     }
-    place_eye(s, scene);
+    place_view(s, scene);
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];

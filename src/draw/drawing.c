@@ -74,6 +74,33 @@ static lmn_status refuse_marks(const refusal *r, const session *s)
     return LMN_OK;
 }
 
+/* Their vertices are drawn where they were. */
+static lmn_status refuse_scattered(const refusal *r, const session *s)
+{
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure        *fig = &s->plan.figures[i];
+        const technique_use *motion = rule_use(fig->rule, KIND_MOTION);
+        if (!fig->mover || !motion->technique->motion->of_meshes || !figure_has_solids(&s->plan, fig))
+            continue;
+        return refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, "'blur' and 'accumulate' blur solids, too",
+                      "motion '%s' is that of meshes: solids have no vertices", motion->technique->name);
+    }
+    return LMN_OK;
+}
+
+/* Layers of what moves and of what rests do not interleave. */
+static void warn_of_movers(const session *s, warnings *warnings)
+{
+    bool moves = false, rests = false;
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        moves = moves || (s->plan.figures[i].mover && s->plan.figures[i].layered);
+        rests = rests || (!s->plan.figures[i].mover && s->plan.figures[i].layered);
+    }
+    if (moves && rests)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion: of what is seen through, moving parts are drawn over those that rest");
+}
+
 static void warn_of_marks(const session *s, warnings *warnings)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
@@ -96,6 +123,7 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     const upload       *up = &r->up;
     bool                cut_out = false, spares = false;
     warn_of_marks(s, &d->warnings);
+    warn_of_movers(s, &d->warnings);
     for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
         if (rule_use(&look->rules[i], KIND_MOTION))
             warnings_add(&d->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
@@ -141,6 +169,8 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
                         "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
     if (status == LMN_OK)
         status = refuse_strokes(&refusals, s, &r->up);
+    if (status == LMN_OK)
+        status = refuse_scattered(&refusals, s);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;
 }
 

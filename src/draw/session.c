@@ -47,10 +47,12 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     const lmn_draw_desc *desc = options->desc;
     moment               when;
     lmn_status           status = time_moment(&when, scene, desc, warnings, error);
-    bool posed = r->pose.scene == scene && r->pose.revision == scene->revision && moment_equal(&r->pose.when, &when);
+    bool                 same = r->pose.scene == scene && r->pose.revision == scene->revision,
+         posed = same && moment_equal(&r->pose.when, &when);
     if (status == LMN_OK && !posed) {
-        pose_release(&r->pose);
-        status = pose_create(&r->pose, scene, &when, error);
+        if (!same)
+            pose_release(&r->pose);
+        status = same ? pose_move(&r->pose, &when, error) : pose_create(&r->pose, scene, &when, error);
         if (status == LMN_OK && options->held)
             pose_hold(&r->pose, options->held, options->moves);
     }
@@ -59,8 +61,10 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
         status = time_check(look, error);
     if (status == LMN_OK && (options->maps || steps))
         status = pose_add_past(&r->pose, time_exposure(look), steps ? steps : 1, error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
         r->pose.fit_boxes = r->pose.part_boxes;
+        pose_warn_of_flat(&r->pose, warnings);
+    }
     if (status == LMN_OK && desc->fit_time)
         status = swept_boxes_fit(&r->swept, &r->pose, error);
     if (status != LMN_OK)
@@ -75,7 +79,7 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
     upload_desc      wanted = {
              .crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
     bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
-                       (r->up.needs.rest || !p->meshes.rest) &&
+                       (r->up.needs.rest || !p->meshes.rest) && (r->up.needs.glue || !p->meshes.glue) &&
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
                  r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&

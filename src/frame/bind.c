@@ -113,6 +113,18 @@ static void set_depths(frame *f)
     gpu_set_vec2(f->g, "u_depths", (float)fmax(nearest, f->camera.near), (float)fmax(farthest, f->camera.near));
 }
 
+/* Where it has a position instead: from above, as by the studio's. */
+static void set_first_light(frame *f)
+{
+    double towards[3] = {-0.35, 0.7, 0.62};
+    lights_first_direction(f, towards);
+    double length = sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
+    float  out[3];
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(towards[k] / fmax(length, 1e-30));
+    gpu_set_vec3(f->g, "u_first_light", out);
+}
+
 /* The range is that of all that is drawn, so that figures agree. */
 static void set_focus(frame *f)
 {
@@ -138,6 +150,15 @@ static void set_anchor(frame *f)
                  (float)((projection[5] * eye[1] / depth + 1) * f->height / 2));
 }
 
+static void set_around(frame *f, const figure_state *s)
+{
+    const int *b = s->around;
+    bool       whole = b[2] <= 0 || b[3] <= 0;
+    gpu_set_vec4(f->g, "u_around",
+                 (float[]){whole ? 0 : (float)b[0], whole ? 0 : (float)b[1], (float)(whole ? f->width : b[0] + b[2]),
+                           (float)(whole ? f->height : b[1] + b[3])});
+}
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -150,6 +171,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));
     const double *m = f->camera.projection.m;
     gpu_set_vec4(g, "u_window_depth", (float[]){(float)m[10], (float)m[14], (float)m[11], (float)m[15]});
+    set_around(f, s);
     gpu_set_float(g, "u_near", (float)s->near);
     gpu_set_float(g, "u_far", (float)s->far);
     gpu_set_int(g, "u_layer", s->layer);
@@ -173,6 +195,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_focus(f);
     if (gpu_has_uniform(g, "u_anchor"))
         set_anchor(f);
+    if (gpu_has_uniform(g, "u_first_light"))
+        set_first_light(f);
     if (gpu_has_uniform(g, "u_depths"))
         set_depths(f);
 }

@@ -136,6 +136,12 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels);
 void raster_shell(frame *f, figure_state *s, target into, float pixels);
 /* Where the figure's parts were at `steps` steps of the past (1, 2 or 4), and their depth; with more channels. */
 void raster_moved(frame *f, figure_state *s, int steps, unsigned channels);
+
+/* --- stretched.c --- */
+/* TARGET_STRETCHED: the figure's meshes pulled from where they were the whole past ago to where they are. */
+void stretched_draw(frame *f, figure_state *s);
+
+/* --- raster.c, for layers --- */
 /* The next layer by peeling: what lies behind the stack's last one. */
 void raster_layer(frame *f, layer_stack *stack, bool first);
 /* Every fragment into the pixels' lists. */
@@ -156,6 +162,11 @@ void frame_draw_figure(frame *f, const figure *fig);
 /* --- movers.c: what moves on the page, each by itself --- */
 /* The last figures of the plan: draws them onto the page by their techniques of motion. */
 void movers_draw(frame *f, const figure *figures, size_t count);
+/* Draws what movers throw shadows with beside themselves into f->shadow. */
+void movers_throw_shadows(frame *f);
+
+/* --- scattered.c: a mover at moments of each pixel's own --- */
+void scattered_draw(frame *f, figure_state *s, const pass *p, int samples);
 
 /* --- layered.c: figures that are seen through --- */
 /* Draws `count` figures whose layers interleave. */
@@ -171,6 +182,8 @@ void lists_release(frame *f, layer_stack *stack);
 /* --- passes.c: declared passes --- */
 /* What a surface technique looks at when it shades from the G-buffer. */
 void passes_prepare(frame *f, figure_state *s);
+/* What a mover's technique of motion adds to what throws shadows. */
+void passes_throw_shadows(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those
  * before. */

@@ -72,6 +72,15 @@ static void release(frame *f, figure_state *s)
     solids_release(f->g, &s->solids);
 }
 
+static void measure(frame *f, figure_state *s)
+{
+    const technique_use *use = rule_use(s->figure->rule, KIND_MOTION);
+    const motion_row    *row = use->technique->motion;
+    raster_moved(f, s, row->steps(use->values), row->moved ? row->moved(use->values) : 0);
+    if (row->stretched)
+        stretched_draw(f, s);
+}
+
 /* Draws what a mover's technique makes of it, onto the page or, where `layer` is given, into that. */
 static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
 {
@@ -79,10 +88,9 @@ static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
     frame        page = *f;
     if (!figure_open(f, &s, fig))
         return;
-    const technique_use *use = rule_use(fig->rule, KIND_MOTION);
     find_pixels(f, &s);
     draw_alone(f, &s);
-    raster_moved(f, &s, use->technique->motion->steps(use->values), use->technique->motion->moved);
+    measure(f, &s);
     s.geometry = s.targets[TARGET_NORMAL_DEPTH];
     s.targets[TARGET_SCENE_DEPTH] = page.page_depth;
     if (layer) {
@@ -96,6 +104,29 @@ static void draw_mover(frame *f, const figure *fig, mover_layer *layer)
     f->page = page.page;
     f->page_depth = page.page_depth;
     release(f, &s);
+}
+
+static bool throws_shadows(const figure *fig)
+{
+    const technique_use *use = fig->mover ? rule_use(fig->rule, KIND_MOTION) : NULL;
+    for (size_t i = 0; use && i < use->technique->pass_count; i++)
+        if (use->technique->passes[i].writes == TARGET_SHADOW &&
+            pass_applies(KIND_MOTION, &use->technique->passes[i], use))
+            return true;
+    return false;
+}
+
+void movers_throw_shadows(frame *f)
+{
+    for (size_t i = 0; i < f->plan->figure_count && !gpu_failed(f->g); i++) {
+        figure_state s;
+        if (!throws_shadows(&f->plan->figures[i]) || !figure_open(f, &s, &f->plan->figures[i]))
+            continue;
+        find_pixels(f, &s);
+        measure(f, &s);
+        passes_throw_shadows(f, &s);
+        release(f, &s);
+    }
 }
 
 /* Puts layers over the page, for each pixel the farthest first. */

@@ -18,7 +18,7 @@ typedef struct pass_params {
 
 static bool goes_onto_page(const pass *p)
 {
-    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS;
+    return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || p->writes == TARGET_SHADOW;
 }
 
 /* Is the pass drawn in the tiles that have something, instead of everywhere? */
@@ -43,6 +43,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (params->made)
         used_textures_declare(&prelude, params->made, &s->figure->textures->motion);
+    if (s->figure->layered)
+        text_append(&prelude, "#define SEEN_THROUGH\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (params->perturbed && goes_onto_page(p)) {
@@ -54,7 +56,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         snprintf(path, sizeof path, "%s+%s", params->perturbed->positions, p->shader);
     }
     if (p->strips && target_row_of(s, p->writes)->format == TEXEL_DEPTH32F)
-        text_append(&prelude, "#define DEPTH_ALONE\n");
+        text_append(&prelude, "#define DEPTH_ALONE\n%s", p->writes == TARGET_SHADOW ? "#define INTO_SHADOW\n" : "");
     const char *vertex = p->strips ? p->strips->vertex : in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert";
     return program_of(f, GPU_FLOOR, vertex, path, &prelude);
 }
@@ -81,6 +83,8 @@ static void run_geometry(frame *f, figure_state *s, const pass *p, kind_id id, c
 /* Where a pass draws: the figure's pixels, or the coarse texels over them. */
 static void set_scissor(const frame *f, const figure_state *s, const pass *p, gpu_pass *out)
 {
+    if (p->writes == TARGET_SHADOW) /* another eye's */
+        return;
     memcpy(out->scissor, p->writes == TARGET_LAYERS ? s->band : s->pixels, sizeof out->scissor);
     memcpy(out->clear_box, s->around, sizeof out->clear_box);
     target_scale scale = target_row_of(s, p->writes)->scale;
@@ -273,10 +277,18 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
     watch_stop(&f->profile, w, group, p->name);
 }
 
+static void run_scattered(frame *f, figure_state *s, const pass *p, const technique_use *use)
+{
+    const param *samples = kind_find_param(kinds[KIND_MOTION], use->technique, p->scattered);
+    stopwatch    w = watch_start(&f->profile);
+    scattered_draw(f, s, p, *(const int32_t *)param_field(samples, use->values));
+    watch_stop(&f->profile, w, kinds[KIND_MOTION]->name, p->name);
+}
+
 /* Does the pass belong to this run: before the figure is shaded, or after? */
 static bool is_due(const frame *f, const pass *p, bool before)
 {
-    return p->prepares == before && !(p->stylised && f->maps);
+    return p->prepares == before && !(p->stylised && f->maps) && p->writes != TARGET_SHADOW;
 }
 
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
@@ -307,6 +319,8 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
             continue;
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->scattered)
+            run_scattered(f, s, p, use);
         else if (p->geometry)
             run_geometry(f, s, p, id, use);
         else if (p->process)
@@ -316,6 +330,18 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
                 run_pass(f, s, p, &params, kinds[id]->name, k);
     }
     forget_own(f, s);
+}
+
+void passes_throw_shadows(frame *f, figure_state *s)
+{
+    const technique_use *use = rule_use(s->figure->rule, KIND_MOTION);
+    pass_params          params = {
+                 .sets = {use_own_set(KIND_MOTION, use), use_common_set(KIND_MOTION, use)}, .count = 2, .made = use};
+    s->own_targets = use->technique->targets;
+    for (size_t i = 0; i < use->technique->pass_count; i++)
+        if (use->technique->passes[i].writes == TARGET_SHADOW &&
+            pass_applies(KIND_MOTION, &use->technique->passes[i], use))
+            run_pass(f, s, &use->technique->passes[i], &params, kinds[KIND_MOTION]->name, 0);
 }
 
 /* Takes what a line technique found into the picture before the next one looks. */

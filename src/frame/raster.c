@@ -130,11 +130,25 @@ static int steps_of(const outputs *at)
     return steps;
 }
 
-/* Where an item was at each of them: the last one is the whole past. */
+/* Which of the pose's steps is the k-th of these: the last one is the whole past. */
+static int step_of(const frame *f, int k, int steps)
+{
+    return (k + 1) * f->up->past_count / steps - 1;
+}
+
+/* The vertices of bent meshes at these steps. */
+static void declare_past(text *prelude, const frame *f, const outputs *at)
+{
+    text_append(prelude, "#define HAS_PAST\n");
+    for (int steps = steps_of(at), k = 0; k < steps; k++)
+        text_append(prelude, "#define PAST_%d_LOCATION %d\n", k + 1, 10 + step_of(f, k, steps));
+}
+
+/* Where an item was at each of them. */
 static void set_past(frame *f, const outputs *at, const draw_item *item)
 {
     for (int steps = steps_of(at), k = 0; k < steps; k++) {
-        int which = (k + 1) * f->up->past_count / steps - 1;
+        int which = step_of(f, k, steps);
         if (item->is_solid)
             view_set_past_of_eye(f->g, k + 1, &f->camera_past[which], &item->past[which], &f->camera, &item->world);
         else
@@ -330,7 +344,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
     if (past)
-        text_append(&prelude, "#define HAS_PAST\n");
+        declare_past(&prelude, f, &job->at);
     if (wants_light_map(job, s, item))
         text_append(&prelude, "#define HAS_LIGHT_MAP\n");
     gpu_use(f->g, raster_program(f, s, "layer/raster.vert", prelude, job), state_of(job));

@@ -110,5 +110,7 @@ void shadow_draw(frame *f)
     if (!gpu_failed(f->g))
         raster_depth(&light, depth);
     f->shadow = depth;
+    if (v->shadows)
+        movers_throw_shadows(f);
     watch_stop(&f->profile, w, "scene", "shadow");
 }

@@ -272,6 +272,21 @@ bool gpu_mesh_has_past(const gpu_mesh *m)
     return m && m->has_past;
 }
 
+static void add_indices(gpu_mesh *m, const gpu_mesh_data *data)
+{
+    GLsizeiptr bytes = (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->index_count),
+               glue = (GLsizeiptr)(sizeof(uint32_t) * (size_t)data->glue_count);
+    m->index_count = data->index_count;
+    m->glue_count = data->glue_count;
+    glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, bytes + glue, glue ? NULL : data->indices, GL_STATIC_DRAW);
+    if (glue) {
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes, data->indices);
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, bytes, glue, data->glue);
+    }
+}
+
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
 {
     if (g->failed)
@@ -281,7 +296,6 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
         gpu_fail(g, LMN_MEMORY, "out of memory");
         return NULL;
     }
-    m->index_count = data->index_count;
     m->vertex_count = data->vertex_count;
     m->has_colours = data->colours != NULL;
     glGenVertexArrays(1, &m->array);
@@ -306,14 +320,53 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     for (unsigned k = 0; k < GPU_PAST_MAX; k++)
         add_attribute(m, 10 + k, 3, data->vertex_count, data->past[k]);
     m->has_past = data->past[0] != NULL;
-    glGenBuffers(1, &m->buffers[GPU_BUFFERS - 1]);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->buffers[GPU_BUFFERS - 1]);
-    size_t index_bytes = sizeof(uint32_t) * (size_t)data->index_count;
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, data->indices, GL_STATIC_DRAW);
+    add_indices(m, data);
     glBindVertexArray(0);
     if (glGetError() == GL_OUT_OF_MEMORY)
         gpu_fail(g, LMN_MEMORY, "the driver has no memory for a mesh of %u vertices", data->vertex_count);
     return m;
+}
+
+static void rewrite(gpu_mesh *m, int buffer, int components, const void *data)
+{
+    if (!data || !m->buffers[buffer])
+        return;
+    glBindBuffer(GL_ARRAY_BUFFER, m->buffers[buffer]);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(sizeof(float) * (size_t)components * m->vertex_count), data);
+}
+
+bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
+{
+    if (g->failed || !m || m->vertex_count != data->vertex_count || m->index_count != data->index_count ||
+        m->glue_count != data->glue_count || m->has_tensors != (data->tensors != NULL) ||
+        m->has_rest != (data->rest != NULL) || m->has_past != (data->past[0] != NULL))
+        return false;
+    for (int k = 1; k < GPU_PAST_MAX; k++)
+        if ((m->buffers[10 + k] != 0) != (data->past[k] != NULL))
+            return false;
+    const struct {
+        int         buffer, components;
+        const void *values;
+    } rows[] = {{0, 3, data->positions}, {1, 3, data->normals}, {2, 2, data->uvs[0]},
+                {3, 2, data->uvs[1]},    {4, 4, data->colours}, {5, 1, data->keys},
+                {6, 6, data->tensors},   {8, 4, data->patches}, {9, 3, data->rest}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        rewrite(m, rows[i].buffer, rows[i].components, rows[i].values);
+    for (int k = 0; k < GPU_PAST_MAX; k++)
+        rewrite(m, 10 + k, 3, data->past[k]);
+    if (data->indices) {
+        glBindVertexArray(m->array); /* the indices' binding belongs to it */
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, (GLsizeiptr)(sizeof(uint32_t) * (size_t)m->index_count),
+                        data->indices);
+        glBindVertexArray(0);
+    }
+    if (data->glue_count) {
+        glBindVertexArray(m->array);
+        glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(sizeof(uint32_t) * (size_t)m->index_count),
+                        (GLsizeiptr)(sizeof(uint32_t) * (size_t)m->glue_count), data->glue);
+        glBindVertexArray(0);
+    }
+    return true;
 }
 
 void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
@@ -396,4 +449,13 @@ void gpu_draw_mesh(gpu *g, gpu_mesh *m)
     if (!m->has_colours)
         glVertexAttrib4f(4, 1, 1, 1, 1);
     gpu_draw_indices(g, m->index_count);
+}
+
+void gpu_draw_glue(gpu *g, gpu_mesh *m)
+{
+    if (g->failed || !g->program || !m || !m->glue_count)
+        return;
+    glBindVertexArray(m->array);
+    draw_range(g, m->index_count, m->index_count + m->glue_count);
+    g->draws++;
 }

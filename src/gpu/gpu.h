@@ -125,13 +125,18 @@ typedef struct gpu_mesh_data {
     const float    *past[GPU_PAST_MAX]; /* positions earlier: locations 10 and up */
     const uint32_t *keys;               /* a number a vertex; that of a triangle's last corner is the triangle's */
     const uint32_t *indices;
+    const uint32_t *glue; /* triangles that only gpu_draw_glue draws */
+    uint32_t        glue_count;
 } gpu_mesh_data;
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
-uint32_t  gpu_mesh_triangles(const gpu_mesh *m);
-bool      gpu_mesh_has_tensors(const gpu_mesh *m);
-bool      gpu_mesh_has_rest(const gpu_mesh *m);
-bool      gpu_mesh_has_past(const gpu_mesh *m);
+/* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
+ * mesh has as many vertices and indices, and tensors and positions at rest and earlier just where these are given. */
+bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+uint32_t gpu_mesh_triangles(const gpu_mesh *m);
+bool     gpu_mesh_has_tensors(const gpu_mesh *m);
+bool     gpu_mesh_has_rest(const gpu_mesh *m);
+bool     gpu_mesh_has_past(const gpu_mesh *m);
 
 /* --- marks ---------------------------------------------------------------------------------------------- */
 
@@ -225,6 +230,8 @@ bool gpu_has_uniform(gpu *g, const char *name);
 void gpu_draw_screen(gpu *g);
 /* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* Its glue patches alone. */
+void gpu_draw_glue(gpu *g, gpu_mesh *m);
 /* Some of its triangles: runs of indices, first and count. */
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count);
 /* Was any fragment between the two calls left by the tests? The answer of one of GPU_QUERIES occlusion queries is

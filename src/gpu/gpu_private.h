@@ -39,8 +39,8 @@ struct gpu_program {
 enum { GPU_BUFFERS = 15 };
 
 struct gpu_mesh {
-    GLuint   array, buffers[GPU_BUFFERS]; /* by attribute, the last for indices */
-    uint32_t index_count, vertex_count;
+    GLuint   array, buffers[GPU_BUFFERS];           /* by attribute, the last for indices */
+    uint32_t index_count, glue_count, vertex_count; /* glue: behind the indices */
     bool     has_colours, has_tensors, has_rest, has_past;
 };
 

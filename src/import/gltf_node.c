@@ -351,6 +351,43 @@ void gltf_read_lights(gltf_reader *r)
     }
 }
 
+static bool is_all_zeros(const mat4 *m)
+{
+    bool zeros = true;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            zeros = zeros && m->m[4 * column + row] == 0;
+    return zeros;
+}
+
+/* What follows a joint with such a matrix is drawn flat, as the file says it; of zeros nothing would be left, so that
+ * vertices stay where the mesh has them when nothing has moved. */
+static void mend_flat_binds(gltf_reader *r, const char *where, skin *s)
+{
+    size_t flat = 0, zeros = 0, first = 0;
+    for (size_t i = 0; i < s->joint_count; i++) {
+        if (!mat4_is_flat(&s->inverse_binds[i]))
+            continue;
+        mat4 world = scene_world_matrix(r->scene, s->joints[i]);
+        first = flat == 0 ? i : first;
+        flat++;
+        if (!is_all_zeros(&s->inverse_binds[i]) || mat4_is_flat(&world))
+            continue;
+        s->inverse_binds[i] = mat4_inverse(&world);
+        zeros++;
+    }
+    if (!flat)
+        return;
+    const char *joint = r->scene->nodes[s->joints[first]].name;
+    char        replaced[96] = "";
+    if (zeros)
+        snprintf(replaced, sizeof replaced, "; %zu of them are all zeros and were made anew from the joints at rest",
+                 zeros);
+    gltf_warn(r, WARNING_BAD_VALUE,
+              "%s.inverseBindMatrices: %zu of %zu matrices are flat, the first one that of joint '%.100s'%s", where,
+              flat, s->joint_count, joint ? joint : "", replaced);
+}
+
 static void read_bind_matrices(gltf_reader *r, json_t *object, const char *where, skin *s)
 {
     size_t        index;
@@ -373,6 +410,8 @@ static void read_bind_matrices(gltf_reader *r, json_t *object, const char *where
     }
     if (lost)
         gltf_warn(r, WARNING_BAD_VALUE, "%s.inverseBindMatrices: %zu values that are not finite became 0", where, lost);
+    if (values)
+        mend_flat_binds(r, where, s);
     mem_free(values);
 }
 

@@ -1,9 +1,15 @@
 /* Where vertices were at the PAST_STEPS steps of the past, in clip space. What is bent has its vertices then; all else moves as a whole. */
 #ifdef HAS_PAST
-layout(location = 10) in vec3 a_past_1;
-layout(location = 11) in vec3 a_past_2;
-layout(location = 12) in vec3 a_past_3;
-layout(location = 13) in vec3 a_past_4;
+layout(location = PAST_1_LOCATION) in vec3 a_past_1;
+#if PAST_STEPS > 1
+layout(location = PAST_2_LOCATION) in vec3 a_past_2;
+#endif
+#if PAST_STEPS > 2
+layout(location = PAST_3_LOCATION) in vec3 a_past_3;
+#endif
+#if PAST_STEPS > 3
+layout(location = PAST_4_LOCATION) in vec3 a_past_4;
+#endif
 #else
 #define a_past_1 a_position
 #define a_past_2 a_position

@@ -6,7 +6,7 @@
 
 extern const kind kind_motion;
 
-extern const technique motion_accumulate;
+extern const technique motion_stochastic, motion_accumulate, motion_blur, motion_streak_map, motion_stretched;
 extern const technique motion_streaks;
 
 /* What all techniques of the kind have first. */

@@ -3,7 +3,11 @@
 /* How deep it is, 1 where it is not: its sprite lies where its lines are, too; what is seen through has none and is as deep as its front. */
 float mover_depth_at(ivec2 pixel)
 {
-    return min(texelFetch(t_mover_depth, pixel, 0).r, texelFetch(t_depth, pixel, 0).r);
+    float depth = texelFetch(t_mover_depth, pixel, 0).r;
+#ifdef SEEN_THROUGH
+    depth = min(depth, texelFetch(t_depth, pixel, 0).r);
+#endif
+    return depth;
 }
 
 const ivec2 around[8] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1), ivec2(1, 1), ivec2(-1, -1), ivec2(1, -1), ivec2(-1, 1));

@@ -48,7 +48,7 @@ lmn_status streak_texture_check(const char *name, lmn_error *error)
     bool        border;
     if (!name[0] || find_name(name, &fill, &border) || is_picture(name))
         return LMN_OK;
-    error_set(error, LMN_USAGE, "'%.100s' is no texture of streaks", name);
+    error_set(error, LMN_USAGE, "texture is '%.100s'; allowed is a texture of streaks, or a picture", name);
     error_hint(error, "solid, clear, gradient, solid-border, clear-border, gradient-border, or a picture (.png, .jpg, "
                       ".webp) from tail to head");
     return LMN_USAGE;
@@ -131,4 +131,34 @@ lmn_status streak_texture_make(mip_chain *out, const char *name, lmn_error *erro
     fill_levels(out);
     out->clamped = true;
     return LMN_OK;
+}
+
+/* --- masks ---------------------------------------------------------------------------------------------- */
+
+lmn_status streak_mask_check(const char *name, lmn_error *error)
+{
+    if (!name[0] || strcmp(name, "checker") == 0 || is_picture(name))
+        return LMN_OK;
+    error_set(error, LMN_USAGE, "mask is '%.100s'; allowed is checker, or a picture", name);
+    error_hint(error, "pictures end in .png, .jpg or .webp");
+    return LMN_USAGE;
+}
+
+lmn_status streak_mask_make(mip_chain *out, const char *name, lmn_error *error)
+{
+    enum { SQUARES = 8 };
+    if (strcmp(name, "checker") != 0) {
+        lmn_status status = load_picture(out, name, error);
+        if (status == LMN_OK)
+            fill_levels(out);
+        return status;
+    }
+    lmn_status status = mip_chain_create(out, SQUARES, SQUARES, 1, 1, MIP_RG8, error);
+    for (int i = 0; status == LMN_OK && i < SQUARES * SQUARES; i++) {
+        uint8_t *texel = (uint8_t *)mip_layer(out, 0, 0) + 2 * i;
+        texel[0] = (i + i / SQUARES) % 2 ? 255 : 0;
+        texel[1] = 255;
+    }
+    out->nearest = true;
+    return status;
 }

@@ -11,4 +11,8 @@ lmn_status streak_texture_check(const char *name, lmn_error *error);
  * to right (head). Errors: LMN_READ, LMN_FORMAT, LMN_LIMIT, LMN_MEMORY. */
 lmn_status streak_texture_make(mip_chain *out, const char *name, lmn_error *error);
 
+/* The same for a picture that says where strokes may begin: `checker`, or a path. */
+lmn_status streak_mask_check(const char *name, lmn_error *error);
+lmn_status streak_mask_make(mip_chain *out, const char *name, lmn_error *error);
+
 #endif

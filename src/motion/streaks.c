@@ -11,20 +11,23 @@
 
 typedef enum streak_path { PATH_STRAIGHT, PATH_BENT, PATH_WINDING } streak_path;
 
+typedef enum streak_where { WHERE_ALL, WHERE_TRAILING, WHERE_LEADING } streak_where;
+
 typedef struct streaks_values {
     motion_common common;
-    int32_t       count, seeds, jittered, path, place, ink;
+    int32_t       count, seeds, jittered, path, place, ink, where;
     float         margin, jitter, jitter_rate, width, taper, shift_width, shift_length, begin, full, fade, fade_begin,
-        fade_full, opacity, head, tail;
-    bool        scaled;
+        fade_full, opacity, head, tail, round;
+    bool        scaled, shadows;
     colour      colour;
-    param_words texture;
+    param_words texture, mask;
 } streaks_values;
 
 static const char *const sequence_names[] = {"random", "hammersley", "halton", NULL};
 static const char *const jitter_names[] = {"none", "all", "each", "drift", NULL};
 static const char *const path_names[] = {"straight", "bent", "winding", NULL};
 static const char *const place_names[] = {"depth", "behind", "front", NULL};
+static const char *const where_names[] = {"all", "trailing", "leading", NULL};
 static const char *const ink_names[] = {"drawing", "colour", NULL};
 
 static const param params[] = {
@@ -42,9 +45,17 @@ static const param params[] = {
                    .doc = "Seeds that leave their positions with time: all alike, each by itself, or each in a calm "
                           "drift."),
     PARAM_FLOAT_ROW(streaks_values, jitter, .def = 4, .min = 0, .max = 1000, .soft_max = 40, .unit = UNIT_PX,
-                    .along = true, .cpu_only = true, .only_if = "jittered!=none", .doc = "How far they leave them."),
+                    .along = true, .cpu_only = true, .only_if = "jittered", .doc = "How far they leave them."),
     PARAM_FLOAT_ROW(streaks_values, jitter_rate, .def = 6, .min = 0, .max = 120, .soft_max = 24, .a_second = true,
-                    .cpu_only = true, .only_if = "jittered!=none", .doc = "How often a second they change."),
+                    .cpu_only = true, .only_if = "jittered", .doc = "How often a second they change."),
+    PARAM_ENUM_ROW(streaks_values, where, .names = where_names, .def = WHERE_ALL, .variant = true,
+                   .doc =
+                       "On which surfaces strokes begin: all, only those that look back along the motion (trailing), "
+                       "or only those that look ahead."),
+    PARAM_TEXT_ROW(streaks_values, mask, .is_file = true, .example = "checker", .check = streak_mask_check,
+                   .doc =
+                       "A picture laid over the page (.png, .jpg, .webp): where it is black no stroke begins. checker "
+                       "is one of squares. Empty: strokes begin anywhere."),
     PARAM_ENUM_ROW(streaks_values, path, .names = path_names, .def = PATH_BENT, .variant = true,
                    .doc = "straight: from where the surface is to where it was; bent: through one position between; "
                           "winding: through three."),
@@ -64,7 +75,7 @@ static const param params[] = {
                     .doc = "Shorter strokes are not drawn; a stroke that is drawn is at least as long as it is wide."),
     PARAM_FLOAT_ROW(streaks_values, full, .def = 24, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
                     .along = true, .doc = "Strokes of this length are whole; between, they fade in."),
-    PARAM_FLOAT_ROW(streaks_values, fade, .toggles = true, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+    PARAM_FLOAT_ROW(streaks_values, fade, .toggles = true, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far what moves fast fades behind its strokes; 0 leaves the object whole and adds speed "
                            "lines alone."),
     PARAM_FLOAT_ROW(streaks_values, fade_begin, .def = 12, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
@@ -81,6 +92,10 @@ static const param params[] = {
                     .doc = "How much of it is the tail."),
     PARAM_FLOAT_ROW(streaks_values, opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Opacity of strokes."),
+    PARAM_FLOAT_ROW(streaks_values, round, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How far the first light shades strokes as if they were round."),
+    PARAM_BOOL_ROW(streaks_values, shadows, .def = 0, .cpu_only = true,
+                   .doc = "Strokes throw shadows, where the look has some (scene.shadows)."),
     PARAM_ENUM_ROW(streaks_values, ink, .names = ink_names, .def = 0, .variant = true,
                    .doc = "drawing: each stroke has the colour of the object where it begins; colour: all have one."),
     PARAM_COLOUR_ROW(streaks_values, colour, .def_colour = {0.1f, 0.1f, 0.1f, 1}, .only_if = "ink=colour",
@@ -89,6 +104,11 @@ static const param params[] = {
                    .doc = "depth: strokes and object hide each other as they lie; behind: no stroke cuts its object; "
                           "front: strokes lie over it."),
 };
+
+static unsigned channels_of(const void *values)
+{
+    return ((const streaks_values *)values)->where == WHERE_ALL ? 0 : CHANNEL_NORMAL_DEPTH;
+}
 
 static int steps_of(const void *values)
 {
@@ -154,6 +174,16 @@ static lmn_status make_texture(mip_chain *out, const void *values, lmn_error *er
     return streak_texture_make(out, ((const streaks_values *)values)->texture.text, error);
 }
 
+static void describe_mask(text *out, const void *values)
+{
+    text_append(out, "streak mask %s", ((const streaks_values *)values)->mask.text);
+}
+
+static lmn_status make_mask(mip_chain *out, const void *values, lmn_error *error)
+{
+    return streak_mask_make(out, ((const streaks_values *)values)->mask.text, error);
+}
+
 static const strip_source strips = {"motion/streaks.vert", strip_vertices, make_strips};
 
 enum { STREAKS = TARGET_COUNT, STREAKS_DEPTH };
@@ -165,7 +195,8 @@ static const target_row targets[] = {
 
 #define STREAK_READS                                                                                                   \
     {                                                                                                                  \
-        TARGET_VELOCITY, TARGET_PAST_1, TARGET_PAST_2, TARGET_PAST_3, TARGET_DEPTH, TARGET_MOVER, TARGET_SCENE_DEPTH   \
+        TARGET_VELOCITY, TARGET_PAST_1, TARGET_PAST_2, TARGET_PAST_3, TARGET_DEPTH, TARGET_MOVER, TARGET_SCENE_DEPTH,  \
+            TARGET_NORMAL_DEPTH                                                                                        \
     }
 
 /* The nearest depth of all strokes and the colour of the last one: as an artist paints over (section 6.5.1). */
@@ -181,6 +212,12 @@ static const pass passes[] = {
      .writes = (target)STREAKS,
      .blend = BLEND_OVER,
      .strips = &strips},
+    {.name = "shadows",
+     .when = "shadows",
+     .shader = "motion/streaks.frag",
+     .reads = STREAK_READS,
+     .writes = TARGET_SHADOW,
+     .strips = &strips},
     {.name = "streaks",
      .shader = "motion/streaked.frag",
      .reads = {TARGET_MOVER, TARGET_MOVER_DEPTH, TARGET_DEPTH, TARGET_VELOCITY, TARGET_SCENE_DEPTH, (target)STREAKS,
@@ -192,12 +229,14 @@ static const pass passes[] = {
 
 static const texture_source textures[] = {
     {.name = "stroke", .describe = describe_texture, .make = make_texture},
+    {.name = "mask", .when = "mask", .describe = describe_mask, .make = make_mask},
 };
 
 const technique motion_streaks = {
     .name = "streaks",
     .doc = "Strokes along the motion, in the object's colours; it dissolves in them where it is fast.",
-    .example = "{\"motion\": {\"technique\": \"streaks\"}, \"surface\": \"toon\", \"lines\": \"discontinuity\"}",
+    .example = "{\"motion\": {\"technique\": \"streaks\", \"ink\": \"colour\"}, \"surface\": \"toon\", \"lines\": "
+               "\"discontinuity\"}",
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(streaks_values),
@@ -207,5 +246,5 @@ const technique motion_streaks = {
     .target_count = PARAM_COUNT(targets),
     .textures = textures,
     .texture_count = PARAM_COUNT(textures),
-    .motion = &(const motion_row){.steps = steps_of},
+    .motion = &(const motion_row){.steps = steps_of, .moved = channels_of},
 };

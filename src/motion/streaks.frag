@@ -35,6 +35,17 @@ float texture_along()
     return mix(1.0 - u_head, u_tail, (at - cap) / max(whole - 2.0 * cap, 1e-4));
 }
 
+#ifdef WITH_ROUND
+/* Light on a half-cylinder, by that on a flat stroke. */
+float roundness(float across)
+{
+    across = clamp(across, -1.0, 1.0);
+    vec3 normal = vec3(across * vec2(-v_direction.y, v_direction.x), sqrt(1.0 - across * across));
+    float flat_light = 0.3 + 0.7 * max(u_first_light.z, 0.0);
+    return (0.3 + 0.7 * max(dot(normal, u_first_light), 0.0)) / flat_light;
+}
+#endif
+
 void main()
 {
     float half_width = max(v_shape.y * (1.0 - u_taper * v_stroke.x / max(v_shape.x, 1e-4)), 0.05);
@@ -44,10 +55,19 @@ void main()
     vec2 texel = textureLod(t_stroke, vec3(at, 0.0), level).rg;
     float covered = clamp(half_width + 0.5 - abs(v_stroke.y), 0.0, 1.0); /* of the pixel */
     float alpha = texel.y * covered * v_shape.z;
+#ifdef INTO_SHADOW
+    if (alpha < 0.5)
+        discard;
+#else
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     if (alpha < 0.004 || gl_FragCoord.z > texelFetch(t_scene_depth, pixel, 0).r || ahead())
         discard;
 #ifndef DEPTH_ALONE
-    out_0 = vec4(v_colour.rgb * texel.x, 1.0) * alpha;
+    vec3 colour = v_colour.rgb * texel.x;
+#ifdef WITH_ROUND
+    colour *= mix(1.0, roundness(v_stroke.y / half_width), u_round);
+#endif
+    out_0 = vec4(colour, 1.0) * alpha;
+#endif
 #endif
 }

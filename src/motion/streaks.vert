@@ -2,6 +2,9 @@
  * that drift with depth: lengths and widths are pixels, whatever the projection. */
 #include "motion/streak_depth.glsl"
 
+#ifdef INTO_SHADOW
+uniform mat4 u_shadow_from_eye;
+#endif
 layout(location = 0) in vec4 a_seed; /* position on the page, pixels; a third coordinate; number */
 out vec2 v_stroke;           /* pixels from the head on, and from the axis */
 out vec2 v_direction;        /* on the page, towards the head */
@@ -73,6 +76,9 @@ vec4 colour_around(ivec2 pixel, float radius)
 #if INK == 1
     return u_colour;
 #else
+#ifdef INTO_SHADOW
+    return vec4(1.0); /* the object is not drawn yet */
+#else
     vec4 sum = texelFetch(t_mover, pixel, 0);
 #ifdef DEPTH_ALONE
     return sum;
@@ -82,6 +88,7 @@ vec4 colour_around(ivec2 pixel, float radius)
         sum += texelFetch(t_mover, clamp(pixel + ivec2(round(beside)), ivec2(0), ivec2(u_size) - 1), 0);
     }
     return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / 5.0) : vec4(0.0);
+#endif
 #endif
 }
 
@@ -95,6 +102,21 @@ bool left_out(float smaller)
 float smaller_at(float window)
 {
     return u_scaled && u_perspective > 0.5 ? min(u_depths.x / eye_depth_at(window), 1.0) : 1.0;
+}
+
+/* May a stroke begin here? Großmann 2011, sections 6.4.2 and 9.2.2: validity. */
+bool valid_at(ivec2 pixel)
+{
+    bool valid = true;
+#if WHERE != 0
+    float ahead = dot(texelFetch(t_normal_depth, pixel, 0).xy, places[0].xy - places[STEPS].xy);
+    valid = WHERE == 1 ? ahead < 0.0 : ahead > 0.0;
+#endif
+#ifdef HAS_MASK
+    vec2 mask = textureLod(t_mask, vec3((vec2(pixel) + 0.5) / u_size, 0.0), 0.0).rg;
+    valid = valid && mask.x * mask.y > 0.5;
+#endif
+    return valid;
 }
 
 float fading_of(float whole)
@@ -128,8 +150,17 @@ void main()
     here.xy += across * vec2(-tangent.y, tangent.x);
     /* A little nearer: along flat sides strokes lie in the very surface. */
     float nearer = window_depth_of(max(eye_depth_at(clamp(here.z, 0.0, 1.0)) - 0.002 * (u_far - u_near), 1e-6));
-    bool drawn = there && opacity >= 0.001 && whole > 0.01 && !left_out(smaller);
-    gl_Position = drawn ? vec4(2.0 * here.xy / u_size - 1.0, 2.0 * clamp(nearer, 0.0, 1.0) - 1.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+#ifdef INTO_SHADOW
+    float eye_depth = eye_depth_at(clamp(here.z, 0.0, 1.0));
+    vec2 across_page = (2.0 * here.xy / u_size - 1.0) * u_unproject;
+    vec3 in_shadow = (u_shadow_from_eye * vec4(across_page * (u_perspective > 0.5 ? eye_depth : 1.0), -eye_depth, 1.0)).xyz;
+    /* A little behind: strokes throw none on the surface that they lie on. */
+    vec4 position = vec4(2.0 * in_shadow + vec3(-1.0, -1.0, -0.98), 1.0);
+#else
+    vec4 position = vec4(2.0 * here.xy / u_size - 1.0, 2.0 * clamp(nearer, 0.0, 1.0) - 1.0, 1.0);
+#endif
+    bool drawn = there && valid_at(pixel) && opacity >= 0.001 && whole > 0.01 && !left_out(smaller);
+    gl_Position = drawn ? position : vec4(2.0, 2.0, 2.0, 1.0);
     v_stroke = vec2(lengths.y, across);
     v_direction = tangent;
     v_shape = vec3(lengths.x, half_width, opacity);

@@ -553,12 +553,14 @@ static lmn_status prepare_layers(plan *p, warnings *warnings, lmn_error *error)
     return LMN_OK;
 }
 
-/* What the look's surfaces want meshes to have. */
-static mesh_needs needs_of(const lmn_look *look)
+/* What the look's techniques want meshes to have. */
+static mesh_needs needs_of(const lmn_look *look, const pose *pose)
 {
     mesh_needs all = {.field = false};
     for (size_t i = 0; i < look->rule_count; i++) {
-        const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE);
+        const technique_use *surface = rule_use(&look->rules[i], KIND_SURFACE),
+                            *motion = rule_use(&look->rules[i], KIND_MOTION);
+        all.glue = all.glue || (motion && motion->technique->motion->stretched && pose->past_count);
         all.rest = all.rest || rule_use(&look->rules[i], KIND_PERTURB);
         if (!surface || !surface->technique->surface->needs)
             continue;
@@ -598,7 +600,7 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->look = look;
     out->box = out->fit_box = box3_empty();
     out->crease_angle = (double)v->crease_angle * (3.14159265358979323846 / 180);
-    out->meshes = needs_of(look);
+    out->meshes = needs_of(look, pose);
     out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !options->parts_only;
     out->part_count = pose->part_count + (out->has_removed ? pose->ghost_count : 0);
     out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);

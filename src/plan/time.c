@@ -8,10 +8,14 @@
 lmn_status time_moment(moment *out, const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warnings,
                        lmn_error *error)
 {
+    lmn_status status = LMN_OK;
     *out = moment_at_rest();
-    if (!desc->clip && !desc->time_given && desc->time_s == 0)
-        return LMN_OK;
-    return moment_find(out, scene, desc->clip, desc->time_s, warnings, error);
+    if (desc->clip || desc->time_given || desc->time_s != 0)
+        status = moment_find(out, scene, desc->clip, desc->time_s, warnings, error);
+    if (status == LMN_OK && desc->fit_time && !out->clip_count && warnings)
+        warnings_add(warnings, WARNING_UNUSED, "nothing is fitted to the time of clips: %s",
+                     scene->animation_count ? "the model is drawn at rest" : "the model has no animation");
+    return status;
 }
 
 lmn_status time_check(const lmn_look *look, lmn_error *error)

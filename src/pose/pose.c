@@ -29,8 +29,8 @@ static void set_joints(mat4 *out, const mat4 *worlds, const skin *s)
         out[i] = s->inverse_binds ? mat4_multiply(&worlds[s->joints[i]], &s->inverse_binds[i]) : worlds[s->joints[i]];
 }
 
-/* `weights` (may be NULL): of its node, where they move. */
-static void pose_part(pose *p, size_t part_index, mat4 *joints, const float *weights)
+/* `weights` (may be NULL): of its node, where they move. `posed` (may be NULL): where its vertices are kept. */
+static void pose_part(pose *p, size_t part_index, mat4 *joints, const float *weights, posed_vertices *posed)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part_index].node];
     const skin *s = skin_of(p->scene, part_index);
@@ -40,7 +40,10 @@ static void pose_part(pose *p, size_t part_index, mat4 *joints, const float *wei
     if (s)
         set_joints(joints, p->worlds, s);
     p->parts[part_index] =
-        (part_pose){.joints = s ? joints : NULL,
+        (part_pose){.primitives = m->primitives,
+                    .posed = posed,
+                    .primitive_count = posed ? m->primitive_count : 0,
+                    .joints = s ? joints : NULL,
                     .joint_count = s ? s->joint_count : 0,
                     .weights = weights            ? weights
                                : n->morph_weights ? n->morph_weights
@@ -73,7 +76,9 @@ static void set_boxes(pose *p, const animated_state *moved)
         int32_t      node_index = s->parts[i].node;
         const float *weights = moved->weights ? moved->weights[node_index] : NULL;
         p->part_boxes[i] =
-            p->at_rest && is_moved(p, i, weights) ? node_bounds(s, p->worlds, node_index, weights) : s->parts[i].bounds;
+            p->at_rest && is_moved(p, i, weights)
+                ? node_bounds(s, p->worlds, node_index, weights, i < p->part_count ? p->parts[i].posed : NULL)
+                : s->parts[i].bounds;
         if (i < p->part_count)
             p->box = box3_union(p->box, p->part_boxes[i]);
     }
@@ -110,10 +115,12 @@ static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
     p->joints = mem_calloc(count_joints(scene), sizeof *p->joints);
     if (!p->worlds || !p->parts || !p->part_boxes || !p->joints)
         return error_memory(error);
-    mat4 *joints = p->joints;
+    mat4           *joints = p->joints;
+    posed_vertices *posed = p->posed;
     for (size_t i = 0; i < scene->part_count; i++) {
-        pose_part(p, i, joints, moved->weights ? moved->weights[scene->parts[i].node] : NULL);
+        pose_part(p, i, joints, moved->weights ? moved->weights[scene->parts[i].node] : NULL, posed);
         joints += p->parts[i].joint_count;
+        posed = posed ? posed + p->parts[i].primitive_count : NULL;
     }
     p->cameras = moved->cameras;
     p->lights = moved->lights;
@@ -125,6 +132,33 @@ static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
     return check_positions(p, error);
 }
 
+/* Room for what is posed on the way to the boxes. */
+static lmn_status open_posed(pose *p, lmn_error *error)
+{
+    const lmn_scene *s = p->scene;
+    for (size_t i = 0; i < s->part_count; i++) {
+        int32_t m = s->nodes[s->parts[i].node].mesh;
+        p->posed_count += m != NONE ? s->meshes[m].primitive_count : 0;
+    }
+    p->posed = mem_calloc(p->posed_count, sizeof *p->posed);
+    return p->posed ? LMN_OK : error_memory(error);
+}
+
+static void forget_posed(posed_vertices *posed, size_t count)
+{
+    for (size_t i = 0; posed && i < count; i++)
+        posed[i].made = false;
+}
+
+static void release_posed(pose *p)
+{
+    for (size_t i = 0; p->posed && i < p->posed_count; i++) {
+        mem_free(p->posed[i].positions);
+        mem_free(p->posed[i].normals);
+    }
+    mem_free(p->posed);
+}
+
 static lmn_status add_rest(pose *p, lmn_error *error)
 {
     moment when = moment_at_rest();
@@ -132,7 +166,9 @@ static lmn_status add_rest(pose *p, lmn_error *error)
     return p->at_rest ? pose_create(p->at_rest, p->scene, &when, error) : error_memory(error);
 }
 
-lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
+/* `keeps`: what is posed for boxes is drawn, too. `earlier` (may be NULL): of the same scene, it gives what serves. */
+static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, bool keeps, pose *earlier,
+                         lmn_error *error)
 {
     animated_state moved;
     *out = (pose){.scene = scene,
@@ -142,11 +178,34 @@ lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lm
                   .ghost_count = scene->ghost_count,
                   .box = box3_empty()};
     lmn_status status = animate(&moved, scene, when, error);
-    if (status == LMN_OK && when->clip_count)
+    if (earlier && when->clip_count) {
+        out->at_rest = earlier->at_rest;
+        out->posed = earlier->posed;
+        out->posed_count = earlier->posed_count;
+        earlier->at_rest = NULL;
+        earlier->posed = NULL;
+        forget_posed(out->posed, out->posed_count);
+    }
+    if (status == LMN_OK && when->clip_count && !out->at_rest)
         status = add_rest(out, error);
+    if (status == LMN_OK && when->clip_count && keeps && !out->posed)
+        status = open_posed(out, error);
     if (status == LMN_OK)
         status = fill(out, &moved, error);
     animated_state_release(&moved);
+    return status;
+}
+
+lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
+{
+    return create(out, scene, when, true, NULL, error);
+}
+
+lmn_status pose_move(pose *p, const moment *when, lmn_error *error)
+{
+    pose       earlier = *p;
+    lmn_status status = create(p, earlier.scene, when, true, &earlier, error);
+    pose_release(&earlier);
     return status;
 }
 
@@ -186,6 +245,7 @@ void pose_release(pose *p)
     if (p->at_rest)
         pose_release(p->at_rest);
     mem_free(p->at_rest);
+    release_posed(p);
     mem_free(p->worlds);
     mem_free(p->parts);
     mem_free(p->part_boxes);
@@ -199,6 +259,14 @@ void pose_release(pose *p)
 bool pose_deforms(const part_pose *pose, const primitive *p)
 {
     return pose->joints || (pose->weights && p->morph_count);
+}
+
+const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p)
+{
+    for (size_t i = 0; i < pose->primitive_count; i++)
+        if (&pose->primitives[i] == p)
+            return pose->posed[i].made ? &pose->posed[i] : NULL;
+    return NULL;
 }
 
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
@@ -219,6 +287,7 @@ static void hold_part(pose *p, const pose *held, size_t part_index)
         return;
     part_pose       *own = &p->parts[part_index];
     const part_pose *other = &held->parts[part_index];
+    forget_posed(own->posed, own->primitive_count);
     if (own->joints)
         memcpy(p->joints + (own->joints - p->joints), other->joints, own->joint_count * sizeof *own->joints);
     if (own->weights != other->weights) /* those that move are the pose's own */
@@ -302,7 +371,7 @@ lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *wh
         moment at = *when;
         pose   p;
         at.seconds = (double)times[k] > 0 ? (double)times[k] : 0;
-        status = pose_create(&p, scene, &at, error);
+        status = create(&p, scene, &at, false, NULL, error);
         for (size_t i = 0; i < count && status == LMN_OK; i++)
             boxes[i] = box3_union(boxes[i], p.part_boxes[i]);
         pose_release(&p);

@@ -13,6 +13,10 @@ typedef struct part_pose {
     size_t       joint_count;
     const float *weights; /* of morph targets */
     size_t       weight_count;
+    /* What was posed for the part's box, one a primitive of its mesh; NULL: none. pose_vertices_of reads it. */
+    const primitive *primitives;
+    posed_vertices  *posed;
+    size_t           primitive_count;
 } part_pose;
 
 enum { POSE_PAST_MAX = 4 };
@@ -33,14 +37,20 @@ typedef struct pose {
     box3         box;                 /* of all parts */
     mat4        *joints;              /* of all parts, which point into it */
     float       *weights;             /* of nodes whose weights move; parts point into it */
-    camera      *cameras;             /* as the scene's, whose names they borrow */
-    light       *lights;
+    posed_vertices *posed;            /* of all parts' primitives; parts point into it. NULL: nobody asks */
+    size_t          posed_count;
+    camera         *cameras; /* as the scene's, whose names they borrow */
+    light          *lights;
 } pose;
 
 /* The scene at a moment. It is lent, and must neither change nor end before the pose. Errors: LMN_MEMORY, LMN_FORMAT
  * (animations put a part where no camera can look). Release it also after one. */
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       pose_release(pose *p);
+
+/* Brings a pose to another moment of its scene, which has not changed since: as made anew, but with the memory and the
+ * rest that it has. Errors: as above. */
+lmn_status pose_move(pose *p, const moment *when, lmn_error *error);
 
 /* Adds `count` poses of earlier times, the last of them `seconds` before, none before the clips' begin; of a scene at
  * rest there are none. Errors: LMN_MEMORY. */
@@ -50,8 +60,15 @@ lmn_status pose_add_past(pose *p, double seconds, int count, lmn_error *error);
  * then one a ghost), and unless all have it, cameras and lights. */
 void pose_hold(pose *p, const pose *held, const bool *moves);
 
+/* Says which parts have no extent because all the joints that they follow have none. */
+void pose_warn_of_flat(const pose *p, warnings *warnings);
+
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
+
+/* The vertices of this primitive in the pose where they are known already, because the part's box was made of them;
+ * else NULL. */
+const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p);
 
 /* Where an instance of a part is: takes its deformed mesh to the world. `instance` is below node_draw_count. */
 mat4 pose_instance(const pose *p, size_t part_index, size_t instance);

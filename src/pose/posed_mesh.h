@@ -12,7 +12,7 @@ typedef struct vertex_arrays {
     const uint32_t *indices;
 } vertex_arrays;
 
-/* `data` points into the rest and into the primitive. */
+/* `data` points into the rest, into the primitive and into what the pose keeps. */
 typedef struct posed_mesh {
     vertex_arrays   data;
     render_vertices split;
@@ -21,10 +21,18 @@ typedef struct posed_mesh {
     vec4           *colours;
 } posed_mesh;
 
-/* `crease_angle` in radians. Errors: LMN_MEMORY, those of mesh_make_normals. */
+/* `crease_angle` in radians. A mesh without normals has those that its triangles have in the pose, and creases there.
+ * Errors: LMN_MEMORY, those of mesh_make_normals. */
 lmn_status posed_make(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
                       lmn_error *error);
+/* The same. Which corners are in one position at rest is kept for the next pose (`kept`: zero-initialised at first,
+ * ended with corner_groups_release; may be NULL). */
+lmn_status posed_make_keeping(posed_mesh *out, const primitive *p, double crease_angle, const part_pose *pose,
+                              corner_groups *kept, lmn_error *error);
 void       posed_release(posed_mesh *m);
+
+/* Where the vertices of a mesh that was made are in another pose; free with mem_free. NULL when memory is gone. */
+vec3 *posed_positions(const primitive *p, const part_pose *pose, const render_vertices *split);
 
 /* Elements of `size` bytes in the order of a map; NULL when there are none (a NULL source) or memory is gone. The
  * caller frees it. */

@@ -74,23 +74,45 @@ static bool keeps_boxes(const mat4 *m)
 static box3 points_bounds(const vec3 *points, size_t count, const mat4 *m)
 {
     box3 box = box3_empty();
-    for (size_t i = 0; i < count; i++)
-        box = box3_with_point(box, m ? mat4_transform_point(m, points[i]) : points[i]);
+    for (size_t i = 0; i < count && m; i++)
+        box = box3_with_point(box, mat4_transform_point(m, points[i]));
+    for (size_t i = 0; i < count && !m; i++) { /* as box3_with_point, which would be called for each */
+        vec3 p = points[i];
+        box.min = (vec3){box.min.x < p.x ? box.min.x : p.x, box.min.y < p.y ? box.min.y : p.y,
+                         box.min.z < p.z ? box.min.z : p.z};
+        box.max = (vec3){box.max.x > p.x ? box.max.x : p.x, box.max.y > p.y ? box.max.y : p.y,
+                         box.max.z > p.z ? box.max.z : p.z};
+    }
     return box;
 }
 
-/* The pose of one primitive in its mesh's space; NULL when nothing moves it or memory is gone. */
-static vec3 *posed_positions(const primitive *p, const node *n, const mesh *m, const mat4 *joints, size_t joint_count,
-                             const float *weights)
+/* Room for a primitive's vertices, that is there already from pose to pose. */
+static bool open_vertices(posed_vertices *v, const primitive *p)
+{
+    if (!v->positions)
+        v->positions = mem_alloc(p->vertex_count * sizeof *v->positions);
+    if (!v->normals && p->normals)
+        v->normals = mem_alloc(p->vertex_count * sizeof *v->normals);
+    return v->positions && (v->normals || !p->normals);
+}
+
+/* Poses one primitive in its mesh's space; false when nothing moves it or memory is gone. Normals are turned when the
+ * vertices are kept: they cost less along with the positions than later. */
+static bool pose_primitive(posed_vertices *out, const primitive *p, const node *n, const mesh *m, const mat4 *joints,
+                           size_t joint_count, const float *weights, bool kept)
 {
     weights = weights ? weights : n->morph_weights ? n->morph_weights : m->morph_weights;
     size_t weight_count = n->morph_weights ? n->morph_weight_count : m->morph_weight_count;
     if (!joints && (p->morph_count == 0 || weight_count == 0))
-        return NULL;
-    vec3 *posed = mem_alloc(p->vertex_count * sizeof *posed);
-    if (posed)
-        mesh_pose(p, weights, weight_count, joints, joint_count, NULL, NULL, p->vertex_count, posed, NULL);
-    return posed;
+        return false;
+    if (!kept)
+        out->positions = mem_alloc(p->vertex_count * sizeof *out->positions);
+    if (kept ? !open_vertices(out, p) : !out->positions)
+        return false;
+    mesh_pose(p, weights, weight_count, joints, joint_count, kept ? p->normals : NULL, NULL, p->vertex_count,
+              out->positions, out->normals);
+    out->made = true;
+    return true;
 }
 
 static mat4 *skin_matrices(const lmn_scene *s, const mat4 *worlds, int32_t skin_index)
@@ -128,24 +150,26 @@ static box3 placed_bounds(const vec3 *points, size_t count, box3 local, const no
 }
 
 static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive *p, const mat4 *world,
-                             const mat4 *joints, const float *weights)
+                             const mat4 *joints, const float *weights, posed_vertices *keep)
 {
     bool   skinned = joints && p->joints && p->weights;
     bool   exact = is_affordable(s, p->vertex_count, node_draw_count(n));
     size_t joint_count = skinned ? s->skins[n->skin].joint_count : 0;
     if (skinned && !exact)
         return joint_boxes(p->bounds, joints, joint_count);
-    vec3 *posed =
-        exact ? posed_positions(p, n, &s->meshes[n->mesh], skinned ? joints : NULL, joint_count, weights) : NULL;
-    box3 local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
+    posed_vertices own = {NULL}, *v = keep ? keep : &own;
+    const mesh    *m = &s->meshes[n->mesh];
+    bool  moved = exact && pose_primitive(v, p, n, m, skinned ? joints : NULL, joint_count, weights, keep != NULL);
+    vec3 *posed = moved ? v->positions : NULL;
+    box3  local = posed ? points_bounds(posed, p->vertex_count, NULL) : p->bounds;
     /* Skinned vertices are already in the world: the node's own position does not move them. */
     if (!skinned || !posed)
         local = placed_bounds(posed ? posed : p->positions, p->vertex_count, local, n, world, exact);
-    mem_free(posed);
+    mem_free(own.positions);
     return local;
 }
 
-box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, const float *weights)
+box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, const float *weights, posed_vertices *keep)
 {
     const node *n = &s->nodes[node_index];
     box3        box = box3_empty();
@@ -156,14 +180,15 @@ box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, con
     const mesh *m = &s->meshes[n->mesh];
     mat4       *joints = skin_matrices(s, worlds, n->skin);
     for (size_t i = 0; i < m->primitive_count; i++)
-        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints, weights));
+        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints, weights,
+                                               keep ? &keep[i] : NULL));
     mem_free(joints);
     return box;
 }
 
 box3 part_bounds(const lmn_scene *s, const mat4 *worlds, size_t part_index)
 {
-    return node_bounds(s, worlds, s->parts[part_index].node, NULL);
+    return node_bounds(s, worlds, s->parts[part_index].node, NULL, NULL);
 }
 
 box3 scene_bounds(const lmn_scene *s, const mat4 *worlds)

@@ -32,9 +32,22 @@ typedef struct render_vertices {
     uint32_t *indices; /* NULL: the primitive's own */
 } render_vertices;
 
+/* Corners of triangles by position. Zero-initialised: not made yet. */
+typedef struct corner_groups {
+    uint32_t *ids;              /* per vertex: the first one at its position, which is its group's number */
+    uint32_t *starts, *corners; /* group g is corners[starts[g]] … corners[starts[g + 1] − 1] */
+} corner_groups;
+lmn_status corner_groups_make(corner_groups *out, const primitive *p, lmn_error *error);
+void       corner_groups_release(corner_groups *g);
+/* Are vertices that were in one position still? */
+bool corner_groups_hold(const corner_groups *g, const primitive *p);
+
 /* Makes normals: at each corner the area-weighted mean of the faces around the position whose normals are within
  * crease_angle (radians) of the corner's own face. Errors: LMN_MEMORY. */
 lmn_status mesh_make_normals(render_vertices *out, const primitive *p, double crease_angle, lmn_error *error);
+/* The same with groups that are known. */
+lmn_status mesh_make_normals_in(render_vertices *out, const primitive *p, const corner_groups *groups,
+                                double crease_angle, lmn_error *error);
 void       render_vertices_release(render_vertices *v);
 
 /* Positions (and normals, may be NULL in and out) of a primitive in its node's pose: morphs with `weights`, then

@@ -19,16 +19,19 @@ typedef struct corner_face {
     uint32_t corner;
 } corner_face;
 
+typedef struct triangle_face {
+    vec3 unit, area; /* as above */
+} triangle_face;
+
 typedef struct normals_job {
-    const primitive *primitive;
-    const uint32_t  *starts,
-        *corners;         /* corners by position: group g is corners[starts[g]] … corners[starts[g + 1] − 1] */
-    const vec3    *areas; /* per triangle */
-    float          cos_crease;
-    vec3          *vertex_normals; /* per vertex: the group's one normal, or left 0 */
-    vec3          *corner_normals; /* per corner, only in groups that are split */
-    unsigned char *split;          /* per group */
-    unsigned char *failed;         /* per group: memory was gone */
+    const primitive     *primitive;
+    const uint32_t      *starts, *corners; /* of corner_groups */
+    const triangle_face *triangles;
+    float                cos_crease, cos_half;
+    vec3                *vertex_normals; /* per vertex: the group's one normal, or left 0 */
+    vec3                *corner_normals; /* per corner, only in groups that are split */
+    unsigned char       *split;          /* per group */
+    unsigned char       *failed;         /* per group: memory was gone */
 } normals_job;
 
 static vec3 unit_or(vec3 v, vec3 otherwise)
@@ -56,8 +59,16 @@ static bool within(const corner_face *a, const corner_face *b, float cos_crease)
     return dot(a->unit, b->unit) >= cos_crease || dot(a->unit, a->unit) == 0 || dot(b->unit, b->unit) == 0;
 }
 
-static bool all_within(const corner_face *faces, size_t count, float cos_crease)
+/* `normal` is the mean. Faces that all lie within half the angle of it lie within the angle of each other: a few
+ * comparisons instead of all pairs. */
+static bool all_within(const corner_face *faces, size_t count, vec3 normal, float cos_crease, float cos_half)
 {
+    const float NARROW = 0.05f, HAIR = 1e-5f; /* half of nearly 180 degrees says nothing: rounding would decide */
+    bool        near = cos_half > NARROW;
+    for (size_t i = 0; i < count && near; i++)
+        near = dot(faces[i].unit, normal) >= cos_half + HAIR || dot(faces[i].unit, faces[i].unit) == 0;
+    if (near)
+        return true;
     for (size_t i = 0; i < count; i++)
         for (size_t k = i + 1; k < count; k++)
             if (!within(&faces[i], &faces[k], cos_crease))
@@ -117,13 +128,12 @@ static void do_group(normals_job *job, size_t group, corner_face *faces, size_t 
     vec3 sum = {0, 0, 0};
     for (size_t i = 0; i < count; i++) {
         uint32_t corner = job->corners[job->starts[group] + i];
-        vec3     area = job->areas[corner / 3];
-        faces[i] = (corner_face){unit_or(area, (vec3){0, 0, 0}), area, corner};
-        sum = add(sum, area);
+        faces[i] = (corner_face){job->triangles[corner / 3].unit, job->triangles[corner / 3].area, corner};
+        sum = add(sum, faces[i].area);
     }
     bool crowd = count > GROUP_EXACT;
-    if (job->cos_crease <= -1 || (!crowd && all_within(faces, count, job->cos_crease))) {
-        vec3 normal = unit_or(sum, unit_or(faces[0].area, (vec3){0, 0, 1}));
+    vec3 normal = unit_or(sum, unit_or(faces[0].area, (vec3){0, 0, 1}));
+    if (job->cos_crease <= -1 || (!crowd && all_within(faces, count, normal, job->cos_crease, job->cos_half))) {
         for (size_t i = 0; i < count; i++)
             job->vertex_normals[job->primitive->indices[faces[i].corner]] = normal;
         return;
@@ -154,20 +164,21 @@ static void do_groups(size_t begin, size_t end, void *user)
     }
 }
 
-typedef struct areas_job {
+typedef struct triangles_job {
     const primitive *primitive;
-    vec3            *areas;
-} areas_job;
+    triangle_face   *triangles;
+} triangles_job;
 
-static void do_areas(size_t begin, size_t end, void *user)
+static void do_triangles(size_t begin, size_t end, void *user)
 {
-    areas_job       *job = user;
+    triangles_job   *job = user;
     const primitive *p = job->primitive;
     for (size_t t = begin; t < end; t++) {
         vec3 a = p->positions[p->indices[3 * t]], b = p->positions[p->indices[3 * t + 1]];
         vec3 c = p->positions[p->indices[3 * t + 2]];
         vec3 u = {b.x - a.x, b.y - a.y, b.z - a.z}, v = {c.x - a.x, c.y - a.y, c.z - a.z};
-        job->areas[t] = (vec3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+        vec3 area = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+        job->triangles[t] = (triangle_face){unit_or(area, (vec3){0, 0, 0}), area};
     }
 }
 
@@ -268,41 +279,75 @@ static bool make_splits(render_vertices *out, normals_job *job)
     return good;
 }
 
-static bool make_normals(render_vertices *out, normals_job *job, uint32_t *ids, uint32_t *starts, uint32_t *corners,
-                         vec3 *areas)
+lmn_status corner_groups_make(corner_groups *out, const primitive *p, lmn_error *error)
+{
+    out->ids = mesh_position_ids(p);
+    out->starts = mem_calloc((size_t)p->vertex_count + 2, sizeof *out->starts);
+    out->corners = mem_alloc((size_t)p->index_count * sizeof *out->corners);
+    if (!out->ids || !out->starts || !out->corners) {
+        corner_groups_release(out);
+        return error_memory(error);
+    }
+    group_corners(p, out->ids, out->starts, out->corners);
+    return LMN_OK;
+}
+
+void corner_groups_release(corner_groups *g)
+{
+    mem_free(g->ids);
+    mem_free(g->starts);
+    mem_free(g->corners);
+    memset(g, 0, sizeof *g);
+}
+
+bool corner_groups_hold(const corner_groups *g, const primitive *p)
+{
+    bool holds = true;
+    for (uint32_t i = 0; i < p->vertex_count && holds; i++) {
+        vec3 a = p->positions[i], b = p->positions[g->ids[i]];
+        holds = a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+    return holds;
+}
+
+static bool make_normals(render_vertices *out, normals_job *job, triangle_face *triangles)
 {
     const primitive *p = job->primitive;
-    areas_job        faces = {p, areas};
-    threads_for(p->index_count / 3, GROUPS_PER_THREAD, do_areas, &faces);
-    group_corners(p, ids, starts, corners);
-    job->starts = starts;
-    job->corners = corners;
-    job->areas = areas;
+    triangles_job    faces = {p, triangles};
+    threads_for(p->index_count / 3, GROUPS_PER_THREAD, do_triangles, &faces);
+    job->triangles = triangles;
     threads_for(p->vertex_count, GROUPS_PER_THREAD, do_groups, job);
     return !memchr(job->failed, 1, p->vertex_count) && make_splits(out, job);
 }
 
 lmn_status mesh_make_normals(render_vertices *out, const primitive *p, double crease_angle, lmn_error *error)
 {
+    corner_groups groups;
     *out = (render_vertices){.vertex_count = p->vertex_count, .index_count = p->index_count};
-    size_t      vertices = p->vertex_count, corner_count = p->index_count;
-    uint32_t   *ids = mesh_position_ids(p);
-    uint32_t   *starts = mem_calloc(vertices + 2, sizeof *starts);
-    uint32_t   *corners = mem_alloc(corner_count * sizeof *corners);
-    vec3       *areas = mem_alloc(corner_count / 3 * sizeof *areas);
-    normals_job job = {.primitive = p};
+    lmn_status status = corner_groups_make(&groups, p, error);
+    if (status == LMN_OK)
+        status = mesh_make_normals_in(out, p, &groups, crease_angle, error);
+    corner_groups_release(&groups);
+    return status;
+}
+
+lmn_status mesh_make_normals_in(render_vertices *out, const primitive *p, const corner_groups *groups,
+                                double crease_angle, lmn_error *error)
+{
+    *out = (render_vertices){.vertex_count = p->vertex_count, .index_count = p->index_count};
+    size_t         vertices = p->vertex_count, corner_count = p->index_count;
+    triangle_face *triangles = mem_alloc(corner_count / 3 * sizeof *triangles);
+    normals_job    job = {.primitive = p, .starts = groups->starts, .corners = groups->corners};
     /* A hair wider than asked, so that faces exactly at the angle are joined whatever the rounding. */
     job.cos_crease = crease_angle >= 3.14159 ? -1.0f : (float)cos(crease_angle) - 1e-6f;
+    job.cos_half = (float)cos(crease_angle / 2);
     job.corner_normals = mem_alloc(corner_count * sizeof *job.corner_normals);
     job.split = mem_calloc(vertices, 1);
     job.failed = mem_calloc(vertices, 1);
     job.vertex_normals = out->normals = mem_calloc(vertices, sizeof *out->normals);
-    bool good = ids && starts && corners && areas && job.corner_normals && job.split && job.failed && out->normals &&
-                make_normals(out, &job, ids, starts, corners, areas);
-    mem_free(ids);
-    mem_free(starts);
-    mem_free(corners);
-    mem_free(areas);
+    bool good = triangles && job.corner_normals && job.split && job.failed && out->normals &&
+                make_normals(out, &job, triangles);
+    mem_free(triangles);
     mem_free(job.corner_normals);
     mem_free(job.split);
     mem_free(job.failed);

@@ -141,7 +141,7 @@ static bool add_part(listing *l, int32_t index)
     if (!p->path)
         return false;
     p->triangles = node_triangle_count(l->scene, &l->scene->nodes[index]);
-    p->bounds = node_bounds(l->scene, l->worlds, index, NULL);
+    p->bounds = node_bounds(l->scene, l->worlds, index, NULL, NULL);
     return true;
 }
 

@@ -297,8 +297,16 @@ const char *scene_camera_name(const lmn_scene *scene, size_t index, const char *
 box3 scene_bounds(const lmn_scene *scene, const mat4 *worlds);
 box3 part_bounds(const lmn_scene *scene, const mat4 *worlds, size_t part_index);
 
-/* The same for any node with a mesh. `weights` (may be NULL: those that it has) are of its morph targets. */
-box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index, const float *weights);
+/* Vertices of a primitive as a pose has them, in its mesh's axes. */
+typedef struct posed_vertices {
+    vec3 *positions, *normals; /* room for all; NULL: not needed yet. Normals are for primitives that have some */
+    bool  made;
+} posed_vertices;
+
+/* The same for any node with a mesh. `weights` (may be NULL: those that it has) are of its morph targets. What is posed
+ * for it is left in `keep` (may be NULL), one a primitive of its mesh; the caller frees it with mem_free. */
+box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index, const float *weights,
+                 posed_vertices *keep);
 /* The node after this one, depth first, within the tree below `root`; NONE at the end. */
 int32_t scene_next_node(const lmn_scene *scene, int32_t root, int32_t current);
 
@@ -317,6 +325,8 @@ vec3 mat4_transform_point(const mat4 *m, vec3 p);
 /* Cofactors of the upper left 3 by 3, column-major: what normals are turned by, up to the sign. Returns its
  * determinant. */
 double mat4_cofactors(const mat4 *m, double out[9]);
+/* Does it send solids to a plane, a line or a point, however large it is? */
+bool mat4_is_flat(const mat4 *m);
 /* The identity where there is none. */
 mat4   mat4_inverse(const mat4 *m);
 mat4   mat4_from_trs(const double t[3], const double r[4], const double s[3]);

@@ -34,6 +34,17 @@ double mat4_cofactors(const mat4 *matrix, double out[9])
     return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
 }
 
+bool mat4_is_flat(const mat4 *m)
+{
+    const double SLIGHT = 1e-12;
+    double       c[9], lengths = 1;
+    for (int column = 0; column < 3; column++) {
+        const double *v = &m->m[4 * column];
+        lengths *= sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    return !(fabs(mat4_cofactors(m, c)) > SLIGHT * lengths);
+}
+
 mat4 mat4_inverse(const mat4 *m)
 {
     double cofactors[9], determinant = mat4_cofactors(m, cofactors);

@@ -221,18 +221,18 @@ gpu_texture *upload_part_frames(upload *u, gpu *g)
     return u->part_frames;
 }
 
-vec3 *upload_rest_positions(upload *u, size_t part_index, const vertex_arrays *at_rest)
+vec3 *upload_rest_positions(upload *u, size_t part_index, const vec3 *at_rest, uint32_t count)
 {
     if (!u->rest_frame_values && !(u->rest_frame_values = frames_of(u, u->pose->at_rest)))
         return NULL;
     const float *rows = &u->rest_frame_values[PART_FRAME_FLOATS * part_index];
     mat4         world = pose_instance(u->pose->at_rest, part_index, 0);
-    vec3        *out = mem_alloc(at_rest->vertex_count * sizeof *out);
-    for (uint32_t i = 0; out && i < at_rest->vertex_count; i++) {
-        const float *p = &at_rest->positions[3 * (size_t)i];
-        double       from[3], to[3];
+    vec3        *out = mem_alloc(count * sizeof *out);
+    for (uint32_t i = 0; out && i < count; i++) {
+        vec3   p = at_rest[i];
+        double from[3], to[3];
         for (int k = 0; k < 3; k++)
-            from[k] = world.m[k] * (double)p[0] + world.m[4 + k] * (double)p[1] + world.m[8 + k] * (double)p[2] +
+            from[k] = world.m[k] * (double)p.x + world.m[4 + k] * (double)p.y + world.m[8 + k] * (double)p.z +
                       world.m[12 + k] - u->frame_origin[k];
         for (int k = 0; k < 3; k++)
             to[k] = (double)rows[4 * k] * from[0] + (double)rows[4 * k + 1] * from[1] +

@@ -11,11 +11,10 @@ static void release_view(stroke_store *s)
     s->view = NULL;
 }
 
-void stroke_store_destroy(stroke_store **store, gpu *g)
+/* All but what another moment has in common with it. */
+static void empty_store(stroke_store *s, gpu *g)
 {
-    stroke_store *s = *store;
-    if (!s)
-        return;
+    stroke_topologies topologies = s->topologies;
     release_view(s);
     for (size_t i = 0; i < s->scene.mesh_count && s->edges; i++)
         gpu_marks_destroy(g, &s->edges[i]);
@@ -25,13 +24,24 @@ void stroke_store_destroy(stroke_store **store, gpu *g)
     mem_free(s->edges);
     mem_free(s->crossings);
     mem_free(s->parts);
+    *s = (stroke_store){.topologies = topologies};
+}
+
+void stroke_store_destroy(stroke_store **store, gpu *g)
+{
+    stroke_store *s = *store;
+    if (!s)
+        return;
+    empty_store(s, g);
+    stroke_topologies_release(&s->topologies);
     mem_free(s);
     *store = NULL;
 }
 
 static bool is_as_wished(const stroke_store *s, const stroke_store_options *w)
 {
-    return s->part_count == w->part_count && s->refine == w->refine &&
+    return s->revision == w->pose->revision && moment_equal(&s->when, &w->pose->when) &&
+           s->part_count == w->part_count && s->refine == w->refine &&
            memcmp(s->parts, w->hides, w->part_count * sizeof *s->parts) == 0;
 }
 
@@ -39,11 +49,13 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn
 {
     s->refine = w->refine;
     s->part_count = w->part_count;
+    s->when = w->pose->when;
+    s->revision = w->pose->revision;
     s->parts = mem_copy(w->hides, w->part_count * sizeof *s->parts);
     lmn_status status = s->parts ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
-        status =
-            stroke_scene_create_refined(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, NULL, NULL, error);
+        status = stroke_scene_create_keeping(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, &s->topologies,
+                                             error);
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
@@ -55,10 +67,11 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
 {
     if (*slot && is_as_wished(*slot, options))
         return *slot;
-    stroke_store_destroy(slot, g);
     lmn_error     error = {0};
-    stroke_store *s = mem_calloc(1, sizeof *s);
-    lmn_status    status = s ? fill_store(s, options, &error) : error_memory(&error);
+    stroke_store *s = *slot ? *slot : mem_calloc(1, sizeof *s);
+    if (*slot)
+        empty_store(s, g);
+    lmn_status status = s ? fill_store(s, options, &error) : error_memory(&error);
     if (status != LMN_OK) {
         stroke_store_destroy(&s, g);
         gpu_fail(g, status, "%s", error.message);

@@ -7,14 +7,17 @@
 #include "stroke/stroke.h"
 
 typedef struct stroke_store {
-    bool         *parts; /* that the scene has; all that may hide lines */
-    size_t        part_count;
-    int32_t       refine; /* how often its surfaces are */
-    stroke_scene  scene;
-    gpu_marks   **edges;     /* per mesh of the scene; NULL: not made yet */
-    gpu_marks   **crossings; /* per item, the same */
-    stroke_view  *view;      /* of the last camera; NULL: none */
-    stroke_camera camera;
+    bool             *parts; /* that the scene has; all that may hide lines */
+    size_t            part_count;
+    int32_t           refine;   /* how often its surfaces are */
+    moment            when;     /* of its pose */
+    uint64_t          revision; /* of its scene */
+    stroke_scene      scene;
+    stroke_topologies topologies; /* stay when another moment is asked for */
+    gpu_marks       **edges;      /* per mesh of the scene; NULL: not made yet */
+    gpu_marks       **crossings;  /* per item, the same */
+    stroke_view      *view;       /* of the last camera; NULL: none */
+    stroke_camera     camera;
 } stroke_store;
 
 typedef struct stroke_store_options {

@@ -5,44 +5,68 @@
 
 #include "base/memory.h"
 
-static lmn_status upload_vertex_arrays(upload *u, gpu *g, const upload_part_job *job, size_t i, upload_vertices *v,
-                                       lmn_error *error)
+static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, size_t i, upload_vertices *v,
+                                 lmn_error *error)
 {
-    vec3      *rest_positions = v->at_rest ? upload_rest_positions(u, job->part_index, v->at_rest) : NULL;
+    vec3 *rest_positions =
+        v->at_rest ? upload_rest_positions(u, job->part_index, v->at_rest, v->now->vertex_count) : NULL;
     lmn_status status = v->at_rest && !rest_positions ? error_memory(error) : LMN_OK;
     v->rest_positions = rest_positions;
     if (status == LMN_OK && u->needs.field) {
-        status = upload_with_field(u, g, &job->meshes[i], &job->lapped[i], v, error);
+        status = upload_with_field(u, g, job, i, v, error);
     } else if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_over_time(v);
-        job->meshes[i] = gpu_mesh_create(g, &with);
+        status = upload_glue(u, &with, error);
+        if (status == LMN_OK)
+            job->meshes[i] = upload_mesh_make(g, job, i, &with);
+        mem_free((void *)(uintptr_t)with.glue);
     }
     mem_free(rest_positions);
     return status == LMN_OK ? gpu_check(g, error) : status;
+}
+
+/* Where the groups of a primitive's corners are kept. */
+static lmn_status find_corners(upload *u, const upload_part_job *job, size_t i, corner_groups **out, lmn_error *error)
+{
+    const lmn_scene *scene = u->pose->scene;
+    upload_corners  *c = &u->corners[scene->nodes[scene->parts[job->part_index].node].mesh];
+    if (!c->groups) {
+        c->groups = mem_calloc(job->mesh->primitive_count, sizeof *c->groups);
+        c->count = job->mesh->primitive_count;
+        c->revision = job->mesh->revision;
+    }
+    *out = c->groups ? &c->groups[i] : NULL;
+    return c->groups ? LMN_OK : error_memory(error);
 }
 
 static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job, size_t i, lmn_error *error)
 {
     const primitive *p = &job->mesh->primitives[i];
     const pose      *at_rest = u->pose->at_rest;
-    posed_mesh       now, rest = {.positions = NULL}, past[POSE_PAST_MAX] = {{.positions = NULL}};
+    posed_mesh       now = {.positions = NULL};
+    vec3            *rest = NULL, *past[POSE_PAST_MAX] = {NULL};
     bool deforms = at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field);
-    upload_vertices v = {.now = &now.data};
-    lmn_status      status = posed_make(&now, p, u->crease_angle, job->pose, error);
-    if (status == LMN_OK && moved) {
-        status = posed_make(&rest, p, u->crease_angle, &at_rest->parts[job->part_index], error);
-        v.at_rest = &rest.data;
-    }
-    for (int k = 0; k < u->past_count && deforms && status == LMN_OK; k++) {
-        status = posed_make(&past[k], p, u->crease_angle, &u->pose->past[k]->parts[job->part_index], error);
-        v.past[k] = &past[k].data;
-    }
+    corner_groups *kept = NULL;
+    lmn_status     status = deforms && !p->normals ? find_corners(u, job, i, &kept, error) : LMN_OK;
     if (status == LMN_OK)
-        status = upload_vertex_arrays(u, g, job, i, &v, error);
-    posed_release(&now);
-    posed_release(&rest);
+        status = posed_make_keeping(&now, p, u->crease_angle, job->pose, kept, error);
+    if (status == LMN_OK && moved)
+        rest = posed_positions(p, &at_rest->parts[job->part_index], &now.split);
+    if (status == LMN_OK && moved && !rest)
+        status = error_memory(error);
+    for (int k = 0; k < u->past_count && deforms && status == LMN_OK; k++) {
+        past[k] = posed_positions(p, &u->pose->past[k]->parts[job->part_index], &now.split);
+        status = past[k] ? LMN_OK : error_memory(error);
+    }
+    upload_vertices v = {.now = &now.data, .at_rest = rest};
     for (int k = 0; k < POSE_PAST_MAX; k++)
-        posed_release(&past[k]);
+        v.past[k] = past[k];
+    if (status == LMN_OK)
+        status = write_vertices(u, g, job, i, &v, error);
+    posed_release(&now);
+    mem_free(rest);
+    for (int k = 0; k < POSE_PAST_MAX; k++)
+        mem_free(past[k]);
     return status;
 }
 
@@ -121,6 +145,7 @@ static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *e
     if (make_room(made, job.mesh)) {
         job.meshes = made->primitives;
         job.lapped = made->lapped;
+        job.former = made->former;
         status = add_instances(u, g, &job, error);
     } else {
         status = error_memory(error);
@@ -150,7 +175,8 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->meshes = mem_calloc(scene->mesh_count, sizeof *out->meshes);
     out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
     out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
-    if (!out->textures || !out->meshes || !out->posed || !out->shapes)
+    out->corners = mem_calloc(scene->mesh_count, sizeof *out->corners);
+    if (!out->textures || !out->meshes || !out->posed || !out->shapes || !out->corners)
         return error_memory(error);
     out->mesh_count = scene->mesh_count;
     out->node_count = scene->node_count;
@@ -165,9 +191,38 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+static void release_mesh(upload_mesh *m, gpu *g)
+{
+    gpu_mesh ***lists[] = {&m->primitives, &m->lapped, &m->former};
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t k = 0; *lists[i] && k < m->count; k++)
+            gpu_mesh_destroy(g, &(*lists[i])[k]);
+        mem_free(*lists[i]);
+        *lists[i] = NULL;
+    }
+}
+
+/* What is deformed still holds at the same moment; at another one its buffers serve. */
+static void take_posed(upload *u, upload *earlier, const lmn_scene *scene)
+{
+    bool same = moment_equal(&u->when, &earlier->when) && u->past_seconds == earlier->past_seconds &&
+                u->past_count == earlier->past_count;
+    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count); i++) {
+        upload_mesh *from = &earlier->posed[i], *to = &u->posed[i];
+        int32_t      m = scene->nodes[i].mesh;
+        if (same) {
+            *to = *from;
+            *from = (upload_mesh){.primitives = NULL};
+        } else if (from->primitives && m != NONE && from->revision == scene->meshes[m].revision) {
+            to->former = from->primitives;
+            to->count = from->count;
+            from->primitives = NULL;
+        }
+    }
+}
+
 /* Moves what still holds. A scene never takes anything out of its arrays, and what is at a position there and has the
- * same revision is the same; nodes and images do not change at all.
- * What is deformed is taken at the same moment only. */
+ * same revision is the same; nodes and images do not change at all. */
 static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
 {
     for (size_t i = 0; i < smaller(u->texture_count, earlier->texture_count); i++) {
@@ -178,16 +233,19 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
-    for (size_t i = 0; i < smaller(u->node_count, earlier->node_count) && moment_equal(&u->when, &earlier->when) &&
-                       u->past_seconds == earlier->past_seconds && u->past_count == earlier->past_count;
-         i++) {
-        u->posed[i] = earlier->posed[i];
-        earlier->posed[i] = (upload_mesh){.primitives = NULL};
+    for (int i = 0; i < 2 && u->revision == earlier->revision; i++) {
+        u->strokes[i] = earlier->strokes[i]; /* these know their moment, too */
+        earlier->strokes[i] = NULL;
     }
+    take_posed(u, earlier, scene);
     for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
         if (earlier->meshes[i].revision == scene->meshes[i].revision) {
             u->meshes[i] = earlier->meshes[i];
             earlier->meshes[i] = (upload_mesh){.primitives = NULL};
+        }
+        if (earlier->corners[i].revision == scene->meshes[i].revision) {
+            u->corners[i] = earlier->corners[i];
+            earlier->corners[i] = (upload_corners){.groups = NULL};
         }
         if (earlier->shapes[i].revision == scene->meshes[i].revision) {
             u->shapes[i] = earlier->shapes[i];
@@ -211,6 +269,12 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
         else if (status == LMN_OK)
             status = upload_part(out, g, i, error);
     }
+    for (size_t i = 0; i < out->node_count && out->posed; i++) { /* what fitted nothing */
+        for (size_t k = 0; out->posed[i].former && k < out->posed[i].count; k++)
+            gpu_mesh_destroy(g, &out->posed[i].former[k]);
+        mem_free(out->posed[i].former);
+        out->posed[i].former = NULL;
+    }
     if (status == LMN_OK)
         status = upload_solids_close(out, g, error);
     return status;
@@ -218,15 +282,19 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
 
 static void release_meshes(upload_mesh *meshes, size_t count, gpu *g)
 {
-    for (size_t i = 0; i < count; i++) {
-        for (size_t k = 0; meshes[i].primitives && k < meshes[i].count; k++)
-            gpu_mesh_destroy(g, &meshes[i].primitives[k]);
-        for (size_t k = 0; meshes[i].lapped && k < meshes[i].count; k++)
-            gpu_mesh_destroy(g, &meshes[i].lapped[k]);
-        mem_free(meshes[i].primitives);
-        mem_free(meshes[i].lapped);
-    }
+    for (size_t i = 0; i < count && meshes; i++)
+        release_mesh(&meshes[i], g);
     mem_free(meshes);
+}
+
+static void release_corners(upload *u)
+{
+    for (size_t i = 0; i < u->mesh_count && u->corners; i++) {
+        for (size_t k = 0; u->corners[i].groups && k < u->corners[i].count; k++)
+            corner_groups_release(&u->corners[i].groups[k]);
+        mem_free(u->corners[i].groups);
+    }
+    mem_free(u->corners);
 }
 
 void upload_release(upload *u, gpu *g)
@@ -249,6 +317,7 @@ void upload_release(upload *u, gpu *g)
     gpu_buffer_release(g, u->program_buffer);
     upload_solids_release(u, g);
     csg_program_release(&u->program);
+    release_corners(u);
     mem_free(u->shapes);
     mem_free(u->planes);
     mem_free(u->operands);

@@ -42,8 +42,16 @@ typedef struct upload_mesh {
     uint64_t   revision;
     gpu_mesh **primitives; /* NULL, as each of them: not made yet */
     gpu_mesh **lapped;     /* the same covered with patches, where these are wished for */
+    gpu_mesh **former;     /* of another moment: their buffers are used again. NULL: none */
     size_t     count;
 } upload_mesh;
+
+/* What poses of a mesh without normals have in common. `revision`: as above. */
+typedef struct upload_corners {
+    uint64_t       revision;
+    corner_groups *groups; /* per primitive; NULL: not made yet */
+    size_t         count;
+} upload_corners;
 
 /* What solids ask of a mesh. */
 typedef struct upload_shape {
@@ -72,33 +80,34 @@ typedef struct draw_item {
 } draw_item;
 
 typedef struct upload {
-    uint64_t      revision, identity; /* of the scene */
-    double        crease_angle;       /* radians */
-    mesh_needs    needs;              /* of all techniques */
-    section       section;
-    size_t        open_parts;   /* some of whose sections are not closed */
-    double        extent;       /* of the scene as it is posed */
-    const pose   *pose;         /* that it was made of; lent */
-    moment        when;         /* of that one, as it was then */
-    double        past_seconds; /* how much earlier its last pose of the past is; 0: there was none */
-    int           past_count;
-    size_t        part_count;  /* with the ghosts when the look asks for them */
-    bool          has_removed; /* it does */
-    draw_item    *items;
-    size_t        item_count, item_capacity;
-    gpu_mesh    **pieces; /* what sections left */
-    size_t        piece_count, piece_capacity;
-    upload_mesh  *meshes; /* per mesh of the scene, for parts in no pose */
-    upload_mesh  *posed;  /* per node of the scene */
-    upload_shape *shapes; /* per mesh of the scene, and behind them that of the half-spaces of sections */
-    size_t        mesh_count, node_count;
-    gpu_texture **textures; /* one per image and colour space: index 2·image + linear */
-    size_t        texture_count;
-    upload_solid *solids;
-    size_t        solid_count, solid_capacity;
-    csg_program   program; /* of all solids */
-    csg_plane    *planes;  /* of all solids, in their own axes; items know theirs */
-    size_t        plane_count, plane_capacity;
+    uint64_t        revision, identity; /* of the scene */
+    double          crease_angle;       /* radians */
+    mesh_needs      needs;              /* of all techniques */
+    section         section;
+    size_t          open_parts;   /* some of whose sections are not closed */
+    double          extent;       /* of the scene as it is posed */
+    const pose     *pose;         /* that it was made of; lent */
+    moment          when;         /* of that one, as it was then */
+    double          past_seconds; /* how much earlier its last pose of the past is; 0: there was none */
+    int             past_count;
+    size_t          part_count;  /* with the ghosts when the look asks for them */
+    bool            has_removed; /* it does */
+    draw_item      *items;
+    size_t          item_count, item_capacity;
+    gpu_mesh      **pieces; /* what sections left */
+    size_t          piece_count, piece_capacity;
+    upload_mesh    *meshes;  /* per mesh of the scene, for parts in no pose */
+    upload_mesh    *posed;   /* per node of the scene */
+    upload_shape   *shapes;  /* per mesh of the scene, and behind them that of the half-spaces of sections */
+    upload_corners *corners; /* per mesh of the scene */
+    size_t          mesh_count, node_count;
+    gpu_texture   **textures; /* one per image and colour space: index 2·image + linear */
+    size_t          texture_count;
+    upload_solid   *solids;
+    size_t          solid_count, solid_capacity;
+    csg_program     program; /* of all solids */
+    csg_plane      *planes;  /* of all solids, in their own axes; items know theirs */
+    size_t          plane_count, plane_capacity;
     float (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table;     /* the same, two texels an operand, 512 operands a row; NULL: no solids */

@@ -154,7 +154,10 @@ static lmn_status add_surface(upload *u, gpu *g, upload_part_job *job, size_t i,
         draw_item     item = upload_item(job, i);
         item.world = *world;
         upload_set_past(u, &item, job->instance);
-        status = upload_add_piece(u, g, &item.mesh, &data, error);
+        status = upload_glue(u, &data, error);
+        if (status == LMN_OK)
+            status = upload_add_piece(u, g, &item.mesh, &data, error);
+        mem_free((void *)(uintptr_t)data.glue);
         u->triangles += count / 3;
         if (status == LMN_OK && !upload_add_item(u, &item))
             status = error_memory(error);

@@ -16,15 +16,15 @@ float upload_patch_radius(const upload *u, box3 b)
     return u->needs.patch * sqrtf(x * x + y * y + z * z);
 }
 
-/* As fields and patches are made of: of vertices as they are drawn. It borrows. */
-static primitive primitive_of(const vertex_arrays *data)
+/* As fields and patches are made of: of vertices as they are drawn, or where they are at rest. It borrows. */
+static primitive primitive_of(const upload_vertices *v)
 {
-    primitive p = {.vertex_count = data->vertex_count,
-                   .index_count = data->index_count,
-                   .positions = (vec3 *)(uintptr_t)data->positions,
-                   .normals = (vec3 *)(uintptr_t)data->normals,
-                   .indices = (uint32_t *)(uintptr_t)data->indices,
-                   .bounds = box3_empty()};
+    const vertex_arrays *data = v->now;
+    primitive            p = {.vertex_count = data->vertex_count,
+                              .index_count = data->index_count,
+                              .positions = v->at_rest ? (vec3 *)(uintptr_t)v->at_rest : (vec3 *)(uintptr_t)data->positions,
+                              .indices = (uint32_t *)(uintptr_t)data->indices,
+                              .bounds = box3_empty()};
     for (uint32_t i = 0; i < p.vertex_count; i++)
         p.bounds = box3_union(p.bounds, (box3){p.positions[i], p.positions[i]});
     return p;
@@ -156,10 +156,10 @@ static lmn_status upload_lapped_mesh(gpu *g, gpu_mesh **out, const lapped_mesh *
     return done ? LMN_OK : error_memory(error);
 }
 
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const upload_vertices *v,
-                             lmn_error *error)
+lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job, size_t primitive_index,
+                             const upload_vertices *v, lmn_error *error)
 {
-    primitive       p = primitive_of(v->at_rest ? v->at_rest : v->now);
+    primitive       p = primitive_of(v);
     direction_field field = {0};
     lapped_mesh     patches = {0};
     lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
@@ -169,12 +169,15 @@ lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh *
     if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_over_time(v);
         with.tensors = (const float *)tensors;
-        *out = gpu_mesh_create(g, &with);
+        status = upload_glue(u, &with, error);
+        if (status == LMN_OK)
+            job->meshes[primitive_index] = upload_mesh_make(g, job, primitive_index, &with);
+        mem_free((void *)(uintptr_t)with.glue);
     }
     if (status == LMN_OK && u->needs.patch > 0) {
         status = lapped_make(&patches, &p, &field, (double)upload_patch_radius(u, p.bounds), PATCH_SEED, error);
         if (status == LMN_OK)
-            status = upload_lapped_mesh(g, lapped, &patches, v->now, error);
+            status = upload_lapped_mesh(g, &job->lapped[primitive_index], &patches, v->now, error);
     }
     mem_free(tensors);
     lapped_release(&patches);

@@ -21,8 +21,24 @@ gpu_mesh_data upload_data_over_time(const upload_vertices *v)
     gpu_mesh_data data = upload_data_of(v->now);
     data.rest = (const float *)v->rest_positions;
     for (int k = 0; k < POSE_PAST_MAX; k++)
-        data.past[k] = v->past[k] ? v->past[k]->positions : NULL;
+        data.past[k] = (const float *)v->past[k];
     return data;
+}
+
+gpu_mesh *upload_mesh_make(gpu *g, const upload_part_job *job, size_t primitive_index, const gpu_mesh_data *data)
+{
+    gpu_mesh    **former = job->former ? &job->former[primitive_index] : NULL;
+    gpu_mesh_data moved = *data;
+    /* As many as the primitive has are its own ones, which do not change from moment to moment. */
+    if (data->vertex_count == job->mesh->primitives[primitive_index].vertex_count) {
+        moved.uvs[0] = moved.uvs[1] = moved.colours = NULL;
+        moved.indices = NULL;
+    }
+    if (!former || !gpu_mesh_rewrite(g, *former, &moved))
+        return gpu_mesh_create(g, data);
+    gpu_mesh *out = *former;
+    *former = NULL;
+    return out;
 }
 
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error)

@@ -11,6 +11,7 @@ typedef struct upload_part_job {
     const mesh      *mesh;
     const part_pose *pose;
     gpu_mesh       **meshes, **lapped; /* per primitive, NULL: not made yet */
+    gpu_mesh       **former;           /* per primitive: of another moment; NULL: there are none */
     posed_mesh      *posed;            /* per primitive, what cutting needs; NULL: not made yet */
     cut_input       *inputs;
     vec3           **input_positions;
@@ -25,33 +26,40 @@ void upload_set_past(const upload *u, draw_item *item, size_t instance);
 
 /* The vertices of a primitive at several times. */
 typedef struct upload_vertices {
-    const vertex_arrays *now, *at_rest;       /* at_rest: NULL: nobody asks, or it is that */
-    const vertex_arrays *past[POSE_PAST_MAX]; /* as many as there are */
+    const vertex_arrays *now;
+    const vec3          *at_rest;             /* the same vertices; NULL: nobody asks, or it is that */
+    const vec3          *past[POSE_PAST_MAX]; /* likewise; as many as there are */
     const vec3          *rest_positions;      /* of at_rest, in its part's frame */
 } upload_vertices;
 /* What a mesh is made of, with all its times. */
 gpu_mesh_data upload_data_over_time(const upload_vertices *v);
 
+/* --- upload_glue.c --- */
+/* Gives the mesh its glue patches, where the plan wants them: free data->glue with mem_free, also after an error. */
+lmn_status upload_glue(const upload *u, gpu_mesh_data *data, lmn_error *error);
+
 /* --- upload_mesh.c --- */
 gpu_mesh_data upload_data_of(const vertex_arrays *from);
+/* The mesh of a part's primitive, in the buffers of a former one where it fits into these. */
+gpu_mesh *upload_mesh_make(gpu *g, const upload_part_job *job, size_t primitive_index, const gpu_mesh_data *data);
+
 /* A piece, which the upload owns. */
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
 bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
 
 /* --- upload_field.c --- */
-/* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else *lapped
- * stays NULL). What is deformed bends as it does at rest, moved along: `v->at_rest` has the same vertices there (else
- * it is NULL). */
-lmn_status upload_with_field(const upload *u, gpu *g, gpu_mesh **out, gpu_mesh **lapped, const upload_vertices *v,
-                             lmn_error *error);
+/* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else that
+ * one stays NULL). What is deformed bends as it does at rest, moved along. */
+lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job, size_t primitive_index,
+                             const upload_vertices *v, lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
 float upload_patch_radius(const upload *u, box3 bounds);
 
 /* --- part_frames.c --- */
 /* Where the vertices of a deformed part are when nothing has moved, in its part's frame; free with mem_free. NULL when
  * memory is gone. */
-vec3 *upload_rest_positions(upload *u, size_t part_index, const vertex_arrays *at_rest);
+vec3 *upload_rest_positions(upload *u, size_t part_index, const vec3 *at_rest, uint32_t count);
 
 /* --- upload_solid.c --- */
 lmn_status upload_solid_part(upload *u, gpu *g, size_t part_index, upload *earlier, lmn_error *error);

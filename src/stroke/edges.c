@@ -8,6 +8,7 @@
 
 #include "base/groups.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
 
@@ -23,17 +24,29 @@ typedef struct half_edge {
     uint32_t high, corner; /* corner: 3 · face + number of the corner that it begins at */
 } half_edge;
 
-typedef struct builder {
-    edge_mesh *mesh;
-    uint32_t  *starts; /* per vertex, and one more */
+struct edge_topology {
+    uint64_t   revision;
+    edge_mesh  mesh;   /* at rest */
+    uint32_t  *welded; /* per vertex of the mesh: its number */
+    size_t     vertex_count;
+    uint32_t  *starts; /* of `mesh`, as below */
     half_edge *halves;
-    uint8_t   *dropped; /* per face: 1: the same as another one */
-    uint32_t  *origins; /* per face: its number before any were dropped; NULL: nobody asks */
-    uint32_t  *pieces;  /* per face: another one of its piece, itself at the root */
-    size_t     edge_capacity;
-    float      crease; /* cosine */
-    bool has_twins;    /* there may be faces that are there twice: edges have more than two, or both of an edge are the
-                          same */
+    bool       has_flat; /* faces without area were left out */
+};
+
+typedef struct builder {
+    edge_mesh     *mesh;
+    edge_topology *keeps;  /* NULL: nobody asks */
+    uint32_t      *starts; /* per vertex, and one more */
+    half_edge     *halves;
+    uint8_t       *dropped; /* per face: 1: the same as another one */
+    uint32_t      *origins; /* per face: its number before any were dropped; NULL: nobody asks */
+    uint32_t      *pieces;  /* per face: another one of its piece, itself at the root */
+    size_t         edge_capacity;
+    float          crease;   /* cosine */
+    bool           has_flat; /* faces without area were left out */
+    bool has_twins; /* there may be faces that are there twice: edges have more than two, or both of an edge are the
+                       same */
 } builder;
 
 static vec3 minus(vec3 a, vec3 b)
@@ -111,9 +124,12 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
             for (int c = 0; c < 3; c++)
                 corners[c] = ids[base + p->indices[k + (uint32_t)c]];
             vec3 normal = face_normal(out->positions, corners);
-            if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2] ||
-                dot(normal, normal) == 0)
+            if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2])
                 continue;
+            if (dot(normal, normal) == 0) {
+                b->has_flat = true;
+                continue;
+            }
             uint32_t f = out->face_count++;
             memcpy(out->faces[f], corners, sizeof corners);
             out->normals[f] = normal;
@@ -191,6 +207,12 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     if (good) {
         weld(out, ids, (uint32_t)vertices);
         gather_faces(b, m, ids);
+    }
+    if (b->keeps) {
+        b->keeps->welded = ids;
+        b->keeps->vertex_count = vertices;
+        b->keeps->has_flat = b->has_flat;
+        ids = NULL;
     }
     mem_free(ids);
     return good ? LMN_OK : error_memory(error);
@@ -270,15 +292,19 @@ static void widen(box3 *box, vec3 p)
                       p.z > box->max.z ? p.z : box->max.z};
 }
 
-/* Numbers the pieces; boxes, and volumes by their first corner, which says which way round they are. */
-static double *number_pieces(builder *b)
+/* A root comes before all others of its piece. */
+static void number_pieces(builder *b)
 {
     edge_mesh *m = b->mesh;
-    for (uint32_t f = 0; f < m->face_count; f++)
-        if (b->pieces[f] == f)
-            m->piece_count++;
     m->pieces = b->pieces;
     b->pieces = NULL;
+    for (uint32_t f = 0; f < m->face_count; f++)
+        m->pieces[f] = m->pieces[f] == f ? m->piece_count++ : m->pieces[m->pieces[f]];
+}
+
+/* Boxes of the pieces, and volumes by their first corner, which says which way round they are. */
+static double *measure_pieces(edge_mesh *m)
+{
     m->boxes = mem_alloc(((size_t)m->piece_count + 1) * sizeof *m->boxes);
     m->closed = mem_alloc((size_t)m->piece_count + 1);
     m->inward = mem_alloc((size_t)m->piece_count + 1);
@@ -289,17 +315,15 @@ static double *number_pieces(builder *b)
         mem_free(volumes);
         return NULL;
     }
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < m->face_count; f++) { /* a root comes before all others of its piece */
-        if (m->pieces[f] == f) {
-            origins[count] = m->positions[m->faces[f][0]];
-            m->boxes[count] = box3_empty();
-            m->closed[count] = true;
-            m->pieces[f] = count++;
-        } else {
-            m->pieces[f] = m->pieces[m->pieces[f]];
-        }
+    uint32_t seen = 0;
+    for (uint32_t f = 0; f < m->face_count; f++) {
         uint32_t piece = m->pieces[f];
+        if (piece == seen) {
+            origins[piece] = m->positions[m->faces[f][0]];
+            m->boxes[piece] = box3_empty();
+            m->closed[piece] = true;
+            seen++;
+        }
         volumes[piece] += volume_of(m, f, origins[piece]);
         for (int k = 0; k < 3; k++)
             widen(&m->boxes[piece], m->positions[m->faces[f][k]]);
@@ -397,6 +421,8 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
     if (count == 2) {
         bool same_direction = (corner_vertex(m, group[0].corner) == low) == (corner_vertex(m, group[1].corner) == low);
         flags = judge_pair(b, group[0].corner, group[1].corner, same_direction);
+    }
+    if (count == 2 && b->pieces) { /* else these are known */
         group_join(b->pieces, group[0].corner / 3, group[1].corner / 3);
         b->has_twins = b->has_twins || have_same_corners(m->faces[group[0].corner / 3], m->faces[group[1].corner / 3]);
     }
@@ -409,9 +435,9 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
 /* Calls for all edges, once their buckets are sorted; false ends it. */
 typedef bool (*edge_visit)(builder *b, uint32_t low, const half_edge *group, size_t count);
 
-static bool each_edge(builder *b, edge_visit visit)
+static bool each_edge_of(builder *b, uint32_t first, uint32_t end_vertex, edge_visit visit)
 {
-    for (uint32_t v = 0; v < b->mesh->vertex_count; v++) {
+    for (uint32_t v = first; v < end_vertex; v++) {
         const half_edge *bucket = b->halves + b->starts[v];
         size_t           size = b->starts[v + 1] - b->starts[v];
         for (size_t begin = 0, end = 0; begin < size; begin = end) {
@@ -422,6 +448,11 @@ static bool each_edge(builder *b, edge_visit visit)
         }
     }
     return true;
+}
+
+static bool each_edge(builder *b, edge_visit visit)
+{
+    return each_edge_of(b, 0, b->mesh->vertex_count, visit);
 }
 
 static bool take_edges(builder *b)
@@ -521,7 +552,8 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     }
     for (uint32_t f = 0; f < m->face_count; f++)
         b->pieces[f] = group_root(b->pieces, f);
-    double *volumes = number_pieces(b);
+    number_pieces(b);
+    double *volumes = measure_pieces(m);
     if (!volumes)
         return error_memory(error);
     each_edge(b, open_pieces);
@@ -540,8 +572,13 @@ static lmn_status finish(builder *b, lmn_status status, lmn_error *error)
         b->pieces = mem_alloc((size_t)out->face_count * sizeof *b->pieces);
         status = b->starts && b->halves && b->pieces ? sort_edges(b, error) : error_memory(error);
     }
-    mem_free(b->starts);
-    mem_free(b->halves);
+    if (b->keeps) {
+        b->keeps->starts = b->starts;
+        b->keeps->halves = b->halves;
+    } else {
+        mem_free(b->starts);
+        mem_free(b->halves);
+    }
     mem_free(b->pieces);
     if (status != LMN_OK)
         edge_mesh_release(out);
@@ -553,6 +590,170 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions
     memset(out, 0, sizeof *out);
     builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
     return finish(&b, make_faces(&b, m, positions, error), error);
+}
+
+/* --- poses ---------------------------------------------------------------------------------------------- */
+
+lmn_status edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error)
+{
+    edge_topology *t = *out = mem_calloc(1, sizeof *t);
+    if (!t)
+        return error_memory(error);
+    builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0};
+    t->revision = m->revision;
+    lmn_status status = finish(&b, make_faces(&b, m, NULL, error), error);
+    mem_free(t->mesh.positions); /* every pose has its own */
+    mem_free(t->mesh.normals);
+    mem_free(t->mesh.edges);
+    t->mesh.positions = t->mesh.normals = NULL;
+    t->mesh.edges = NULL;
+    if (status != LMN_OK)
+        edge_topology_destroy(out);
+    return status;
+}
+
+void edge_topology_destroy(edge_topology **topology)
+{
+    edge_topology *t = *topology;
+    if (!t)
+        return;
+    edge_mesh_release(&t->mesh);
+    mem_free(t->welded);
+    mem_free(t->starts);
+    mem_free(t->halves);
+    mem_free(t);
+    *topology = NULL;
+}
+
+uint64_t edge_topology_revision(const edge_topology *t)
+{
+    return t->revision;
+}
+
+/* Numbers were given in the order of appearance. False when vertices that were one have come apart. */
+static bool weld_again(edge_mesh *out, const edge_topology *t, const vec3 *positions)
+{
+    uint32_t seen = 0;
+    for (size_t i = 0; i < t->vertex_count; i++) {
+        uint32_t number = t->welded[i];
+        if (number == seen)
+            out->positions[seen++] = positions[i];
+        vec3 p = out->positions[number];
+        if (p.x != positions[i].x || p.y != positions[i].y || p.z != positions[i].z)
+            return false;
+    }
+    return true;
+}
+
+static void find_normals(size_t begin, size_t end, void *user)
+{
+    edge_mesh *m = user;
+    for (size_t f = begin; f < end; f++)
+        m->normals[f] = face_normal(m->positions, m->faces[f]);
+}
+
+/* Copies of what no pose changes, and room for the rest. */
+static bool copy_topology(edge_mesh *out, const edge_topology *t)
+{
+    const edge_mesh *from = &t->mesh;
+    size_t           faces = from->face_count;
+    out->vertex_count = from->vertex_count;
+    out->face_count = from->face_count;
+    out->piece_count = from->piece_count;
+    out->positions = mem_alloc((size_t)from->vertex_count * sizeof *out->positions);
+    out->normals = mem_alloc(faces * sizeof *out->normals);
+    out->faces = mem_copy(from->faces, faces * sizeof *out->faces);
+    out->pieces = mem_copy(from->pieces, faces * sizeof *out->pieces);
+    out->materials = from->materials ? mem_copy(from->materials, faces * sizeof *out->materials) : NULL;
+    out->said = from->said ? mem_copy(from->said, 3 * faces) : NULL;
+    return out->positions && out->normals && out->faces && out->pieces && (out->materials || !from->materials) &&
+           (out->said || !from->said);
+}
+
+/* Edges of a range of vertices: of a copy of the mesh, which has no other ones. */
+typedef struct edge_range {
+    edge_mesh mesh;
+    builder   b;
+    uint32_t  first, end;
+    bool      done;
+} edge_range;
+
+static void take_ranges(size_t begin, size_t end, void *user)
+{
+    edge_range *ranges = user;
+    for (size_t i = begin; i < end; i++)
+        ranges[i].done = each_edge_of(&ranges[i].b, ranges[i].first, ranges[i].end, take_edge);
+}
+
+/* Ranges side by side, put one behind the other: as each_edge has them. */
+static bool take_edges_again(builder *b)
+{
+    enum { RANGES = 16, LEAST = 4096 };
+    edge_range ranges[RANGES];
+    edge_mesh *m = b->mesh;
+    uint32_t   count = m->vertex_count < LEAST ? 1 : RANGES;
+    bool       done = true;
+    for (uint32_t i = 0; i < count; i++) {
+        edge_range *r = &ranges[i];
+        *r = (edge_range){.mesh = *m,
+                          .b = *b,
+                          .first = (uint32_t)((uint64_t)m->vertex_count * i / count),
+                          .end = (uint32_t)((uint64_t)m->vertex_count * (i + 1) / count)};
+        r->b.mesh = &r->mesh;
+    }
+    threads_for(count, 1, take_ranges, ranges);
+    size_t edges = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        edges += ranges[i].mesh.edge_count;
+        done = done && ranges[i].done;
+    }
+    m->edges = done ? mem_alloc(edges * sizeof *m->edges) : NULL;
+    for (uint32_t i = 0; i < count; i++) {
+        const edge_mesh *from = &ranges[i].mesh;
+        if (m->edges && from->edge_count)
+            memcpy(m->edges + m->edge_count, from->edges, from->edge_count * sizeof *m->edges);
+        m->edge_count += from->edge_count;
+        m->all_edges += from->all_edges;
+        m->loose_edges += from->loose_edges;
+        mem_free(ranges[i].mesh.edges);
+    }
+    return m->edges;
+}
+
+/* Edges, with faces and half-edges that are there. */
+static lmn_status judge_again(builder *b, const edge_topology *t, lmn_error *error)
+{
+    edge_mesh *m = b->mesh;
+    double    *volumes = take_edges_again(b) ? measure_pieces(m) : NULL;
+    if (!volumes)
+        return error_memory(error);
+    memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
+    drop_concave(m, volumes);
+    mem_free(volumes);
+    return LMN_OK;
+}
+
+lmn_status edge_mesh_pose(edge_mesh *out, const edge_topology *t, const vec3 *positions, double crease_angle,
+                          bool *fits, lmn_error *error)
+{
+    enum { FACES_PER_THREAD = 16384 };
+    memset(out, 0, sizeof *out);
+    *fits = !t->has_flat;
+    if (!*fits)
+        return LMN_OK;
+    builder    b = {.mesh = out, .starts = t->starts, .halves = t->halves, .crease = (float)cos(crease_angle)};
+    lmn_status status = copy_topology(out, t) ? LMN_OK : error_memory(error);
+    if (status == LMN_OK)
+        *fits = weld_again(out, t, positions);
+    if (status == LMN_OK && *fits)
+        threads_for(out->face_count, FACES_PER_THREAD, find_normals, out);
+    for (uint32_t f = 0; f < out->face_count && status == LMN_OK && *fits; f++)
+        *fits = dot(out->normals[f], out->normals[f]) != 0;
+    if (status == LMN_OK && *fits)
+        status = judge_again(&b, t, error);
+    if (status != LMN_OK || !*fits)
+        edge_mesh_release(out);
+    return status;
 }
 
 lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,

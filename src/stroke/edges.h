@@ -52,6 +52,18 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions
                             lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
 
+/* What the poses of a mesh have in common: vertices that are one, faces, and which of these meet. Of the mesh at rest:
+ * what only comes to touch in a pose stays apart. Errors: those of edge_mesh_create. */
+typedef struct edge_topology edge_topology;
+lmn_status                   edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error);
+void                         edge_topology_destroy(edge_topology **t);
+uint64_t                     edge_topology_revision(const edge_topology *t); /* of the mesh, as it was then */
+
+/* edge_mesh_create for a pose, a few times as fast. *fits is false, and nothing is made, where vertices that were one
+ * have come apart, or faces have no area in the pose or at rest. */
+lmn_status edge_mesh_pose(edge_mesh *out, const edge_topology *t, const vec3 *positions, double crease_angle,
+                          bool *fits, lmn_error *error);
+
 /* The same of faces whose vertices are welded already. `numbers` gets each face's number in the mesh, EDGE_NO_FACE
  * where it was dropped. */
 typedef struct edge_faces {

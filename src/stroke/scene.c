@@ -8,14 +8,15 @@
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
-    stroke_scene    *out;
-    const pose      *pose;
-    const lmn_scene *scene;
-    double           crease_angle;
-    int32_t          refine;
-    int32_t         *shared; /* per mesh of the scene: its number in `out`, NONE */
-    size_t           mesh_capacity, item_capacity;
-    box3             box;
+    stroke_scene      *out;
+    const pose        *pose;
+    const lmn_scene   *scene;
+    double             crease_angle;
+    int32_t            refine;
+    int32_t           *shared; /* per mesh of the scene: its number in `out`, NONE */
+    stroke_topologies *kept;
+    size_t             mesh_capacity, item_capacity;
+    box3               box;
 } scene_builder;
 
 /* Positions of all primitives, deformed; NULL when memory is gone. */
@@ -26,11 +27,54 @@ static vec3 *pose_positions(const mesh *m, const part_pose *pose)
         count += m->primitives[i].vertex_count;
     vec3 *out = mem_alloc(count * sizeof *out);
     for (size_t i = 0; i < m->primitive_count && out; at += m->primitives[i++].vertex_count) {
-        const primitive *p = &m->primitives[i];
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count,
-                  out + at, NULL);
+        const primitive      *p = &m->primitives[i];
+        const posed_vertices *known = pose_vertices_of(pose, p);
+        if (known)
+            memcpy(out + at, known->positions, (size_t)p->vertex_count * sizeof *out);
+        else
+            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL,
+                      p->vertex_count, out + at, NULL);
     }
     return out;
+}
+
+/* Room for those of all meshes; those that are there may belong to a scene with fewer. */
+static bool open_topologies(stroke_topologies *t, size_t count)
+{
+    if (t->count >= count)
+        return true;
+    struct edge_topology **more = mem_realloc(t->meshes, count * sizeof *more);
+    if (!more)
+        return false;
+    memset(more + t->count, 0, (count - t->count) * sizeof *more);
+    t->meshes = more;
+    t->count = count;
+    return true;
+}
+
+void stroke_topologies_release(stroke_topologies *t)
+{
+    for (size_t i = 0; i < t->count; i++)
+        edge_topology_destroy(&t->meshes[i]);
+    mem_free(t->meshes);
+    memset(t, 0, sizeof *t);
+}
+
+/* Edges of a deformed mesh: judged anew where its topology is that of the mesh at rest, else sorted anew. */
+static lmn_status pose_edges(scene_builder *b, edge_mesh *out, int32_t mesh_index, const vec3 *positions,
+                             lmn_error *error)
+{
+    const mesh            *m = &b->scene->meshes[mesh_index];
+    struct edge_topology **t = &b->kept->meshes[mesh_index];
+    lmn_status             status = LMN_OK;
+    bool                   fits = false;
+    if (*t && edge_topology_revision(*t) != m->revision)
+        edge_topology_destroy(t);
+    if (!*t)
+        status = edge_topology_create(t, m, error);
+    if (status == LMN_OK)
+        status = edge_mesh_pose(out, *t, positions, b->crease_angle, &fits, error);
+    return status == LMN_OK && !fits ? edge_mesh_create(out, m, positions, b->crease_angle, error) : status;
 }
 
 static bool is_deformed(const mesh *m, const part_pose *pose)
@@ -57,8 +101,10 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
         return error_memory(error);
     vec3      *positions = posed ? pose_positions(m, pose) : NULL;
     lmn_status status = posed && !positions ? error_memory(error) : LMN_OK;
-    if (status == LMN_OK)
-        status = edge_mesh_create(&s->meshes[s->mesh_count], m, positions, b->crease_angle, error);
+    if (status == LMN_OK && posed)
+        status = pose_edges(b, &s->meshes[s->mesh_count], n->mesh, positions, error);
+    else if (status == LMN_OK)
+        status = edge_mesh_create(&s->meshes[s->mesh_count], m, NULL, b->crease_angle, error);
     mem_free(positions);
     if (status != LMN_OK)
         return status;
@@ -122,30 +168,48 @@ lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *
     return stroke_scene_create_refined(out, pose, parts, crease_angle, 0, progress, user, error);
 }
 
-lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
-                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
+static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn progress, void *user, lmn_error *error)
 {
+    stroke_scene    *out = b->out;
+    const lmn_scene *scene = b->scene;
     memset(out, 0, sizeof *out);
-    const lmn_scene *scene = pose->scene;
-    scene_builder    b = {
-           .out = out, .pose = pose, .scene = scene, .crease_angle = crease_angle, .refine = refine, .box = box3_empty()};
-    b.shared = mem_alloc((scene->mesh_count + 1) * sizeof *b.shared);
-    lmn_status status = b.shared ? LMN_OK : error_memory(error);
+    b->box = box3_empty();
+    b->shared = mem_alloc((scene->mesh_count + 1) * sizeof *b->shared);
+    lmn_status status = b->shared && open_topologies(b->kept, scene->mesh_count) ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++)
-        b.shared[i] = NONE;
+        b->shared[i] = NONE;
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
         if (parts && !parts[i])
             continue;
         if (progress && !progress((double)i / (double)scene->part_count, "sorting edges", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while edges were sorted");
         else
-            status = add_part(&b, i, error);
+            status = add_part(b, i, error);
     }
-    mem_free(b.shared);
-    out->extent = box3_is_empty(b.box) ? 0 : box3_diagonal(b.box);
+    mem_free(b->shared);
+    out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);
     return status;
+}
+
+lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
+                                       int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    stroke_topologies own = {NULL};
+    scene_builder     b = {
+            .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = &own};
+    lmn_status status = fill(&b, parts, progress, user, error);
+    stroke_topologies_release(&own);
+    return status;
+}
+
+lmn_status stroke_scene_create_keeping(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
+                                       int32_t refine, stroke_topologies *kept, lmn_error *error)
+{
+    scene_builder b = {
+        .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = kept};
+    return fill(&b, parts, NULL, NULL, error);
 }
 
 void stroke_scene_release(stroke_scene *s)

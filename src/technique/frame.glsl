@@ -8,6 +8,7 @@ uniform vec2  u_texel;        /* 1 / u_size */
 uniform float u_perspective;  /* 1, or 0 for parallel rays */
 uniform vec2  u_unproject;    /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
+uniform vec3  u_first_light;  /* towards the first light that has a direction, eye space */
 uniform vec2  u_depths;       /* eye depth of the nearest and the farthest that is drawn */
 uniform vec2  u_anchor;       /* where the middle of the model is on the page, pixels */
 uniform float u_time;         /* seconds */
@@ -15,6 +16,7 @@ uniform float u_time;         /* seconds */
 /* The figure that is drawn, and the pass. */
 uniform float u_near;         /* of the figure, eye depth */
 uniform float u_far;
+uniform vec4  u_around;       /* the pixels of its pictures that are its own: beyond the first and before the last ones there is nothing */
 uniform int   u_figure;       /* its number among those that share their layers */
 uniform int   u_layer;        /* 0 = visible */
 uniform float u_rear;         /* opacity of layers behind an uncovered focus, 1 before */

@@ -12,6 +12,8 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_PAST_1] = {"t_past_1", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
     [TARGET_PAST_2] = {"t_past_2", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
     [TARGET_PAST_3] = {"t_past_3", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
+    /* The area that a mover sweeps: pixels moved right and up, window depth, part id; all 0: nothing. */
+    [TARGET_STRETCHED] = {"t_stretched", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
     [TARGET_DEPTH] = {"t_depth", TEXEL_DEPTH32F, .owner = OWNER_LAYER},
 
     /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this

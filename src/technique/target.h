@@ -18,6 +18,7 @@ typedef enum target {
     TARGET_PAST_1,
     TARGET_PAST_2,
     TARGET_PAST_3,
+    TARGET_STRETCHED,
     TARGET_DEPTH,
     TARGET_EDGE,
     TARGET_EDGE_BEFORE,

@@ -64,7 +64,10 @@ typedef struct pass {
     /* Instead of a shader: work on the CPU, from pictures of floats to one of integers. In `out` is what passes of
      * the figure's line techniques before wrote, or zeros. Gets the technique's values; false when memory is gone. */
     bool (*process)(const pass_pixels *in, void *out, const void *values);
-    bool strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
+    /* Draws a mover's geometry, each pixel at as many moments of the exposure as this parameter says, with this
+     * fragment shader; the nearest depth goes into the next of the technique's own targets. */
+    const char *scattered;
+    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
     const strip_source *strips; /* these instead of the screen, one over the other; into a picture of depth the nearest
                                    (DEPTH_ALONE) */
     int         repeat;         /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
@@ -79,6 +82,7 @@ typedef struct mesh_needs {
     bool  field; /* the direction in which surfaces bend */
     float patch; /* radius of patches that cover them, fraction of a mesh's diagonal; 0: none */
     bool  rest;  /* where vertices of deformed parts are when nothing has moved */
+    bool  glue;  /* patches between the two sides of hard edges, which motion pulls apart */
 } mesh_needs;
 
 struct stroke_style;
@@ -154,7 +158,9 @@ typedef struct motion_row {
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
-    unsigned moved;          /* channels that they read of what moves, besides its velocity */
+    unsigned (*moved)(const void *values); /* channels that they read of what moves, besides its velocity; NULL: none */
+    bool stretched;                        /* they read TARGET_STRETCHED */
+    bool of_meshes;                        /* they draw vertices: solids have none */
 } motion_row;
 
 /* What a line technique is. */

@@ -81,6 +81,8 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
     if (status == LMN_OK)
         status = pose_create(&j->pose, scene, &when, error);
+    if (status == LMN_OK)
+        pose_warn_of_flat(&j->pose, &j->out->warnings);
     if (status == LMN_OK && j->desc->fit_time)
         status = swept_boxes_fit(&j->swept, &j->pose, error);
     if (status == LMN_OK)

@@ -184,6 +184,11 @@ group_draw() {
     cmp -s x.png in-later.png || complain "--clip 1 is not the first clip"
     row 0 '' 'x.svg' draw "$moving" $small -o x.svg --time 1.5
     row 1 "^limner: .*motion 'accumulate' has no lines in vector drawings" '' draw "$moving" $small -o x.svg --time 1.5 --set motion.technique=accumulate
+    row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --set motion.exposure=0.1 --set motion.technique=blur
+    printf '%s' '{"version": 1, "rules": [{"surface": "lit", "motion": {"technique": "blur", "exposure": 0.1}}, {"select": "*inner*", "surface": "lit", "motion": {"technique": "streaks", "exposure": 0.2}}]}' >in-exposures.json
+    row 1 "^limner: .*different motion: exposures of 0.1 s and 0.2 s" '' draw "$moving" $small -o x.png --time 1.5 --look in-exposures.json
+    row 1 "^limner: motion.texture is 'wool'; allowed is a texture of streaks" '' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=streaks --set motion.texture=wool
+    row 2 "^limner: .*nowhere.png" '' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=streaks --set motion.texture=nowhere.png
     row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=accumulate
     cmp -s x.png in-later.png && complain "motion changes nothing"
     row 0 '' 'x-0000.png x-0001.png' draw "$moving" $small -o 'x-{frame}.png' --frames 0:1:24

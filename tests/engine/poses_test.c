@@ -18,27 +18,6 @@ typedef struct picture {
     uint8_t pixels[SIDE * SIDE * 4];
 } picture;
 
-/* Normals where a model has none: those that are made when it is drawn belong to how it is at rest. */
-static void add_normals(primitive *q)
-{
-    q->normals = mem_calloc(q->vertex_count, sizeof *q->normals);
-    for (uint32_t i = 0; i < q->index_count; i += 3) {
-        vec3  a = q->positions[q->indices[i]], b = q->positions[q->indices[i + 1]], c = q->positions[q->indices[i + 2]];
-        float u[3] = {b.x - a.x, b.y - a.y, b.z - a.z}, v[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
-        for (int k = 0; k < 3; k++) {
-            vec3 *n = &q->normals[q->indices[i + (uint32_t)k]];
-            n->x += u[1] * v[2] - u[2] * v[1];
-            n->y += u[2] * v[0] - u[0] * v[2];
-            n->z += u[0] * v[1] - u[1] * v[0];
-        }
-    }
-    for (uint32_t i = 0; i < q->vertex_count; i++) {
-        vec3 *n = &q->normals[i];
-        float length = sqrtf(n->x * n->x + n->y * n->y + n->z * n->z);
-        *n = length > 0 ? (vec3){n->x / length, n->y / length, n->z / length} : (vec3){0, 1, 0};
-    }
-}
-
 static lmn_scene *load(const char *name)
 {
     char       path[512];
@@ -46,10 +25,6 @@ static lmn_scene *load(const char *name)
     snprintf(path, sizeof path, EXAMPLES "/%s.glb", name);
     DO(lmn_scene_create(&s, &error));
     DO(lmn_scene_add_file(s, path, NULL, &error));
-    for (size_t i = 0; i < s->mesh_count; i++)
-        for (size_t k = 0; k < s->meshes[i].primitive_count; k++)
-            if (!s->meshes[i].primitives[k].normals)
-                add_normals(&s->meshes[i].primitives[k]);
     return s;
 }
 

@@ -31,16 +31,14 @@ static int tear_down(void **state)
 }
 
 /* A picture of the scene's own camera; `motion`: of its only rule, JSON, or NULL. Row 0 at the bottom. */
-static void draw_rules(const char *path, const char *rules, double seconds, uint8_t (*out)[4])
+static void draw_look(const char *path, const char *json, double seconds, uint8_t (*out)[4])
 {
-    char          json[2048];
     lmn_scene    *s = NULL;
     lmn_look     *look = NULL;
     lmn_drawing  *d = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     DO(lmn_scene_create(&s, &error));
     DO(lmn_scene_add_file(s, path, NULL, &error));
-    snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
     desc.camera = "eye";
@@ -53,6 +51,13 @@ static void draw_rules(const char *path, const char *rules, double seconds, uint
     lmn_drawing_destroy(&d);
     lmn_look_destroy(&look);
     lmn_scene_destroy(&s);
+}
+
+static void draw_rules(const char *path, const char *rules, double seconds, uint8_t (*out)[4])
+{
+    char json[2048];
+    snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
+    draw_look(path, json, seconds, out);
 }
 
 static void draw(const char *path, const char *motion, double seconds, uint8_t (*out)[4])
@@ -632,6 +637,109 @@ static void rules_have_their_own(void **state)
     assert_true(upper > 1000);
 }
 
+/* The viewer comes nearer: strokes are radial all around, and nowhere is a band without any; row 61, scene S2. */
+static void a_zoom_leaves_no_band(void **state)
+{
+    static uint8_t picture[PIXELS][4];
+    moving_scene   m;
+    const double   half[3] = {8, 8, 0.01};
+    double         ink[12] = {0};
+    int            pixels[12] = {0};
+    (void)state;
+    moving_scene_begin(&m);
+    moving_scene_box(&m, 0, 0, 0, half, red);
+    int eye = moving_scene_camera(&m, 0, 0, 4, false, 60);
+    moving_scene_keys(&m, eye, "translation", 2, (double[]){1, 2}, (double[]){0, 0, 6, 0, 0, 4});
+    moving_scene_write(&m, path_of("zoom"));
+    draw(path_of("zoom"), ALONE ", \"width\": 3, \"count\": 3000", 2, picture);
+    for (int i = 0; i < PIXELS; i++) {
+        double x = i % SIDE + 0.5 - SIDE / 2., y = i / SIDE + 0.5 - SIDE / 2., r = hypot(x, y);
+        if (r < 60 || r > 180)
+            continue;
+        int sector = (int)((atan2(y, x) / 6.283185307179586 + 1 + 1 / 24.) * 12) % 12; /* centred on the axes */
+        ink[sector] += cover(picture[i]);
+        pixels[sector]++;
+    }
+    for (int k = 0; k < 12; k++) {
+        printf("%.2f ", ink[k] / pixels[k]);
+        assert_true(ink[k] / pixels[k] > 0.2);
+    }
+    printf("of the sectors is covered\n");
+}
+
+/* No stroke begins where the mask is black, or on surfaces that look the wrong way; row 76c. */
+static void strokes_begin_where_they_may(void **state)
+{
+    static uint8_t picture[PIXELS][4];
+    static int     seen[PIXELS];
+    moving_scene   m;
+    int            strokes[3] = {0}, wrong = 0, masked = 0;
+    (void)state;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 0.7, red);
+    moving_scene_keys(&m, ball, "translation", 2, (double[]){1, 2}, (double[]){-0.2, 0, 0, 0, 0, 0});
+    moving_scene_camera(&m, 0, 0, 10, true, 1);
+    moving_scene_write(&m, path_of("valid"));
+    for (int k = 0; k < 3; k++) {
+        static const char *const where[] = {"trailing", "leading", "all\", \"mask\": \"checker"};
+        char                     motion[512];
+        snprintf(motion, sizeof motion, ALONE ", \"width\": 3, \"count\": 300, \"shift_width\": 0, \"where\": \"%s\"",
+                 where[k]);
+        draw(path_of("valid"), motion, 2, picture);
+        memset(seen, 0, sizeof seen);
+        for (int at = 0; at < PIXELS; at++) {
+            blob b;
+            if (seen[at] || cover(picture[at]) < 0.5)
+                continue;
+            flood((const uint8_t(*)[4])picture, seen, at, &b);
+            if (thickness_of(&b) > 4)
+                continue;
+            strokes[k]++;
+            int column = (b.right - 1) / (SIDE / 8), row = (int)b.y / (SIDE / 8); /* its head is at the right */
+            wrong += k == 0 ? b.right > SIDE / 2 + 3 : k == 1 ? b.right < SIDE / 2 - 3 : 0;
+            masked += k == 2 && (column + row) % 2 == 0 && (b.right - 1) % (SIDE / 8) > 3 &&
+                      (b.right - 1) % (SIDE / 8) < SIDE / 8 - 4;
+        }
+    }
+    printf("%d strokes that trail, %d that lead, %d under the mask; %d wrong, %d masked\n", strokes[0], strokes[1],
+           strokes[2], wrong, masked);
+    assert_true(strokes[0] >= 10 && strokes[1] >= 10 && strokes[2] >= 10);
+    assert_int_equal(wrong, 0);
+    assert_int_equal(masked, 0);
+}
+
+/* Strokes throw shadows onto what lies below, when they are told to and the look has shadows; row 76e. */
+static void strokes_throw_shadows(void **state)
+{
+    static uint8_t pictures[4][PIXELS][4];
+    moving_scene   m;
+    const double   half[3] = {0.25, 0.25, 0.25}, floor[3] = {0.95, 0.95, 0.02};
+    int            darker = 0, same = 0;
+    (void)state;
+    moving_scene_begin(&m);
+    m.lit = true;
+    moving_scene_box(&m, 0, 0, -0.6, floor, grey);
+    int box = moving_scene_box(&m, 0, 0.2, 0, half, red);
+    moving_scene_keys(&m, box, "translation", 2, (double[]){1, 2}, (double[]){-0.5, 0.2, 0, 0.5, 0.2, 0});
+    moving_scene_camera(&m, 0, 0, 10, true, 1);
+    moving_scene_write(&m, path_of("shadow"));
+    for (int k = 0; k < 4; k++) {
+        char json[600];
+        snprintf(json, sizeof json,
+                 "{\"version\": 1, \"scene\": {\"shadows\": %s}, \"rules\": [{\"surface\": \"lit\", \"motion\": "
+                 "{\"technique\": \"streaks\", \"exposure\": 1, \"width\": 9, \"count\": 3000, \"shadows\": %s}}]}",
+                 k < 2 ? "true" : "false", k % 2 ? "true" : "false");
+        draw_look(path_of("shadow"), json, 2, pictures[k]);
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        darker += pictures[1][i][1] < pictures[0][i][1] - 20;
+        same += memcmp(pictures[2][i], pictures[3][i], 4) == 0;
+    }
+    printf("%d pixels lie in the shadow of strokes\n", darker);
+    assert_true(darker > 1000);
+    assert_int_equal(same, PIXELS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest_nothing_changes),
@@ -645,6 +753,9 @@ int main(void)
                                        cmocka_unit_test(strokes_follow_arcs),
                                        cmocka_unit_test(speed_lines_leave_the_object),
                                        cmocka_unit_test(scaled_strokes_shrink_with_distance),
-                                       cmocka_unit_test(rules_have_their_own)};
+                                       cmocka_unit_test(rules_have_their_own),
+                                       cmocka_unit_test(a_zoom_leaves_no_band),
+                                       cmocka_unit_test(strokes_begin_where_they_may),
+                                       cmocka_unit_test(strokes_throw_shadows)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

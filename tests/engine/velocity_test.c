@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../support/gltf_truth.h"
+#include "../support/moving_scene.h"
 #include "draw/drawing.h"
 
 enum { SIDE = 200 };
@@ -128,6 +129,62 @@ static void velocities_are_those_of_surfaces(void **state)
     lmn_renderer_destroy(&renderer);
 }
 
+/* A camera that moves and turns nothing: what a plane before it shows has moved as its points have on the page; row 41.
+ */
+static void cameras_move_too(void **state)
+{
+    const double      half[3] = {2, 2, 0.5}, colour[3] = {1, 1, 1}, now[3] = {0.3, -0.2, 4}, before[3] = {0, 0.1, 5};
+    const double      focal = SIDE / 2 / tan(25 * 3.141592653589793 / 180);
+    double            worst = 0;
+    int               pixels = 0;
+    moving_scene      m;
+    lmn_renderer     *renderer = NULL;
+    lmn_scene        *s = NULL;
+    lmn_look         *look = NULL;
+    lmn_drawing      *d = NULL;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    (void)state;
+    moving_scene_begin(&m);
+    moving_scene_box(&m, 0, 0, 0, half, colour);
+    int eye = moving_scene_camera(&m, 0, 0, 4, false, 50);
+    moving_scene_keys(&m, eye, "translation", 2, (double[]){1, 2},
+                      (double[]){before[0], before[1], before[2], now[0], now[1], now[2]});
+    moving_scene_write(&m, "velocity_camera.glb");
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, "velocity_camera.glb", NULL, &error));
+    DO(lmn_look_load(&look, "edges", &error));
+    DO(lmn_look_set(look, "motion.technique", "accumulate", &error));
+    DO(lmn_look_set(look, "motion.exposure", "1", &error));
+    DO(lmn_look_set(look, "motion.times", "2", &error));
+    desc.width = desc.height = SIDE;
+    desc.maps = true;
+    desc.camera = "eye";
+    desc.time_given = true;
+    desc.time_s = 2;
+    DO(lmn_draw(&d, renderer, s, look, &desc, &error));
+    assert_non_null(d->maps.velocity);
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            size_t at = (size_t)y * SIDE + (size_t)x;
+            double depth = now[2] - half[2], here[2] = {x + 0.5 - SIDE / 2., y + 0.5 - SIDE / 2.}, moved[2];
+            if (!d->maps.id[at] || fabs((double)d->maps.depth[at] - depth) > 1e-3)
+                continue;
+            for (int k = 0; k < 2; k++)
+                moved[k] = here[k] - focal * (here[k] / focal * depth + now[k] - before[k]) / (before[2] - half[2]);
+            worst = fmax(worst, hypot((double)d->maps.velocity[3 * at] - moved[0],
+                                      (double)d->maps.velocity[3 * at + 1] - moved[1]));
+            pixels++;
+        }
+    printf("a camera that moves: %.4f px off at most, %d pixels\n", worst, pixels);
+    assert_true(pixels > SIDE * SIDE / 2 && worst < 0.1);
+    lmn_drawing_destroy(&d);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&s);
+    lmn_renderer_destroy(&renderer);
+}
+
 static void scenes_at_rest_have_none(void **state)
 {
     (void)state;
@@ -154,6 +211,6 @@ static void scenes_at_rest_have_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(velocities_are_those_of_surfaces),
-                                       cmocka_unit_test(scenes_at_rest_have_none)};
+                                       cmocka_unit_test(cameras_move_too), cmocka_unit_test(scenes_at_rest_have_none)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

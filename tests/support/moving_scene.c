@@ -59,10 +59,9 @@ static int add_mesh(moving_scene *m, double x, double y, double z, const float (
     int at = add_data(m, positions, sizeof(float[3]) * (size_t)vertices, vertices, "VEC3", false, bounds);
     int up = add_data(m, normals, sizeof(float[3]) * (size_t)vertices, vertices, "VEC3", false, "");
     int which = add_data(m, indices, sizeof *indices * (size_t)index_count, index_count, "SCALAR", true, "");
-    add(&m->materials,
-        "%s{\"pbrMetallicRoughness\": {\"baseColorFactor\": [%.9g, %.9g, %.9g, 1]}, \"extensions\": "
-        "{\"KHR_materials_unlit\": {}}}",
-        comma(m->mesh_count), colour[0], colour[1], colour[2]);
+    add(&m->materials, "%s{\"pbrMetallicRoughness\": {\"baseColorFactor\": [%.9g, %.9g, %.9g, 1]}%s}",
+        comma(m->mesh_count), colour[0], colour[1], colour[2],
+        m->lit ? "" : ", \"extensions\": {\"KHR_materials_unlit\": {}}");
     add(&m->meshes,
         "%s{\"primitives\": [{\"attributes\": {\"POSITION\": %d, \"NORMAL\": %d}, \"indices\": %d, \"material\": %d}]}",
         comma(m->mesh_count), at, up, which, m->mesh_count);

@@ -18,6 +18,7 @@ typedef struct moving_scene {
     char        *bytes;
     size_t       byte_count;
     int          node_count, mesh_count, accessor_count, channel_count;
+    bool         lit; /* set it before anything is added */
 } moving_scene;
 
 void moving_scene_begin(moving_scene *m);

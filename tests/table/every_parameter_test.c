@@ -63,6 +63,7 @@ static const struct {
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
     {"lines", "taps", "both forms are the same sums"},
+    {"motion", "shadows", "the looks here have no shadows; engine.streaks_test has some"},
 };
 
 /* Parameters that change nothing but solids. They are drawn alone, of convex operands, which every path of drawing

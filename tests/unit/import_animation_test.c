@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "pose/pose.h"
+
 #define ASSET "\"asset\":{\"version\":\"2.0\"}"
 
 enum { BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, FLOAT = 5126 };
@@ -681,7 +683,68 @@ static void flat_bind_matrices_are_drawn(void **state)
                                      "1],\"inverseBindMatrices\":3}]");
     lmn_scene_info info = lmn_scene_info_of(s);
     assert_true(info.bounds_max[0] == 2 && info.bounds_max[1] == 0);
+    assert_int_equal(warnings_of(s, "skins[0].inverseBindMatrices: 1 of 1 matrices are flat"), 1);
     lmn_scene_destroy(&s);
+}
+
+/* A matrix of zeros says nothing: the vertices stay where the mesh has them. */
+static void empty_bind_matrices_are_replaced(void **state)
+{
+    (void)state;
+    static const uint16_t joints[3][4] = {{0}, {1}, {1}};
+    static const float    weights[3][4] = {{1}, {1}, {1}};
+    float                 binds[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    put_skin(joints, weights);
+    put(binds, sizeof binds, 2, FLOAT, false, "MAT4");
+    lmn_scene     *s = load(SKINNED_MESH ",\"nodes\":[{\"mesh\":0,\"skin\":0},{},{\"name\":\"elbow\",\"scale\":[2,2,2],"
+                                             "\"translation\":[5,0,0]}],\"skins\":[{\"name\":\"arm\",\"joints\":[1,2],"
+                                             "\"inverseBindMatrices\":3}]");
+    lmn_scene_info info = lmn_scene_info_of(s);
+    assert_true(info.bounds_max[0] == 1 && info.bounds_max[1] == 2);
+    assert_int_equal(warnings_of(s, "1 of 2 matrices are flat, the first one that of joint 'elbow'"), 1);
+    assert_int_equal(warnings_of(s, "1 of them are all zeros"), 1);
+    lmn_scene_destroy(&s);
+}
+
+/* A part that follows joints of no size alone is not seen, and that is said when it is drawn. */
+static void parts_without_extent_are_said(void **state)
+{
+    (void)state;
+    static const float weights[3][4] = {{1}, {0.5f, 0.5f}, {1}};
+    static const struct {
+        uint16_t    joints[3][4];
+        const char *scale;
+        size_t      said;
+    } rows[] = {{{{0, 1}, {0, 1}, {0, 1}}, "[0,0,0]", 0},
+                {{{1, 1}, {1, 1}, {1, 1}}, "[0,0,0]", 1},
+                {{{1, 1}, {1, 1}, {1, 1}}, "[2,0,1]", 1},
+                {{{1, 1}, {1, 1}, {1, 1}}, "[1e-9,1e-9,1e-9]", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char      members[2048];
+        warnings  warned = {0};
+        lmn_error error = {0};
+        moment    m = moment_at_rest();
+        pose      p;
+        put_skin(rows[i].joints, weights);
+        snprintf(members, sizeof members,
+                 SKINNED_MESH
+                 ",\"nodes\":[{\"name\":\"hand\",\"mesh\":0,\"skin\":0},{},{\"name\":\"wrist\",\"scale\":%s}],"
+                 "\"skins\":[{\"name\":\"arm\",\"joints\":[1,2]}]",
+                 rows[i].scale);
+        lmn_scene *s = load(members);
+        assert_int_equal(pose_create(&p, s, &m, &error), LMN_OK);
+        pose_warn_of_flat(&p, &warned);
+        assert_int_equal(warned.count, rows[i].said);
+        if (rows[i].said) {
+            assert_int_equal(warned.items[0].code, WARNING_BAD_GEOMETRY);
+            assert_non_null(strstr(warned.items[0].text, "part 'hand' is flat"));
+            assert_non_null(strstr(warned.items[0].text, "skin 'arm'"));
+            assert_non_null(strstr(warned.items[0].text, "'wrist'"));
+        }
+        warnings_release(&warned);
+        pose_release(&p);
+        lmn_scene_destroy(&s);
+    }
 }
 
 static void ten_thousand_joints_are_read(void **state)
@@ -732,6 +795,8 @@ int main(void)
         cmocka_unit_test(joints_that_are_not_there_are_refused),
         cmocka_unit_test(vertices_without_weights_follow_their_first_joint),
         cmocka_unit_test(flat_bind_matrices_are_drawn),
+        cmocka_unit_test(empty_bind_matrices_are_replaced),
+        cmocka_unit_test(parts_without_extent_are_said),
         cmocka_unit_test(ten_thousand_joints_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

@@ -71,12 +71,19 @@ static bool reads(const pass *p, target t)
     return false;
 }
 
+/* Passes of movers at each pixel's moments write the depth behind their picture, too. */
+static bool pass_writes(const pass *p, target which)
+{
+    return p->writes == which || (p->scattered && p->writes + 1 == which);
+}
+
+/* A pass that is repeated reads what it wrote itself. */
 static bool writes_before(const technique *t, size_t end, target which)
 {
     for (size_t i = 0; i < end; i++)
-        if (t->passes[i].writes == which)
+        if (pass_writes(&t->passes[i], which))
             return true;
-    return false;
+    return t->passes[end].repeat > 1 && t->passes[end].writes == which;
 }
 
 /* What a technique reads of its own one of its earlier passes wrote, since it lasts no longer than they run; and no
@@ -130,9 +137,15 @@ static void test_own_used(void **state)
     each_technique(see_use);
 }
 
-/* What frames make without any pass: the geometry pass, mirrors, the shadow map, the edge map of the layer before. */
+/* What frames make without any pass: the geometry pass, mirrors, the shadow map, the edge map of the layer before, and
+ * of movers how they look and move. */
 static bool frame_makes(target t)
 {
+    static const target of_movers[] = {TARGET_PAST_1, TARGET_PAST_2,      TARGET_PAST_3,
+                                       TARGET_MOVER,  TARGET_MOVER_DEPTH, TARGET_STRETCHED};
+    for (size_t i = 0; i < sizeof of_movers / sizeof *of_movers; i++)
+        if (t == of_movers[i])
+            return true;
     return (target_rows[t].owner >= OWNER_LAYER && t != TARGET_PAGE && t != TARGET_LAYERS) || t == TARGET_REFLECTION ||
            t == TARGET_EDGE_BEFORE;
 }
@@ -159,13 +172,19 @@ static bool writes(const pass *p, target t)
     return p->writes == t;
 }
 
+/* Strips are drawn into pictures that are there. */
+static bool makes(const pass *p, target t)
+{
+    return p->writes == t && !p->strips;
+}
+
 static void test_made(void **state)
 {
     (void)state;
     for (target t = TARGET_NONE + 1; t < TARGET_COUNT; t++) {
         if (some_pass(reads, t) && !frame_makes(t) && !some_pass(writes, t))
             fail_msg("%s is read, and nobody makes it", target_rows[t].name);
-        if (target_rows[t].scale == SCALE_OWN && some_pass(writes, t))
+        if (target_rows[t].scale == SCALE_OWN && some_pass(makes, t))
             fail_msg("%s is written by a pass, which cannot tell how large it is", target_rows[t].name);
     }
 }
