@@ -378,7 +378,7 @@ int main(int count, char **arguments)
         {"floor", AROUND, FLOOR, build_floor, {0}},
     };
     static const model_camera cameras[] = {{"front", {4.2, 2.2, 1.2}, {0.35, 0.68, 0}, 32, 0},
-                                           {"above", {1.6, 5, 0.4}, {0.5, 0.3, 0}, 36, 0}};
+                                           {"above", {2.9, 4.2, 2.1}, {0.4, 0.35, 0}, 32, 0}};
     const model               arm = {"make_arm", "Arm",        1,       materials, MATERIALS,     groups, GROUPS,
                                      parts,      COUNT(parts), animate, cameras,   COUNT(cameras)};
     return model_write(&arm, arguments[1]) ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -365,7 +365,7 @@ static void drive(clip *c)
     roll_wheels(c, QUARTERS + 2, times, positions);
 }
 
-static const double brake_begin = 0.4, brake_end = 1.6, brake_from = -6;
+static const double brake_begin = 0.4, brake_end = 1.6, brake_from = -7.5;
 
 static double braked_position(double time)
 {

@@ -15,9 +15,9 @@ static void add(char **text, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(piece, sizeof piece, format, arguments);
     va_end(arguments);
-    size_t had = *text ? strlen(*text) : 0;
-    *text = realloc(*text, had + strlen(piece) + 1);
-    memcpy(*text + had, piece, strlen(piece) + 1);
+    size_t had = *text ? strlen(*text) : 0, more = strlen(piece);
+    *text = realloc(*text, had + more + 1);
+    memcpy(*text + had, piece, more + 1);
 }
 
 static const char *comma(int count)
@@ -39,6 +39,16 @@ static int add_data(moving_scene *m, const void *data, size_t bytes, int count, 
     return m->accessor_count++;
 }
 
+static int add_node(moving_scene *m, double x, double y, double z)
+{
+    m->nodes = realloc(m->nodes, (size_t)(m->node_count + 1) * sizeof *m->nodes);
+    moving_node *node = &m->nodes[m->node_count];
+    *node = (moving_node){.parent = -1};
+    snprintf(node->name, sizeof node->name, "node%d", m->node_count);
+    add(&node->text, "\"translation\": [%.17g, %.17g, %.17g]", x, y, z);
+    return m->node_count++;
+}
+
 static int add_mesh(moving_scene *m, double x, double y, double z, const float (*positions)[3],
                     const float (*normals)[3], int vertices, const unsigned *indices, int index_count, double reach,
                     const double colour[3])
@@ -55,10 +65,9 @@ static int add_mesh(moving_scene *m, double x, double y, double z, const float (
     add(&m->meshes,
         "%s{\"primitives\": [{\"attributes\": {\"POSITION\": %d, \"NORMAL\": %d}, \"indices\": %d, \"material\": %d}]}",
         comma(m->mesh_count), at, up, which, m->mesh_count);
-    add(&m->nodes, "%s{\"name\": \"node%d\", \"mesh\": %d, \"translation\": [%.17g, %.17g, %.17g]}",
-        comma(m->node_count), m->node_count, m->mesh_count, x, y, z);
-    m->mesh_count++;
-    return m->node_count++;
+    int node = add_node(m, x, y, z);
+    add(&m->nodes[node].text, ", \"mesh\": %d", m->mesh_count++);
+    return node;
 }
 
 void moving_scene_begin(moving_scene *m)
@@ -110,27 +119,92 @@ int moving_scene_sphere(moving_scene *m, double x, double y, double z, double ra
             if (row == ROWS || column == COLUMNS)
                 continue;
             unsigned a = (unsigned)v, b = a + COLUMNS + 1, order[6] = {a, b, a + 1, a + 1, b, b + 1};
-            memcpy(&indices[n], order, sizeof order);
-            n += 6;
+            /* At the poles one of the two has no area. */
+            int from = row == 0 ? 3 : 0, count = row == 0 || row == ROWS - 1 ? 3 : 6;
+            memcpy(&indices[n], &order[from], (size_t)count * sizeof *order);
+            n += count;
         }
     return add_mesh(m, x, y, z, (const float(*)[3])positions, (const float(*)[3])normals, VERTICES, indices, n, radius,
                     colour);
 }
 
-void moving_scene_keys(moving_scene *m, int node, const char *path, int count, const double *times,
-                       const double *values)
+typedef struct round_mesh {
+    float    positions[320][3], normals[320][3];
+    unsigned indices[1200];
+    int      vertices, index_count;
+} round_mesh;
+
+static int add_vertex(round_mesh *r, double x, double y, double z, double nx, double ny, double nz)
 {
-    int    numbers = strcmp(path, "rotation") == 0 ? 4 : 3;
-    float *t = malloc((size_t)count * sizeof *t), *v = malloc((size_t)(count * numbers) * sizeof *v);
+    const double p[3] = {x, y, z}, n[3] = {nx, ny, nz};
+    for (int k = 0; k < 3; k++) {
+        r->positions[r->vertices][k] = (float)p[k];
+        r->normals[r->vertices][k] = (float)n[k];
+    }
+    return r->vertices++;
+}
+
+static void add_triangle(round_mesh *r, int a, int b, int c)
+{
+    const int corners[3] = {a, b, c};
+    for (int k = 0; k < 3; k++)
+        r->indices[r->index_count++] = (unsigned)corners[k];
+}
+
+int moving_scene_cylinder(moving_scene *m, double x, double y, double z, double radius, double half_length,
+                          const double colour[3])
+{
+    enum { COLUMNS = 64 };
+    static round_mesh r;
+    r.vertices = r.index_count = 0;
+    int back = add_vertex(&r, 0, 0, -half_length, 0, 0, -1), front = add_vertex(&r, 0, 0, half_length, 0, 0, 1);
+    for (int i = 0; i <= COLUMNS; i++) {
+        double phi = 2 * 3.141592653589793 * i / COLUMNS, c = cos(phi), s = sin(phi);
+        int    a = add_vertex(&r, radius * c, radius * s, -half_length, 0, 0, -1);
+        add_vertex(&r, radius * c, radius * s, -half_length, c, s, 0);
+        add_vertex(&r, radius * c, radius * s, half_length, c, s, 0);
+        add_vertex(&r, radius * c, radius * s, half_length, 0, 0, 1);
+        if (i == COLUMNS)
+            continue;
+        add_triangle(&r, back, a + 4, a);
+        add_triangle(&r, a + 1, a + 5, a + 6);
+        add_triangle(&r, a + 1, a + 6, a + 2);
+        add_triangle(&r, front, a + 3, a + 7);
+    }
+    return add_mesh(m, x, y, z, (const float(*)[3])r.positions, (const float(*)[3])r.normals, r.vertices, r.indices,
+                    r.index_count, fmax(radius, half_length), colour);
+}
+
+int moving_scene_joint(moving_scene *m, double x, double y, double z)
+{
+    return add_node(m, x, y, z);
+}
+
+void moving_scene_put_in(moving_scene *m, int node, int parent)
+{
+    m->nodes[node].parent = parent;
+}
+
+void moving_scene_name(moving_scene *m, int node, const char *name)
+{
+    snprintf(m->nodes[node].name, sizeof m->nodes[node].name, "%s", name);
+}
+
+static void add_keys(moving_scene *m, int node, const char *path, bool cubic, int count, const double *times,
+                     const double *values)
+{
+    int    numbers = strcmp(path, "rotation") == 0 ? 4 : 3, all = cubic ? 3 * count : count;
+    float *t = malloc((size_t)count * sizeof *t), *v = malloc((size_t)(all * numbers) * sizeof *v);
     char   bounds[80];
     for (int i = 0; i < count; i++)
         t[i] = (float)times[i];
-    for (int i = 0; i < count * numbers; i++)
+    for (int i = 0; i < all * numbers; i++)
         v[i] = (float)values[i];
     snprintf(bounds, sizeof bounds, ", \"min\": [%.9g], \"max\": [%.9g]", (double)t[0], (double)t[count - 1]);
     int at = add_data(m, t, (size_t)count * sizeof *t, count, "SCALAR", false, bounds);
-    int to = add_data(m, v, (size_t)(count * numbers) * sizeof *v, count, numbers == 4 ? "VEC4" : "VEC3", false, "");
-    add(&m->samplers, "%s{\"input\": %d, \"output\": %d}", comma(m->channel_count), at, to);
+    int to = add_data(m, v, (size_t)(all * numbers) * sizeof *v, all, numbers == 4 ? "VEC4" : "VEC3", false, "");
+    add(&m->samplers, "%s{\"input\": %d, \"output\": %d%s}", comma(m->channel_count), at, to,
+        cubic ? ", \"interpolation\": \"CUBICSPLINE\"" : "");
     add(&m->channels, "%s{\"sampler\": %d, \"target\": {\"node\": %d, \"path\": \"%s\"}}", comma(m->channel_count),
         m->channel_count, node, path);
     m->channel_count++;
@@ -138,10 +212,23 @@ void moving_scene_keys(moving_scene *m, int node, const char *path, int count, c
     free(v);
 }
 
+void moving_scene_keys(moving_scene *m, int node, const char *path, int count, const double *times,
+                       const double *values)
+{
+    add_keys(m, node, path, false, count, times, values);
+}
+
+void moving_scene_cubic_keys(moving_scene *m, int node, const char *path, int count, const double *times,
+                             const double *values)
+{
+    add_keys(m, node, path, true, count, times, values);
+}
+
 int moving_scene_camera(moving_scene *m, double x, double y, double z, bool orthographic, double size)
 {
-    add(&m->nodes, "%s{\"name\": \"eye\", \"camera\": 0, \"translation\": [%.17g, %.17g, %.17g]}", comma(m->node_count),
-        x, y, z);
+    int node = add_node(m, x, y, z);
+    moving_scene_name(m, node, "eye");
+    add(&m->nodes[node].text, ", \"camera\": 0");
     char *cameras = NULL;
     if (orthographic)
         add(&cameras,
@@ -155,23 +242,39 @@ int moving_scene_camera(moving_scene *m, double x, double y, double z, bool orth
             "0.01}}], ",
             size * 3.141592653589793 / 180);
     m->cameras = cameras;
-    return m->node_count++;
+    return node;
+}
+
+/* The nodes as JSON, and those that lie in none. */
+static char *put_nodes(moving_scene *m, char **roots)
+{
+    char *all = NULL;
+    for (int i = 0; i < m->node_count; i++) {
+        add(&all, "%s{\"name\": \"%s\", %s", comma(i), m->nodes[i].name, m->nodes[i].text);
+        int children = 0;
+        for (int k = 0; k < m->node_count; k++)
+            if (m->nodes[k].parent == i)
+                add(&all, "%s%d", children++ ? ", " : ", \"children\": [", k);
+        add(&all, children ? "]}" : "}");
+        if (m->nodes[i].parent < 0)
+            add(roots, "%s%d", comma(*roots != NULL), i);
+        free(m->nodes[i].text);
+    }
+    return all;
 }
 
 void moving_scene_write(moving_scene *m, const char *path)
 {
-    char *json = NULL, *roots = NULL;
-    for (int i = 0; i < m->node_count; i++)
-        add(&roots, "%s%d", comma(i), i);
+    char             *json = NULL, *roots = NULL, *nodes = put_nodes(m, &roots);
     const char *const format[] = {"{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_materials_unlit\"], ",
                                   "\"scene\": 0, \"scenes\": [{\"nodes\": ["};
-    size_t            room = 4096 + strlen(m->nodes) + strlen(m->meshes) + strlen(m->materials) + strlen(m->accessors) +
+    size_t            room = 4096 + strlen(nodes) + strlen(m->meshes) + strlen(m->materials) + strlen(m->accessors) +
                   strlen(m->views) + (m->channels ? strlen(m->channels) + strlen(m->samplers) : 0) + strlen(roots);
     json = malloc(room);
     int size = snprintf(json, room,
                         "%s%s%s%s]}], \"nodes\": [%s], \"meshes\": [%s], \"materials\": [%s], \"accessors\": [%s], "
                         "\"bufferViews\": [%s], \"buffers\": [{\"byteLength\": %zu}]%s%s%s%s%s}",
-                        format[0], m->cameras ? m->cameras : "", format[1], roots, m->nodes, m->meshes, m->materials,
+                        format[0], m->cameras ? m->cameras : "", format[1], roots, nodes, m->meshes, m->materials,
                         m->accessors, m->views, m->byte_count, m->channels ? ", \"animations\": [{\"channels\": [" : "",
                         m->channels ? m->channels : "", m->channels ? "], \"samplers\": [" : "",
                         m->channels ? m->samplers : "", m->channels ? "]}]" : "");
@@ -179,8 +282,9 @@ void moving_scene_write(moving_scene *m, const char *path)
         fprintf(stderr, "cannot write %s\n", path);
         abort();
     }
-    char *owned[] = {m->nodes,    m->meshes,  m->materials, m->accessors, m->views, m->channels,
+    char *owned[] = {nodes,       m->meshes,  m->materials, m->accessors, m->views, m->channels,
                      m->samplers, m->cameras, m->bytes,     roots,        json};
+    free(m->nodes);
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         free(owned[i]);
     *m = (moving_scene){.nodes = NULL};
