@@ -6,7 +6,17 @@ layout(location = 0) out vec4 out_0;
 #ifdef WITH_FADE
 float faded(ivec2 pixel)
 {
-    float speed = length(velocity_near(pixel).xy);
+    vec2 moved = velocity_near(pixel).xy;
+    float speed = length(moved);
+#if PATH != 0
+    /* The way there and back counts, as it does for strokes. */
+#if PATH == 1
+    vec4 between = texelFetch(t_past_1, pixel, 0);
+#else
+    vec4 between = texelFetch(t_past_2, pixel, 0);
+#endif
+    speed = max(speed, between.w > 0.0 ? length(between.xy) + distance(moved, between.xy) : 0.0);
+#endif
     float fast = u_fade_full > u_fade_begin ? clamp((speed - u_fade_begin) / (u_fade_full - u_fade_begin), 0.0, 1.0) : float(speed > u_fade_begin);
     return 1.0 - u_fade * fast;
 }

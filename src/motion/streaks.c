@@ -78,9 +78,9 @@ static const param params[] = {
     PARAM_FLOAT_ROW(streaks_values, fade, .toggles = true, .def = 0.85, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far what moves fast fades behind its strokes; 0 leaves the object whole and adds speed "
                            "lines alone."),
-    PARAM_FLOAT_ROW(streaks_values, fade_begin, .def = 12, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(streaks_values, fade_begin, .def = 24, .min = 0, .max = 2000, .soft_max = 200, .unit = UNIT_PX,
                     .along = true, .only_if = "fade>0", .doc = "What moves less far in the exposure does not fade."),
-    PARAM_FLOAT_ROW(streaks_values, fade_full, .def = 64, .min = 0, .max = 4000, .soft_max = 400, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(streaks_values, fade_full, .def = 80, .min = 0, .max = 4000, .soft_max = 400, .unit = UNIT_PX,
                     .along = true, .only_if = "fade>0", .doc = "What moves this far is gone."),
     PARAM_TEXT_ROW(streaks_values, texture, .is_file = true, .example = "clear-border", .check = streak_texture_check,
                    .doc = "How strokes look: solid, clear or gradient, each with -border for a dark rim, or a picture "
@@ -220,8 +220,8 @@ static const pass passes[] = {
      .strips = &strips},
     {.name = "streaks",
      .shader = "motion/streaked.frag",
-     .reads = {TARGET_MOVER, TARGET_MOVER_DEPTH, TARGET_DEPTH, TARGET_VELOCITY, TARGET_SCENE_DEPTH, (target)STREAKS,
-               (target)STREAKS_DEPTH},
+     .reads = {TARGET_MOVER, TARGET_MOVER_DEPTH, TARGET_DEPTH, TARGET_VELOCITY, TARGET_PAST_1, TARGET_PAST_2,
+               TARGET_SCENE_DEPTH, (target)STREAKS, (target)STREAKS_DEPTH},
      .writes = TARGET_PAGE,
      .blend = BLEND_OVER,
      .depth = true},
