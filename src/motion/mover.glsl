@@ -19,7 +19,7 @@ vec4 velocity_near(ivec2 pixel)
     int last = found.w > 0.0 ? 0 : 32;
     for (int i = 0; i < last; i++) { /* rings of eight */
         ivec2 beside = pixel + ((i >> 3) + 1) * around[i & 7];
-        found = texelFetch(t_velocity, clamp(beside, ivec2(0), ivec2(u_size) - 1), 0);
+        found = texelFetch(t_velocity, clamp(beside, ivec2(u_around.xy), ivec2(u_around.zw) - 1), 0);
         last = found.w > 0.0 ? 0 : last;
     }
     return found;

@@ -3,6 +3,20 @@
 #include "motion/mover.glsl"
 layout(location = 0) out vec4 out_0;
 
+#ifdef WITH_FRONT
+/* 0 at the edge that goes ahead, 1 as far behind it as is kept: what dissolves does so from behind. */
+float behind_front(ivec2 pixel, vec2 moved)
+{
+    vec2 ahead = moved / max(length(moved), 1e-3) * u_front;
+    float on = 0.0;
+    for (int i = 1; i <= 3; i++) {
+        ivec2 at = clamp(pixel + ivec2(round(ahead * (float(i) / 3.0))), ivec2(u_around.xy), ivec2(u_around.zw) - 1);
+        on += step(1e-3, texelFetch(t_mover, at, 0).a);
+    }
+    return smoothstep(0.0, 1.0, on / 3.0);
+}
+#endif
+
 #ifdef WITH_FADE
 float faded(ivec2 pixel)
 {
@@ -18,6 +32,9 @@ float faded(ivec2 pixel)
     speed = max(speed, between.w > 0.0 ? length(between.xy) + distance(moved, between.xy) : 0.0);
 #endif
     float fast = u_fade_full > u_fade_begin ? clamp((speed - u_fade_begin) / (u_fade_full - u_fade_begin), 0.0, 1.0) : float(speed > u_fade_begin);
+#ifdef WITH_FRONT
+    fast *= behind_front(pixel, moved);
+#endif
     return 1.0 - u_fade * fast;
 }
 #endif

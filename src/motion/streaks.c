@@ -16,8 +16,8 @@ typedef enum streak_where { WHERE_ALL, WHERE_TRAILING, WHERE_LEADING } streak_wh
 typedef struct streaks_values {
     motion_common common;
     int32_t       count, seeds, jittered, path, place, ink, where;
-    float         margin, jitter, jitter_rate, width, taper, shift_width, shift_length, begin, full, fade, fade_begin,
-        fade_full, opacity, head, tail, round;
+    float margin, jitter, jitter_rate, width, taper, uneven, shift_width, shift_length, begin, full, fade, fade_begin,
+        fade_full, front, opacity, head, tail, round;
     bool        scaled, shadows;
     colour      colour;
     param_words texture, mask;
@@ -61,8 +61,10 @@ static const param params[] = {
                           "winding: through three."),
     PARAM_FLOAT_ROW(streaks_values, width, .def = 5, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,
                     .doc = "Width of strokes, the same at any distance."),
-    PARAM_FLOAT_ROW(streaks_values, taper, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+    PARAM_FLOAT_ROW(streaks_values, taper, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much narrower strokes become towards their tails."),
+    PARAM_FLOAT_ROW(streaks_values, uneven, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How much shorter than the way that was gone strokes may be, each by itself, as by hand."),
     PARAM_BOOL_ROW(streaks_values, scaled, .def = 0,
                    .doc = "Strokes are smaller with distance, and as many more; the width is that at the nearest."),
     PARAM_FLOAT_ROW(streaks_values, shift_width, .def = 1, .min = 0, .max = 16, .soft_max = 4,
@@ -82,6 +84,9 @@ static const param params[] = {
                     .along = true, .only_if = "fade>0", .doc = "What moves less far in the exposure does not fade."),
     PARAM_FLOAT_ROW(streaks_values, fade_full, .def = 80, .min = 0, .max = 4000, .soft_max = 400, .unit = UNIT_PX,
                     .along = true, .only_if = "fade>0", .doc = "What moves this far is gone."),
+    PARAM_FLOAT_ROW(streaks_values, front, .toggles = true, .def = 18, .min = 0, .max = 1000, .soft_max = 100,
+                    .unit = UNIT_PX, .along = true, .only_if = "fade>0",
+                    .doc = "How much of what goes ahead is kept: the object dissolves from behind."),
     PARAM_TEXT_ROW(streaks_values, texture, .is_file = true, .example = "clear-border", .check = streak_texture_check,
                    .doc = "How strokes look: solid, clear or gradient, each with -border for a dark rim, or a picture "
                           "(.png, .jpg, .webp) from tail to head, whose lightness and opacity they take. Empty: "
@@ -235,7 +240,8 @@ static const texture_source textures[] = {
 const technique motion_streaks = {
     .name = "streaks",
     .doc = "Strokes along the motion, in the object's colours; it dissolves in them where it is fast.",
-    .example = "{\"motion\": {\"technique\": \"streaks\", \"ink\": \"colour\"}, \"surface\": \"toon\", \"lines\": "
+    .example = "{\"motion\": {\"technique\": \"streaks\", \"ink\": \"colour\", \"exposure\": 0.3}, \"surface\": "
+               "\"toon\", \"lines\": "
                "\"discontinuity\"}",
     .params = params,
     .param_count = PARAM_COUNT(params),

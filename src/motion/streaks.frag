@@ -9,9 +9,11 @@ flat in vec4 v_colour;
 
 bool on_object(vec2 position)
 {
-    ivec2 pixel = ivec2(floor(position));
-    bool inside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(u_size)));
-    return !inside || texelFetch(t_velocity, clamp(pixel, ivec2(0), ivec2(u_size) - 1), 0).w > 0.0;
+    /* Beyond the page it may be; on the page it is nowhere outside its pictures. */
+    bool page = all(greaterThanEqual(position, vec2(0.0))) && all(lessThan(position, u_size));
+    bool inside = all(greaterThanEqual(position, u_around.xy)) && all(lessThan(position, u_around.zw));
+    vec2 at = clamp(position, u_around.xy + 0.5, u_around.zw - 0.5);
+    return !page || (inside && texelFetch(t_velocity, ivec2(at), 0).w > 0.0);
 }
 
 /* Is there nothing of the object before this part of the stroke? Then it would stand out ahead: heads are wider than where they begin. */

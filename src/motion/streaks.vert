@@ -85,7 +85,7 @@ vec4 colour_around(ivec2 pixel, float radius)
 #endif
     for (int i = 0; i < 4; i++) {
         vec2 beside = vec2(float(i & 1) - 0.5, float(i >> 1) - 0.5) * radius;
-        sum += texelFetch(t_mover, clamp(pixel + ivec2(round(beside)), ivec2(0), ivec2(u_size) - 1), 0);
+        sum += texelFetch(t_mover, clamp(pixel + ivec2(round(beside)), ivec2(u_around.xy), ivec2(u_around.zw) - 1), 0);
     }
     return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / 5.0) : vec4(0.0);
 #endif
@@ -126,7 +126,7 @@ float fading_of(float whole)
 
 void main()
 {
-    ivec2 pixel = clamp(ivec2(floor(a_seed.xy)), ivec2(0), ivec2(u_size) - 1);
+    ivec2 pixel = clamp(ivec2(floor(a_seed.xy)), ivec2(u_around.xy), ivec2(u_around.zw) - 1);
     bool there = texelFetch(t_velocity, pixel, 0).w > 0.0;
     find_places(pixel);
     float smaller = smaller_at(places[0].z), half_width = 0.5 * u_width * smaller;
@@ -135,8 +135,9 @@ void main()
     vec4 colour = colour_around(pixel, half_width);
     float opacity = fading_of(whole) * u_opacity * min(colour.a, 1.0);
     float shift = min(max(u_shift_width * half_width, u_shift_length * whole) / whole, 1.0);
+    float end = max(1.0 - u_uneven * fract(a_seed.w * 0.61803399), shift);
     /* Where it was between is taken for evenly spaced along the stroke: its ends are exact. */
-    float part = float(segment) / float(SEGMENTS), t = mix(shift, 1.0, part), length_left = whole * (1.0 - shift);
+    float part = float(segment) / float(SEGMENTS), t = mix(shift, end, part), length_left = whole * (end - shift);
     vec2 lengths = length_left * vec2(1.0, part);
     vec3 here = place_at(t);
     vec2 tangent = place_at(max(t - 0.01, 0.0)).xy - place_at(min(t + 0.01, 1.0)).xy;

@@ -71,7 +71,7 @@ static void draw(const char *path, const char *motion, double seconds, uint8_t (
 /* Black strokes alone, of which one can measure how much of a pixel they cover: no object behind or in front. */
 #define ALONE                                                                                                          \
     "\"ink\": \"colour\", \"colour\": \"#000000\", \"texture\": \"solid\", \"fade\": 1, \"fade_begin\": 0, "           \
-    "\"fade_full\": 0.5, \"begin\": 2, \"full\": 2, \"exposure\": 1"
+    "\"fade_full\": 0.5, \"begin\": 2, \"full\": 2, \"front\": 0, \"taper\": 0, \"uneven\": 0, \"exposure\": 1"
 
 static double cover(const uint8_t p[4])
 {
@@ -308,8 +308,7 @@ static void strokes_are_as_wide_and_lie_as_told(void **state)
                               (double[]){-moves[i][0] * unit, -moves[i][1] * unit, -moves[i][2] * unit, 0, 0, 0});
             moving_scene_camera(&m, 0, 0, distance, false, 60);
             moving_scene_write(&m, path_of("wide"));
-            draw(path_of("wide"), ALONE ", \"width\": 8, \"count\": 24, \"taper\": 0, \"path\": \"straight\"", 2,
-                 picture);
+            draw(path_of("wide"), ALONE ", \"width\": 8, \"count\": 24, \"path\": \"straight\"", 2, picture);
             memset(seen, 0, sizeof seen);
             /* The point on the page to which the motion tends, or its direction. */
             for (int at = 0; at < PIXELS; at++) {
@@ -485,7 +484,7 @@ static void fading_is_smooth(void **state)
         double sum = 0;
         snprintf(motion, sizeof motion,
                  "\"ink\": \"colour\", \"colour\": \"#000000\", \"texture\": \"solid\", \"count\": 400, \"begin\": 12, "
-                 "\"full\": 36, \"fade\": 0, \"place\": \"front\", \"exposure\": %g",
+                 "\"full\": 36, \"fade\": 0, \"uneven\": 0, \"place\": \"front\", \"exposure\": %g",
                  i / 40. + 0.01);
         draw(path, motion, 2, picture);
         for (int k = 0; k < PIXELS; k++)
