@@ -124,7 +124,7 @@ static lmn_status keep_group(drawing *d)
     case 42: e->ratio[d->code - 41] = number_of(d); break;
     case 50:
     case 51: e->angles[d->code - 50] = number_of(d); break;
-    case 70: e->flags = (int)number_of(d); break;
+    case 70: e->flags = (int)fmin(fmax(number_of(d), 0), 65535); break; /* bits of a 16-bit number */
     default: break;
     }
     return LMN_OK;
