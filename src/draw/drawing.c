@@ -101,6 +101,21 @@ static void warn_of_movers(const session *s, warnings *warnings)
                      "motion: of what is seen through, moving parts are drawn over those that rest");
 }
 
+/* What moves would throw shadows, and the look has none. */
+static void warn_of_shadows(const session *s, const scene_values *scene, warnings *warnings)
+{
+    for (size_t i = 0; i < s->plan.figure_count && !scene->shadows; i++) {
+        const technique_use *use = s->plan.figures[i].mover ? rule_use(s->plan.figures[i].rule, KIND_MOTION) : NULL;
+        for (size_t k = 0; use && k < use->technique->pass_count; k++) {
+            const technique *t = use->technique;
+            if (t->passes[k].writes == TARGET_SHADOW &&
+                params_condition(t->passes[k].when, t->params, t->param_count, use->values))
+                warnings_add(warnings, WARNING_UNUSED, "motion.%s: the look has no shadows (scene.shadows)",
+                             t->passes[k].when);
+        }
+    }
+}
+
 static void warn_of_marks(const session *s, warnings *warnings)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
@@ -124,6 +139,7 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     bool                cut_out = false, spares = false;
     warn_of_marks(s, &d->warnings);
     warn_of_movers(s, &d->warnings);
+    warn_of_shadows(s, v, &d->warnings);
     for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
         if (rule_use(&look->rules[i], KIND_MOTION))
             warnings_add(&d->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");

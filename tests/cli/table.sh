@@ -188,6 +188,7 @@ group_draw() {
     printf '%s' '{"version": 1, "rules": [{"surface": "lit", "motion": {"technique": "blur", "exposure": 0.1}}, {"select": "*inner*", "surface": "lit", "motion": {"technique": "streaks", "exposure": 0.2}}]}' >in-exposures.json
     row 1 "^limner: .*different motion: exposures of 0.1 s and 0.2 s" '' draw "$moving" $small -o x.png --time 1.5 --look in-exposures.json
     row 1 "^limner: motion.texture is 'wool'; allowed is a texture of streaks" '' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=streaks --set motion.texture=wool
+    row 0 'warning: motion.shadows: the look has no shadows' 'x.png' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=streaks --set motion.shadows=true
     row 2 "^limner: .*nowhere.png" '' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=streaks --set motion.texture=nowhere.png
     row 0 '' 'x.png' draw "$moving" $small -o x.png --time 1.5 --set motion.technique=accumulate
     cmp -s x.png in-later.png && complain "motion changes nothing"
