@@ -1,14 +1,14 @@
 /* Ink outside a figure's boundary belongs to the surface it surrounds: the nearest one within the line's reach. Where a line runs on,
  * it does so in space. */
 bool is_own(ivec2 at);
+#include "technique/depth.glsl"
 
 #ifdef HAS_OVERSHOOT
 float overshoot_depth(ivec2 pixel)
 {
     uint bits = texelFetch(t_overshoot, pixel, 0).g;
     float depth = uintBitsToFloat(bits);
-    float window = (u_window_depth.y - u_window_depth.x * depth) / (u_window_depth.w - u_window_depth.z * depth);
-    return bits == 0u ? 1.0 : clamp(0.5 * window + 0.5, 0.0, 1.0);
+    return bits == 0u ? 1.0 : clamp(window_depth_at_eye(depth), 0.0, 1.0);
 }
 #endif
 

@@ -236,6 +236,17 @@ lmn_status image_read(image_pixels *out, const unsigned char *bytes, size_t size
     return LMN_OK;
 }
 
+bool image_is_named(const char *path)
+{
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp"};
+    char                     ending[8];
+    file_ending(path, ending, sizeof ending);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (strcmp(ending, endings[i]) == 0)
+            return true;
+    return false;
+}
+
 lmn_status image_load(image_pixels *out, const char *path, lmn_error *error)
 {
     *out = (image_pixels){0};

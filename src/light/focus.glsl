@@ -1,4 +1,5 @@
 /* Depth focus: the fraction of its ink that a position keeps. Müller, section 5 (figures 16 and 21), which has no formula; row P22. */
+#include "technique/depth.glsl"
 uniform vec4 u_focus; /* share that is lost at most, depth that is looked at, 1 / range, 0; eye depths */
 
 float in_focus(float eye_depth)
@@ -10,6 +11,5 @@ float in_focus(float eye_depth)
 /* The same for a value of a depth buffer. */
 float in_focus_of_window(float depth)
 {
-    float ndc = 2.0 * depth - 1.0;
-    return in_focus((u_window_depth.y - u_window_depth.w * ndc) / (u_window_depth.x - u_window_depth.z * ndc));
+    return in_focus(eye_depth_at_window(depth));
 }

@@ -78,7 +78,7 @@ void main()
         /* A line that runs on does so in space, on no surface that tells its slope. */
         uint bits = texelFetch(t_overshoot, ivec2(gl_FragCoord.xy), 0).g;
         float eye = uintBitsToFloat(bits);
-        float window = 0.5 * (u_window_depth.y - u_window_depth.x * eye) / (u_window_depth.w - u_window_depth.z * eye) + 0.5;
+        float window = window_depth_at_eye(eye);
         clear_times = bits != 0u && window < owner.z ? 4.0 : 1.0;
         owner = bits != 0u && window < owner.z ? vec3(0.0, 0.0, window) : owner;
 #endif

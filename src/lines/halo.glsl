@@ -1,6 +1,7 @@
 /* What the passes of haloed lines share. An outline is ink at a step of depth, and lies on the nearer side of it. Window depth is affine in
  * screen space on any plane. */
 #include "lines/halo_reach.glsl"
+#include "technique/depth.glsl"
 
 /* Ink of less than this is shading; see lines.c. */
 const float LINE_INK = 0.15;
@@ -19,7 +20,7 @@ float depth_at(vec2 off)
 vec2 eye_of(float window)
 {
     vec4 m = u_window_depth;
-    float at = 2.0 * min(window, 0.9999999) - 1.0, depth = (m.y - m.w * at) / (m.x - m.z * at), scale = m.w - m.z * depth;
+    float depth = eye_depth_at_window(min(window, 0.9999999)), scale = m.w - m.z * depth;
     return vec2(depth, 0.5 * abs(m.z * m.y - m.x * m.w) / (scale * scale));
 }
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
 #include "fence/image_read.h"
@@ -30,23 +29,11 @@ static bool find_name(const char *name, streak_fill *fill, bool *border)
     return false;
 }
 
-static bool is_picture(const char *name)
-{
-    const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp"};
-    size_t            length = strlen(name);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        size_t own = strlen(endings[i]);
-        if (length > own && strcasecmp(name + length - own, endings[i]) == 0)
-            return true;
-    }
-    return false;
-}
-
 lmn_status streak_texture_check(const char *name, lmn_error *error)
 {
     streak_fill fill;
     bool        border;
-    if (!name[0] || find_name(name, &fill, &border) || is_picture(name))
+    if (!name[0] || find_name(name, &fill, &border) || image_is_named(name))
         return LMN_OK;
     error_set(error, LMN_USAGE, "texture is '%.100s'; allowed is a texture of streaks, or a picture", name);
     error_hint(error, "solid, clear, gradient, solid-border, clear-border, gradient-border, or a picture (.png, .jpg, "
@@ -110,7 +97,7 @@ static lmn_status load_picture(mip_chain *out, const char *path, lmn_error *erro
         const uint8_t *from = picture.rgba + 4 * (size_t)(picture.height - 1 - y) * picture.width;
         uint8_t       *to = (uint8_t *)mip_layer(out, 0, 0) + 2 * (size_t)y * picture.width;
         for (uint32_t x = 0; x < picture.width; x++, from += 4, to += 2) {
-            to[0] = (uint8_t)((54 * from[0] + 183 * from[1] + 19 * from[2] + 128) / 256); /* luma, Rec. 709 */
+            to[0] = image_luma(from);
             to[1] = from[3];
         }
     }
@@ -137,7 +124,7 @@ lmn_status streak_texture_make(mip_chain *out, const char *name, lmn_error *erro
 
 lmn_status streak_mask_check(const char *name, lmn_error *error)
 {
-    if (!name[0] || strcmp(name, "checker") == 0 || is_picture(name))
+    if (!name[0] || strcmp(name, "checker") == 0 || image_is_named(name))
         return LMN_OK;
     error_set(error, LMN_USAGE, "mask is '%.100s'; allowed is checker, or a picture", name);
     error_hint(error, "pictures end in .png, .jpg or .webp");

@@ -1,6 +1,6 @@
 /* A stroke: a strip along the way that the surface at the seed has come, built on the page. Großmann 2011, sections 6.2 to 6.4, without its dead directions and its widths
  * that drift with depth: lengths and widths are pixels, whatever the projection. */
-#include "motion/streak_depth.glsl"
+#include "technique/depth.glsl"
 
 #ifdef INTO_SHADOW
 uniform mat4 u_shadow_from_eye;
@@ -101,7 +101,7 @@ bool left_out(float smaller)
 
 float smaller_at(float window)
 {
-    return u_scaled && u_perspective > 0.5 ? min(u_depths.x / eye_depth_at(window), 1.0) : 1.0;
+    return u_scaled && u_perspective > 0.5 ? min(u_depths.x / eye_depth_at_window(window), 1.0) : 1.0;
 }
 
 /* May a stroke begin here? Großmann 2011, sections 6.4.2 and 9.2.2: validity. */
@@ -150,9 +150,9 @@ void main()
     float across = side * (half_width * (1.0 - u_taper * lengths.y / max(lengths.x, 1e-6)) + 0.5);
     here.xy += across * vec2(-tangent.y, tangent.x);
     /* A little nearer: along flat sides strokes lie in the very surface. */
-    float nearer = window_depth_of(max(eye_depth_at(clamp(here.z, 0.0, 1.0)) - 0.002 * (u_far - u_near), 1e-6));
+    float nearer = window_depth_at_eye(max(eye_depth_at_window(clamp(here.z, 0.0, 1.0)) - 0.002 * (u_far - u_near), 1e-6));
 #ifdef INTO_SHADOW
-    float eye_depth = eye_depth_at(clamp(here.z, 0.0, 1.0));
+    float eye_depth = eye_depth_at_window(clamp(here.z, 0.0, 1.0));
     vec2 across_page = (2.0 * here.xy / u_size - 1.0) * u_unproject;
     vec3 in_shadow = (u_shadow_from_eye * vec4(across_page * (u_perspective > 0.5 ? eye_depth : 1.0), -eye_depth, 1.0)).xyz;
     /* A little behind: strokes throw none on the surface that they lie on. */

@@ -15,7 +15,6 @@ static const char *const standard_screen = "cross";
 static const char *const hatch_map_name = "hatch-map";
 
 static const char *const checker_name = "checker";
-static const char *const picture_endings[] = {".png", ".jpg", ".jpeg", ".webp", NULL};
 static const char *const stroke_endings[] = {".stx", ".svg", NULL};
 static const char *const material_name = "material";
 
@@ -52,7 +51,7 @@ static bool ends_in(const char *name, const char *const *endings)
 
 lmn_status screen_check_picture(const char *name, lmn_error *error)
 {
-    if (ends_in(name, picture_endings) || strcmp(name, checker_name) == 0)
+    if (image_is_named(name) || strcmp(name, checker_name) == 0)
         return LMN_OK;
     return error_set(error, LMN_USAGE,
                      "indication is '%.200s'; allowed are pictures (.png, .jpg, .webp) and the word checker", name);
@@ -62,7 +61,7 @@ lmn_status screen_check_name(const char *name, lmn_error *error)
 {
     if (index_in(stroke_pattern_names, name) >= 0 || index_in(screen_procedure_names, name) >= 0 ||
         strcmp(name, hatch_map_name) == 0 || strcmp(name, material_name) == 0 || ends_in(name, stroke_endings) ||
-        ends_in(name, picture_endings))
+        image_is_named(name))
         return LMN_OK;
     lmn_status status = error_set(
         error, LMN_USAGE, "screen is '%.200s'; allowed is a pattern, a procedure, the word material, or a file", name);
@@ -113,10 +112,10 @@ static uint64_t content_of(const char *path)
 
 static void describe_file(text *out, const char *name)
 {
-    if (ends_in(name, stroke_endings) || ends_in(name, picture_endings))
+    if (ends_in(name, stroke_endings) || image_is_named(name))
         text_append(out, " content=%016llx", (unsigned long long)content_of(name));
     char *path;
-    for (int i = 2; ends_in(name, picture_endings) && i <= LAYERS_MOST && numbered(name, i, &path); i++) {
+    for (int i = 2; image_is_named(name) && i <= LAYERS_MOST && numbered(name, i, &path); i++) {
         uint64_t content = content_of(path);
         mem_free(path);
         if (!content)
@@ -297,12 +296,11 @@ static lmn_status make_of_picture(mip_chain *out, const screen_values *v, lmn_er
 static lmn_status make_any(mip_chain *out, const screen_values *v, lmn_error *error)
 {
     int procedure = index_in(screen_procedure_names, name_of(v));
-    if (procedure < 0 && strcmp(name_of(v), hatch_map_name) != 0 && !ends_in(name_of(v), picture_endings))
+    if (procedure < 0 && strcmp(name_of(v), hatch_map_name) != 0 && !image_is_named(name_of(v)))
         return make_of_strokes(out, v, to_screen, error);
     lmn_status status = procedure >= 0 ? screen_of_procedure(out, (screen_procedure)procedure, 128, PERIOD, error)
-                        : ends_in(name_of(v), picture_endings)
-                            ? make_of_picture(out, v, error)
-                            : screen_hatch_map(out, 1024, PERIOD, true, false, error);
+                        : image_is_named(name_of(v)) ? make_of_picture(out, v, error)
+                                                     : screen_hatch_map(out, 1024, PERIOD, true, false, error);
     out->fact = PERIOD;
     out->similar = procedure >= 0 || strcmp(name_of(v), hatch_map_name) == 0;
     /* Of these every texel has a value of its own. */
@@ -455,8 +453,7 @@ lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error 
         for (uint32_t x = 0; x < pixels.width; x++) {
             const uint8_t *from = &pixels.rgba[4 * ((size_t)y * pixels.width + x)];
             /* Row 0 is v = 0, as glTF counts. */
-            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] =
-                (uint8_t)((54 * from[0] + 183 * from[1] + 19 * from[2] + 128) >> 8);
+            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] = image_luma(from);
         }
     if (status == LMN_OK)
         average_levels(out);
