@@ -1,4 +1,4 @@
-/* Scenes of boxes that move along straight lines, as glTF files: what they do is known without any renderer. */
+/* Scenes of boxes that move along straight lines, as .glb files: what they do is known without any renderer. */
 #ifndef LIMNER_TESTS_BOXES_H
 #define LIMNER_TESTS_BOXES_H
 
@@ -16,8 +16,7 @@ typedef struct moving_box {
     bool        open;               /* only the face towards +z */
 } moving_box;
 
-/* Writes the scene into this file, and more beside it; false when it cannot. */
-bool boxes_write(const char *path, const moving_box *boxes, int count);
+void boxes_write(const char *path, const moving_box *boxes, int count);
 
 /* A view of 20 units in height and width around the origin, from +z. */
 void boxes_view(lmn_draw_desc *desc, int side);

@@ -75,7 +75,8 @@ void moving_scene_begin(moving_scene *m)
     *m = (moving_scene){.nodes = NULL};
 }
 
-int moving_scene_box(moving_scene *m, double x, double y, double z, const double half[3], const double colour[3])
+/* The last `faces` of a box's six. */
+static int add_box(moving_scene *m, const double at[3], const double half[3], const double colour[3], int faces)
 {
     float    positions[24][3], normals[24][3];
     unsigned indices[36];
@@ -97,8 +98,18 @@ int moving_scene_box(moving_scene *m, double x, double y, double z, const double
             n += 6;
         }
     double reach = fmax(half[0], fmax(half[1], half[2]));
-    return add_mesh(m, x, y, z, (const float(*)[3])positions, (const float(*)[3])normals, 24, indices, 36, reach,
-                    colour);
+    return add_mesh(m, at[0], at[1], at[2], (const float(*)[3])positions, (const float(*)[3])normals, 24,
+                    indices + 36 - 6 * faces, 6 * faces, reach, colour);
+}
+
+int moving_scene_box(moving_scene *m, double x, double y, double z, const double half[3], const double colour[3])
+{
+    return add_box(m, (const double[]){x, y, z}, half, colour, 6);
+}
+
+int moving_scene_plate(moving_scene *m, double x, double y, double z, const double half[3], const double colour[3])
+{
+    return add_box(m, (const double[]){x, y, z}, half, colour, 1);
 }
 
 int moving_scene_sphere(moving_scene *m, double x, double y, double z, double radius, const double colour[3])

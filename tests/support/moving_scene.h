@@ -24,6 +24,8 @@ typedef struct moving_scene {
 void moving_scene_begin(moving_scene *m);
 /* Each adds a node at a position and returns its number. The colour is linear. */
 int moving_scene_box(moving_scene *m, double x, double y, double z, const double half[3], const double colour[3]);
+/* Of such a box the face towards +z alone. */
+int moving_scene_plate(moving_scene *m, double x, double y, double z, const double half[3], const double colour[3]);
 int moving_scene_sphere(moving_scene *m, double x, double y, double z, double radius, const double colour[3]);
 /* Along z. */
 int moving_scene_cylinder(moving_scene *m, double x, double y, double z, double radius, double half_length,
