@@ -422,6 +422,32 @@ static void crossing_movers_are_no_darker(void **state)
     assert_true(crossed > 500 && through > 100);
 }
 
+/* Of two bars that lie crosswise in depth each hides the other where it is nearer, whichever middle is: pixel by
+ * pixel; row 69. */
+static void order_is_that_of_pixels(void **state)
+{
+    static uint8_t picture[PIXELS][4];
+    const double   half[3] = {0.8, 0.2, 0.01}, turn = 0.5;
+    (void)state;
+    for (int swapped = 0; swapped < 2; swapped++) {
+        moving_scene m;
+        moving_scene_begin(&m);
+        for (int k = 0; k < 2; k++) {
+            bool   flat = k == swapped;
+            double z = flat ? 0.05 : 0, s = flat ? 0 : sin(turn / 2), c = flat ? 1 : cos(turn / 2);
+            int    bar = moving_scene_box(&m, 0, 0, z, half, flat ? green : blue);
+            moving_scene_keys(&m, bar, "translation", 2, (double[]){1, 2}, (double[]){0, -0.05, z, 0, 0, z});
+            moving_scene_keys(&m, bar, "rotation", 2, (double[]){1, 2}, (double[]){0, s, 0, c, 0, s, 0, c});
+        }
+        moving_scene_camera(&m, 0, 0, 10, true, 1);
+        moving_scene_write(&m, path_of("order"));
+        draw(path_of("order"), "\"exposure\": 1, \"fade\": 0, \"count\": 1", 2, picture);
+        /* Turned about y its left end comes nearer. */
+        const uint8_t *left = picture[(SIDE / 2) * SIDE + SIDE / 5], *right = picture[(SIDE / 2) * SIDE + 4 * SIDE / 5];
+        assert_true(left[2] > 200 && right[1] > 190 && right[2] < 150);
+    }
+}
+
 /* However many move: two that cross look as they do alone when seventy others move far behind them, and come first. */
 static void many_movers_are_each_by_themselves(void **state)
 {
@@ -589,7 +615,7 @@ static void scaled_strokes_shrink_with_distance(void **state)
 {
     static uint8_t picture[PIXELS][4];
     static int     seen[PIXELS];
-    double         widths[2];
+    double         widths[2], inks[2] = {0, 0};
     int            counts[2];
     moving_scene   m;
     const double   half[3] = {1, 0.8, 0.01}, far[3] = {3, 2.4, 0.01};
@@ -605,6 +631,8 @@ static void scaled_strokes_shrink_with_distance(void **state)
                "{\"surface\": \"lit\"}, {\"select\": \"*node*\", \"surface\": \"lit\", \"motion\": {\"technique\": "
                "\"streaks\", " ALONE ", \"width\": 9, \"scaled\": true, \"count\": 600, \"path\": \"straight\"}}",
                2, picture);
+    for (int i = 0; i < PIXELS; i++)
+        inks[i / (PIXELS / 2)] += cover(picture[i]);
     for (int half_page = 0; half_page < 2; half_page++) {
         double sum = 0;
         counts[half_page] = 0;
@@ -624,6 +652,7 @@ static void scaled_strokes_shrink_with_distance(void **state)
     printf("near %d strokes %.1f wide, far %d strokes %.1f wide\n", counts[0], widths[0], counts[1], widths[1]);
     assert_true(counts[0] >= 3 && counts[1] > 2 * counts[0]);
     assert_true(widths[0] > 2 * widths[1]);
+    assert_true(inks[0] < inks[1]); /* a ninth of the strokes, three times as wide */
 }
 
 /* Each rule has its own: two objects, two textures; accumulated and streaked ones in one picture; rows 74, 76d. */
@@ -771,6 +800,7 @@ int main(void)
                                        cmocka_unit_test(strokes_are_as_wide_and_lie_as_told),
                                        cmocka_unit_test(the_border_is_as_dense),
                                        cmocka_unit_test(crossing_movers_are_no_darker),
+                                       cmocka_unit_test(order_is_that_of_pixels),
                                        cmocka_unit_test(many_movers_are_each_by_themselves),
                                        cmocka_unit_test(walls_hide_strokes),
                                        cmocka_unit_test(fading_is_smooth),
