@@ -1,7 +1,6 @@
 /* Ink outside a figure's boundary belongs to the surface it surrounds: the nearest one within the line's reach. Where a line runs on,
  * it does so in space. */
 bool is_own(ivec2 at);
-#include "technique/depth.glsl"
 
 #ifdef HAS_OVERSHOOT
 float overshoot_depth(ivec2 pixel)

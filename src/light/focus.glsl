@@ -1,5 +1,4 @@
 /* Depth focus: the fraction of its ink that a position keeps. Müller, section 5 (figures 16 and 21), which has no formula; row P22. */
-#include "technique/depth.glsl"
 uniform vec4 u_focus; /* share that is lost at most, depth that is looked at, 1 / range, 0; eye depths */
 
 float in_focus(float eye_depth)

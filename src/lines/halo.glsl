@@ -1,7 +1,6 @@
 /* What the passes of haloed lines share. An outline is ink at a step of depth, and lies on the nearer side of it. Window depth is affine in
  * screen space on any plane. */
 #include "lines/halo_reach.glsl"
-#include "technique/depth.glsl"
 
 /* Ink of less than this is shading; see lines.c. */
 const float LINE_INK = 0.15;

@@ -1,6 +1,5 @@
 /* A stroke: a strip along the way that the surface at the seed has come, built on the page. Großmann 2011, sections 6.2 to 6.4, without its dead directions and its widths
  * that drift with depth: lengths and widths are pixels, whatever the projection. */
-#include "technique/depth.glsl"
 
 #ifdef INTO_SHADOW
 uniform mat4 u_shadow_from_eye;
