@@ -36,7 +36,8 @@ typedef struct stroke_point {
     float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
 } stroke_point;
 
-/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order. */
+/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order; where
+ * chains were linked over a gap, arcs count it. */
 typedef struct stroke {
     stroke_class kind;
     uint32_t     part;      /* id */
@@ -64,6 +65,7 @@ typedef struct stroke_set {
     stroke_mark  *marks; /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
     bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
+    double        pixels_per_mm; /* of the page; 0: 96 to the inch */
     uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
@@ -127,6 +129,7 @@ typedef struct stroke_camera {
     double near;             /* eye depth, above 0 in perspective */
     bool   orthographic;
     int    width, height; /* of the page, pixels */
+    double pixels_per_mm; /* of paper: which lines there are depends on their lengths there alone; 0: 96 to the inch */
 } stroke_camera;
 
 typedef struct stroke_view stroke_view;
@@ -153,14 +156,15 @@ typedef struct stroke_options {
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
     bool    hidden;                                /* stretches behind surfaces too */
     float   simplify;                              /* by how much points may be moved, pixels */
-    float   shortest;                              /* chains shorter than this are left out, pixels */
+    float   shortest;                              /* whole chains shorter than this are left out, pixels */
+    float   width; /* that lines are drawn with, pixels: what is thinner in front of a chain does not end it */
     float   crowd; /* strokes that run all their length this close to more important ones are left out, pixels */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0                                             \
+        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 0, 0                                            \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

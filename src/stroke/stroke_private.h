@@ -1,6 +1,6 @@
 /* What the files of this room share: what a camera sees of a scene, made ready for asking what lies in front of what.
  *
- * In *window space* x and y are whole numbers, small fractions of a pixel measured from the middle of the page, so that
+ * In *window space* x and y are whole numbers, small fractions of a unit of paper measured from the middle of the page, so that
  * on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53. z grows
  * with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines and
  * planes of the scene lines and planes of the window. */
@@ -78,9 +78,10 @@ typedef struct view_item {
 
 struct stroke_view {
     const stroke_scene *scene;
-    stroke_camera       camera;
-    mat4                whole; /* world to clip space */
-    double              units; /* window units in a pixel */
+    stroke_camera       page;   /* as it was asked for */
+    stroke_camera       camera; /* the same on paper; see paper.c */
+    mat4                whole;  /* world to clip space */
+    double              units; /* window units in a unit of paper */
     double              same;  /* SAME_POSITION in file units */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
@@ -230,8 +231,19 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                        const stroke_options *options, lmn_error *error);
 
 /* --- join.c --- */
-/* Joins strokes of one kind whose ends almost touch. */
-lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+/* Makes chains whole: links strokes whose ends lie close together and follow each other, and only then leaves out what
+ * is too short. Lengths of the options on paper, as below. */
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
+
+/* --- paper.c --- */
+/* Which lines there are is decided on paper, in units of 1/96 inch, whatever resolution the picture has: the camera of
+ * a view counts in them. */
+#define PAPER_UNITS_PER_MM (96 / 25.4)
+stroke_camera  paper_camera(const stroke_camera *page);
+double         paper_units_per_pixel(const stroke_view *v);
+stroke_options paper_options(const stroke_view *v, const stroke_options *options);
+/* From paper to the pixels of the page that was asked for. */
+void paper_to_page(stroke_set *set, const stroke_view *v);
 
 /* --- crowd.c --- */
 /* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's

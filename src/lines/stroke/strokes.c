@@ -139,6 +139,7 @@ stroke_options strokes_options_of(const strokes_values *v)
 {
     stroke_options w = v->options;
     w.hidden = v->style.hidden != HIDDEN_NONE;
+    w.width = v->common.width;
     return w;
 }
 
