@@ -1,6 +1,6 @@
 /* Chains made whole before anything is decided by their length. The outline of a polygon mesh jumps from one row of
- * edges to the next over edges that no one ever sees, roofs come part by part, vertices are split, and bars thinner than
- * the pen lie in front; on the page the pieces follow each other, and a hand would draw them in one go.
+ * edges to the next over edges that no one ever sees, roofs come part by part, vertices are split, and bars thinner
+ * than the pen lie in front; on the page the pieces follow each other, and a hand would draw them in one go.
  *
  * Ends that lie close together are linked, the cheapest pair first, each end once:
  *
@@ -28,10 +28,10 @@
 /* How much of a stroke says which way its end points. */
 #define REACH 2.5f
 /* A link costs less than MOST; this much deeper, and it costs 1 more; this much deeper there is none. */
-#define MOST         2.0f
-#define DEPTH_SCALE  12.0f
-#define DEPTH_MOST   12.0f
-#define OTHER_KIND   0.5f
+#define MOST        2.0f
+#define DEPTH_SCALE 12.0f
+#define DEPTH_MOST  12.0f
+#define OTHER_KIND  0.5f
 /* What is drawn over anything thinner than this, in widths. */
 #define BRIDGED_WIDTHS 1.5f
 /* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
@@ -53,16 +53,16 @@ typedef struct candidate {
 } candidate;
 
 typedef struct joiner {
-    stroke_set *set;
-    double      focal;
-    bool        orthographic;
-    stroke_end *ends;
-    uint32_t   *heads, *nexts; /* hash table of cells */
-    size_t      mask;
-    candidate  *candidates;
-    size_t      candidate_count, candidate_capacity;
-    uint32_t   *partners;    /* per end; NO_VERTEX: none */
-    uint32_t   *first_marks; /* per chain, and one more */
+    stroke_set           *set;
+    double                focal;
+    bool                  orthographic;
+    stroke_end           *ends;
+    uint32_t             *heads, *nexts; /* hash table of cells */
+    size_t                mask;
+    candidate            *candidates;
+    size_t                candidate_count, candidate_capacity;
+    uint32_t             *partners;    /* per end; NO_VERTEX: none */
+    uint32_t             *first_marks; /* per chain, and one more */
     const stroke_options *options;
     float                 bridged; /* hidden stretches of a chain up to here are thinner than the pen */
     uint32_t             *wholes;  /* per chain: another one of the same whole, or itself */
@@ -85,13 +85,7 @@ static stroke_end end_of(const joiner *j, uint32_t number)
     }
     float length = sqrtf(x * x + y * y);
     float fraction = length > 0 ? 1 / length : 0;
-    return (stroke_end){from->x,
-                        from->y,
-                        from->depth,
-                        x * fraction,
-                        y * fraction,
-                        cell_of(from->x),
-                        cell_of(from->y)};
+    return (stroke_end){from->x, from->y, from->depth, x * fraction, y * fraction, cell_of(from->x), cell_of(from->y)};
 }
 
 static size_t cell_hash(int32_t column, int32_t row)
@@ -138,8 +132,7 @@ static float gap_between(const joiner *j, uint32_t a, uint32_t b)
 static bool meet_at_corner(const joiner *j, uint32_t a, uint32_t b)
 {
     stroke_class kind = j->set->strokes[a / 2].kind;
-    return gap_between(j, a, b) < TOUCH &&
-           (kind == STROKE_CREASE || kind == STROKE_BORDER || kind == STROKE_MATERIAL);
+    return gap_between(j, a, b) < TOUCH && (kind == STROKE_CREASE || kind == STROKE_BORDER || kind == STROKE_MATERIAL);
 }
 
 /* Are both stretches of one chain, with nothing but what is thinner than the pen between them? */

@@ -1,5 +1,6 @@
 /* Paper and pixels. A line that is there at one resolution is there at every other one: everything that decides which
- * lines there are sees the page as paper, in units of 1/96 inch, and what was found is laid out in pixels at the end. */
+ * lines there are sees the page as paper, in units of 1/96 inch, and what was found is laid out in pixels at the end.
+ */
 #include <math.h>
 
 #include "stroke/stroke_private.h"

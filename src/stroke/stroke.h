@@ -36,8 +36,8 @@ typedef struct stroke_point {
     float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
 } stroke_point;
 
-/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order; where
- * chains were linked over a gap, arcs count it. */
+/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order;
+ * where chains were linked over a gap, arcs count it. */
 typedef struct stroke {
     stroke_class kind;
     uint32_t     part;      /* id */
@@ -64,9 +64,9 @@ typedef struct stroke_set {
     stroke_point *points;
     stroke_mark  *marks; /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
-    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
+    bool          perspective;   /* between two points it is 1 / depth that is linear on the page, not depth */
     double        pixels_per_mm; /* of the page; 0: 96 to the inch */
-    uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
+    uint64_t      pairs;         /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 
@@ -124,6 +124,9 @@ uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[
 
 /* --- the view ------------------------------------------------------------------------------------------- */
 
+/* Which lines there are, and numbers of taste, are of the page as paper, in units of 1/96 inch. */
+#define PAPER_UNITS_PER_MM (96 / 25.4)
+
 typedef struct stroke_camera {
     mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */
     double near;             /* eye depth, above 0 in perspective */
@@ -164,7 +167,7 @@ typedef struct stroke_options {
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 0, 0                                            \
+        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 0, 0                                       \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

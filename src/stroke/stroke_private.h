@@ -1,9 +1,9 @@
 /* What the files of this room share: what a camera sees of a scene, made ready for asking what lies in front of what.
  *
- * In *window space* x and y are whole numbers, small fractions of a unit of paper measured from the middle of the page, so that
- * on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53. z grows
- * with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines and
- * planes of the scene lines and planes of the window. */
+ * In *window space* x and y are whole numbers, small fractions of a unit of paper measured from the middle of the page,
+ * so that on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53.
+ * z grows with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines
+ * and planes of the scene lines and planes of the window. */
 #ifndef LIMNER_STROKE_STROKE_PRIVATE_H
 #define LIMNER_STROKE_STROKE_PRIVATE_H
 
@@ -81,8 +81,8 @@ struct stroke_view {
     stroke_camera       page;   /* as it was asked for */
     stroke_camera       camera; /* the same on paper; see paper.c */
     mat4                whole;  /* world to clip space */
-    double              units; /* window units in a unit of paper */
-    double              same;  /* SAME_POSITION in file units */
+    double              units;  /* window units in a unit of paper */
+    double              same;   /* SAME_POSITION in file units */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
@@ -238,7 +238,6 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_opti
 /* --- paper.c --- */
 /* Which lines there are is decided on paper, in units of 1/96 inch, whatever resolution the picture has: the camera of
  * a view counts in them. */
-#define PAPER_UNITS_PER_MM (96 / 25.4)
 stroke_camera  paper_camera(const stroke_camera *page);
 double         paper_units_per_pixel(const stroke_view *v);
 stroke_options paper_options(const stroke_view *v, const stroke_options *options);

@@ -475,12 +475,12 @@ static void test_wobble(void **state)
         most = fmaxf(most, fabsf(point_of(&whole, 0, i)->y - 50));
     assert_true(most > 1 && most <= 3);
     assert_true(whole.ribbons[0].count > 50 && whole.ribbons[0].even);
-    /* The same line in two strokes: nothing moves, and they meet. */
+    /* The same line in two strokes: nothing moves, and they are drawn as one. */
     begin();
     add(one, 2, 0, false);
     add(two, 2, 0, true);
     ribbon_set cut = make(&style);
-    assert_float_equal(end_of(&cut, 0)->y, point_of(&cut, 1, 0)->y, 1e-4);
+    assert_int_equal(cut.ribbon_count, 1);
     for (float arc = 1; arc < 300; arc += 7) {
         float x = position_at(&whole, 0, arc, &y), cut_x = position_at(&cut, 0, arc, &other_y);
         assert_float_equal(x, cut_x, 0.15);
