@@ -505,10 +505,19 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
     return true;
 }
 
+static uint32_t piece_of(const chainer *c, uint32_t line)
+{
+    const view_item *item = &c->v->items[c->lines->lines[line].item];
+    const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[c->lines->lines[line].item].mesh];
+    uint32_t         face = c->lines->segments[line].faces[0] - item->first_face;
+    return item->first_piece + (face < m->face_count ? m->pieces[face] : 0);
+}
+
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
     stroke s = {.kind = line->kind,
                 .part = c->v->scene->items[line->item].part_index + 1,
+                .piece = piece_of(c, c->path[0] / 2),
                 .chain = (uint32_t)c->out->chain_count,
                 .id = id,
                 .chain_length = (float)length,
@@ -608,6 +617,8 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
         status = chains_make(out, v, &lines, &seen, &own, error);
     if (status == LMN_OK)
         status = strokes_join(out, v, &own, error);
+    if (status == LMN_OK)
+        status = strokes_choose(out, v, &own, error);
     if (status == LMN_OK)
         status = strokes_thin(out, own.crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;

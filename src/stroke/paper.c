@@ -59,6 +59,7 @@ void paper_to_page(stroke_set *set, const stroke_view *v)
     for (size_t i = 0; i < set->stroke_count; i++) {
         set->strokes[i].phase = (float)(set->strokes[i].phase * arc);
         set->strokes[i].chain_length = (float)(set->strokes[i].chain_length * arc);
+        set->strokes[i].size = (float)(set->strokes[i].size * arc);
     }
     for (size_t i = 0; i < set->mark_count; i++)
         set->marks[i].arc = (float)(set->marks[i].arc * arc);

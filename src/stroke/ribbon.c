@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "stroke/ribbon_private.h"
+#include "stroke/stroke_private.h"
 
 /* Numbers of taste, on paper (1/96 inch) unless they are shares. */
 static const float pressure_wave = 70; /* how far apart swellings of the pressure are */
@@ -94,7 +95,7 @@ float ribbon_width(const ribbon_job *job, const stroke *s)
     const stroke_style *style = job->style;
     if (s->hidden_by > 0 && style->hidden_width > 0)
         return style->hidden_width;
-    return style->width * (is_outline(s->kind) ? 1 : style->crease_width);
+    return (float)stroke_width_on_piece(s, style->width * (is_outline(s->kind) ? 1 : style->crease_width));
 }
 
 float ribbon_depth_between(const ribbon_job *job, float a, float b, float fraction)

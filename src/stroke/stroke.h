@@ -41,6 +41,7 @@ typedef struct stroke_point {
 typedef struct stroke {
     stroke_class kind;
     uint32_t     part;      /* id */
+    uint32_t     piece;     /* of surface that it lies on, of all pieces in the view */
     uint32_t     hidden_by; /* surfaces in front, of closed bodies those that face the eye; 0: visible */
     uint32_t     chain;     /* number of the chain, from 0 */
     uint64_t     id;        /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
@@ -48,6 +49,7 @@ typedef struct stroke {
     bool         closed;       /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase; /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* pixels */
+    float        size;         /* of the piece on the page, pixels, its longer side; 0: not asked for */
     bool smooth; /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of
                     it */
 } stroke;
@@ -160,14 +162,15 @@ typedef struct stroke_options {
     bool    hidden;                                /* stretches behind surfaces too */
     float   simplify;                              /* by how much points may be moved, pixels */
     float   shortest;                              /* whole chains shorter than this are left out, pixels */
-    float   width; /* that lines are drawn with, pixels: what is thinner in front of a chain does not end it */
-    float   crowd; /* strokes that run all their length this close to more important ones are left out, pixels */
+    float   width;  /* that lines are drawn with, pixels: what is thinner in front of a chain does not end it */
+    float   crowd;  /* strokes that run all their length this close to more important ones are left out, pixels */
+    float   detail; /* 1: all lines; less: what says least goes where lines crowd, whole chains, down to 0 */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 0, 0                                       \
+        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0                                 \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

@@ -244,6 +244,16 @@ stroke_options paper_options(const stroke_view *v, const stroke_options *options
 /* From paper to the pixels of the page that was asked for. */
 void paper_to_page(stroke_set *set, const stroke_view *v);
 
+/* --- density.c --- */
+/* Small pieces are drawn with a finer pen, so that their outlines enclose something. */
+static inline double stroke_width_on_piece(const stroke *s, double width)
+{
+    double most = s->size / 6, least = width / 3;
+    return !(s->size > 0) || most > width ? width : most > least ? most : least;
+}
+/* Leaves out the chains that say least where lines crowd, by the options' detail. */
+lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
+
 /* --- crowd.c --- */
 /* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's
  * size in pixels. */

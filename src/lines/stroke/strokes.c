@@ -47,6 +47,10 @@ static const param params[] = {
            .doc = "Lines shorter than this are left out."),
     NUMBER("crowd", options.crowd, .def = 0.75, .min = 0, .max = 16, .soft_max = 4, .unit = UNIT_PX,
            .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
+    NUMBER("detail", options.detail, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+           .doc =
+               "How many lines are drawn where they crowd, with visibility exact: the least important ones go first, "
+               "whole, and small pieces keep their outlines alone; 1 draws all."),
     NUMBER("simplify", options.simplify, .def = 0.1, .min = 0, .max = 8, .soft_max = 2, .unit = UNIT_PX,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
