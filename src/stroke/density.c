@@ -222,7 +222,7 @@ static double ink_around(const density *d, const sample *s)
 
 static bool is_crowded(const density *d, const stroke *s, double width)
 {
-    double limit = is_outline(s) ? MOST_OF_OUTLINES : MOST_OF_IT;
+    double limit = is_outline(s) || s->kind >= STROKE_SUGGESTIVE ? MOST_OF_OUTLINES : MOST_OF_IT;
     double detail = d->options->detail, reach = fmax(BESIDE_WIDTHS * width, BESIDE_LEAST) * 2 * (1 - detail),
            most = DENSITY_LEAST + DENSITY_MORE * detail, all = 0, parallel = 0, dense = 0;
     for (size_t i = 0; i < d->sample_count; i++) {
@@ -306,7 +306,7 @@ static bool choose(density *d, chain *chains, size_t count, uint8_t *gone)
             return false;
         if (d->sample_count == 0) /* nothing of it is visible */
             continue;
-        bool goes = (!is_outline(s) && s->size < small) || is_crowded(d, s, width);
+        bool goes = (!is_outline(s) && s->kind < STROKE_SUGGESTIVE && s->size < small) || is_crowded(d, s, width);
         for (uint32_t k = 0; k < c->count && goes; k++)
             gone[c->first + k] = 1;
         if (!goes && !lay(d, width))

@@ -8,6 +8,7 @@
 #ifndef LIMNER_STROKE_STROKE_H
 #define LIMNER_STROKE_STROKE_H
 
+#include "base/paper.h"
 #include "limner/error.h"
 #include "pose/pose.h"
 #include "scene/scene.h"
@@ -127,7 +128,7 @@ uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[
 /* --- the view ------------------------------------------------------------------------------------------- */
 
 /* Which lines there are, and numbers of taste, are of the page as paper, in units of 1/96 inch. */
-#define PAPER_UNITS_PER_MM (96 / 25.4)
+#define PAPER_UNITS_PER_MM (PX_PER_INCH / MM_PER_INCH)
 
 typedef struct stroke_camera {
     mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */

@@ -118,6 +118,7 @@ static void chains_do_not_depend_on_pixels(void **state)
         float          scale = (float)sizes[k] / 1024;
         c.pixels_per_mm = PAPER_UNITS_PER_MM * (double)scale;
         w.hidden = true;
+        w.detail = 0.7f;
         w.shortest = 6 * scale;
         w.simplify *= scale;
         w.crowd *= scale;
@@ -126,7 +127,7 @@ static void chains_do_not_depend_on_pixels(void **state)
         assert_int_equal(shots[k].check.wrong, 0);
     }
     const stroke_set *first = &shots[0].set;
-    assert_true(first->stroke_count > 200);
+    assert_true(first->stroke_count > 150);
     for (int k = 1; k < 4; k++) {
         const stroke_set *set = &shots[k].set;
         double            mm = 1 / set->pixels_per_mm, first_mm = 1 / first->pixels_per_mm;
@@ -147,6 +148,87 @@ static void chains_do_not_depend_on_pixels(void **state)
         shot_release(&shots[k]);
 }
 
+/* --- density -------------------------------------------------------------------------------------------- */
+
+/* A comb of 60 ridges 1.5 px apart, and one ridge across them all; then the same comb 12 px apart. */
+static stroke_shot shoot_comb(double apart, float detail)
+{
+    lmn_scene *s = stroke_scene_begin();
+    for (int i = 0; i < 60; i++) {
+        add_ridge(s, -1, 1);
+        node *n = &s->nodes[s->node_count - 1];
+        n->translation[1] = (float)(apart * (i - 29.5));
+        n->scale[1] = 1e-4f;
+    }
+    add_ridge(s, -3.5, 3.5);
+    node *across = &s->nodes[s->node_count - 1];
+    across->rotation[2] = across->rotation[3] = (float)sqrt(0.5);
+    across->scale[1] = 1e-4f;
+    across->translation[2] = 0.5f;
+    stroke_options w = creases_alone();
+    w.detail = detail;
+    w.crowd = 0;
+    return shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+}
+
+static bool has_part(const stroke_set *set, uint32_t part)
+{
+    for (size_t i = 0; i < set->stroke_count; i++)
+        if (set->strokes[i].part == part && set->strokes[i].hidden_by == 0)
+            return true;
+    return false;
+}
+
+/* Parallels fuse, those at the rim stay, what crosses stays, and chains go as a whole. */
+static void parallels_fuse(void **state)
+{
+    (void)state;
+    stroke_shot all = shoot_comb(0.015, 1), some = shoot_comb(0.015, 0.75f), few = shoot_comb(0.015, 0.3f),
+                wide = shoot_comb(0.12, 0.75f);
+    assert_int_equal(all.set.chain_count, some.set.chain_count);
+    assert_in_range(count_strokes(&all.set, STROKE_CREASE, 0, NULL), 61, 200);
+    assert_in_range(count_strokes(&some.set, STROKE_CREASE, 0, NULL), 10, 45);
+    assert_true(count_strokes(&few.set, STROKE_CREASE, 0, NULL) < count_strokes(&some.set, STROKE_CREASE, 0, NULL));
+    assert_true(has_part(&some.set, 61) && has_part(&few.set, 61));
+    assert_true(has_part(&some.set, 1) || has_part(&some.set, 2));
+    assert_true(has_part(&some.set, 60) || has_part(&some.set, 59));
+    assert_true(count_strokes(&wide.set, STROKE_CREASE, 0, NULL) >= 61);
+    for (size_t i = 0; i < some.set.stroke_count; i++) {
+        size_t own = 0, before = 0;
+        for (size_t k = 0; k < some.set.stroke_count; k++)
+            own += some.set.strokes[k].chain == some.set.strokes[i].chain;
+        for (size_t k = 0; k < all.set.stroke_count; k++)
+            before += all.set.strokes[k].chain == some.set.strokes[i].chain;
+        assert_int_equal(own, before);
+    }
+    shot_release(&all);
+    shot_release(&some);
+    shot_release(&few);
+    shot_release(&wide);
+}
+
+/* A box of 5 px keeps its outline, drawn finer; one of 100 px its creases too. */
+static void small_pieces_keep_their_outlines(void **state)
+{
+    (void)state;
+    for (int large = 0; large < 2; large++) {
+        lmn_scene *s = stroke_scene_begin();
+        double     half = large ? 0.5 : 0.02;
+        add_box(s, -half, -half, -half, half, half, half);
+        stroke_options w = STROKE_OPTIONS_INIT;
+        w.detail = 0.75f;
+        stroke_shot shot = shoot(s, look_along(-1, -1.2, -0.9, origin, 20, 4, true, 800, 800), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CONTOUR, 0, NULL), 1);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CREASE, 0, NULL), large ? 3 : 0);
+        stroke_style style = {.width = 2, .crease_width = 1, .repeats = 1, .wobble_length = 40};
+        ribbon_set   drawn;
+        assert_int_equal(ribbons_make(&drawn, &shot.set, &style, 0, NULL), LMN_OK);
+        assert_true(large ? drawn.points[0].half == 1 : drawn.points[0].half > 0.3f && drawn.points[0].half < 0.7f);
+        ribbon_set_release(&drawn);
+        shot_release(&shot);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -154,6 +236,8 @@ int main(void)
         cmocka_unit_test(strangers_are_not_linked),
         cmocka_unit_test(thin_bars_do_not_end_a_line),
         cmocka_unit_test(chains_do_not_depend_on_pixels),
+        cmocka_unit_test(parallels_fuse),
+        cmocka_unit_test(small_pieces_keep_their_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
