@@ -179,6 +179,14 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
     return cost < MOST ? cost : -1;
 }
 
+/* A first look, for there may be many. */
+static bool is_far(const joiner *j, uint32_t a, uint32_t b)
+{
+    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
+    double        x = (double)j->ends[b].x - j->ends[a].x, y = (double)j->ends[b].y - j->ends[a].y;
+    return s->chain != t->chain && (s->hidden_by != t->hidden_by || x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS);
+}
+
 static bool find_candidates(joiner *j, uint32_t a)
 {
     const stroke_end *p = &j->ends[a];
@@ -189,6 +197,8 @@ static bool find_candidates(joiner *j, uint32_t a)
                 if (b <= a || j->ends[b].column != column || j->ends[b].row != row)
                     continue;
                 left--;
+                if (is_far(j, a, b))
+                    continue;
                 float cost = cost_of(j, a, b);
                 if (cost < 0)
                     continue;
