@@ -108,7 +108,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     mem_free(positions);
     if (status != LMN_OK)
         return status;
-    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, b->crease_angle, error);
+    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, error);
     if (status != LMN_OK) {
         edge_mesh_release(&s->meshes[s->mesh_count]);
         return status;
