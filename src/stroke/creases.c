@@ -25,6 +25,8 @@
  * their size. */
 #define SAMPLED_FRACTION 0.6
 #define SAMPLED_EDGE     0.025
+/* Those whose edges are even shorter have the outline of the surface, not of the edges. */
+#define OUTLINE_EDGE 0.013
 /* Noise turns edges by less than this. */
 #define TORN (100 * DEGREE)
 /* A rounding no wider than this fraction of the mesh's size is one line, in its middle, if it turns by so much. */
@@ -564,18 +566,28 @@ static bool has_creases(const edge_mesh *m)
     return false;
 }
 
-bool creases_judge(edge_mesh *m, const crease_facts *facts)
+static bool measure_sampling(judge *j)
 {
-    if (!has_creases(m))
-        return true;
-    judge j = {.m = m, .facts = facts};
-    box3  box = box3_empty();
+    edge_mesh *m = j->m;
+    box3       box = box3_empty();
     for (uint32_t i = 0; i < m->vertex_count; i++)
         box = box3_union(box, (box3){m->positions[i], m->positions[i]});
-    j.size = box3_diagonal(box);
+    j->size = m->vertex_count ? box3_diagonal(box) : 0;
+    bool good = measure_noise(j);
+    m->sampling = (edge_sampling){j->noise >= 0 && j->mean_edge < OUTLINE_EDGE * j->size, (float)fmax(j->noise, 0),
+                                  (float)j->mean_edge, (float)j->size};
+    return good;
+}
+
+bool creases_judge(edge_mesh *m, const crease_facts *facts)
+{
+    judge j = {.m = m, .facts = facts};
+    bool  good = measure_sampling(&j);
+    if (!good || !has_creases(m))
+        return good;
     j.verdicts = mem_calloc((size_t)m->edge_count + 1, 1);
     j.stamps = mem_calloc((size_t)m->face_count + 1, sizeof *j.stamps);
-    bool good = j.verdicts && j.stamps && measure_noise(&j);
+    good = j.verdicts && j.stamps;
     for (uint32_t i = 0; good && i < m->edge_count; i++) {
         const mesh_edge *e = &m->edges[i];
         uint32_t         half = e->flags & (EDGE_BORDER | EDGE_TWISTED) ? EDGE_NO_FACE : half_of(&j, e);

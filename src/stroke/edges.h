@@ -28,6 +28,14 @@ typedef struct mesh_edge {
     uint32_t flags;   /* of edge_flag, not 0 */
 } mesh_edge;
 
+/* How a mesh samples a surface, as scans do: densely, and more or less truly. */
+typedef struct edge_sampling {
+    bool  sampled;   /* it does, in edges that are short beside it */
+    float noise;     /* by how much edges turn that should not, radians */
+    float mean_edge; /* length */
+    float size;      /* diagonal of the mesh */
+} edge_sampling;
+
 /* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
  * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
@@ -42,6 +50,7 @@ typedef struct edge_mesh {
     bool                   *inward;     /* per closed piece: its faces look inwards */
     box3                   *boxes;      /* per piece */
     uint8_t                *said;       /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
