@@ -62,11 +62,14 @@ typedef struct lmn_draw_desc {
     bool        time_given;
     const char *clip;     /* clips by name or number from 1 on, separated by commas; NULL: the first of each file */
     bool        fit_time; /* fits the picture to all times of the clips, so that it stands still from time to time */
+    /* Pixels an inch of paper, 1 … 10000: how large widths of lines, dashes and strokes are. 0: the longer side is
+     * 1024/96 inches (270.93 mm), whatever its pixels, so that a picture of another size is the same drawing. */
+    double dpi;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false                            \
+            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0                         \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.

@@ -67,6 +67,8 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
         status = check_range(error, "fit", d->fit, 0.01, 10);
     if (status == LMN_OK)
         status = check_range(error, "the number of samples", d->samples, 1, 64);
+    if (status == LMN_OK && d->dpi != 0)
+        status = check_range(error, "the resolution", d->dpi, LIMIT_DPI_LEAST, LIMIT_DPI_MOST);
     int side = (int)lround(sqrt((double)d->samples));
     if (status == LMN_OK && side * side != d->samples)
         status = error_set(error, LMN_USAGE,

@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/paper.h"
 #include "finish/finish.h"
 #include "frame/capacity.h"
 #include "light/light.h"
@@ -176,7 +177,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     const lmn_draw_desc *desc = w->desc;
     plan_options         options = {.select = desc->select,
                                     .background = desc->background,
-                                    .pixel_scale = side,
+                                    .pixels_per_mm = paper_pixels_per_mm(desc->width, desc->height, desc->dpi) * side,
                                     .as_sprites = w->maps,
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
@@ -224,6 +225,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->plan = &s->plan;
     f->sheet = &s->textures.sheet;
     f->samples = side;
+    f->pixels_per_mm = s->plan.pixels_per_mm;
     f->width = desc->width * side;
     f->height = desc->height * side;
     f->ground = s->plan.ground;

@@ -127,6 +127,7 @@ typedef struct stroke_camera {
     double near;             /* eye depth, above 0 in perspective */
     bool   orthographic;
     int    width, height; /* of the page, pixels */
+    double pixels_per_mm; /* of paper; 0: 96 an inch */
 } stroke_camera;
 
 typedef struct stroke_view stroke_view;

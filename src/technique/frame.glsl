@@ -5,6 +5,7 @@
 /* The page, and how the viewer's rays run. */
 uniform vec2  u_size;         /* of the page, pixels */
 uniform vec2  u_texel;        /* 1 / u_size */
+uniform float u_pixels_per_mm; /* of paper; lengths among parameters are in pixels already */
 uniform float u_perspective;  /* 1, or 0 for parallel rays */
 uniform vec2  u_unproject;    /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
