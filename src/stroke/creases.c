@@ -23,12 +23,13 @@
 #define CONCENTRATED 0.45
 /* Samplings of surfaces have so much of their edges in bent surroundings, and edges no longer than this fraction of
  * their size. */
-#define SAMPLED_FRACTION 0.6
+#define SAMPLED_FRACTION 0.75
 #define SAMPLED_EDGE     0.025
 /* Those whose edges are even shorter have the outline of the surface, not of the edges. */
 #define OUTLINE_EDGE 0.013
-/* Noise turns edges by less than this. */
-#define TORN (100 * DEGREE)
+/* Noise turns edges by less than this, and more than that. */
+#define TORN (75 * DEGREE)
+#define FLAT (0.05 * DEGREE)
 /* A rounding no wider than this fraction of the mesh's size is one line, in its middle, if it turns by so much. */
 #define NARROW       0.008
 #define NARROW_LONG  0.03
@@ -330,7 +331,7 @@ static float unrest_at(const judge *j, uint32_t half)
         sum += turn;
         least = fmin(least, fabs(turn));
     }
-    return fabs(own) > TORN || least < 0.2 * DEGREE ? -1 : (float)fabs(own - 0.25 * sum);
+    return fabs(own) > TORN || least < FLAT ? -1 : (float)fabs(own - 0.25 * sum);
 }
 
 /* How much neighbouring edges of a sampling differ, by a measure that features do not disturb. */

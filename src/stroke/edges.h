@@ -42,14 +42,14 @@ typedef struct edge_mesh {
     uint32_t vertex_count, face_count, edge_count, piece_count;
     vec3    *positions;
     uint32_t (*faces)[3];
-    vec3                   *normals;    /* per face, unit, by winding */
-    int32_t                *materials;  /* per face; NULL: all alike */
-    mesh_edge              *edges;      /* those with flags, in a fixed order */
-    uint32_t               *pieces;     /* per face: what hangs together over edges, numbered from 0 */
-    bool                   *closed;     /* per piece: each edge has two faces that pass it in opposite directions */
-    bool                   *inward;     /* per closed piece: its faces look inwards */
-    box3                   *boxes;      /* per piece */
-    uint8_t                *said;       /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    vec3                   *normals;   /* per face, unit, by winding */
+    int32_t                *materials; /* per face; NULL: all alike */
+    mesh_edge              *edges;     /* those with flags, in a fixed order */
+    uint32_t               *pieces;    /* per face: what hangs together over edges, numbered from 0 */
+    bool                   *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
+    bool                   *inward;    /* per closed piece: its faces look inwards */
+    box3                   *boxes;     /* per piece */
+    uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */

@@ -187,6 +187,8 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
             status = add_part(b, i, error);
     }
     mem_free(b->shared);
+    if (status == LMN_OK)
+        status = form_surfaces_open(out, error);
     out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);

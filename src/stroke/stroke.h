@@ -142,7 +142,8 @@ void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_
 
 typedef enum contour_kind {
     CONTOURS_NONE,
-    CONTOURS_EDGES, /* edges of the mesh between front and back: exactly the outline of what is there */
+    CONTOURS_EDGES, /* edges of the mesh between front and back: exactly the outline of what is there. Of scans and
+                       other dense samplings, that of the surface that is sampled, without its noise. */
     CONTOURS_SMOOTH /* where the interpolated normal is at right angles to the view: the outline of the surface that is
                        meant */
 } contour_kind;

@@ -1,5 +1,5 @@
-/* How well a drawing covers outlines: `outlines DRAWING.png DEPTH.pfm`, the map a whole number of times as large. Prints
- * covered percent, longest gap and where, stray ink percent and where. */
+/* How well a drawing covers outlines: `outlines DRAWING.png DEPTH.pfm`, the map a whole number of times as large.
+ * Prints covered percent, longest gap and where, stray ink percent and where. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -181,7 +181,7 @@ static double crease_length(const edge_mesh *e, double *whole)
 static void noise_of_scans_is_no_crease(void **state)
 {
     (void)state;
-    for (int k = 1; k <= 4; k++) {
+    for (int k = 1; k <= 3; k++) {
         primitive p = ball(60, 0.3, (place3){1, 1, 1});
         shake(&p, 0.006 * k); /* edges are about 0.03 long */
         edge_mesh e = sort(&p, 30);
