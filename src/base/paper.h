@@ -18,4 +18,16 @@ static inline double paper_pixels_per_mm(int width, int height, double dpi)
     return dpi > 0 ? dpi / MM_PER_INCH : (width > height ? width : height) / PAPER_SIDE_MM;
 }
 
+/* Samples along each side of a pixel where nothing is said: small pictures are drawn as finely as those of usual size
+ * and reduced, since marks thinner than a pixel are no marks. */
+static inline int paper_samples_side(int width, int height, double dpi)
+{
+    enum { MOST = 8, PIXELS_MOST = 2048 };
+    int    longer = width > height ? width : height, side = 1;
+    double finer = PX_PER_INCH / MM_PER_INCH / paper_pixels_per_mm(width, height, dpi);
+    while (side < MOST && side + 0.5 <= finer && (side + 1) * longer <= PIXELS_MOST)
+        side++;
+    return side;
+}
+
 #endif

@@ -104,10 +104,12 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
     return status;
 }
 
-static int square_root(int samples)
+int samples_side(const lmn_draw_desc *desc)
 {
     int side = 1;
-    while (side * side < samples)
+    if (!desc->samples)
+        return paper_samples_side(desc->width, desc->height, desc->dpi);
+    while (side * side < desc->samples)
         side++;
     return side;
 }
@@ -191,7 +193,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
         status = split_movers(s, w, side, warnings, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
-    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
+    if (r->width != desc->width || r->height != desc->height || r->samples != side)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
         status = capacity_check(
@@ -208,7 +210,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
                         const draw_options *options, warnings *warnings, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
-    int                  side = options->maps ? 1 : square_root(desc->samples);
+    int                  side = options->maps ? 1 : samples_side(desc);
     frame               *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
@@ -218,7 +220,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
         return status;
     r->width = desc->width;
     r->height = desc->height;
-    r->samples = desc->samples;
+    r->samples = side;
     f->g = r->g;
     f->profile.g = r->g;
     f->up = &r->up;

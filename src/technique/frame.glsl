@@ -49,6 +49,12 @@ uniform mat4  u_past_2;
 uniform mat4  u_past_3;
 uniform mat4  u_past_4;
 
+/* Pixels to 1/96 inch of paper: what is laid out on the page is laid out in these, so that it is the same in pictures of all sizes. */
+float page_unit()
+{
+    return u_pixels_per_mm * (25.4 / 96.0);
+}
+
 /* Window depth from eye depth and back, of the frame's projection. */
 float window_depth_at_eye(float eye)
 {

@@ -47,6 +47,10 @@ static const param params[] = {
            .along = true, .doc = "Lines shorter than this are left out."),
     NUMBER("crowd", options.crowd, .def = 0.5625, .min = 0, .max = 12, .soft_max = 3, .unit = UNIT_PT,
            .doc = "Lines that run all their length this close to more important ones are left out; 0 keeps them all."),
+    NUMBER("detail", options.detail, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+           .doc =
+               "How many lines are drawn where they crowd, with visibility exact: the least important ones go first, "
+               "whole, and small pieces keep their outlines alone; 1 draws all."),
     NUMBER("simplify", options.simplify, .def = 0.075, .min = 0, .max = 6, .soft_max = 1.5, .unit = UNIT_PT,
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
@@ -139,6 +143,7 @@ stroke_options strokes_options_of(const strokes_values *v)
 {
     stroke_options w = v->options;
     w.hidden = v->style.hidden != HIDDEN_NONE;
+    w.width = v->common.width;
     return w;
 }
 
