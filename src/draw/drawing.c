@@ -37,23 +37,19 @@ static bool has_strokes(const rule *r)
 }
 
 /* Strokes know the meshes of parts as they are in the scene. */
-static lmn_status refuse_strokes(const refusal *r, const session *s, const upload *up)
+static lmn_status refuse_strokes(const refusal *r, const session *s)
 {
-    bool solids = false, cut = false;
+    bool solids = false;
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
         bool          strokes = has_strokes(fig->rule);
         solids = solids || (strokes && figure_has_solids(&s->plan, fig));
-        cut = cut || (strokes && up->section.cut.cell_count > 0);
     }
     const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
     lmn_status  status = LMN_OK;
     if (solids)
         status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead,
                         "lines 'strokes' are those of meshes: solids have none");
-    if (cut && status == LMN_OK)
-        status = refuse(r, LMN_USAGE, WARNING_UNUSED, instead,
-                        "lines 'strokes' are those of whole parts: what a section takes away is drawn too");
     return status;
 }
 
@@ -184,7 +180,7 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
         status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL,
                         "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
     if (status == LMN_OK)
-        status = refuse_strokes(&refusals, s, &r->up);
+        status = refuse_strokes(&refusals, s);
     if (status == LMN_OK)
         status = refuse_scattered(&refusals, s);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;

@@ -22,7 +22,8 @@ static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
         hides[i] = !(f->mirror && f->mirror->designated[i]) && wanted[i];
     if (!hides)
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
-    stroke_store_options options = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine};
+    stroke_section       section = {&f->up->section.cut, f->up->section.spared};
+    stroke_store_options options = {f->up->pose, hides, f->up->part_count, f->up->crease_angle, refine, &section};
     stroke_store        *s = hides ? stroke_store_find(&f->up->strokes[fig->layered], f->g, &options) : NULL;
     mem_free(hides);
     return s;

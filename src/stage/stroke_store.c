@@ -55,7 +55,7 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn
     lmn_status status = s->parts ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
         status = stroke_scene_create_keeping(&s->scene, w->pose, s->parts, w->crease_angle, w->refine, &s->topologies,
-                                             error);
+                                             w->section, error);
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));

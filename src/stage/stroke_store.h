@@ -21,11 +21,12 @@ typedef struct stroke_store {
 } stroke_store;
 
 typedef struct stroke_store_options {
-    const pose *pose;
-    const bool *hides; /* per part: may hide lines */
-    size_t      part_count;
-    double      crease_angle;
-    int32_t     refine;
+    const pose           *pose;
+    const bool           *hides; /* per part: may hide lines */
+    size_t                part_count;
+    double                crease_angle;
+    int32_t               refine;
+    const stroke_section *section; /* NULL: nothing is cut away */
 } stroke_store_options;
 
 /* What *slot holds when it is as wished, else a new one in its place; NULL after an error, which sticks to the GPU. */

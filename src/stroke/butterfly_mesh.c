@@ -24,22 +24,26 @@ static uint8_t said_of(const edge_mesh *m, uint32_t h)
     return m->said ? m->said[h] : SAID_NOTHING;
 }
 
-/* Which edges stay sharp, by angle and by what the file says. Half-edges are paired for it first. */
-static lmn_status find_sharp(const edge_mesh *m, double crease_angle, uint8_t *sharp, lmn_error *error)
+/* Which edges stay sharp: creases, and what the file says of others. Half-edges are paired for it first. */
+static lmn_status find_sharp(const edge_mesh *m, uint8_t *sharp, lmn_error *error)
 {
     butterfly  coarse;
     lmn_status status = butterfly_refine(&coarse, m->positions, m->vertex_count, (const uint32_t(*)[3])m->faces,
                                          m->face_count, NULL, 0, error);
     if (status != LMN_OK)
         return status;
-    float cosine = (float)cos(crease_angle);
     for (uint32_t h = 0; h < 3 * m->face_count; h++) {
-        uint32_t o = coarse.levels[0].opposite[h];
-        uint8_t  said = said_of(m, h);
+        uint8_t said = said_of(m, h);
         sharp[h] = said == SAID_HARD || said == SAID_REPEATED;
-        if (o != BUTTERFLY_NONE) {
-            vec3 a = m->normals[h / 3], b = m->normals[o / 3];
-            sharp[h] = sharp[h] || a.x * b.x + a.y * b.y + a.z * b.z < cosine;
+    }
+    for (uint32_t i = 0; i < m->edge_count; i++) {
+        const mesh_edge *e = &m->edges[i];
+        for (uint32_t h = 3 * e->face[0]; (e->flags & EDGE_CREASE) && h < 3 * e->face[0] + 3; h++) {
+            if (m->faces[e->face[0]][h % 3] != e->vertex[0])
+                continue;
+            sharp[h] = 1;
+            if (coarse.levels[0].opposite[h] != BUTTERFLY_NONE)
+                sharp[coarse.levels[0].opposite[h]] = 1;
         }
     }
     butterfly_release(&coarse);
@@ -128,14 +132,14 @@ static lmn_status make_finer(edge_mesh *finer, const edge_mesh *m, edge_refineme
     return status;
 }
 
-lmn_status edge_mesh_refine(edge_mesh *m, int steps, double crease_angle, lmn_error *error)
+lmn_status edge_mesh_refine(edge_mesh *m, int steps, lmn_error *error)
 {
     if (steps <= 0)
         return LMN_OK;
     edge_refinement *r = mem_calloc(1, sizeof *r);
     uint8_t         *sharp = mem_alloc((size_t)m->face_count * 3);
     edge_mesh        finer = {0};
-    lmn_status       status = r && sharp ? find_sharp(m, crease_angle, sharp, error) : error_memory(error);
+    lmn_status       status = r && sharp ? find_sharp(m, sharp, error) : error_memory(error);
     if (status == LMN_OK)
         status = butterfly_refine(&r->surface, m->positions, m->vertex_count, (const uint32_t(*)[3])m->faces,
                                   m->face_count, sharp, steps, error);

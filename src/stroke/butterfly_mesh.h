@@ -16,10 +16,10 @@ typedef struct edge_refinement {
 } edge_refinement;
 void edge_refinement_destroy(edge_refinement **r);
 
-/* Refines a mesh that is not refined yet `steps` times. Edges that turn by more than crease_angle (radians),
- * borders and edges that the file says are hard stay sharp; what was hidden stays hidden; materials stay. Errors:
- * LMN_MEMORY, LMN_LIMIT; the mesh is then as it was. */
-lmn_status edge_mesh_refine(edge_mesh *m, int steps, double crease_angle, lmn_error *error);
+/* Refines a mesh that is not refined yet `steps` times. Creases, borders and edges that the file
+ * says are hard stay sharp; what was hidden stays hidden; materials stay. Errors: LMN_MEMORY, LMN_LIMIT; the mesh is
+ * then as it was. */
+lmn_status edge_mesh_refine(edge_mesh *m, int steps, lmn_error *error);
 
 /* Marks (1 per edge of the mesh) those that the silhouette runs along, found by propagation. `is_front` as for
  * silhouette_propagate; `tested` (may be NULL) gets how many faces were asked for, all levels together. Errors:

@@ -611,7 +611,7 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
     lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
     if (status != LMN_OK)
         return status;
-    status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
+    status = outlines_see(&seen, v, &lines, progress, user, error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, options, error);
     if (status == LMN_OK)

@@ -11,6 +11,7 @@
 #include "base/threads.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
+#include "stroke/creases.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -18,7 +19,7 @@
 /* Nor does it when it is as near to the plane as rounding alone may take it, fraction of its largest coordinate. */
 #define ROUNDED 3e-7f
 
-enum { CONVEX = 1 << 16, SHORT_BUCKET = 24 }; /* CONVEX: a flag while edges are sorted */
+enum { SHORT_BUCKET = 24 };
 
 typedef struct half_edge {
     uint32_t high, corner; /* corner: 3 · face + number of the corner that it begins at */
@@ -31,6 +32,9 @@ struct edge_topology {
     size_t     vertex_count;
     uint32_t  *starts; /* of `mesh`, as below */
     half_edge *halves;
+    uint32_t  *opposite; /* of crease_facts, as are these */
+    uint8_t   *shading;
+    bool       mixed;
     bool       has_flat; /* faces without area were left out */
 };
 
@@ -39,11 +43,14 @@ typedef struct builder {
     edge_topology *keeps;  /* NULL: nobody asks */
     uint32_t      *starts; /* per vertex, and one more */
     half_edge     *halves;
-    uint8_t       *dropped; /* per face: 1: the same as another one */
-    uint32_t      *origins; /* per face: its number before any were dropped; NULL: nobody asks */
-    uint32_t      *pieces;  /* per face: another one of its piece, itself at the root */
+    uint8_t       *dropped;  /* per face: 1: the same as another one */
+    uint32_t      *origins;  /* per face: its number before any were dropped; NULL: nobody asks */
+    uint32_t      *pieces;   /* per face: another one of its piece, itself at the root */
+    uint32_t      *normals;  /* per corner: the file's, packed; NULL: it has none */
+    uint32_t      *opposite; /* per half-edge, of crease_facts */
     size_t         edge_capacity;
-    float          crease;   /* cosine */
+    float          crease; /* cosine of … */
+    double         angle;
     bool           has_flat; /* faces without area were left out */
     bool has_twins; /* there may be faces that are there twice: edges have more than two, or both of an edge are the
                        same */
@@ -74,14 +81,15 @@ static vec3 face_normal(const vec3 *positions, const uint32_t corners[3])
 
 /* --- faces ---------------------------------------------------------------------------------------------- */
 
-static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *said)
+static bool count_mesh(const mesh *m, size_t *vertices, size_t *corners, bool *said, bool *shaded)
 {
     *vertices = *corners = 0;
-    *said = false;
+    *said = *shaded = false;
     for (size_t i = 0; i < m->primitive_count; i++) {
         *vertices += m->primitives[i].vertex_count;
         *corners += m->primitives[i].index_count;
         *said = *said || m->primitives[i].edges.values;
+        *shaded = *shaded || m->primitives[i].normals;
     }
     return *vertices < UINT32_MAX / 4 && *corners < UINT32_MAX / 4;
 }
@@ -137,6 +145,8 @@ static void gather_faces(builder *b, const mesh *m, const uint32_t *ids)
                 out->materials[f] = p->material;
             for (uint32_t c = 0; c < 3 && out->said; c++)
                 out->said[3 * f + c] = p->edges.values ? p->edges.values[k + c] : SAID_NOTHING;
+            for (uint32_t c = 0; c < 3 && b->normals; c++)
+                b->normals[3 * f + c] = p->normals ? shading_pack(p->normals[p->indices[k + c]]) : SHADING_NONE;
         }
     }
 }
@@ -185,8 +195,8 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
 {
     edge_mesh *out = b->mesh;
     size_t     vertices, corners;
-    bool       said;
-    if (!count_mesh(m, &vertices, &corners, &said))
+    bool       said, shaded;
+    if (!count_mesh(m, &vertices, &corners, &said, &shaded))
         return error_set(error, LMN_LIMIT,
                          "a mesh of %zu vertices and %zu corners is too large for its edges to be sorted", vertices,
                          corners);
@@ -203,7 +213,9 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
         mixed = mixed || m->primitives[i].material != m->primitives[0].material;
     out->materials = mixed ? mem_alloc(corners / 3 * sizeof *out->materials) : NULL;
     out->said = said ? mem_alloc(corners) : NULL;
-    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (out->said || !said);
+    b->normals = shaded ? mem_alloc(corners * sizeof *b->normals) : NULL;
+    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (out->said || !said) &&
+                (b->normals || !shaded);
     if (good) {
         weld(out, ids, (uint32_t)vertices);
         gather_faces(b, m, ids);
@@ -357,16 +369,17 @@ static uint32_t judge_pair(const builder *b, uint32_t first, uint32_t second, bo
     const edge_mesh *m = b->mesh;
     uint32_t         f = first / 3, g = second / 3, flags = 0;
     float            turn = dot(m->normals[f], m->normals[g]);
-    if ((same_direction ? -turn : turn) < b->crease)
+    float            height = height_between(m, first, second);
+    turn = same_direction ? -turn : turn;
+    if (turn < b->crease && (height != 0 || turn < 0)) /* a narrow face in its neighbour's plane points anywhere */
         flags |= EDGE_CREASE;
     if (m->materials && m->materials[f] != m->materials[g])
         flags |= EDGE_MATERIAL;
-    float height = height_between(m, first, second);
     if (!(flags & EDGE_CREASE) && height != 0)
         flags |= EDGE_CANDIDATE;
     if (flags && same_direction)
         flags |= EDGE_TWISTED;
-    return height < 0 ? flags | CONVEX : flags;
+    return height < 0 ? flags | EDGE_CONVEX : flags;
 }
 
 /* What the file says overrules the angle. */
@@ -387,7 +400,7 @@ static uint32_t obey(uint32_t flags, const uint8_t *said, const half_edge *group
     if (loudest == SAID_SILHOUETTE && flags & EDGE_BORDER) /* always a rim */
         return flags;
     if (loudest == SAID_SILHOUETTE)
-        return EDGE_CANDIDATE | (flags & (CONVEX | EDGE_TWISTED));
+        return EDGE_CANDIDATE | (flags & (EDGE_CONVEX | EDGE_TWISTED));
     return (flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
 }
 
@@ -429,7 +442,7 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
     b->has_twins = b->has_twins || count > 2;
     if (m->said)
         flags = obey(flags, m->said, group, count);
-    return flags == 0 || flags == CONVEX || put_edge(b, low, flags, group, count);
+    return flags == 0 || flags == EDGE_CONVEX || put_edge(b, low, flags, group, count);
 }
 
 /* Calls for all edges, once their buckets are sorted; false ends it. */
@@ -492,6 +505,8 @@ static uint32_t drop_twins(builder *b)
             m->materials[kept] = m->materials[f];
         if (m->said)
             memmove(&m->said[3 * kept], &m->said[3 * f], 3);
+        if (b->normals)
+            memmove(&b->normals[3 * kept], &b->normals[3 * f], 3 * sizeof *b->normals);
         if (b->origins)
             b->origins[kept] = b->origins[f];
         kept++;
@@ -520,16 +535,51 @@ static void drop_concave(edge_mesh *m, const double *volumes)
     for (uint32_t i = 0; i < m->edge_count; i++) {
         mesh_edge e = m->edges[i];
         uint32_t  piece = m->pieces[e.face[0]];
-        bool      convex = ((e.flags & CONVEX) != 0) != m->inward[piece];
+        bool      convex = ((e.flags & EDGE_CONVEX) != 0) != m->inward[piece];
         if (m->closed[piece] && !convex)
             e.flags &= ~(uint32_t)EDGE_CANDIDATE;
-        e.flags &= ~(uint32_t)CONVEX;
+        e.flags &= ~(uint32_t)EDGE_CONVEX;
         if (e.flags & ~(uint32_t)EDGE_TWISTED)
             m->edges[kept++] = e;
     }
     m->edge_count = kept;
     mesh_edge *smaller = mem_realloc(m->edges, (size_t)kept * sizeof *smaller);
     m->edges = smaller || kept == 0 ? smaller : m->edges;
+}
+
+static bool pair_halves(builder *b, uint32_t low, const half_edge *group, size_t count)
+{
+    const edge_mesh *m = b->mesh;
+    if (count == 2 && (corner_vertex(m, group[0].corner) == low) != (corner_vertex(m, group[1].corner) == low)) {
+        b->opposite[group[0].corner] = group[1].corner;
+        b->opposite[group[1].corner] = group[0].corner;
+    }
+    return true;
+}
+
+/* Creases by feature, where edges are sorted by angle. */
+static lmn_status judge_creases(builder *b, lmn_error *error)
+{
+    edge_mesh *m = b->mesh;
+    size_t     halves = (size_t)m->face_count * 3;
+    bool       mixed = false;
+    b->opposite = mem_alloc((halves + 1) * sizeof *b->opposite);
+    if (!b->opposite)
+        return error_memory(error);
+    memset(b->opposite, 0xFF, halves * sizeof *b->opposite); /* EDGE_NO_FACE */
+    each_edge(b, pair_halves);
+    uint8_t     *shading = b->normals ? shading_judge(m, b->opposite, b->normals, &mixed) : NULL;
+    crease_facts facts = {b->opposite, shading, mixed, b->angle};
+    bool         good = (shading || !b->normals) && (b->keeps || creases_judge(m, &facts)); /* poses judge anew */
+    if (b->keeps && good) {
+        b->keeps->opposite = b->opposite;
+        b->keeps->shading = shading;
+        b->keeps->mixed = mixed;
+        b->opposite = NULL;
+    } else {
+        mem_free(shading);
+    }
+    return good ? LMN_OK : error_memory(error);
 }
 
 static lmn_status sort_edges(builder *b, lmn_error *error)
@@ -550,6 +600,9 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
                 return error_memory(error);
         }
     }
+    lmn_status status = judge_creases(b, error);
+    if (status != LMN_OK)
+        return status;
     for (uint32_t f = 0; f < m->face_count; f++)
         b->pieces[f] = group_root(b->pieces, f);
     number_pieces(b);
@@ -580,6 +633,8 @@ static lmn_status finish(builder *b, lmn_status status, lmn_error *error)
         mem_free(b->halves);
     }
     mem_free(b->pieces);
+    mem_free(b->normals);
+    mem_free(b->opposite);
     if (status != LMN_OK)
         edge_mesh_release(out);
     return status;
@@ -588,7 +643,7 @@ static lmn_status finish(builder *b, lmn_status status, lmn_error *error)
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    builder b = {.mesh = out, .crease = (float)cos(crease_angle)};
+    builder b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle};
     return finish(&b, make_faces(&b, m, positions, error), error);
 }
 
@@ -599,7 +654,7 @@ lmn_status edge_topology_create(edge_topology **out, const mesh *m, lmn_error *e
     edge_topology *t = *out = mem_calloc(1, sizeof *t);
     if (!t)
         return error_memory(error);
-    builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0};
+    builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0, .angle = 1.5};
     t->revision = m->revision;
     lmn_status status = finish(&b, make_faces(&b, m, NULL, error), error);
     mem_free(t->mesh.positions); /* every pose has its own */
@@ -621,6 +676,8 @@ void edge_topology_destroy(edge_topology **topology)
     mem_free(t->welded);
     mem_free(t->starts);
     mem_free(t->halves);
+    mem_free(t->opposite);
+    mem_free(t->shading);
     mem_free(t);
     *topology = NULL;
 }
@@ -723,8 +780,9 @@ static bool take_edges_again(builder *b)
 /* Edges, with faces and half-edges that are there. */
 static lmn_status judge_again(builder *b, const edge_topology *t, lmn_error *error)
 {
-    edge_mesh *m = b->mesh;
-    double    *volumes = take_edges_again(b) ? measure_pieces(m) : NULL;
+    edge_mesh   *m = b->mesh;
+    crease_facts facts = {t->opposite, t->shading, t->mixed, b->angle};
+    double      *volumes = take_edges_again(b) && creases_judge(m, &facts) ? measure_pieces(m) : NULL;
     if (!volumes)
         return error_memory(error);
     memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
@@ -741,7 +799,11 @@ lmn_status edge_mesh_pose(edge_mesh *out, const edge_topology *t, const vec3 *po
     *fits = !t->has_flat;
     if (!*fits)
         return LMN_OK;
-    builder    b = {.mesh = out, .starts = t->starts, .halves = t->halves, .crease = (float)cos(crease_angle)};
+    builder    b = {.mesh = out,
+                    .starts = t->starts,
+                    .halves = t->halves,
+                    .crease = (float)cos(crease_angle),
+                    .angle = crease_angle};
     lmn_status status = copy_topology(out, t) ? LMN_OK : error_memory(error);
     if (status == LMN_OK)
         *fits = weld_again(out, t, positions);
@@ -760,7 +822,7 @@ lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double
                                  lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    builder    b = {.mesh = out, .crease = (float)cos(crease_angle)};
+    builder    b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle};
     lmn_status status = finish(&b, take_faces(&b, faces, error), error);
     if (status == LMN_OK) {
         memset(numbers, 0xFF, faces->face_count * sizeof *numbers); /* EDGE_NO_FACE */

@@ -28,20 +28,29 @@ typedef struct mesh_edge {
     uint32_t flags;   /* of edge_flag, not 0 */
 } mesh_edge;
 
+/* How a mesh samples a surface, as scans do: densely, and more or less truly. */
+typedef struct edge_sampling {
+    bool  sampled;   /* it does, in edges that are short beside it */
+    float noise;     /* by how much edges turn that should not, radians */
+    float mean_edge; /* length */
+    float size;      /* diagonal of the mesh */
+} edge_sampling;
+
 /* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
  * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
     uint32_t vertex_count, face_count, edge_count, piece_count;
     vec3    *positions;
     uint32_t (*faces)[3];
-    vec3                   *normals;    /* per face, unit, by winding */
-    int32_t                *materials;  /* per face; NULL: all alike */
-    mesh_edge              *edges;      /* those with flags, in a fixed order */
-    uint32_t               *pieces;     /* per face: what hangs together over edges, numbered from 0 */
-    bool                   *closed;     /* per piece: each edge has two faces that pass it in opposite directions */
-    bool                   *inward;     /* per closed piece: its faces look inwards */
-    box3                   *boxes;      /* per piece */
-    uint8_t                *said;       /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    vec3                   *normals;   /* per face, unit, by winding */
+    int32_t                *materials; /* per face; NULL: all alike */
+    mesh_edge              *edges;     /* those with flags, in a fixed order */
+    uint32_t               *pieces;    /* per face: what hangs together over edges, numbered from 0 */
+    bool                   *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
+    bool                   *inward;    /* per closed piece: its faces look inwards */
+    box3                   *boxes;     /* per piece */
+    uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;

@@ -81,7 +81,10 @@ static bool collect_item(view_lines *out, const stroke_view *v, const stroke_opt
 {
     form_view f;
     bool      seen, good = form_view_open(&f, out, v, item, s, &seen);
-    if (good && seen && w->contours == CONTOURS_SMOOTH)
+    bool      calm = has_calm_outline(v->scene, v->scene->items[item].mesh);
+    if (good && seen && calm && w->contours != CONTOURS_NONE)
+        good = calm_collect(&f);
+    else if (good && seen && w->contours == CONTOURS_SMOOTH)
         good = smooth_collect(&f);
     if (good && seen && w->suggestive > 0)
         good = collect_suggestive(&f, w->suggestive);
@@ -120,10 +123,10 @@ static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stro
 {
     const stroke_scene *scene = v->scene;
     form_surface        own = {0};
-    const form_surface *s = scene->surfaces ? &scene->surfaces[mesh] : &own;
-    lmn_status          status = scene->surfaces || !is_wanted(v, parts, mesh)
-                                     ? LMN_OK
-                                     : form_surface_make(&own, &scene->meshes[mesh], bends, error);
+    const form_surface *known = scene->surfaces ? &scene->surfaces[mesh] : NULL;
+    const form_surface *s = known && known->corners && (known->bends || !bends) ? known : &own;
+    lmn_status          status =
+        s == known || !is_wanted(v, parts, mesh) ? LMN_OK : form_surface_make(&own, &scene->meshes[mesh], bends, error);
     for (uint32_t i = 0; i < scene->item_count && status == LMN_OK; i++)
         if (scene->items[i].mesh == mesh && (!parts || parts[scene->items[i].part_index]) &&
             !collect_item(out, v, w, i, s))
@@ -142,7 +145,9 @@ lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_opti
 {
     bool       bends = options->suggestive > 0 || options->ridges > 0 || options->valleys > 0 || options->apparent > 0;
     lmn_status status = LMN_OK;
-    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK && stroke_options_bend(options); i++) {
+    for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK; i++) {
+        if (!stroke_options_bend(options) && !(options->contours != CONTOURS_NONE && has_calm_outline(v->scene, i)))
+            continue;
         if (progress && !progress((double)i / (double)v->scene->mesh_count, "finding lines of form", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while lines of form were found");
         else
@@ -153,13 +158,35 @@ lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_opti
     return status;
 }
 
+bool has_calm_outline(const stroke_scene *s, size_t mesh)
+{
+    return s->surfaces && s->surfaces[mesh].calm_normals;
+}
+
+static bool open_surfaces(stroke_scene *s)
+{
+    if (!s->surfaces)
+        s->surfaces = mem_calloc(s->mesh_count + 1, sizeof *s->surfaces);
+    return s->surfaces != NULL;
+}
+
+lmn_status form_surfaces_open(stroke_scene *s, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < s->mesh_count && status == LMN_OK; i++)
+        if (s->meshes[i].sampling.sampled && !s->meshes[i].refinement)
+            status = open_surfaces(s) ? form_surface_make(&s->surfaces[i], &s->meshes[i], false, error)
+                                      : error_memory(error);
+    return status;
+}
+
 lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    if (s->surfaces)
-        return LMN_OK;
-    s->surfaces = mem_calloc(s->mesh_count + 1, sizeof *s->surfaces);
-    lmn_status status = s->surfaces ? LMN_OK : error_memory(error);
+    lmn_status status = open_surfaces(s) ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < s->mesh_count && status == LMN_OK; i++) {
+        if (s->surfaces[i].bends)
+            continue;
+        form_surface_release(&s->surfaces[i]);
         if (progress && !progress((double)i / (double)s->mesh_count, "finding how surfaces bend", user))
             status = error_set(error, LMN_CANCELLED, "cancelled while surfaces were measured");
         else

@@ -18,6 +18,11 @@ static void part_edge(form_surface *s, uint32_t h)
         s->opposite[other] = NO_HALF;
 }
 
+static bool is_sampled(const edge_mesh *m)
+{
+    return m->sampling.sampled && !m->refinement;
+}
+
 /* Half-edges over which the surface goes on smoothly. */
 static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *error)
 {
@@ -29,16 +34,19 @@ static lmn_status pair_smooth(form_surface *s, const edge_mesh *m, lmn_error *er
     s->opposite = flat.levels[0].opposite;
     flat.levels[0].opposite = NULL;
     butterfly_release(&flat);
+    bool     sampled = is_sampled(m);
+    uint32_t ends =
+        EDGE_BORDER | EDGE_TWISTED | (sampled ? 0 : EDGE_CREASE); /* normals of samplings are means anyway */
     for (uint32_t h = 0; h < 3 * m->face_count; h++)
-        if (s->opposite[h] !=
-            NO_HALF) { /* sharper than a right angle is no surface that goes on, whatever the file says */
+        if (s->opposite[h] != NO_HALF &&
+            !sampled) { /* sharper than a right angle is no surface that goes on, whatever the file says */
             vec3 a = m->normals[h / 3], b = m->normals[s->opposite[h] / 3];
             if (a.x * b.x + a.y * b.y + a.z * b.z < 0)
                 part_edge(s, h);
         }
     for (uint32_t i = 0; i < m->edge_count; i++) {
         const mesh_edge *e = &m->edges[i];
-        if (!(e->flags & (EDGE_CREASE | EDGE_BORDER | EDGE_TWISTED)))
+        if (!(e->flags & ends))
             continue;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t h = 3 * e->face[0] + k;
@@ -109,6 +117,73 @@ static bool make_normals(form_surface *s, const edge_mesh *m)
     return good;
 }
 
+/* Normals of samplings are means over an edge around, and more with the noise; of very fine ones over a fraction of
+ * their size, which on a page that they fill is a third of a millimetre. More would round folds away. */
+#define CALM_STEPS       4.0
+#define CALM_NOISE_STEPS 6.0 /* a radian */
+#define CALM_FRACTION    0.0015
+/* Normals that differ by more belong to other sides of a fold: 1 − cosine. */
+#define OTHER_SIDE 0.35
+enum { CALM_STEPS_MOST = 48 };
+
+/* A step that gives a knot half of what is around it spreads by half an edge; steps add as squares. */
+static int calm_steps(const edge_sampling *e)
+{
+    double spread = CALM_FRACTION * e->size / e->mean_edge,
+           steps = fmax(CALM_STEPS + CALM_NOISE_STEPS * e->noise, 4 * spread * spread);
+    return steps < CALM_STEPS_MOST ? (int)steps : CALM_STEPS_MOST;
+}
+
+static vec3 unit_of(const double v[3], vec3 otherwise)
+{
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return length > 0 ? (vec3){(float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length)} : otherwise;
+}
+
+/* By Tukey's biweight of how much both differ: what lies around a fold of the surface does not count. Returns the
+ * weight. */
+static double add_normal(double sum[3], vec3 own, vec3 n)
+{
+    double differ = (1 - ((double)own.x * n.x + (double)own.y * n.y + (double)own.z * n.z)) / OTHER_SIDE,
+           weight = differ < 1 ? (1 - differ) * (1 - differ) : 0;
+    sum[0] += weight * n.x;
+    sum[1] += weight * n.y;
+    sum[2] += weight * n.z;
+    return weight;
+}
+
+/* Each knot gets half of what is around it. `sums`: with the weight. */
+static void calm_once(form_surface *s, double (*sums)[4])
+{
+    memset(sums, 0, s->knot_count * sizeof *sums);
+    for (uint32_t h = 0; h < 3 * s->face_count; h++) {
+        uint32_t p = s->corners[h / 3][h % 3], q = s->corners[h / 3][(h + 1) % 3];
+        sums[p][3] += add_normal(sums[p], s->calm_normals[p], s->calm_normals[q]);
+        if (s->opposite[h] == NO_HALF) /* nobody comes back along this edge */
+            sums[q][3] += add_normal(sums[q], s->calm_normals[q], s->calm_normals[p]);
+    }
+    for (uint32_t i = 0; i < s->knot_count; i++) {
+        vec3 n = s->calm_normals[i];
+        sums[i][0] += sums[i][3] * n.x;
+        sums[i][1] += sums[i][3] * n.y;
+        sums[i][2] += sums[i][3] * n.z;
+        s->calm_normals[i] = unit_of(sums[i], n);
+    }
+}
+
+static bool make_calm_normals(form_surface *s, const edge_mesh *m)
+{
+    if (!is_sampled(m))
+        return true;
+    double(*sums)[4] = mem_alloc(((size_t)s->knot_count + 1) * sizeof *sums);
+    s->calm_normals = mem_copy(s->normals, ((size_t)s->knot_count + 1) * sizeof *s->normals);
+    bool good = sums && s->calm_normals;
+    for (int steps = good ? calm_steps(&m->sampling) : 0; steps > 0; steps--)
+        calm_once(s, sums);
+    mem_free(sums);
+    return good;
+}
+
 static bool make_fans(form_surface *s, const edge_mesh *m)
 {
     s->fan_starts = mem_calloc((size_t)m->vertex_count + 2, sizeof *s->fan_starts);
@@ -134,8 +209,8 @@ lmn_status form_surface_make(form_surface *out, const edge_mesh *m, bool bends, 
         box = box3_union(box, m->boxes[i]);
     out->size = box3_is_empty(box) ? 0 : box3_diagonal(box);
     lmn_status status = pair_smooth(out, m, error);
-    if (status == LMN_OK &&
-        (!number_knots(out, m) || !make_normals(out, m) || !make_fans(out, m) || (bends && !form_bend_make(out, m))))
+    if (status == LMN_OK && (!number_knots(out, m) || !make_normals(out, m) || !make_calm_normals(out, m) ||
+                             !make_fans(out, m) || (bends && !form_bend_make(out, m))))
         status = error_memory(error);
     if (status != LMN_OK)
         form_surface_release(out);
@@ -148,6 +223,7 @@ void form_surface_release(form_surface *s)
     mem_free(s->opposite);
     mem_free(s->vertices);
     mem_free(s->normals);
+    mem_free(s->calm_normals);
     mem_free(s->bends);
     mem_free(s->fan_starts);
     mem_free(s->fan_faces);

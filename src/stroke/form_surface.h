@@ -23,6 +23,7 @@ typedef struct form_surface {
                            elsewhere */
     uint32_t     *vertices;               /* per knot: of the mesh */
     vec3         *normals;                /* per knot: unit, outward where the piece is closed, else by winding */
+    vec3         *calm_normals;           /* the same without noise, of samplings; NULL: the mesh is none */
     surface_bend *bends;                  /* per knot; NULL: not asked for */
     uint32_t     *fan_starts, *fan_faces; /* faces around each vertex of the mesh */
     double        size;                   /* diagonal of the mesh */

@@ -90,7 +90,7 @@ form_end form_cross(form_view *f, uint32_t half, double begin, double end, doubl
     return (form_end){{a.x + at * (b.x - a.x), a.y + at * (b.y - a.y), a.z + at * (b.z - a.z)}, f->numbers[own], 1};
 }
 
-static double3 to_world(const form_view *f, double3 p)
+double3 form_to_world(const form_view *f, double3 p)
 {
     const double *m = f->item->world.m;
     return (double3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
@@ -125,7 +125,7 @@ bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_e
              {fminf(a.weight, 1), fminf(b.weight, 1)},
              false,
              turned};
-    return lines_put(f->out, f->v, line, to_world(f, a.position), to_world(f, b.position), faces);
+    return lines_put(f->out, f->v, line, form_to_world(f, a.position), form_to_world(f, b.position), faces);
 }
 
 float form_fade(double measure, double limit)

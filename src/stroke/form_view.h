@@ -42,11 +42,19 @@ int form_side(const form_view *f, uint32_t face);
  * either side. Also the fraction from its begin. */
 form_end form_cross(form_view *f, uint32_t half, double begin, double end, double *fraction);
 /* Adds a line across a face; `turned` as in view_line. False when memory is gone. */
-bool form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
+double3 form_to_world(const form_view *f, double3 p);
+bool    form_put(form_view *f, stroke_class kind, uint32_t face, form_end a, form_end b, bool turned);
 
 /* --- smooth.c --- */
 /* Outlines by normals. */
 bool smooth_collect(form_view *f);
+/* The same of samplings, by normals without noise. */
+bool calm_collect(form_view *f);
+/* Is the surface hollow along the view around a face? */
+bool form_is_hollow(const form_view *f, uint32_t face, double3 position);
+/* Where a face is crossed by the outline, by `facing`: from where the winding passes from the front to the back to
+ * where it comes again, so that what is in front lies to the left. False when it is not. */
+bool form_outline(form_view *f, uint32_t face, form_end ends[2]);
 /* --- form_ridges.c --- */
 /* Ridges, valleys and apparent ridges; strengths as in stroke_options. */
 bool ridges_collect(form_view *f, stroke_class kind, double strength);

@@ -78,15 +78,15 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
 /* --- edges ---------------------------------------------------------------------------------------------- */
 
 /* What the edge is in this view; STROKE_CLASS_COUNT: no line. */
-static stroke_class class_of(const collector *c, const mesh_edge *e, uint32_t first_face)
+static stroke_class class_of(const collector *c, size_t mesh, const mesh_edge *e, uint32_t first_face)
 {
     const stroke_options *w = c->options;
     if (e->flags & EDGE_BORDER)
         return w->borders ? STROKE_BORDER : STROKE_CLASS_COUNT;
     bool differ = view_is_front(c->v, first_face + e->face[0]) != view_is_front(c->v, first_face + e->face[1]);
     bool turns = differ != ((e->flags & EDGE_TWISTED) != 0);
-    if (turns && w->contours != CONTOURS_NONE && (w->contours == CONTOURS_EDGES || (e->flags & EDGE_CREASE)) &&
-        (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)))
+    bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE));
+    if (turns && as_edges && (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)) && !has_calm_outline(c->v->scene, mesh))
         return STROKE_CONTOUR;
     if ((e->flags & EDGE_CREASE) && w->creases)
         return STROKE_CREASE;
@@ -159,7 +159,7 @@ static bool collect_edges(collector *c, uint32_t index)
     const edge_mesh   *m = &c->v->scene->meshes[item->mesh];
     uint32_t           first_face = c->v->items[index].first_face;
     for (uint32_t i = 0; i < m->edge_count; i++) {
-        stroke_class kind = class_of(c, &m->edges[i], first_face);
+        stroke_class kind = class_of(c, item->mesh, &m->edges[i], first_face);
         if (kind == STROKE_CONTOUR && c->outline && !c->outline[i] && !(m->edges[i].flags & EDGE_CREASE))
             continue;
         if (kind != STROKE_CLASS_COUNT &&
@@ -277,5 +277,6 @@ void lines_release(view_lines *l)
     mem_free(l->lines);
     mem_free(l->segments);
     mem_free(l->ignored);
+    mem_free(l->lifts);
     memset(l, 0, sizeof *l);
 }

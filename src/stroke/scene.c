@@ -3,20 +3,22 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/scene_cut.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
-    stroke_scene      *out;
-    const pose        *pose;
-    const lmn_scene   *scene;
-    double             crease_angle;
-    int32_t            refine;
-    int32_t           *shared; /* per mesh of the scene: its number in `out`, NONE */
-    stroke_topologies *kept;
-    size_t             mesh_capacity, item_capacity;
-    box3               box;
+    stroke_scene         *out;
+    const pose           *pose;
+    const lmn_scene      *scene;
+    double                crease_angle;
+    int32_t               refine;
+    int32_t              *shared; /* per mesh of the scene: its number in `out`, NONE */
+    stroke_topologies    *kept;
+    const stroke_section *section; /* NULL: nothing is cut away */
+    size_t                mesh_capacity, item_capacity;
+    box3                  box;
 } scene_builder;
 
 /* Positions of all primitives, deformed; NULL when memory is gone. */
@@ -108,7 +110,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     mem_free(positions);
     if (status != LMN_OK)
         return status;
-    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, b->crease_angle, error);
+    status = edge_mesh_refine(&s->meshes[s->mesh_count], b->refine, error);
     if (status != LMN_OK) {
         edge_mesh_release(&s->meshes[s->mesh_count]);
         return status;
@@ -136,30 +138,78 @@ static double growth(const mat4 *m)
     return most;
 }
 
+static void widen_box(scene_builder *b, const edge_mesh *m, const mat4 *world)
+{
+    double grown = growth(world);
+    for (uint32_t k = 0; k < m->piece_count; k++) {
+        b->box = box3_union(b->box, box3_transform(m->boxes[k], world));
+        b->out->reach = fmax(b->out->reach, grown * farthest(m->boxes[k]));
+    }
+}
+
+static lmn_status put_item(scene_builder *b, size_t part_index, uint32_t mesh, const mat4 *world, lmn_error *error)
+{
+    stroke_scene *s = b->out;
+    if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + 1, sizeof *s->items))
+        return error_memory(error);
+    s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, mesh, *world};
+    widen_box(b, &s->meshes[mesh], world);
+    return LMN_OK;
+}
+
+/* What a section leaves of an instance that it goes through: a mesh of its own. */
+static lmn_status add_cut(scene_builder *b, size_t part_index, const mat4 *world, cut_verdict *verdict,
+                          lmn_error *error)
+{
+    stroke_scene    *s = b->out;
+    const part_pose *pose = &b->pose->parts[part_index];
+    const mesh      *m = &b->scene->meshes[b->scene->nodes[b->scene->parts[part_index].node].mesh];
+    edge_mesh        made = {0};
+    vec3            *positions = pose_positions(m, pose);
+    lmn_status       status =
+        positions ? scene_cut_mesh(&made, verdict, m, positions, b->section->cut, world, b->crease_angle, error)
+                        : error_memory(error);
+    mem_free(positions);
+    if (status != LMN_OK || *verdict != CUT_CROSSED)
+        return status;
+    status = edge_mesh_refine(&made, b->refine, error);
+    if (status == LMN_OK && !mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
+        status = error_memory(error);
+    if (status != LMN_OK) {
+        edge_mesh_release(&made);
+        return status;
+    }
+    s->meshes[s->mesh_count] = made;
+    return put_item(b, part_index, (uint32_t)s->mesh_count++, world, error);
+}
+
+static cut_verdict judge_part(const scene_builder *b, size_t part_index)
+{
+    if (!b->section || b->section->cut->cell_count == 0)
+        return CUT_WHOLE;
+    cut_verdict verdict = cut_judge_box(b->section->cut, b->pose->part_boxes[part_index]);
+    /* What stays whole goes all the same where it lies in what is cut away. */
+    bool spared = b->section->spared && b->section->spared[part_index];
+    return verdict == CUT_CROSSED && spared ? CUT_WHOLE : verdict;
+}
+
 static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error)
 {
     const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
-    if (n->mesh < 0)
-        return LMN_OK;
-    stroke_scene *s = b->out;
-    uint32_t      number = 0;
-    lmn_status    status = find_mesh(b, part_index, &number, error);
-    size_t        count = node_draw_count(n);
-    if (status != LMN_OK)
-        return status;
-    if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + count, sizeof *s->items))
-        return error_memory(error);
-    for (size_t i = 0; i < count; i++) {
-        mat4 world = pose_instance(b->pose, part_index, i);
-        s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, number, world};
-        const edge_mesh *m = &s->meshes[number];
-        double           grown = growth(&world);
-        for (uint32_t k = 0; k < m->piece_count; k++) {
-            b->box = box3_union(b->box, box3_transform(m->boxes[k], &world));
-            s->reach = fmax(s->reach, grown * farthest(m->boxes[k]));
-        }
+    cut_verdict part = n->mesh < 0 ? CUT_GONE : judge_part(b, part_index);
+    uint32_t    number = UINT32_MAX;
+    lmn_status  status = LMN_OK;
+    for (size_t i = 0; i < node_draw_count(n) && part != CUT_GONE && status == LMN_OK; i++) {
+        mat4        world = pose_instance(b->pose, part_index, i);
+        cut_verdict own = part;
+        if (part == CUT_CROSSED)
+            status = add_cut(b, part_index, &world, &own, error);
+        if (status == LMN_OK && own == CUT_WHOLE && number == UINT32_MAX)
+            status = find_mesh(b, part_index, &number, error);
+        if (status == LMN_OK && own == CUT_WHOLE)
+            status = put_item(b, part_index, number, &world, error);
     }
-    return LMN_OK;
+    return status;
 }
 
 lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
@@ -187,6 +237,8 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
             status = add_part(b, i, error);
     }
     mem_free(b->shared);
+    if (status == LMN_OK)
+        status = form_surfaces_open(out, error);
     out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);
@@ -205,10 +257,16 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, cons
 }
 
 lmn_status stroke_scene_create_keeping(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
-                                       int32_t refine, stroke_topologies *kept, lmn_error *error)
+                                       int32_t refine, stroke_topologies *kept, const stroke_section *section,
+                                       lmn_error *error)
 {
-    scene_builder b = {
-        .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = kept};
+    scene_builder b = {.out = out,
+                       .pose = pose,
+                       .scene = pose->scene,
+                       .crease_angle = crease_angle,
+                       .refine = refine,
+                       .kept = kept,
+                       .section = section};
     return fill(&b, parts, NULL, NULL, error);
 }
 

@@ -117,7 +117,7 @@ static double growth_over(const form_view *f, uint32_t face, double3 d)
 
 /* Is the surface hollow along the view? There the cosine falls towards the eye. All faces around decide together,
  * because narrow ones are easily mistaken. */
-static bool is_hollow(const form_view *f, uint32_t face, double3 position)
+bool form_is_hollow(const form_view *f, uint32_t face, double3 position)
 {
     double3 d = form_direction(f, position);
     double  sum = 0;
@@ -140,7 +140,7 @@ static bool put_piece(smoother *w, uint32_t face, form_end a, form_end b)
         return true;
     double3 middle = {0.5 * (a.position.x + b.position.x), 0.5 * (a.position.y + b.position.y),
                       0.5 * (a.position.z + b.position.z)};
-    bool    hollow = is_hollow(f, face, middle);
+    bool    hollow = form_is_hollow(f, face, middle);
     if (!put_fold(w, face, middle, hollow ? 1 : FOLD_RINGS))
         return false;
     window_segment *s = &f->out->segments[before];
@@ -166,6 +166,22 @@ static bool calm_islands(form_view *f)
     return good;
 }
 
+bool form_outline(form_view *f, uint32_t face, form_end ends[2])
+{
+    const uint32_t *knots = f->s->corners[face];
+    bool            front[3];
+    double          fraction;
+    for (int k = 0; k < 3; k++)
+        front[k] = f->facing[knots[k]] >= 0;
+    if (front[0] == front[1] && front[1] == front[2])
+        return false;
+    for (uint32_t k = 0; k < 3; k++)
+        if (front[k] != front[(k + 1) % 3])
+            ends[front[k] ? 0 : 1] =
+                form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &fraction);
+    return true;
+}
+
 bool smooth_collect(form_view *f)
 {
     smoother w = {.f = f, .stamps = mem_calloc((size_t)f->s->face_count + 1, sizeof *w.stamps)};
@@ -174,20 +190,8 @@ bool smooth_collect(form_view *f)
     w.capacity = w.count;
     bool good = w.stamps && calm_islands(f);
     for (uint32_t face = 0; face < f->s->face_count && good; face++) {
-        const uint32_t *knots = f->s->corners[face];
-        bool            front[3];
-        for (int k = 0; k < 3; k++)
-            front[k] = f->facing[knots[k]] >= 0;
-        if (front[0] == front[1] && front[1] == front[2])
-            continue;
-        form_end ends[2]; /* from where the winding passes from the front to the back to where it comes again: what is
-                             in front lies to the left */
-        double fraction;
-        for (uint32_t k = 0; k < 3; k++)
-            if (front[k] != front[(k + 1) % 3])
-                ends[front[k] ? 0 : 1] =
-                    form_cross(f, 3 * face + k, f->facing[knots[k]], f->facing[knots[(k + 1) % 3]], &fraction);
-        good = put_piece(&w, face, ends[0], ends[1]);
+        form_end ends[2];
+        good = !form_outline(f, face, ends) || put_piece(&w, face, ends[0], ends[1]);
     }
     mem_free(w.stamps);
     return good;

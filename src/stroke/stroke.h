@@ -103,14 +103,21 @@ lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *
  * as the lines are. Takes stroke_options.refine. Also LMN_LIMIT. */
 lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error);
-/* The same again and again, for poses of one scene: what these have in common is kept in `kept`, which belongs to the
- * caller. It is zero-initialised at first, and ended with stroke_topologies_release. */
+/* What is cut away: neither lines nor what hides them. Cut faces close what is left, and are of a material of their
+ * own. */
+typedef struct stroke_section {
+    const struct cut *cut;
+    const bool       *spared; /* per part: stays whole; NULL: none */
+} stroke_section;
+/* The same again and again, with a section (may be NULL), for poses of one scene: what these have in common is kept in
+ * `kept`, which belongs to the caller. It is zero-initialised at first, and ended with stroke_topologies_release. */
 typedef struct stroke_topologies {
     struct edge_topology **meshes; /* per mesh of the scene; NULL: not asked for yet */
     size_t                 count;
 } stroke_topologies;
 lmn_status stroke_scene_create_keeping(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
-                                       int32_t refine, stroke_topologies *kept, lmn_error *error);
+                                       int32_t refine, stroke_topologies *kept, const stroke_section *section,
+                                       lmn_error *error);
 void       stroke_topologies_release(stroke_topologies *t);
 void       stroke_scene_release(stroke_scene *s);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else
@@ -149,7 +156,8 @@ void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_
 
 typedef enum contour_kind {
     CONTOURS_NONE,
-    CONTOURS_EDGES, /* edges of the mesh between front and back: exactly the outline of what is there */
+    CONTOURS_EDGES, /* edges of the mesh between front and back: exactly the outline of what is there. Of scans and
+                       other dense samplings, that of the surface that is sampled, without its noise. */
     CONTOURS_SMOOTH /* where the interpolated normal is at right angles to the view: the outline of the surface that is
                        meant */
 } contour_kind;

@@ -203,10 +203,20 @@ typedef struct view_line {
     bool         turned;     /* outlines: what is seen from the front lies to its other side */
 } view_line;
 
+/* Outlines of samplings are looked for a little outside of the surface, where its noise does not reach. */
+typedef struct view_lift {
+    uint32_t     line;
+    window_point a, b;    /* where it is looked for */
+    double3      ends[2]; /* the same in the world */
+    double       edge;    /* mean edge of the mesh there */
+} view_lift;
+
 typedef struct view_lines {
     view_line      *lines;
     window_segment *segments; /* one a line */
     size_t          count, capacity, segment_capacity;
+    view_lift      *lifts; /* of lines in ascending order */
+    size_t          lift_count, lift_capacity;
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
 } view_lines;
@@ -219,11 +229,21 @@ bool lines_put(view_lines *out, const stroke_view *v, view_line line, double3 a,
 uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different lines and stay from view to view */
 
 /* --- form.c --- */
-void form_surfaces_destroy(stroke_scene *s);
+/* Is a mesh a sampling of a surface, whose outline is that surface's however it is asked for? */
+bool has_calm_outline(const stroke_scene *s, size_t mesh);
+/* Makes the surfaces of samplings. */
+lmn_status form_surfaces_open(stroke_scene *s, lmn_error *error);
+void       form_surfaces_destroy(stroke_scene *s);
 /* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys,
  * apparent ridges. */
 lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                         lmn_progress_fn progress, void *user, lmn_error *error);
+
+/* --- outlines.c --- */
+/* What of lines is hidden. Outlines of samplings are whole where only their own noise would hide them, and what is
+ * short for the size of faces goes. */
+lmn_status outlines_see(visibility *out, const stroke_view *v, view_lines *lines, lmn_progress_fn progress, void *user,
+                        lmn_error *error);
 
 /* --- chains.c --- */
 lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *lines, const visibility *seen,

@@ -179,7 +179,7 @@ static void refined_edge_meshes_know_where_they_come_from(void **state)
     edge_mesh e;
     assert_int_equal(edge_mesh_create(&e, &m, NULL, 1.0, NULL), LMN_OK);
     uint32_t faces = e.face_count;
-    assert_int_equal(edge_mesh_refine(&e, 2, 1.0, NULL), LMN_OK);
+    assert_int_equal(edge_mesh_refine(&e, 2, NULL), LMN_OK);
     assert_int_equal(e.face_count, 16 * faces);
     assert_int_equal(e.vertex_count, 2 + e.face_count / 2);
     assert_int_equal(e.piece_count, 1);
@@ -220,7 +220,7 @@ static void refined_boxes_stay_boxes(void **state)
     edge_mesh e;
     assert_int_equal(edge_mesh_create(&e, &m, NULL, 0.5, NULL), LMN_OK);
     assert_int_equal(e.edge_count, 12);
-    assert_int_equal(edge_mesh_refine(&e, 3, 0.5, NULL), LMN_OK);
+    assert_int_equal(edge_mesh_refine(&e, 3, NULL), LMN_OK);
     assert_int_equal(e.edge_count, 12 * 8);
     double length = 0;
     for (uint32_t i = 0; i < e.edge_count; i++) {
@@ -249,7 +249,7 @@ static void memory_may_run_out(void **state)
     long       n = 1;
     for (; status != LMN_OK && n < 200; n++) {
         mem_fail_at(n);
-        status = edge_mesh_refine(&e, 2, 1.0, NULL);
+        status = edge_mesh_refine(&e, 2, NULL);
         mem_fail_at(0);
         assert_true(status == LMN_OK || (status == LMN_MEMORY && e.face_count == p.index_count / 3 && !e.refinement));
     }

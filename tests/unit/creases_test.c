@@ -1,0 +1,327 @@
+/* Which edges are creases: by feature, on shapes whose features are known. */
+#include "field_shapes.h"
+
+#include "stroke/edges.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+
+static edge_mesh sort(const primitive *p, double crease)
+{
+    mesh      m = {.primitives = (primitive *)p, .primitive_count = 1};
+    edge_mesh e;
+    assert_int_equal(edge_mesh_create(&e, &m, NULL, crease * degree, NULL), LMN_OK);
+    return e;
+}
+
+typedef struct profile {
+    double   at[256][2];
+    uint32_t count;
+} profile;
+
+static void add(profile *p, double x, double y)
+{
+    p->at[p->count][0] = x;
+    p->at[p->count++][1] = y;
+}
+
+/* An arc about a centre from an angle to another one, in so many steps. */
+static void add_arc(profile *p, double x, double y, double radius, double from, double to, uint32_t steps)
+{
+    for (uint32_t i = 0; i <= steps; i++) {
+        double turn = (from + (to - from) * i / steps) * degree;
+        add(p, x + radius * cos(turn), y + radius * sin(turn));
+    }
+}
+
+/* The walls of an extruded outline, of `rows` rows of faces, without caps. */
+static primitive extrude(const profile *o, double length, uint32_t rows)
+{
+    primitive p = empty_primitive(o->count * (rows + 1), 6 * o->count * rows);
+    uint32_t  at = 0;
+    for (uint32_t r = 0; r <= rows; r++)
+        for (uint32_t i = 0; i < o->count; i++)
+            p.positions[r * o->count + i] = (vec3){(float)o->at[i][0], (float)o->at[i][1], (float)(length * r / rows)};
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t i = 0; i < o->count; i++) {
+            uint32_t       a = r * o->count + i, b = r * o->count + (i + 1) % o->count, up = o->count;
+            const uint32_t quad[6] = {a, b, up + b, a, up + b, up + a};
+            memcpy(p.indices + at, quad, sizeof quad);
+            at += 6;
+        }
+    return p;
+}
+
+/* How many lines of creases run along the walls: those in the first row. */
+static uint32_t crease_lines(const primitive *p, double crease, double length, double *x, double *y)
+{
+    edge_mesh e = sort(p, crease);
+    uint32_t  count = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++) {
+        vec3 a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
+        bool upright = a.x == b.x && a.y == b.y && fabs((double)a.z - b.z) > 0;
+        if ((e.edges[i].flags & EDGE_CREASE) && upright && fmin(a.z, b.z) < 1e-6 * length) {
+            count++;
+            *x = a.x;
+            *y = a.y;
+        }
+    }
+    edge_mesh_release(&e);
+    return count;
+}
+
+static uint32_t lines_of(const profile *o, double crease)
+{
+    double   length = 10, x, y;
+    uint32_t counts[2];
+    for (uint32_t k = 0; k < 2; k++) {
+        primitive p = extrude(o, length, k ? 5 : 1);
+        counts[k] = crease_lines(&p, crease, length, &x, &y);
+        primitive_release(&p);
+    }
+    assert_int_equal(counts[0], counts[1]);
+    return counts[0];
+}
+
+static void tessellated_cylinders_are_round(void **state)
+{
+    (void)state;
+    for (uint32_t sides = 3; sides <= 60; sides++) {
+        profile o = {.count = 0};
+        add_arc(&o, 0, 0, 3, 0, 360.0 * (sides - 1) / sides, sides - 1);
+        assert_int_equal(o.count, sides);
+        assert_int_equal(lines_of(&o, 5), sides <= 9 ? sides : 0); /* up to 40 degrees they are prisms */
+    }
+}
+
+/* A box with one edge that is rounded in so many steps. */
+static profile rounded(double radius, uint32_t steps)
+{
+    profile o = {.count = 0};
+    add(&o, 0, 0);
+    add(&o, 8, 0);
+    add_arc(&o, 8 - radius, 6 - radius, radius, 0, 90, steps);
+    add(&o, 0, 6);
+    return o;
+}
+
+static void fillets_are_round_and_chamfers_are_not(void **state)
+{
+    (void)state;
+    for (int crease = 10; crease <= 30; crease += 5) {
+        profile one = rounded(1, 1), two = rounded(1, 2);
+        assert_int_equal(lines_of(&one, crease), 5); /* a chamfer: three sharp edges and its two */
+        assert_true(lines_of(&two, crease) >= 4);
+        for (uint32_t steps = 3; steps <= 12; steps++) {
+            profile o = rounded(1, steps);
+            assert_int_equal(lines_of(&o, crease), 3);
+        }
+    }
+}
+
+/* Narrower than a pen it is one line, where its middle is. */
+static void narrow_fillets_are_one_line(void **state)
+{
+    (void)state;
+    for (uint32_t steps = 4; steps <= 8; steps += 2) {
+        profile   o = rounded(0.04, steps);
+        double    x, y;
+        primitive p = extrude(&o, 10, 1);
+        edge_mesh e = sort(&p, 20);
+        uint32_t  found = 0;
+        for (uint32_t i = 0; i < e.edge_count; i++) {
+            vec3 a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
+            if (!(e.edges[i].flags & EDGE_CREASE) || a.x != b.x || a.x < 7.9f || a.y < 5.9f)
+                continue;
+            found++;
+            x = a.x - 7.96;
+            y = a.y - 5.96;
+            assert_true(fabs(atan2(y, x) - 45 * degree) < 8 * degree);
+        }
+        assert_int_equal(found, 1);
+        edge_mesh_release(&e);
+        primitive_release(&p);
+    }
+}
+
+/* --- scans ----------------------------------------------------------------------------------------------- */
+
+static double jitter(uint32_t n)
+{
+    n = (n ^ n >> 16) * 0x7FEB352Du;
+    n = (n ^ n >> 15) * 0x846CA68Bu;
+    return (n ^ n >> 16) / 4294967296.0 - 0.5;
+}
+
+/* What lies at one position stays together. */
+static void shake(primitive *p, double by)
+{
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        uint32_t bits[3];
+        memcpy(bits, &p->positions[i], sizeof bits);
+        uint32_t n = bits[0] * 73856093u ^ bits[1] * 19349663u ^ bits[2] * 83492791u;
+        p->positions[i].x += (float)(by * jitter(n));
+        p->positions[i].y += (float)(by * jitter(n + 1));
+        p->positions[i].z += (float)(by * jitter(n + 2));
+    }
+}
+
+static double crease_length(const edge_mesh *e, double *whole)
+{
+    double sum = 0;
+    *whole = 0;
+    for (uint32_t i = 0; i < e->edge_count; i++) {
+        vec3   a = e->positions[e->edges[i].vertex[0]], b = e->positions[e->edges[i].vertex[1]];
+        double length = sqrt(pow(a.x - b.x, 2) + pow(a.y - b.y, 2) + pow(a.z - b.z, 2));
+        sum += e->edges[i].flags & EDGE_CREASE ? length : 0;
+        *whole += length;
+    }
+    return sum;
+}
+
+static void noise_of_scans_is_no_crease(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 3; k++) {
+        primitive p = ball(60, 0.3, (place3){1, 1, 1});
+        shake(&p, 0.006 * k); /* edges are about 0.03 long */
+        edge_mesh e = sort(&p, 30);
+        double    whole;
+        double    creases = crease_length(&e, &whole);
+        if (creases > 0)
+            printf("noise %d: %.4f of the edges are creases\n", k, creases / whole);
+        assert_true(creases < 0.001 * whole);
+        edge_mesh_release(&e);
+        primitive_release(&p);
+    }
+}
+
+/* A dense, uneven roof: its ridge is the one crease. */
+static primitive roof(uint32_t side, double noise)
+{
+    primitive p = empty_primitive((side + 1) * (side + 1), 6 * side * side);
+    uint32_t  at = 0;
+    for (uint32_t i = 0; i < p.vertex_count; i++) {
+        double x = (double)(i % (side + 1)) / side - 0.5, y = (double)(i / (side + 1)) / side;
+        p.positions[i] = (vec3){(float)x, (float)y, (float)(-0.5 * fabs(x))};
+    }
+    for (uint32_t y = 0; y < side; y++)
+        for (uint32_t x = 0; x < side; x++) {
+            uint32_t       a = y * (side + 1) + x, b = a + side + 1;
+            const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+            memcpy(p.indices + at, quad, sizeof quad);
+            at += 6;
+        }
+    shake(&p, noise / side);
+    return p;
+}
+
+static void edges_of_scans_stay(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 3; k++) {
+        primitive p = roof(80, 0.06 * k);
+        edge_mesh e = sort(&p, 30);
+        double    on = 0, off = 0;
+        for (uint32_t i = 0; i < e.edge_count; i++) {
+            vec3   a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
+            double length = fabs((double)a.y - b.y), away = fmax(fabs(a.x), fabs(b.x));
+            if (!(e.edges[i].flags & EDGE_CREASE))
+                continue;
+            if (away < 0.01)
+                on += length;
+            else
+                off += length;
+        }
+        if (!(on > 0.9 && off < 0.02))
+            printf("noise %d: %.3f of the ridge, %.3f beside it\n", k, on, off);
+        assert_true(on > 0.9 && off < 0.02);
+        edge_mesh_release(&e);
+        primitive_release(&p);
+    }
+}
+
+/* --- the file's normals ---------------------------------------------------------------------------------- */
+
+/* Four walls that turn by 50 degrees, with normals that go on smoothly over the second edge if `smooth`, over none
+ * if not `any`. */
+static uint32_t walls(bool smooth, bool any)
+{
+    static const uint32_t walls_most = 4;
+    primitive             p = empty_primitive(4 * walls_most, 6 * walls_most);
+    double                x = 0, y = 0;
+    p.normals = mem_alloc(p.vertex_count * sizeof *p.normals);
+    for (uint32_t i = 0; i < walls_most; i++) {
+        double turn = 50.0 * i * degree, next_x = x + cos(turn), next_y = y + sin(turn);
+        for (uint32_t k = 0; k < 4; k++) {
+            bool   second = k == 1 || k == 2;
+            double lean = !any ? 0 : second && i == 0 ? 25 : !second && i == 1 ? -25 : 0; /* over the first edge */
+            if (smooth && ((second && i == 1) || (!second && i == 2)))
+                lean = second ? 25 : -25;
+            double at = turn + lean * degree;
+            p.positions[4 * i + k] = (vec3){(float)(second ? next_x : x), (float)(second ? next_y : y), k > 1 ? 3 : 0};
+            p.normals[4 * i + k] = (vec3){(float)sin(at), (float)-cos(at), 0};
+        }
+        const uint32_t quad[6] = {4 * i, 4 * i + 1, 4 * i + 2, 4 * i, 4 * i + 2, 4 * i + 3};
+        memcpy(p.indices + 6 * i, quad, sizeof quad);
+        x = next_x;
+        y = next_y;
+        if (i + 1 < walls_most) /* the next one begins at the very same position */
+            x = p.positions[4 * i + 1].x, y = p.positions[4 * i + 1].y;
+    }
+    edge_mesh e = sort(&p, 30);
+    uint32_t  count = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++)
+        count += (e.edges[i].flags & EDGE_CREASE) != 0;
+    edge_mesh_release(&e);
+    primitive_release(&p);
+    return count;
+}
+
+static void normals_of_files_are_believed(void **state)
+{
+    (void)state;
+    assert_int_equal(walls(false, true), 2);
+    assert_int_equal(walls(true, true), 1);
+    assert_int_equal(walls(false, false), 3); /* all are split: nothing is said */
+}
+
+/* Where a crease runs out, it goes on to half of the angle. */
+static void creases_fade_out_whole(void **state)
+{
+    (void)state;
+    enum { LONG = 20 };
+    primitive p = empty_primitive(3 * (LONG + 1), 12 * LONG);
+    uint32_t  at = 0;
+    for (uint32_t i = 0; i <= LONG; i++) {
+        double turn = (45 - 45.0 * i / LONG) * degree;
+        p.positions[3 * i] = (vec3){-1, (float)i, 0};
+        p.positions[3 * i + 1] = (vec3){0, (float)i, 0};
+        p.positions[3 * i + 2] = (vec3){(float)cos(turn), (float)i, (float)-sin(turn)};
+    }
+    for (uint32_t i = 0; i < LONG; i++)
+        for (uint32_t k = 0; k < 2; k++) {
+            uint32_t       a = 3 * i + k, b = a + 3;
+            const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+            memcpy(p.indices + at, quad, sizeof quad);
+            at += 6;
+        }
+    edge_mesh e = sort(&p, 30);
+    uint32_t  count = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++)
+        count += (e.edges[i].flags & EDGE_CREASE) != 0;
+    assert_in_range(count, 12, 14); /* by angle alone there were 6 */
+    edge_mesh_release(&e);
+    primitive_release(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tessellated_cylinders_are_round),
+                                       cmocka_unit_test(fillets_are_round_and_chamfers_are_not),
+                                       cmocka_unit_test(narrow_fillets_are_one_line),
+                                       cmocka_unit_test(noise_of_scans_is_no_crease),
+                                       cmocka_unit_test(edges_of_scans_stay),
+                                       cmocka_unit_test(normals_of_files_are_believed),
+                                       cmocka_unit_test(creases_fade_out_whole)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
