@@ -20,8 +20,7 @@
 #define SPECK_MM    0.8
 #define SPECK_EDGES 1.5
 /* A chain no longer than this is a fold of the noise: mean edges. */
-#define ISLAND_EDGES        14.0
-#define SHEET_PIXELS_PER_MM (96 / 25.4)
+#define ISLAND_EDGES 14.0
 
 /* The span of a line, in the order and direction of its chain. */
 typedef struct chain_span {
@@ -53,7 +52,6 @@ typedef struct seer {
     size_t             span_count, span_capacity;
     span_run          *runs;
     size_t             run_count, run_capacity;
-    double             pixels_per_mm;
 } seer;
 
 /* --- chains ---------------------------------------------------------------------------------------------- */
@@ -127,7 +125,7 @@ static double line_length(const seer *s, uint32_t lift)
 {
     const window_segment *w = &s->lines->segments[s->lines->lifts[lift].line];
     double                x = (double)w->b.x - w->a.x, y = (double)w->b.y - w->a.y;
-    return sqrt(x * x + y * y) / s->v->units / s->pixels_per_mm;
+    return sqrt(x * x + y * y) / s->v->units / PAPER_UNITS_PER_MM;
 }
 
 static double edge_length(const seer *s, uint32_t lift)
@@ -135,7 +133,7 @@ static double edge_length(const seer *s, uint32_t lift)
     const stroke_camera  *c = &s->v->camera;
     const window_segment *w = &s->lines->segments[s->lines->lifts[lift].line];
     double                scale = 0.5 * c->height * fabs(c->projection.m[5]);
-    return s->lines->lifts[lift].edge * scale / (c->orthographic ? 1 : view_depth(s->v, w->a.z)) / s->pixels_per_mm;
+    return s->lines->lifts[lift].edge * scale / (c->orthographic ? 1 : view_depth(s->v, w->a.z)) / PAPER_UNITS_PER_MM;
 }
 
 /* --- islands --------------------------------------------------------------------------------------------- */
@@ -410,7 +408,6 @@ lmn_status outlines_see(visibility *out, const stroke_view *v, view_lines *lines
     if (status != LMN_OK)
         return status;
     seer s = {.v = v, .lines = lines, .seen = out};
-    s.pixels_per_mm = v->camera.pixels_per_mm > 0 ? v->camera.pixels_per_mm : SHEET_PIXELS_PER_MM;
     if (!open_seer(&s) || !vote(&s))
         status = error_memory(error);
     close_seer(&s);
