@@ -6,6 +6,7 @@
 #define LIMIT_FILE_BYTES      ((size_t)4 << 30)   /* one input file or side file */
 #define LIMIT_VERTICES        ((size_t)200000000) /* of a scene */
 #define LIMIT_TRIANGLES       ((size_t)200000000) /* of a scene, before instancing */
+#define LIMIT_LINES           ((size_t)200000000) /* of a scene, before instancing: those that files bring */
 #define LIMIT_NODES           ((size_t)1000000)
 #define LIMIT_INSTANCES       ((size_t)10000000) /* of a scene */
 #define LIMIT_NODE_DEPTH      1024               /* of the node tree */

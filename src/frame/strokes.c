@@ -90,7 +90,8 @@ static void bring_item(frame *f, stroke_store *store, uint32_t index, bool cross
     uint32_t mesh = store->scene.items[index].mesh;
     if (!store->edges[mesh] && !gpu_failed(f->g))
         store->edges[mesh] =
-            upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]), store->scene.meshes[mesh].edge_count);
+            upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]),
+                           strokes_edge_record_count(&store->scene.meshes[mesh]));
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;
@@ -137,7 +138,7 @@ static int wanted_bits(const stroke_options *w)
     enum { WANT_CONTOUR = 32 };
     return (w->contours != CONTOURS_NONE ? WANT_CONTOUR : 0) | (w->borders ? RECORD_BORDER : 0) |
            (w->creases ? RECORD_CREASE : 0) | (w->materials ? RECORD_MATERIAL : 0) |
-           (w->intersections ? RECORD_CROSSING : 0);
+           (w->intersections ? RECORD_CROSSING : 0) | (w->drawn ? RECORD_DRAWN : 0);
 }
 
 static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const pass *p, const strokes_values *v)

@@ -46,6 +46,8 @@ lmn_status import_gather(polyhedron *out, const lmn_scene *s, bool *open, lmn_er
     for (size_t i = 0; i < s->part_count && status == LMN_OK; i++) {
         int32_t at = s->parts[i].node, m = s->nodes[at].mesh;
         for (size_t k = 0; m != NONE && k < s->meshes[m].primitive_count && status == LMN_OK; k++) {
+            if (s->meshes[m].primitives[k].index_count == 0)
+                continue;
             *open = *open || has_border(&s->meshes[m].primitives[k]);
             status = append_primitive(out, &s->meshes[m].primitives[k], &worlds[at], error);
         }

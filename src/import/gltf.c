@@ -261,7 +261,7 @@ static void prepare(gltf_reader *r)
 static void check_content(gltf_reader *r)
 {
     for (size_t i = 0; i < r->scene->mesh_count; i++)
-        if (mesh_triangle_count(&r->scene->meshes[i]) > 0)
+        if (mesh_triangle_count(&r->scene->meshes[i]) + mesh_line_count(&r->scene->meshes[i]) > 0)
             return;
     r->scene->may_be_empty = r->scene->mesh_count == 0 || r->nameless_buffer;
     if (!r->missing_buffer)

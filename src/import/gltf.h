@@ -37,7 +37,7 @@ typedef struct gltf_reader {
     size_t               buffer_count, view_count;
     int32_t             *mesh_map, *node_map, *image_map; /* index in the file → in the scene, NONE: not there */
     size_t               mesh_count, node_count, image_count;
-    size_t               elements, zeros, vertices, triangles, instances; /* read so far, against the limits */
+    size_t               elements, zeros, vertices, triangles, lines, instances; /* read so far, against the limits */
     const char          *missing_buffer;                                  /* the name of the first */
     bool                 nameless_buffer;                                 /* one that names no file is missing */
 } gltf_reader;

@@ -1,4 +1,4 @@
-/* Meshes: attributes, indices, strips and fans, morphs, Draco. */
+/* Meshes: attributes, indices, strips and fans, lines, morphs, Draco. */
 #include <stdio.h>
 #include <string.h>
 
@@ -134,16 +134,23 @@ static void read_joints(gltf_reader *r, shape *s)
     }
 }
 
-static void read_attributes(gltf_reader *r, shape *s)
+/* Lines have no surface that these could say something of. */
+static void read_shading(gltf_reader *r, shape *s)
 {
-    s->p.positions = (vec3 *)read_attribute(r, s, "POSITION", 3);
     s->p.normals = (vec3 *)read_attribute(r, s, "NORMAL", 3);
     s->p.uvs[0] = (vec2 *)read_attribute(r, s, "TEXCOORD_0", 2);
     s->p.uvs[1] = (vec2 *)read_attribute(r, s, "TEXCOORD_1", 2);
     s->p.colours = (vec4 *)read_attribute(r, s, "COLOR_0", 4);
-    read_joints(r, s);
     if (json_object_get(s->attributes, "TEXCOORD_2"))
         gltf_warn(r, WARNING_IGNORED, "texture coordinate sets beyond the second");
+}
+
+static void read_attributes(gltf_reader *r, shape *s, bool lines)
+{
+    s->p.positions = (vec3 *)read_attribute(r, s, "POSITION", 3);
+    if (!lines)
+        read_shading(r, s);
+    read_joints(r, s);
 }
 
 /* --- indices -------------------------------------------------------------------------------------------- */
@@ -223,6 +230,41 @@ static void read_triangles(gltf_reader *r, shape *s, int mode)
     mem_free(corners);
 }
 
+/* Loops come back to where they begin. */
+static uint32_t *unroll_lines(gltf_reader *r, const uint32_t *corners, size_t count, size_t lines)
+{
+    uint32_t *out = gltf_alloc(r, lines * 2, sizeof *out);
+    for (size_t i = 0; out && i < lines; i++) {
+        out[2 * i] = corners[i];
+        out[2 * i + 1] = corners[i + 1 < count ? i + 1 : 0];
+    }
+    return out;
+}
+
+/* Draco has no lines: its extension is for triangles alone. */
+static void read_lines(gltf_reader *r, shape *s, int mode)
+{
+    size_t    count = 0;
+    uint32_t *corners = read_corners(r, s, &count);
+    size_t    lines = mode == MODE_LINES ? count / 2 : count < 2 ? 0 : mode == MODE_LINE_LOOP ? count : count - 1;
+    r->lines += lines;
+    if (corners && r->lines > LIMIT_LINES)
+        gltf_fail(r, LMN_LIMIT, "%s: more than %zu lines in all", s->where, LIMIT_LINES);
+    if (corners && mode == MODE_LINES && count % 2 != 0)
+        gltf_warn(r, WARNING_BAD_GEOMETRY, "%s: 1 corner is left over", s->where);
+    if (!corners || r->status != LMN_OK || !check_corners(r, s, corners, count)) {
+        mem_free(corners);
+        return;
+    }
+    s->p.line_count = (uint32_t)lines;
+    if (mode == MODE_LINES || lines == 0) {
+        s->p.lines = corners;
+        return;
+    }
+    s->p.lines = unroll_lines(r, corners, count, lines);
+    mem_free(corners);
+}
+
 /* EXT_mesh_primitive_edge_visibility packs four edges of two bits into a byte. */
 static void read_edges(gltf_reader *r, shape *s, int mode)
 {
@@ -246,7 +288,7 @@ static void read_edges(gltf_reader *r, shape *s, int mode)
 
 /* --- morphs --------------------------------------------------------------------------------------------- */
 
-static void read_morphs(gltf_reader *r, shape *s)
+static void read_morphs(gltf_reader *r, shape *s, bool lines)
 {
     json_t *targets = gltf_member(r, s->object, "targets", JSON_ARRAY, s->where);
     size_t  count = json_array_size(targets);
@@ -261,7 +303,7 @@ static void read_morphs(gltf_reader *r, shape *s)
         snprintf(target.where, sizeof target.where, "%.100s.targets[%zu]", s->where, i);
         target.attributes = json_array_get(targets, i);
         s->p.morphs[i].positions = (vec3 *)read_attribute(r, &target, "POSITION", 3);
-        s->p.morphs[i].normals = (vec3 *)read_attribute(r, &target, "NORMAL", 3);
+        s->p.morphs[i].normals = lines ? NULL : (vec3 *)read_attribute(r, &target, "NORMAL", 3);
     }
 }
 
@@ -304,12 +346,12 @@ static void open_draco(gltf_reader *r, shape *s)
 
 static bool is_drawn(gltf_reader *r, size_t mode, const char *where)
 {
-    if (mode >= MODE_TRIANGLES && mode <= MODE_FAN)
+    if (mode > MODE_POINTS && mode <= MODE_FAN)
         return true;
     if (mode > MODE_FAN)
         gltf_fail(r, LMN_FORMAT, "%s.mode: %zu is none of 0 to 6", where, mode);
     else
-        gltf_warn(r, WARNING_IGNORED, "primitives of %s are not drawn", mode == MODE_POINTS ? "points" : "lines");
+        gltf_warn(r, WARNING_IGNORED, "primitives of points are not drawn");
     return false;
 }
 
@@ -323,12 +365,16 @@ static void fill_shape(gltf_reader *r, shape *s)
     s->p.material = NONE;
     if (gltf_index(r, s->object, "material", gltf_count(r, "materials"), "materials", s->where, &index))
         s->p.material = (int32_t)index;
-    open_draco(r, s);
+    bool lines = mode < MODE_TRIANGLES;
+    if (!lines)
+        open_draco(r, s);
     if (r->status != LMN_OK || s->missing || !count_vertices(r, s))
         return;
-    read_attributes(r, s);
-    read_morphs(r, s);
-    if (r->status == LMN_OK && !s->missing)
+    read_attributes(r, s, lines);
+    read_morphs(r, s, lines);
+    if (r->status == LMN_OK && !s->missing && lines)
+        read_lines(r, s, (int)mode);
+    else if (r->status == LMN_OK && !s->missing)
         read_triangles(r, s, (int)mode);
     if (r->status == LMN_OK && !s->missing)
         read_edges(r, s, (int)mode);
@@ -344,7 +390,7 @@ static bool read_primitive(gltf_reader *r, json_t *object, size_t mesh_index, si
     else
         fill_shape(r, &s);
     draco_close(s.draco);
-    bool good = r->status == LMN_OK && !s.missing && s.p.positions && s.p.indices;
+    bool good = r->status == LMN_OK && !s.missing && s.p.positions && (s.p.indices || s.p.lines);
     if (!good) {
         primitive_release(&s.p);
         return false;

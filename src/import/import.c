@@ -88,13 +88,15 @@ static lmn_status name_single_node(lmn_scene *scene, const char *path, lmn_error
 static lmn_status check_triangles(const import_job *job, lmn_error *error)
 {
     const lmn_scene *s = job->scene;
-    uint64_t         total = 0, most = work_limits().triangles;
-    for (size_t i = 0; i < s->part_count; i++)
-        total += s->parts[i].triangles * node_draw_count(&s->nodes[s->parts[i].node]);
+    uint64_t         total = 0, lines = 0, most = work_limits().triangles;
+    for (size_t i = 0; i < s->part_count; i++) {
+        total += (s->parts[i].triangles + s->parts[i].lines) * node_draw_count(&s->nodes[s->parts[i].node]);
+        lines += s->parts[i].lines;
+    }
     if (!most || total <= most)
         return LMN_OK;
-    work_exceeded(error, "triangles", "the model has %llu triangles, instances counted; allowed are %llu",
-                  (unsigned long long)total, (unsigned long long)most);
+    work_exceeded(error, "triangles", "the model has %llu triangles%s, instances counted; allowed are %llu",
+                  (unsigned long long)total, lines ? " and lines" : "", (unsigned long long)most);
     error_file(error, job->path);
     return LMN_LIMIT;
 }

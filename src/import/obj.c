@@ -1,4 +1,4 @@
-/* OBJ: polygons with separate indices for positions, texture coordinates and normals. A part is an object ("o"), in
+/* OBJ: polygons and lines with separate indices for positions, texture coordinates and normals. A part is an object ("o"), in
  * files without objects a group ("g"). Corners that agree in all three indices are one vertex, so sharing stays as
  * the file has it. */
 #include "import/obj.h"
@@ -19,9 +19,10 @@ typedef struct corner {
     int32_t position, uv, normal;
 } corner;
 
-/* The triangles of one material of one part. */
+/* The triangles of one material of one part, or its lines: three or two corners each. */
 typedef struct piece {
     int32_t material;
+    bool    lines;
     corner *corners;
     size_t  count, capacity;
 } piece;
@@ -61,9 +62,9 @@ typedef struct obj_reader {
     size_t       object_count, object_capacity, current;
     name_table   object_names, material_names;
     int32_t      material;
-    piece_start *starts; /* by material + 1 */
+    piece_start *starts; /* by 2 · (material + 1), and one more for lines */
     size_t       start_capacity, switches;
-    size_t       triangles;
+    size_t       triangles, lines;
     corner      *polygon;
     vec3        *polygon_positions;
     uint32_t    *polygon_order, *polygon_triangles;
@@ -305,10 +306,10 @@ static bool read_corner(obj_reader *r, corner *out)
 }
 
 /* The piece of the current object and material. An object that is continued gets a new one, which does no harm. */
-static piece *current_piece(obj_reader *r)
+static piece *current_piece(obj_reader *r, bool lines)
 {
     object *o = &r->objects[r->current];
-    size_t  slot = (size_t)(r->material + 1), had = r->start_capacity;
+    size_t  slot = 2 * (size_t)(r->material + 1) + lines, had = r->start_capacity;
     if (!mem_grow((void **)&r->starts, &r->start_capacity, slot + 1, sizeof *r->starts))
         return NULL;
     memset(r->starts + had, 0, (r->start_capacity - had) * sizeof *r->starts);
@@ -318,7 +319,7 @@ static piece *current_piece(obj_reader *r)
     if (!mem_grow((void **)&o->pieces, &o->capacity, o->count + 1, sizeof *o->pieces))
         return NULL;
     *start = (piece_start){r->switches, o->count};
-    o->pieces[o->count] = (piece){.material = r->material};
+    o->pieces[o->count] = (piece){.material = r->material, .lines = lines};
     return &o->pieces[o->count++];
 }
 
@@ -368,7 +369,7 @@ static lmn_status read_face(obj_reader *r)
         return too_many(r, "triangles", LIMIT_TRIANGLES);
     if (r->object_count == 0)
         status = use_object(r, NULL);
-    piece *p = status == LMN_OK ? current_piece(r) : NULL;
+    piece *p = status == LMN_OK ? current_piece(r, false) : NULL;
     if (!p || !mem_grow((void **)&p->corners, &p->capacity, p->count + (count - 2) * 3, sizeof *p->corners))
         return status == LMN_OK ? error_memory(r->error) : status;
     if (count == 3) {
@@ -383,7 +384,40 @@ static lmn_status read_face(obj_reader *r)
     return status;
 }
 
-/* --- lines ---------------------------------------------------------------------------------------------- */
+/* "l v1 v2 …": a line from each to the next. Texture coordinates, if any, say nothing of lines. */
+static lmn_status read_polyline(obj_reader *r)
+{
+    if (obj_at_line_end(&r->text)) {
+        warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY, "lines with fewer than two points were left out");
+        return LMN_OK;
+    }
+    lmn_status status = r->object_count == 0 ? use_object(r, NULL) : LMN_OK;
+    piece     *p = status == LMN_OK ? current_piece(r, true) : NULL;
+    corner     before = {ABSENT, ABSENT, ABSENT};
+    if (!p)
+        return status == LMN_OK ? error_memory(r->error) : status;
+    for (size_t count = 0; !obj_at_line_end(&r->text); count++) {
+        corner here;
+        if (!read_corner(r, &here))
+            return wrong(r, "a line has a point that is no \"v\" or \"v/vt\" or names a vertex that was not given before");
+        here.uv = here.normal = ABSENT;
+        if (count && ++r->lines > LIMIT_LINES)
+            return too_many(r, "lines", LIMIT_LINES);
+        if (count && !mem_grow((void **)&p->corners, &p->capacity, p->count + 2, sizeof *p->corners))
+            return error_memory(r->error);
+        if (count) {
+            p->corners[p->count++] = before;
+            p->corners[p->count++] = here;
+        } else if (obj_at_line_end(&r->text)) {
+            warnings_add(&r->job->scene->warnings, WARNING_BAD_GEOMETRY,
+                         "lines with fewer than two points were left out");
+        }
+        before = here;
+    }
+    return LMN_OK;
+}
+
+/* --- lines of text --------------------------------------------------------------------------------------- */
 
 static lmn_status read_line(obj_reader *r)
 {
@@ -405,11 +439,13 @@ static lmn_status read_line(obj_reader *r)
         return read_libraries(r);
     if (obj_is(word, length, "o") || (obj_is(word, length, "g") && !r->has_objects))
         return read_object(r);
-    if (obj_is(word, length, "l") || obj_is(word, length, "p"))
-        warnings_add(&r->job->scene->warnings, WARNING_IGNORED, "points and lines are not drawn");
+    if (obj_is(word, length, "l"))
+        return read_polyline(r);
+    if (obj_is(word, length, "p"))
+        warnings_add(&r->job->scene->warnings, WARNING_IGNORED, "points are not drawn");
     else if (!obj_is(word, length, "g") && !obj_is(word, length, "s"))
         warnings_add(&r->job->scene->warnings, WARNING_IGNORED,
-                     "OBJ statements other than v, vt, vn, f, o, g, s, usemtl and mtllib");
+                     "OBJ statements other than v, vt, vn, f, l, o, g, s, usemtl and mtllib");
     return LMN_OK;
 }
 
@@ -461,7 +497,7 @@ static uint32_t join(joiner *j, corner c, uint32_t *count)
 
 static bool fill_vertices(const obj_reader *r, const joiner *j, primitive *p)
 {
-    bool uvs = false, normals = false;
+    bool uvs = false, normals = false, colours = r->colours && !p->lines;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         uvs |= j->made[i].uv != ABSENT;
         normals |= j->made[i].normal != ABSENT;
@@ -469,8 +505,8 @@ static bool fill_vertices(const obj_reader *r, const joiner *j, primitive *p)
     p->positions = mem_alloc(p->vertex_count * sizeof *p->positions);
     p->uvs[0] = uvs ? mem_calloc(p->vertex_count, sizeof *p->uvs[0]) : NULL;
     p->normals = normals ? mem_calloc(p->vertex_count, sizeof *p->normals) : NULL;
-    p->colours = r->colours ? mem_alloc(p->vertex_count * sizeof *p->colours) : NULL;
-    if (!p->positions || (uvs && !p->uvs[0]) || (normals && !p->normals) || (r->colours && !p->colours))
+    p->colours = colours ? mem_alloc(p->vertex_count * sizeof *p->colours) : NULL;
+    if (!p->positions || (uvs && !p->uvs[0]) || (normals && !p->normals) || (colours && !p->colours))
         return false;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
         corner c = j->made[i];
@@ -487,15 +523,21 @@ static bool fill_vertices(const obj_reader *r, const joiner *j, primitive *p)
 
 static bool make_primitive(const obj_reader *r, joiner *j, const piece *from, primitive *p)
 {
+    uint32_t *indices = mem_alloc(from->count * sizeof *indices);
     p->material = from->material;
-    p->index_count = (uint32_t)from->count;
-    p->indices = mem_alloc(from->count * sizeof *p->indices);
+    if (from->lines) {
+        p->lines = indices;
+        p->line_count = (uint32_t)(from->count / 2);
+    } else {
+        p->indices = indices;
+        p->index_count = (uint32_t)from->count;
+    }
     j->older = mem_alloc(from->count * sizeof *j->older);
     j->made = mem_alloc(from->count * sizeof *j->made);
-    bool good = p->indices && j->older && j->made;
+    bool good = indices && j->older && j->made;
     j->piece_number++;
     for (size_t i = 0; good && i < from->count; i++)
-        p->indices[i] = join(j, from->corners[i], &p->vertex_count);
+        indices[i] = join(j, from->corners[i], &p->vertex_count);
     good = good && fill_vertices(r, j, p);
     mem_free(j->older);
     mem_free(j->made);

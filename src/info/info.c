@@ -73,6 +73,8 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
                 string_or_null(p->path), "triangles", (json_int_t)(p->triangles * instances), "instances",
                 (json_int_t)instances, "bounds", bounds_json(p->bounds), "materials",
                 part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL), "attributes", attributes_json(n));
+        if (entry && p->lines)
+            json_object_set_new(entry, "lines", json_integer((json_int_t)(p->lines * instances)));
         if (entry && n->solid != NONE) {
             const solid *tree = &s->solids[n->solid];
             json_object_set_new(entry, "solid", solid_info_json(s, tree, bounds_json(solid_bounds(tree))));
@@ -220,15 +222,16 @@ static json_t *files_json(const lmn_scene *s)
 
 char *scene_info_json(const lmn_scene *s)
 {
-    uint64_t triangles = 0;
+    uint64_t triangles = 0, lines = 0;
     box3     box = box3_empty();
     for (size_t i = 0; i < s->part_count; i++) {
         triangles += s->parts[i].triangles * node_draw_count(&s->nodes[s->parts[i].node]);
+        lines += s->parts[i].lines * node_draw_count(&s->nodes[s->parts[i].node]);
         box = box3_union(box, s->parts[i].bounds);
     }
     const char up[2] = {s->up ? s->up : 'y', '\0'};
-    json_t    *root = json_pack("{s:o,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles,
-                                "nodes", (json_int_t)scene_plain_node_count(s), "meshes",
+    json_t    *root = json_pack("{s:o,s:I,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles",
+                                (json_int_t)triangles, "lines", (json_int_t)lines, "nodes", (json_int_t)scene_plain_node_count(s), "meshes",
                                 (json_int_t)(s->mesh_count - s->spare_meshes), "bounds", bounds_json(box), "up", up);
     if (!root)
         return NULL;

@@ -26,6 +26,6 @@ void lines_as_strokes(stroke_options *options, stroke_style *style, const void *
     bool outlines = lines->colour.a > 0 && lines->profile_weight > 0, inside = inner.a > 0 && lines->inner_weight > 0;
     options->contours = outlines ? CONTOURS_EDGES : CONTOURS_NONE;
     options->borders = outlines;
-    options->creases = options->intersections = inside;
+    options->creases = options->intersections = options->drawn = inside;
     options->materials = 0;
 }

@@ -57,6 +57,30 @@ static void drop_triangles(primitive *p, bool keep_closed, clean_counts *counts)
     p->index_count = kept;
 }
 
+/* Lines without length at rest may open like triangles. */
+static bool has_no_length(const primitive *p, const uint32_t *l)
+{
+    vec3 a = p->positions[l[0]], b = p->positions[l[1]];
+    return l[0] == l[1] || (!p->morph_count && !p->joints && a.x == b.x && a.y == b.y && a.z == b.z);
+}
+
+static void drop_lines(primitive *p, clean_counts *counts)
+{
+    uint32_t kept = 0;
+    counts->lines += p->line_count;
+    for (uint32_t i = 0; i < p->line_count; i++) {
+        const uint32_t l[2] = {p->lines[2 * i], p->lines[2 * i + 1]};
+        bool           finite = is_finite_point(p->positions[l[0]]) && is_finite_point(p->positions[l[1]]);
+        if (!finite)
+            counts->lines_not_finite++;
+        else if (has_no_length(p, l))
+            counts->lines_short++;
+        else
+            memcpy(p->lines + 2 * kept++, l, sizeof l);
+    }
+    p->line_count = kept;
+}
+
 /* Moves each kept element to its new position; new positions never lie behind old ones. */
 static void compact(void *array, size_t element, const uint32_t *positions, uint32_t count)
 {
@@ -74,6 +98,8 @@ static bool drop_vertices(primitive *p)
     memset(positions, 0xFF, (size_t)p->vertex_count * sizeof *positions);
     for (uint32_t i = 0; i < p->index_count; i++)
         positions[p->indices[i]] = 0;
+    for (uint32_t i = 0; i < 2 * p->line_count; i++)
+        positions[p->lines[i]] = 0;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < p->vertex_count; i++)
         if (positions[i] == 0)
@@ -92,6 +118,8 @@ static bool drop_vertices(primitive *p)
         }
         for (uint32_t i = 0; i < p->index_count; i++)
             p->indices[i] = positions[p->indices[i]];
+        for (uint32_t i = 0; i < 2 * p->line_count; i++)
+            p->lines[i] = positions[p->lines[i]];
         p->vertex_count = kept;
     }
     mem_free(positions);
@@ -194,7 +222,8 @@ static void set_bounds(primitive *p)
 bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts)
 {
     drop_triangles(p, keep_closed, counts);
-    if (p->index_count == 0)
+    drop_lines(p, counts);
+    if (p->index_count == 0 && p->line_count == 0)
         return true;
     if (!drop_vertices(p))
         return false;

@@ -7,10 +7,11 @@
 /* What was found, summed over primitives. */
 typedef struct clean_counts {
     uint64_t triangles, degenerate, not_finite, normals, values, unheld;
+    uint64_t lines, lines_short, lines_not_finite;
 } clean_counts;
 
-/* Drops triangles without area or with vertices that are not finite, then vertices that no triangle uses; makes
- * normals unit and other numbers finite; sets the bounds. Indices must be in range. With keep_closed, triangles
+/* Drops triangles without area, lines without length and both with vertices that are not finite, then vertices that
+ * none of them uses; makes normals unit and other numbers finite; sets the bounds. Indices must be in range. With keep_closed, triangles
  * without area stay when their corners differ: they close the surface between points on one line. False when memory
  * is gone. */
 bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts);

@@ -26,11 +26,12 @@ static lmn_status over_limit(const check *c, const char *what, size_t limit)
 static lmn_status check_limits(const check *c)
 {
     const lmn_scene *s = c->scene;
-    uint64_t         vertices = 0, triangles = 0, instances = 0;
+    uint64_t         vertices = 0, triangles = 0, lines = 0, instances = 0;
     for (size_t i = 0; i < s->mesh_count; i++)
         for (size_t k = 0; k < s->meshes[i].primitive_count; k++) {
             vertices += s->meshes[i].primitives[k].vertex_count;
             triangles += s->meshes[i].primitives[k].index_count / 3;
+            lines += s->meshes[i].primitives[k].line_count;
         }
     for (size_t i = 0; i < s->node_count; i++)
         instances += s->nodes[i].instance_count;
@@ -40,6 +41,8 @@ static lmn_status check_limits(const check *c)
         return over_limit(c, "vertices", LIMIT_VERTICES);
     if (triangles > LIMIT_TRIANGLES)
         return over_limit(c, "triangles", LIMIT_TRIANGLES);
+    if (lines > LIMIT_LINES)
+        return over_limit(c, "lines", LIMIT_LINES);
     if (instances > LIMIT_INSTANCES)
         return over_limit(c, "instances", LIMIT_INSTANCES);
     return LMN_OK;
@@ -155,8 +158,10 @@ static lmn_status check_nodes(const check *c)
 
 static lmn_status check_primitive(const check *c, size_t mesh_index, const primitive *p)
 {
-    if (!p->positions || !p->indices || p->index_count % 3 != 0)
-        return error_in_file(c->error, LMN_INTERNAL, c->file, 0, "mesh %zu came without triangles", mesh_index);
+    if (!p->positions || (!p->indices && !p->lines) || (!p->indices && p->index_count) || p->index_count % 3 != 0 ||
+        (p->lines && p->index_count))
+        return error_in_file(c->error, LMN_INTERNAL, c->file, 0, "mesh %zu came without triangles or lines",
+                             mesh_index);
     if (!in_range(p->material, c->scene->material_count))
         return broken(c, "mesh", mesh_index, "material");
     for (uint32_t i = 0; i < p->index_count; i++)
@@ -164,6 +169,11 @@ static lmn_status check_primitive(const check *c, size_t mesh_index, const primi
             return error_in_file(c->error, LMN_FORMAT, c->file, 0,
                                  "mesh %zu: index %u of triangle %u is out of range, there are %u vertices", mesh_index,
                                  (unsigned)p->indices[i], (unsigned)(i / 3), (unsigned)p->vertex_count);
+    for (uint32_t i = 0; i < 2 * p->line_count; i++)
+        if (p->lines[i] >= p->vertex_count)
+            return error_in_file(c->error, LMN_FORMAT, c->file, 0,
+                                 "mesh %zu: index %u of line %u is out of range, there are %u vertices", mesh_index,
+                                 (unsigned)p->lines[i], (unsigned)(i / 2), (unsigned)p->vertex_count);
     return LMN_OK;
 }
 
@@ -240,6 +250,25 @@ static bool *find_operand_meshes(const lmn_scene *s)
     return found;
 }
 
+/* Others look at the first primitive for what a part is like. The mesh is as it was when memory is gone. */
+static bool put_lines_last(mesh *m)
+{
+    size_t lines = 0, surfaces = 0;
+    for (size_t i = 0; i < m->primitive_count; i++)
+        lines += m->primitives[i].line_count > 0;
+    if (lines == 0 || lines == m->primitive_count)
+        return true;
+    primitive *sorted = mem_alloc(m->primitive_count * sizeof *sorted);
+    lines = m->primitive_count - lines;
+    for (size_t i = 0; sorted && i < m->primitive_count; i++)
+        sorted[m->primitives[i].line_count > 0 ? lines++ : surfaces++] = m->primitives[i];
+    if (!sorted)
+        return false;
+    mem_free(m->primitives);
+    m->primitives = sorted;
+    return true;
+}
+
 static lmn_status clean_meshes(check *c, const bool *operands)
 {
     for (size_t i = 0; i < c->scene->mesh_count; i++) {
@@ -259,7 +288,7 @@ static lmn_status clean_meshes(check *c, const bool *operands)
                 m->primitive_count = kept + (m->primitive_count - k);
                 return error_memory(c->error);
             }
-            if (p->index_count == 0) {
+            if (p->index_count == 0 && p->line_count == 0) {
                 primitive_release(p);
                 continue;
             }
@@ -268,6 +297,8 @@ static lmn_status clean_meshes(check *c, const bool *operands)
             kept++;
         }
         m->primitive_count = kept;
+        if (!put_lines_last(m))
+            return error_memory(c->error);
     }
     return LMN_OK;
 }
@@ -282,6 +313,12 @@ static void tell(const check *c)
     if (n->not_finite)
         warnings_add(w, WARNING_BAD_GEOMETRY, "%llu triangles with vertices that are not finite were left out",
                      (unsigned long long)n->not_finite);
+    if (n->lines_short)
+        warnings_add(w, WARNING_BAD_GEOMETRY, "%llu lines without length were left out",
+                     (unsigned long long)n->lines_short);
+    if (n->lines_not_finite)
+        warnings_add(w, WARNING_BAD_GEOMETRY, "%llu lines with vertices that are not finite were left out",
+                     (unsigned long long)n->lines_not_finite);
     if (n->normals)
         warnings_add(w, WARNING_BAD_VALUE, "%llu normals without direction were replaced by those of the triangles",
                      (unsigned long long)n->normals);
@@ -297,9 +334,14 @@ static lmn_status nothing_to_draw(const check *c)
 {
     const clean_counts *n = &c->counts;
     lmn_status          status;
-    if (n->triangles == 0)
-        status = error_in_file(c->error, LMN_FORMAT, c->file, 0, "nothing to draw: the file has no triangles");
-    else if (n->triangles == n->degenerate + n->not_finite)
+    if (n->triangles + n->lines == 0)
+        status = error_in_file(c->error, LMN_FORMAT, c->file, 0, "nothing to draw: the file has no triangles or lines");
+    else if (n->triangles == 0 && n->lines == n->lines_short + n->lines_not_finite)
+        status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
+                               "nothing to draw: none of the %llu lines has a length (%llu have vertices that are not "
+                               "finite)",
+                               (unsigned long long)n->lines, (unsigned long long)n->lines_not_finite);
+    else if (n->triangles && n->triangles == n->degenerate + n->not_finite)
         status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
                                "nothing to draw: none of the %llu triangles has an area (%llu have vertices that are "
                                "not finite)",
@@ -307,7 +349,7 @@ static lmn_status nothing_to_draw(const check *c)
     else
         status = error_in_file(c->error, LMN_FORMAT, c->file, 0,
                                "nothing to draw: no node of the scene uses the file's meshes");
-    error_hint(c->error, "points and lines alone are not drawn; export the model with its surfaces");
+    error_hint(c->error, "points alone are not drawn; export the model with its surfaces or lines");
     return status;
 }
 
@@ -397,6 +439,6 @@ lmn_status scene_finish(lmn_scene *s, const char *file, lmn_error *error)
         return LMN_OK;
     if (!s->may_be_empty)
         return nothing_to_draw(&c);
-    warnings_add(&s->warnings, WARNING_BAD_GEOMETRY, "nothing to draw: the file has no triangles");
+    warnings_add(&s->warnings, WARNING_BAD_GEOMETRY, "nothing to draw: the file has no triangles or lines");
     return LMN_OK;
 }

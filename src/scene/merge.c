@@ -108,13 +108,14 @@ static char *root_name(const lmn_scene *into, const char *file)
 
 static lmn_status check_capacity(const lmn_scene *into, const lmn_scene *from, const char *file, lmn_error *error)
 {
-    size_t           vertices = 0, triangles = 0, instances = 0;
+    size_t           vertices = 0, triangles = 0, lines = 0, instances = 0;
     const lmn_scene *both[] = {into, from};
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < both[k]->mesh_count; i++)
             for (size_t j = 0; j < both[k]->meshes[i].primitive_count; j++) {
                 vertices += both[k]->meshes[i].primitives[j].vertex_count;
                 triangles += both[k]->meshes[i].primitives[j].index_count / 3;
+                lines += both[k]->meshes[i].primitives[j].line_count;
             }
         for (size_t i = 0; i < both[k]->node_count; i++)
             instances += both[k]->nodes[i].instance_count;
@@ -127,6 +128,8 @@ static lmn_status check_capacity(const lmn_scene *into, const lmn_scene *from, c
         what = "vertices", limit = LIMIT_VERTICES;
     else if (triangles > LIMIT_TRIANGLES)
         what = "triangles", limit = LIMIT_TRIANGLES;
+    else if (lines > LIMIT_LINES)
+        what = "lines", limit = LIMIT_LINES;
     else if (instances > LIMIT_INSTANCES)
         what = "instances", limit = LIMIT_INSTANCES;
     if (!what)

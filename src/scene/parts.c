@@ -120,7 +120,9 @@ static char *make_unique(path_set *set, char *path)
 
 static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 {
-    return s->nodes[index].ghost == ghost && node_triangle_count(s, &s->nodes[index]) > 0;
+    const node *n = &s->nodes[index];
+    bool        lines = n->solid == NONE && n->mesh != NONE && mesh_line_count(&s->meshes[n->mesh]) > 0;
+    return n->ghost == ghost && (lines || node_triangle_count(s, n) > 0);
 }
 
 static bool add_part(listing *l, int32_t index)
@@ -140,7 +142,9 @@ static bool add_part(listing *l, int32_t index)
     p->path = path ? make_unique(&l->seen, path) : NULL;
     if (!p->path)
         return false;
-    p->triangles = node_triangle_count(l->scene, &l->scene->nodes[index]);
+    const node *n = &l->scene->nodes[index];
+    p->triangles = node_triangle_count(l->scene, n);
+    p->lines = n->solid == NONE && n->mesh != NONE ? mesh_line_count(&l->scene->meshes[n->mesh]) : 0;
     p->bounds = node_bounds(l->scene, l->worlds, index, NULL, NULL);
     return true;
 }

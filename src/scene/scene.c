@@ -163,6 +163,7 @@ void primitive_release(primitive *p)
     mem_free(p->joints);
     mem_free(p->weights);
     mem_free(p->indices);
+    mem_free(p->lines);
     for (size_t i = 0; i < p->morph_count; i++) {
         mem_free(p->morphs[i].positions);
         mem_free(p->morphs[i].normals);

@@ -35,8 +35,9 @@ typedef struct edge_visibility {
     uint8_t *values; /* 3 per triangle, edge k runs from corner k to k+1: 0 hidden, 1 silhouette, 2 hard, 3 repeated */
 } edge_visibility;
 
-/* Triangles of one material. Vertices as the file has them; positions are always there, other arrays may be NULL.
- * `indices` is always there, 3 per triangle, each < vertex_count. */
+/* Triangles of one material, or lines. Vertices as the file has them; positions are always there, other arrays may be
+ * NULL. Of triangles `indices` is always there, 3 per triangle, each < vertex_count; of lines `lines`, 2 per line. In a
+ * mesh those with triangles come first. */
 typedef struct primitive {
     uint32_t        vertex_count, index_count;
     vec3           *positions;
@@ -47,7 +48,9 @@ typedef struct primitive {
     float          *weights;    /* of the joints, as many; those of a vertex sum to 1 */
     uint32_t        influences; /* 0 without joints */
     uint32_t       *indices;
-    int32_t         material; /* NONE: the default material */
+    uint32_t       *lines;      /* NULL: none, as where there are triangles */
+    uint32_t        line_count; /* pairs */
+    int32_t         material;   /* NONE: the default material */
     morph_target   *morphs;
     size_t          morph_count;
     edge_visibility edges;
@@ -190,6 +193,7 @@ typedef struct part {
     int32_t  node;
     char    *name, *path; /* paths are unique */
     uint64_t triangles;   /* of one instance */
+    uint64_t lines;       /* likewise, straight ones that the file brings */
     box3     bounds;      /* rest pose, all instances */
     bool     ghost;       /* its node is one */
 } part;
@@ -257,8 +261,8 @@ bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
 /* A number that no other content of this process has had. Any thread. */
 uint64_t scene_next_revision(void);
 
-/* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles that are
- * degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
+/* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles and lines that
+ * are degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
  * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. With
  * may_be_empty set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
@@ -318,6 +322,7 @@ size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 /* How many times a node's mesh is drawn: its instances, or once. */
 size_t   node_draw_count(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);
+uint64_t mesh_line_count(const mesh *m);
 
 mat4 mat4_identity(void);
 mat4 mat4_multiply(const mat4 *a, const mat4 *b); /* a · b */

@@ -1,5 +1,7 @@
 #include "stroke/butterfly_mesh.h"
 
+#include "stroke/drawn.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -134,7 +136,7 @@ static lmn_status make_finer(edge_mesh *finer, const edge_mesh *m, edge_refineme
 
 lmn_status edge_mesh_refine(edge_mesh *m, int steps, lmn_error *error)
 {
-    if (steps <= 0)
+    if (steps <= 0 || m->face_count == 0)
         return LMN_OK;
     edge_refinement *r = mem_calloc(1, sizeof *r);
     uint8_t         *sharp = mem_alloc((size_t)m->face_count * 3);
@@ -145,6 +147,10 @@ lmn_status edge_mesh_refine(edge_mesh *m, int steps, lmn_error *error)
                                   m->face_count, sharp, steps, error);
     if (status == LMN_OK)
         status = make_finer(&finer, m, r, error);
+    if (status == LMN_OK && (!drawn_copy(&finer, m) || !drawn_close(&finer))) { /* vertices keep their numbers */
+        edge_mesh_release(&finer);
+        status = error_memory(error);
+    }
     mem_free(sharp);
     if (status != LMN_OK) {
         if (r)

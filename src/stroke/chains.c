@@ -77,7 +77,7 @@ static double turn_between(const chainer *c, uint32_t in, uint32_t out)
 /* Does a kind of line end where three meet? Sharp ones end at corners; outlines and crossings go straight on. */
 static bool ends_at_corners(stroke_class kind)
 {
-    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
+    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL || kind == STROKE_DRAWN;
 }
 
 /* Is the line visible where this half-line begins? */
@@ -509,7 +509,9 @@ static uint32_t piece_of(const chainer *c, uint32_t line)
 {
     const view_item *item = &c->v->items[c->lines->lines[line].item];
     const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[c->lines->lines[line].item].mesh];
-    uint32_t         face = c->lines->segments[line].faces[0] - item->first_face;
+    if (c->lines->lines[line].kind == STROKE_DRAWN)
+        return item->first_piece + m->piece_count - 1;
+    uint32_t face = c->lines->segments[line].faces[0] - item->first_face;
     return item->first_piece + (face < m->face_count ? m->pieces[face] : 0);
 }
 

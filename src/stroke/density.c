@@ -33,7 +33,7 @@ enum { DIRECTIONS = 4, WINDOW = 1 /* cells to each side */, CHAINS_A_CELL = 64 }
 
 static const double strengths[STROKE_CLASS_COUNT] = {
     [STROKE_CONTOUR] = 0.9,      [STROKE_BORDER] = 0.7,   [STROKE_CREASE] = 0.6,
-    [STROKE_INTERSECTION] = 0.5, [STROKE_MATERIAL] = 0.5, [STROKE_SUGGESTIVE] = 0.35,
+    [STROKE_INTERSECTION] = 0.5, [STROKE_MATERIAL] = 0.5, [STROKE_DRAWN] = 0.55, [STROKE_SUGGESTIVE] = 0.35,
     [STROKE_RIDGE] = 0.35,       [STROKE_VALLEY] = 0.35,  [STROKE_APPARENT] = 0.35};
 
 /* Ink that is there, of one line in one cell. */
@@ -276,7 +276,8 @@ static float *find_sizes(const stroke_view *v)
         const stroke_item *item = &v->scene->items[i];
         const edge_mesh   *m = &v->scene->meshes[item->mesh];
         for (uint32_t p = 0; p < m->piece_count; p++)
-            sizes[v->items[i].first_piece + p] = (float)size_on_paper(v, item, &m->boxes[p]);
+            sizes[v->items[i].first_piece + p] =
+                m->face_count ? (float)size_on_paper(v, item, &m->boxes[p]) : INFINITY; /* nothing else would be left */
     }
     return sizes;
 }

@@ -12,6 +12,7 @@
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
 #include "stroke/creases.h"
+#include "stroke/drawn.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -219,6 +220,7 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     if (good) {
         weld(out, ids, (uint32_t)vertices);
         gather_faces(b, m, ids);
+        good = drawn_take(out, m, ids);
     }
     if (b->keeps) {
         b->keeps->welded = ids;
@@ -612,7 +614,7 @@ static lmn_status sort_edges(builder *b, lmn_error *error)
     each_edge(b, open_pieces);
     drop_concave(m, volumes);
     mem_free(volumes);
-    return LMN_OK;
+    return drawn_close(m) ? LMN_OK : error_memory(error);
 }
 
 /* Sorts the edges of the faces that are there, unless making them failed. */
@@ -716,7 +718,7 @@ static bool copy_topology(edge_mesh *out, const edge_topology *t)
     size_t           faces = from->face_count;
     out->vertex_count = from->vertex_count;
     out->face_count = from->face_count;
-    out->piece_count = from->piece_count;
+    out->piece_count = drawn_face_pieces(from);
     out->positions = mem_alloc((size_t)from->vertex_count * sizeof *out->positions);
     out->normals = mem_alloc(faces * sizeof *out->normals);
     out->faces = mem_copy(from->faces, faces * sizeof *out->faces);
@@ -724,7 +726,7 @@ static bool copy_topology(edge_mesh *out, const edge_topology *t)
     out->materials = from->materials ? mem_copy(from->materials, faces * sizeof *out->materials) : NULL;
     out->said = from->said ? mem_copy(from->said, 3 * faces) : NULL;
     return out->positions && out->normals && out->faces && out->pieces && (out->materials || !from->materials) &&
-           (out->said || !from->said);
+           (out->said || !from->said) && drawn_copy(out, from);
 }
 
 /* Edges of a range of vertices: of a copy of the mesh, which has no other ones. */
@@ -788,7 +790,7 @@ static lmn_status judge_again(builder *b, const edge_topology *t, lmn_error *err
     memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
     drop_concave(m, volumes);
     mem_free(volumes);
-    return LMN_OK;
+    return drawn_close(m) ? LMN_OK : error_memory(error);
 }
 
 lmn_status edge_mesh_pose(edge_mesh *out, const edge_topology *t, const vec3 *positions, double crease_angle,
@@ -840,6 +842,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->normals);
     mem_free(m->materials);
     mem_free(m->edges);
+    mem_free(m->lines);
     mem_free(m->pieces);
     mem_free(m->closed);
     mem_free(m->inward);

@@ -36,15 +36,23 @@ typedef struct edge_sampling {
     float size;      /* diagonal of the mesh */
 } edge_sampling;
 
+/* A line that the file brings (stroke/drawn.h). */
+typedef struct mesh_line {
+    uint32_t vertex[2];
+    uint32_t edge; /* that it runs along; EDGE_NO_FACE: none of those with flags */
+    float    lift; /* so far it may lie off a surface and still be on it */
+} mesh_line;
+
 /* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
  * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
-    uint32_t vertex_count, face_count, edge_count, piece_count;
+    uint32_t vertex_count, face_count, edge_count, piece_count, line_count;
     vec3    *positions;
     uint32_t (*faces)[3];
     vec3                   *normals;   /* per face, unit, by winding */
     int32_t                *materials; /* per face; NULL: all alike */
     mesh_edge              *edges;     /* those with flags, in a fixed order */
+    mesh_line *lines; /* all of them are the last piece, which has no faces */
     uint32_t               *pieces;    /* per face: what hangs together over edges, numbered from 0 */
     bool                   *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
     bool                   *inward;    /* per closed piece: its faces look inwards */

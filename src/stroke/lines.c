@@ -9,7 +9,7 @@
 #include "stroke/butterfly_mesh.h"
 
 static const char *const class_names[STROKE_CLASS_COUNT] = {
-    "contour", "border", "crease", "intersection", "material", "suggestive", "ridge", "valley", "apparent"};
+    "contour", "border", "crease", "intersection", "material", "drawn", "suggestive", "ridge", "valley", "apparent"};
 
 const char *stroke_class_name(stroke_class c)
 {
@@ -102,7 +102,7 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     const edge_mesh   *m = &v->scene->meshes[item->mesh];
     const view_item   *at = &v->items[index];
     uint32_t           a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
-    const uint32_t     faces[2] = {at->first_face + e->face[0],
+    const uint32_t     faces[2] = {e->face[0] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[0],
                                e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
     view_line          line = {kind,
                                index,
@@ -165,6 +165,32 @@ static bool collect_edges(collector *c, uint32_t index)
         if (kind != STROKE_CLASS_COUNT &&
             !put_edge(c, index, &m->edges[i], line_id((uint64_t)index << 32 | item->part_index, i), kind))
             return false;
+    }
+    return true;
+}
+
+/* Lines that the file brings, but those along an edge that is a line anyway. Positions are the mesh's own: two lines
+ * meet, and meet faces, where their vertices do. */
+static bool collect_drawn(collector *c, uint32_t index)
+{
+    const stroke_item *item = &c->v->scene->items[index];
+    const edge_mesh   *m = &c->v->scene->meshes[item->mesh];
+    uint32_t           first_face = c->v->items[index].first_face;
+    double             grown = mat4_growth(&item->world);
+    for (uint32_t i = 0; i < m->line_count && c->options->drawn; i++) {
+        const mesh_line *l = &m->lines[i];
+        const mesh_edge *along = l->edge == EDGE_NO_FACE ? NULL : &m->edges[l->edge];
+        const mesh_edge  e = {{l->vertex[0], l->vertex[1]},
+                              {along ? along->face[0] : EDGE_NO_FACE, along ? along->face[1] : EDGE_NO_FACE},
+                              0};
+        size_t           before = c->out->count;
+        if (along && class_of(c, item->mesh, along, first_face) != STROKE_CLASS_COUNT)
+            continue;
+        if (!put_edge(c, index, &e, line_id((uint64_t)index << 32 | item->part_index, (uint64_t)1 << 32 | i),
+                      STROKE_DRAWN))
+            return false;
+        if (c->out->count > before)
+            c->out->segments[before].lift = (float)(l->lift * grown);
     }
     return true;
 }
@@ -259,7 +285,7 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_opt
         if (parts && !parts[v->scene->items[i].part_index])
             continue;
         status = find_outline(&c, i, error);
-        if (status == LMN_OK && !collect_edges(&c, i))
+        if (status == LMN_OK && !(collect_edges(&c, i) && collect_drawn(&c, i)))
             status = error_memory(error);
     }
     if (status == LMN_OK)

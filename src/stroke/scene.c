@@ -128,8 +128,7 @@ static double farthest(box3 box)
                 fmax(fabs(box.min.z), fabs(box.max.z)));
 }
 
-/* By how much a matrix may lengthen things. */
-static double growth(const mat4 *m)
+double mat4_growth(const mat4 *m)
 {
     double most = 0;
     for (int k = 0; k < 3; k++)
@@ -140,7 +139,7 @@ static double growth(const mat4 *m)
 
 static void widen_box(scene_builder *b, const edge_mesh *m, const mat4 *world)
 {
-    double grown = growth(world);
+    double grown = mat4_growth(world);
     for (uint32_t k = 0; k < m->piece_count; k++) {
         b->box = box3_union(b->box, box3_transform(m->boxes[k], world));
         b->out->reach = fmax(b->out->reach, grown * farthest(m->boxes[k]));

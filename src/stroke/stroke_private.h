@@ -102,6 +102,7 @@ typedef struct window_segment {
     const uint32_t *ignored;  /* faces that do not count, ascending */
     uint32_t        ignored_count;
     uint32_t        least; /* as many surfaces lie in front at least */
+    float           lift;  /* what lies no farther in front, at right angles, does not count: file units */
 } window_segment;
 
 /* From `from` on (fraction of the segment) this many surfaces lie in front. */
@@ -109,6 +110,9 @@ typedef struct visibility_span {
     float    from;
     uint32_t count;
 } visibility_span;
+
+/* --- scene.c --- */
+double mat4_growth(const mat4 *m); /* by how much it may lengthen things */
 
 /* --- project.c --- */
 /* Eye space and back: a position of the world in the window, and whether it can be seen (not nearer than the near

@@ -152,6 +152,23 @@ static bool is_ignored(const window_segment *s, uint32_t face)
     return low < s->ignored_count && s->ignored[low] == face;
 }
 
+/* How much nearer a triangle may be at a depth, so that a position behind it is no farther than `lift` from its
+ * plane. In perspective z is −1 / depth, and a plane that passes the eye at a distance c is z(x, y) with
+ * 1 / c² = |gradient|² + z(0, 0)², lengths of the window in units of the focal length; at depth z a difference of z
+ * is one of c / |z| in the direction of the normal. */
+static double depth_of_lift(const stroke_view *v, const window_point p[3], double z, double lift)
+{
+    double ax = (double)p[1].x - p[0].x, ay = (double)p[1].y - p[0].y, az = p[1].z - p[0].z;
+    double bx = (double)p[2].x - p[0].x, by = (double)p[2].y - p[0].y, bz = p[2].z - p[0].z;
+    double area = ax * by - ay * bx, x = (az * by - bz * ay) / area, y = (ax * bz - bx * az) / area;
+    double focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]) * v->units;
+    double steep = focal * focal * (x * x + y * y);
+    if (v->camera.orthographic)
+        return lift * sqrt(1 + steep);
+    double middle = p[0].z - x * p[0].x - y * p[0].y;
+    return lift * fabs(z) * sqrt(steep + middle * middle);
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -194,8 +211,9 @@ static void compare(worker *w, uint32_t number)
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
+    double same = view_tolerance(v, z0) + box->slope + (s->lift > 0 ? depth_of_lift(v, p, z0, s->lift) : 0);
     if (!s->ignored_count || !is_ignored(s, t->face))
-        cover_nearer(w, from, to, before, after, view_tolerance(v, z0) + box->slope);
+        cover_nearer(w, from, to, before, after, same);
 }
 
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)

@@ -2,14 +2,14 @@
  * rows OE-05 to OE-07. An edge is an outline where one of its faces is seen from the front and the other is not; any place of the edge lies in both planes, so its
  * middle, the same for both ends, decides exactly in perspective too. Faces seen exactly from the side count as seen from behind. */
 layout(location = 0) in vec4 a_begin;  /* position; bits */
-layout(location = 1) in vec4 a_end;
+layout(location = 1) in vec4 a_end;    /* position; of lines that files bring, how far they may lie off their surface */
 layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something */
 layout(location = 3) in vec4 a_second;
 uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the direction towards it, 0 */
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 
-const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64;
+const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64, RECORD_DRAWN = 128;
 const float EDGE_ON = 1e-5; /* what rounding turns */
 const int NO_LINE = -1, PROFILE = 0, INNER = 1, ID = 3;
 
@@ -28,5 +28,5 @@ int line_of_edge()
     bool outline = (bits & RECORD_PAIR) != 0 && first != second && (u_wanted & WANT_CONTOUR) != 0;
     if (outline || (wanted & RECORD_BORDER) != 0)
         return PROFILE;
-    return (wanted & RECORD_CREASE) != 0 ? INNER : (wanted & (RECORD_CROSSING | RECORD_MATERIAL)) != 0 ? ID : NO_LINE;
+    return (wanted & RECORD_CREASE) != 0 ? INNER : (wanted & (RECORD_CROSSING | RECORD_MATERIAL | RECORD_DRAWN)) != 0 ? ID : NO_LINE;
 }

@@ -17,10 +17,17 @@ vec3 on_page(vec4 clip)
     return vec3(position.xy * u_size, position.z);
 }
 
+/* Lines that files bring are held before the surface that they lie on. */
+vec4 end_on_page(vec4 end)
+{
+    vec3 to_eye = u_viewer.xyz - u_viewer.w * end.xyz;
+    return u_clip * vec4(end.xyz + (a_end.w > 0.0 ? a_end.w * normalize(to_eye) : vec3(0.0)), 1.0);
+}
+
 /* The quad's corner, of what lies beyond the near plane. */
 vec4 place_edge(int line)
 {
-    vec4 begin = u_clip * vec4(a_begin.xyz, 1.0), end = u_clip * vec4(a_end.xyz, 1.0);
+    vec4 begin = end_on_page(a_begin), end = end_on_page(a_end);
     float first = begin.z + begin.w, second = end.z + end.w;
     if (first <= 0.0 && second <= 0.0)
         return NOWHERE;

@@ -52,9 +52,14 @@ static bool is_always_line(const mesh_edge *e)
     return (e->flags & (EDGE_BORDER | EDGE_CREASE | EDGE_MATERIAL)) != 0;
 }
 
+size_t strokes_edge_record_count(const edge_mesh *m)
+{
+    return (size_t)m->edge_count + m->line_count;
+}
+
 float *strokes_edge_records(const edge_mesh *m)
 {
-    float  *records = mem_calloc((size_t)m->edge_count + 1, EDGE_RECORD_FLOATS * sizeof *records);
+    float  *records = mem_calloc(strokes_edge_record_count(m) + 1, EDGE_RECORD_FLOATS * sizeof *records);
     double *volumes = find_volumes(m);
     float  *at = records;
     for (int pass = 0; pass < 2;
@@ -64,6 +69,10 @@ float *strokes_edge_records(const edge_mesh *m)
                 put_edge(at, m, &m->edges[i], volumes[m->pieces[m->edges[i].face[0]]]);
                 at += EDGE_RECORD_FLOATS;
             }
+    for (uint32_t i = 0; i < m->line_count && records; i++, at += EDGE_RECORD_FLOATS) {
+        put_vector(at, m->positions[m->lines[i].vertex[0]], RECORD_DRAWN, 1);
+        put_vector(at + 4, m->positions[m->lines[i].vertex[1]], m->lines[i].lift, 1);
+    }
     if (!volumes) {
         mem_free(records);
         records = NULL;
@@ -100,7 +109,7 @@ float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *co
 
 int strokes_channel(stroke_class c)
 {
-    return c == STROKE_CONTOUR || c == STROKE_BORDER ? 0 : c == STROKE_INTERSECTION || c == STROKE_MATERIAL ? 3 : 1;
+    return c == STROKE_CONTOUR || c == STROKE_BORDER ? 0 : c >= STROKE_INTERSECTION && c <= STROKE_DRAWN ? 3 : 1;
 }
 
 /* Bits of the twelfth number of a record; the shader has the same. */

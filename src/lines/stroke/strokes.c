@@ -26,6 +26,7 @@ static const param params[] = {
     FLAG("borders", options.borders, .def = 1, .doc = "Lines where a surface ends."),
     FLAG("materials", options.materials, .def = 1, .doc = "Lines where a part's material changes."),
     FLAG("intersections", options.intersections, .def = 1, .doc = "Lines where surfaces run through each other."),
+    FLAG("drawn", options.drawn, .def = 1, .doc = "Lines that the file brings: glTF's lines, the \"l\" of OBJ."),
     NUMBER("suggestive", options.suggestive, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
            .doc = "Suggestive contours: lines where an outline would appear if the eye moved a little; 1 draws the "
                   "strongest, less draws more, 0 none."),

@@ -33,12 +33,15 @@ typedef enum record_bit {
     RECORD_MATERIAL = 4,
     RECORD_PAIR = 8,    /* two faces, so that it may be an outline */
     RECORD_CLOSED = 16, /* of a closed piece: seen from behind, it is hidden */
-    RECORD_CROSSING = 64
+    RECORD_CROSSING = 64,
+    RECORD_DRAWN = 128 /* the file brings it: no normals */
 } record_bit;
 
-/* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. NULL
- * when memory is gone; the caller frees it. */
+/* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. Then one
+ * a line that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees
+ * it. */
 float *strokes_edge_records(const edge_mesh *m);
+size_t strokes_edge_record_count(const edge_mesh *m);
 /* The same for the lines in which surfaces of an item cross others, in world axes. Sets *count. */
 float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *count);
 
