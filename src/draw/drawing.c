@@ -112,6 +112,22 @@ static void warn_of_shadows(const session *s, const scene_values *scene, warning
     }
 }
 
+/* Lines that files bring are strokes: pictures show surfaces alone, and lines that are found there are theirs. */
+static void warn_of_lines(const session *s, const lmn_scene *scene, warnings *warnings)
+{
+    for (size_t i = 0; i < s->plan.figure_count; i++) {
+        const figure *fig = &s->plan.figures[i];
+        bool          lines = fig->rule->use_counts[KIND_LINES] > 0;
+        for (size_t k = 0; k < scene->part_count && !has_strokes(fig->rule); k++) {
+            if (!fig->designated[k] || !scene->parts[k].lines || (!lines && scene->parts[k].triangles))
+                continue;
+            warnings_add(warnings, WARNING_UNUSED,
+                         "lines that the file brings are drawn by looks with strokes (--set lines.operator=strokes)");
+            return;
+        }
+    }
+}
+
 static void warn_of_marks(const session *s, warnings *warnings)
 {
     for (size_t i = 0; i < s->plan.figure_count; i++) {
@@ -132,8 +148,9 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
 {
     const scene_values *v = look->wide[KIND_SCENE].values;
     const upload       *up = &r->up;
-    bool                cut_out = false, spares = false;
+    bool                cut_out = false, spares = false, lines = false;
     warn_of_marks(s, &d->warnings);
+    warn_of_lines(s, scene, &d->warnings);
     warn_of_movers(s, &d->warnings);
     warn_of_shadows(s, v, &d->warnings);
     for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
@@ -146,7 +163,9 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     }
     if (cut_out)
         warnings_add(&d->warnings, WARNING_TRANSPARENCY, "transparent materials are drawn as cut-outs");
-    if (up->section.cut.cell_count > 0 && up->triangles == 0)
+    for (size_t i = 0; i < scene->part_count; i++)
+        lines = lines || scene->parts[i].lines;
+    if (up->section.cut.cell_count > 0 && up->triangles == 0 && !lines)
         warnings_add(&d->warnings, WARNING_UNUSED, "the section leaves nothing of the model: the page stays empty");
     if (up->open_parts)
         warnings_add(&d->warnings, WARNING_CUT_OPEN, "%zu of %zu parts are not closed and have no cut face there",

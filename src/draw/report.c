@@ -62,11 +62,11 @@ char *renderer_json(const lmn_renderer *r)
     json_object_set_new(root, "limits",
                         json_pack("{s:i, s:i, s:i, s:i}", "texture_size", f->max_texture, "samples", f->max_samples,
                                   "colour_attachments", f->max_attachments, "storage_block_mib", f->max_storage_mib));
-    json_object_set_new(root, "input_limits",
-                        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:i, s:i, s:i}", "file_bytes",
-                                  (json_int_t)LIMIT_FILE_BYTES, "vertices", (json_int_t)LIMIT_VERTICES, "triangles",
-                                  (json_int_t)LIMIT_TRIANGLES, "lines", (json_int_t)LIMIT_LINES, "nodes", (json_int_t)LIMIT_NODES, "instances",
-                                  (json_int_t)LIMIT_INSTANCES, "node_depth", LIMIT_NODE_DEPTH, "image_side",
-                                  LIMIT_IMAGE_SIDE, "picture_side", LIMIT_PICTURE_SIDE));
+    json_object_set_new(
+        root, "input_limits",
+        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:i, s:i, s:i}", "file_bytes", (json_int_t)LIMIT_FILE_BYTES,
+                  "vertices", (json_int_t)LIMIT_VERTICES, "triangles", (json_int_t)LIMIT_TRIANGLES, "lines",
+                  (json_int_t)LIMIT_LINES, "nodes", (json_int_t)LIMIT_NODES, "instances", (json_int_t)LIMIT_INSTANCES,
+                  "node_depth", LIMIT_NODE_DEPTH, "image_side", LIMIT_IMAGE_SIDE, "picture_side", LIMIT_PICTURE_SIDE));
     return report_dump(root);
 }

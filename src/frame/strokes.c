@@ -89,9 +89,8 @@ static void bring_item(frame *f, stroke_store *store, uint32_t index, bool cross
 {
     uint32_t mesh = store->scene.items[index].mesh;
     if (!store->edges[mesh] && !gpu_failed(f->g))
-        store->edges[mesh] =
-            upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]),
-                           strokes_edge_record_count(&store->scene.meshes[mesh]));
+        store->edges[mesh] = upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]),
+                                            strokes_edge_record_count(&store->scene.meshes[mesh]));
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;

@@ -38,8 +38,8 @@ typedef struct gltf_reader {
     int32_t             *mesh_map, *node_map, *image_map; /* index in the file → in the scene, NONE: not there */
     size_t               mesh_count, node_count, image_count;
     size_t               elements, zeros, vertices, triangles, lines, instances; /* read so far, against the limits */
-    const char          *missing_buffer;                                  /* the name of the first */
-    bool                 nameless_buffer;                                 /* one that names no file is missing */
+    const char          *missing_buffer;                                         /* the name of the first */
+    bool                 nameless_buffer;                                        /* one that names no file is missing */
 } gltf_reader;
 
 /* An accessor's data, checked to lie within its view. */

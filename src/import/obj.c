@@ -1,6 +1,6 @@
-/* OBJ: polygons and lines with separate indices for positions, texture coordinates and normals. A part is an object ("o"), in
- * files without objects a group ("g"). Corners that agree in all three indices are one vertex, so sharing stays as
- * the file has it. */
+/* OBJ: polygons and lines with separate indices for positions, texture coordinates and normals. A part is an object
+ * ("o"), in files without objects a group ("g"). Corners that agree in all three indices are one vertex, so sharing
+ * stays as the file has it. */
 #include "import/obj.h"
 
 #include <string.h>
@@ -399,7 +399,8 @@ static lmn_status read_polyline(obj_reader *r)
     for (size_t count = 0; !obj_at_line_end(&r->text); count++) {
         corner here;
         if (!read_corner(r, &here))
-            return wrong(r, "a line has a point that is no \"v\" or \"v/vt\" or names a vertex that was not given before");
+            return wrong(r,
+                         "a line has a point that is no \"v\" or \"v/vt\" or names a vertex that was not given before");
         here.uv = here.normal = ABSENT;
         if (count && ++r->lines > LIMIT_LINES)
             return too_many(r, "lines", LIMIT_LINES);

@@ -230,9 +230,10 @@ char *scene_info_json(const lmn_scene *s)
         box = box3_union(box, s->parts[i].bounds);
     }
     const char up[2] = {s->up ? s->up : 'y', '\0'};
-    json_t    *root = json_pack("{s:o,s:I,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles",
-                                (json_int_t)triangles, "lines", (json_int_t)lines, "nodes", (json_int_t)scene_plain_node_count(s), "meshes",
-                                (json_int_t)(s->mesh_count - s->spare_meshes), "bounds", bounds_json(box), "up", up);
+    json_t    *root =
+        json_pack("{s:o,s:I,s:I,s:I,s:I,s:o,s:s}", "files", files_json(s), "triangles", (json_int_t)triangles, "lines",
+                  (json_int_t)lines, "nodes", (json_int_t)scene_plain_node_count(s), "meshes",
+                  (json_int_t)(s->mesh_count - s->spare_meshes), "bounds", bounds_json(box), "up", up);
     if (!root)
         return NULL;
     json_object_set_new(root, "load_ms", real(s->load_ms));

@@ -11,9 +11,9 @@ typedef struct clean_counts {
 } clean_counts;
 
 /* Drops triangles without area, lines without length and both with vertices that are not finite, then vertices that
- * none of them uses; makes normals unit and other numbers finite; sets the bounds. Indices must be in range. With keep_closed, triangles
- * without area stay when their corners differ: they close the surface between points on one line. False when memory
- * is gone. */
+ * none of them uses; makes normals unit and other numbers finite; sets the bounds. Indices must be in range. With
+ * keep_closed, triangles without area stay when their corners differ: they close the surface between points on one
+ * line. False when memory is gone. */
 bool primitive_clean(primitive *p, bool keep_closed, clean_counts *counts);
 
 /* Makes animations what posing relies on: times of a channel increase, rotations are unit, no channel of an animation

@@ -261,10 +261,10 @@ bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count);
 /* A number that no other content of this process has had. Any thread. */
 uint64_t scene_next_revision(void);
 
-/* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles and lines that
- * are degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts.
- * `file` stands in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. With
- * may_be_empty set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
+/* Checks an imported scene whole (indices in range, trees without cycles, finite values), drops triangles and lines
+ * that are degenerate or have non-finite vertices (a warning each kind), sets bounds, numbers the parts. `file` stands
+ * in messages. Errors: LMN_FORMAT (nothing left to draw, broken references), LMN_LIMIT, LMN_MEMORY. With may_be_empty
+ * set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
 
 /* Brings the up axis `from` ('y' or 'z') to `to`: a quarter turn about x, with exact zeros so that boxes stay

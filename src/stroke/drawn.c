@@ -11,6 +11,8 @@
 #define ROUNDED 1e-4
 /* Where two lines turn by more than this they meet at a corner; by less, they are chords of one curve: cosine. */
 #define CURVES_ON 0.7
+/* Heights of arcs. */
+#define STEPS_ASIDE 2.5
 
 /* --- taking ---------------------------------------------------------------------------------------------- */
 
@@ -137,10 +139,10 @@ static void vector_of(const edge_mesh *m, const mesh_line *l, uint32_t from, dou
 }
 
 /* Height of an arc over its chord, where the next chord turns by an angle: the surface may be as far away, when it is
- * divided otherwise. */
+ * divided otherwise, and seen from the side its next face may rise a little farther before the line. */
 static double bulge(double length, double cosine)
 {
-    return 0.5 * length * tan(0.25 * acos(fmax(-1, fmin(1, cosine))));
+    return STEPS_ASIDE * 0.5 * length * tan(0.25 * acos(fmax(-1, fmin(1, cosine))));
 }
 
 static void lift_at(edge_mesh *m, uint32_t vertex, mesh_line *a, mesh_line *b)

@@ -52,7 +52,7 @@ typedef struct edge_mesh {
     vec3                   *normals;   /* per face, unit, by winding */
     int32_t                *materials; /* per face; NULL: all alike */
     mesh_edge              *edges;     /* those with flags, in a fixed order */
-    mesh_line *lines; /* all of them are the last piece, which has no faces */
+    mesh_line              *lines;     /* all of them are the last piece, which has no faces */
     uint32_t               *pieces;    /* per face: what hangs together over edges, numbered from 0 */
     bool                   *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
     bool                   *inward;    /* per closed piece: its faces look inwards */

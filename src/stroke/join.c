@@ -132,7 +132,8 @@ static float gap_between(const joiner *j, uint32_t a, uint32_t b)
 static bool meet_at_corner(const joiner *j, uint32_t a, uint32_t b)
 {
     stroke_class kind = j->set->strokes[a / 2].kind;
-    return gap_between(j, a, b) < TOUCH && (kind == STROKE_CREASE || kind == STROKE_BORDER || kind == STROKE_MATERIAL || kind == STROKE_DRAWN);
+    return gap_between(j, a, b) < TOUCH &&
+           (kind == STROKE_CREASE || kind == STROKE_BORDER || kind == STROKE_MATERIAL || kind == STROKE_DRAWN);
 }
 
 /* Are both stretches of one chain, with nothing but what is thinner than the pen between them? */

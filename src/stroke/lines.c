@@ -104,13 +104,13 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
     uint32_t           a = at->first_point + e->vertex[0], b = at->first_point + e->vertex[1];
     const uint32_t     faces[2] = {e->face[0] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[0],
                                e->face[1] == EDGE_NO_FACE ? EDGE_NO_FACE : at->first_face + e->face[1]};
-    view_line          line = {kind,
-                               index,
-                               {a, b},
-                               id,
-                               {1, 1},
-                               (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
-                               kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
+    view_line line = {kind,
+                      index,
+                      {a, b},
+                      id,
+                      {1, 1},
+                      (e->flags & (EDGE_CREASE | EDGE_BORDER)) != 0,
+                      kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
     if (v->outside[a] | v->outside[b])

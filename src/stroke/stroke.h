@@ -22,7 +22,7 @@ typedef enum stroke_class {
     STROKE_CREASE,
     STROKE_INTERSECTION, /* where two surfaces run through each other */
     STROKE_MATERIAL,
-    STROKE_DRAWN, /* that the file brings */
+    STROKE_DRAWN,      /* that the file brings */
     STROKE_SUGGESTIVE, /* where a contour would appear if the eye moved a little */
     STROKE_RIDGE,
     STROKE_VALLEY,
@@ -167,7 +167,7 @@ typedef enum contour_kind {
 typedef struct stroke_options {
     int32_t contours; /* contour_kind */
     bool    creases, borders, materials, intersections;
-    bool    drawn; /* lines that files bring */
+    bool    drawn;                                 /* lines that files bring */
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
     bool    hidden;                                /* stretches behind surfaces too */
     float   simplify;                              /* by how much points may be moved, units */
@@ -180,7 +180,7 @@ typedef struct stroke_options {
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0                                 \
+        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0                              \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

@@ -23,7 +23,7 @@ static const char *look_of(const char *mode, double width, const char *more)
     snprintf(text, sizeof texts[0],
              "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":"
              "\"flat\",\"colour\":\"#ffffff\"},\"lines\":"
-             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,\"detail\":1,"
+             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,"
              "\"visibility\":\"%s\",\"width\":%g%s}}]}",
              mode, width, more);
     return text;
@@ -492,6 +492,63 @@ static void crossings(void)
     shape_release(&s);
 }
 
+/* Lines of the file on a barrel that is divided otherwise, on its lid, below it and beside it. */
+static const char *write_lines(void)
+{
+    enum { SIDES = 24, AROUND = 40 };
+    static char path[512];
+    snprintf(path, sizeof path, "%s", check_path("lines.obj"));
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return NULL;
+    for (int i = 0; i < 2 * SIDES; i++)
+        fprintf(file, "v %.9g %d %.9g\n", cos(2 * PI * (i % SIDES) / SIDES), i < SIDES ? -1 : 1,
+                sin(2 * PI * (i % SIDES) / SIDES));
+    for (int i = 0; i < AROUND; i++)
+        fprintf(file, "v %.9g 0.3 %.9g\n", cos(2 * PI * i / AROUND + 0.1), sin(2 * PI * i / AROUND + 0.1));
+    fprintf(file, "v -0.5 1 0.2\nv 0.6 1 -0.1\nv -0.5 -1 0.2\nv 0.6 -1 -0.1\nv 1.3 -1 0\nv 1.3 1 0\n");
+    for (int i = 0; i < SIDES; i++)
+        fprintf(file, "f %d %d %d %d\n", i + 1, SIDES + i + 1, SIDES + (i + 1) % SIDES + 1, (i + 1) % SIDES + 1);
+    for (int lid = 0; lid < 2; lid++) {
+        fprintf(file, "f");
+        for (int i = 0; i < SIDES; i++)
+            fprintf(file, " %d", lid ? 2 * SIDES - i : i + 1);
+        fprintf(file, "\n");
+    }
+    fprintf(file, "l");
+    for (int i = 0; i <= AROUND; i++)
+        fprintf(file, " %d", 2 * SIDES + i % AROUND + 1);
+    fprintf(file, "\nl -6 -5\nl -4 -3\nl -2 -1\n");
+    return fclose(file) == 0 ? path : NULL;
+}
+
+static void lines_of_files(void)
+{
+    const char *path = write_lines();
+    for (int k = 0; k < 6 && path; k++) {
+        shot_view view = {.width = 500,
+                          .height = 500,
+                          .eye = {6 * cos(k), 3.5 - k, 6 * sin(k)},
+                          .up = {0, 1, 0},
+                          .orthographic = k % 2,
+                          .without_maps = true};
+        shot      a, b, none;
+        bool      good = shot_take(&a, path, look_of("sampled", 2, ""), NULL, &view);
+        good = shot_take(&b, path, look_of("exact", 2, ",\"simplify\":0,\"shortest\":0"), NULL, &view) && good;
+        good = shot_take(&none, path, look_of("sampled", 2, ",\"drawn\":false"), NULL, &view) && good;
+        if (good) {
+            check_at_least("OE-05", alone(&a, &none), 0.15, "view %d: ink of lines that the file brings", k);
+            check_at_most("EX-14", alone(&a, &b), 0.01,
+                          "lines of files, view %d: ink of sampled strokes that exact ones have not", k);
+            check_at_most("EX-14", alone(&b, &a), 0.01,
+                          "lines of files, view %d: ink of exact strokes that sampled ones have not", k);
+        }
+        shot_release(&a);
+        shot_release(&b);
+        shot_release(&none);
+    }
+}
+
 /* --- what is at the edge of sense ----------------------------------------------------------------------- */
 
 static size_t count_ink(const shot *s)
@@ -602,17 +659,10 @@ static void samples_and_dialects(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"widths", widths},
-        {"rims", rims},
-        {"near", near_plane},
-        {"joints", joints},
-        {"whole", whole_lines},
-        {"full", full_width},
-        {"ways", both_ways},
-        {"crossings", crossings},
-        {"limits", limits},
-        {"figures", figures},
-        {"samples", samples_and_dialects},
+        {"widths", widths},  {"rims", rims},           {"near", near_plane},
+        {"joints", joints},  {"whole", whole_lines},   {"full", full_width},
+        {"ways", both_ways}, {"crossings", crossings}, {"lines-of-files", lines_of_files},
+        {"limits", limits},  {"figures", figures},     {"samples", samples_and_dialects},
     };
     int status = check_main(argc, argv, "strokes_window", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -243,6 +243,16 @@ group_draw() {
     row 1 "^limner: $gear: the scene has no camera" '' draw "$gear" $small --camera nosuch
     # Strokes and marks lie on meshes.
     row 0 '' 'x.png' draw "$gear" $small --look line --cut x -o x.png
+    # Lines that files bring are strokes.
+    printf 'o block\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 1\nv 1 1 2\nv 3 2 2\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\no wire\nl 5 6 7\n' > in-lines.obj
+    row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line && cp x.png in-drawn.png
+    row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line --set lines.drawn=false
+    cmp -s x.png in-drawn.png && complain "the file's lines are not drawn"
+    row 0 '' 'x.png' draw in-lines.obj $small -o x.png --select wire --look line --set lines.visibility=sampled
+    row 0 'warning: lines that the file brings are drawn by looks with strokes' 'x.png' draw in-lines.obj $small -o x.png --look edges
+    row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
+    grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
+    tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
     row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look line
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
     row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look line --lenient -o x.png

@@ -49,7 +49,7 @@ static void strips_and_fans_become_triangles(void **state)
                  "{\"mode\":1,\"attributes\":{\"POSITION\":0}},{\"mode\":0,\"attributes\":{\"POSITION\":0}}]}]}",
                  g.bin_size, mode);
         lmn_scene *s = load();
-        assert_int_equal(s->meshes[0].primitive_count, 1);
+        assert_int_equal(s->meshes[0].primitive_count, 2); /* triangles, and lines */
         assert_int_equal(s->meshes[0].primitives[0].index_count, 6);
         assert_memory_equal(s->meshes[0].primitives[0].indices, mode == 5 ? strip : fan, sizeof strip);
         assert_true(has_warning(s, WARNING_IGNORED));

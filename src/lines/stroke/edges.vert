@@ -9,6 +9,8 @@ uniform vec2  u_half_widths; /* of outlines, of all others */
  * would take too long for those longer than LONG. */
 const float SHORT = 2.5, STEP = 2.0, LONG = 240.0;
 const float SEEN = 1.0; /* in the place of the bits */
+/* How far a surface is before a line along the view, of how far it is at right angles. */
+const float AS_SEEN = 2.0;
 
 /* Pixels and window depth. */
 vec3 on_page(vec4 clip)
@@ -21,7 +23,7 @@ vec3 on_page(vec4 clip)
 vec4 end_on_page(vec4 end)
 {
     vec3 to_eye = u_viewer.xyz - u_viewer.w * end.xyz;
-    return u_clip * vec4(end.xyz + (a_end.w > 0.0 ? a_end.w * normalize(to_eye) : vec3(0.0)), 1.0);
+    return u_clip * vec4(end.xyz + (a_end.w > 0.0 ? AS_SEEN * a_end.w * normalize(to_eye) : vec3(0.0)), 1.0);
 }
 
 /* The quad's corner, of what lies beyond the near plane. */
