@@ -164,6 +164,8 @@ static void print_table(const json_t *root)
     printf("up axis     %s\n", text_at(root, "up", "y"));
     printf("parts       %zu\n", json_array_size(parts));
     printf("triangles   %.0f\n", number_at(root, "triangles", 0));
+    if (number_at(root, "lines", 0) > 0)
+        printf("lines       %.0f\n", number_at(root, "lines", 0));
     print_bounds(json_object_get(root, "bounds"), "");
     print_animations(json_object_get(root, "animations"));
     print_names(root, "materials");

@@ -32,7 +32,7 @@ typedef struct lmn_load_desc {
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */
 typedef struct lmn_scene_info {
     size_t   parts, nodes, meshes, materials, textures, cameras, lights, animations, skins;
-    uint64_t triangles;                    /* instances counted */
+    uint64_t triangles, lines;             /* instances counted; lines: those that files bring */
     double   bounds_min[3], bounds_max[3]; /* all 0 when the scene is empty */
     char     up;                           /* 'y' or 'z' */
 } lmn_scene_info;
@@ -42,7 +42,7 @@ typedef struct lmn_part_info {
     uint32_t    id;
     const char *name; /* node name, else mesh name, else "part-ID"; borrowed from the scene */
     const char *path; /* names from the root joined by '/'; borrowed */
-    uint64_t    triangles;
+    uint64_t    triangles, lines;
     size_t      instances;
     double      bounds_min[3], bounds_max[3];
 } lmn_part_info;

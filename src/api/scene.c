@@ -104,6 +104,7 @@ lmn_scene_info lmn_scene_info_of(const lmn_scene *scene)
     box3 box = box3_empty();
     for (size_t i = 0; i < scene->part_count; i++) {
         info.triangles += scene->parts[i].triangles * node_draw_count(&scene->nodes[scene->parts[i].node]);
+        info.lines += scene->parts[i].lines * node_draw_count(&scene->nodes[scene->parts[i].node]);
         box = box3_union(box, scene->parts[i].bounds);
     }
     put_bounds(box, info.bounds_min, info.bounds_max);
@@ -120,6 +121,7 @@ bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out)
     *out = (lmn_part_info){.id = (uint32_t)index + 1, .name = p->name, .path = p->path};
     out->instances = node_draw_count(&scene->nodes[p->node]);
     out->triangles = p->triangles * out->instances;
+    out->lines = p->lines * out->instances;
     put_bounds(p->bounds, out->bounds_min, out->bounds_max);
     return true;
 }

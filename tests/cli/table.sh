@@ -250,6 +250,7 @@ group_draw() {
     cmp -s x.png in-drawn.png && complain "the file's lines are not drawn"
     row 0 '' 'x.png' draw in-lines.obj $small -o x.png --select wire --look line --set lines.visibility=sampled
     row 0 'warning: lines that the file brings are drawn by looks with strokes' 'x.png' draw in-lines.obj $small -o x.png --look edges
+    row 0 '' '' info in-lines.obj; out '^lines  *2$'
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"

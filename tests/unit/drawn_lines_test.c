@@ -26,6 +26,9 @@ static void polylines_of_obj(void **state)
     assert_int_equal(s->parts[1].triangles, 0);
     assert_int_equal(s->parts[1].lines, 1);
     assert_string_equal(s->parts[1].name, "wire");
+    lmn_part_info wire;
+    assert_true(lmn_scene_part_at(s, 1, &wire) && wire.lines == 1 && wire.triangles == 0);
+    assert_int_equal(lmn_scene_info_of(s).lines, 4);
     assert_true(s->parts[1].bounds.min.y == 0 && s->parts[1].bounds.max.y == 1 && s->parts[1].bounds.max.x == 0);
     const mesh *m = &s->meshes[s->nodes[s->parts[0].node].mesh];
     assert_int_equal(m->primitive_count, 2);
