@@ -14,6 +14,8 @@
  * hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK  -0.7
+/* The same of polylines of files, which meet at corners as well. */
+#define CROSSES 0.7
 enum {
     OUTSIDE = -1,
     MEETING_MAX = 24,
@@ -77,7 +79,7 @@ static double turn_between(const chainer *c, uint32_t in, uint32_t out)
 /* Does a kind of line end where three meet? Sharp ones end at corners; outlines and crossings go straight on. */
 static bool ends_at_corners(stroke_class kind)
 {
-    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL || kind == STROKE_DRAWN;
+    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_MATERIAL;
 }
 
 /* Is the line visible where this half-line begins? */
@@ -93,6 +95,8 @@ static double fit(const chainer *c, uint32_t in, uint32_t out)
 {
     double turn = turn_between(c, in, out);
     bool   alike = begins_visible(c, in) == begins_visible(c, out);
+    if (c->lines->lines[in / 2].kind == STROKE_DRAWN) /* polylines that cross or end on others */
+        return turn < CROSSES ? -1 : turn + 1;
     return turn < (alike ? TURNS_BACK : STRAIGHT_ON) ? -1 : turn + (alike ? 4 : 1);
 }
 
@@ -525,6 +529,8 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
                 .chain_length = (float)length,
                 .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t before = c->out->stroke_count;
+    for (size_t i = 0; i < c->path_count; i++)
+        s.lift = fmaxf(s.lift, c->lines->segments[c->path[i] / 2].lift);
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t count = c->points[begin].count;

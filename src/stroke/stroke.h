@@ -52,6 +52,7 @@ typedef struct stroke {
     bool         closed;       /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase; /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* units */
+    float        lift;         /* so far it may lie off a surface that it is on, file units: lines that files bring */
     float        size;         /* of the piece on the page, units, its longer side; 0: not asked for */
     bool smooth; /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of
                     it */

@@ -194,8 +194,9 @@ static void check_position(const verifier *w, const stroke *s, double x, double 
     bool right = false, counted = false;
     for (int ring = 0; ring < RINGS && !counted; ring++)
         for (int k = 0; k < (ring ? DIRECTIONS : 1) && !counted; k++) {
-            double    turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;
-            ray       r = ray_to(w, x + near_by[ring] * cos(turn), y + near_by[ring] * sin(turn), depth);
+            double turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;
+            ray    r = ray_to(w, x + near_by[ring] * cos(turn), y + near_by[ring] * sin(turn), depth);
+            r.near += (double)s->lift;
             ray_count count = count_in_front(w, &r);
             right = right || (s->hidden_by ? count.all > 0 : count.sure == 0);
             counted = count.sure <= s->hidden_by && s->hidden_by <= count.all;

@@ -245,6 +245,7 @@ static void curves_on_curved_surfaces(void **state)
         assert_int_equal(count_strokes(&shot.set, STROKE_DRAWN, 0, &length), 1);
         /* Half an ellipse of axes 100 and 44.7 pixels. */
         assert_true(length > 232 && length < 260);
+        assert_int_equal(shot.check.wrong, 0);
         shot_release(&shot);
     }
 }
@@ -272,6 +273,26 @@ static void lines_along_edges(void **state)
     assert_int_equal(stroke_find(&set, shot.view, &none, NULL, NULL, NULL, NULL), LMN_OK);
     assert_true(count_strokes(&set, STROKE_DRAWN, 0, NULL) > 1);
     stroke_set_release(&set);
+    shot_release(&shot);
+}
+
+/* Where polylines cross they go on, where they meet at a corner they end. */
+static void crossing_polylines_go_on(void **state)
+{
+    (void)state;
+    const vec3 across[3] = {{-1, 0, 0}, {0, 0, 0}, {1, 0.2f, 0}}, up[3] = {{0, -1, 0}, {0, 0, 0}, {0.2f, 1, 0}};
+    lmn_scene *s = stroke_scene_begin();
+    add_wire(s, across, 3);
+    add_polyline(s, up, 3);
+    stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 2, true, 400, 400), drawn_lines(false));
+    assert_int_equal(count_strokes(&shot.set, STROKE_DRAWN, 0, NULL), 2);
+    shot_release(&shot);
+    const vec3 corner[3] = {{0.5f, -0.86f, 0}, {0, 0, 0}, {0.5f, 0.86f, 0}}, third[2] = {{-1, 0, 0}, {0, 0, 0}};
+    s = stroke_scene_begin();
+    add_wire(s, corner, 3);
+    add_polyline(s, third, 2);
+    shot = shoot(s, look_along(0, 0, -1, origin, 20, 2, true, 400, 400), drawn_lines(false));
+    assert_int_equal(count_strokes(&shot.set, STROKE_DRAWN, 0, NULL), 3);
     shot_release(&shot);
 }
 
@@ -418,6 +439,7 @@ int main(void)
         cmocka_unit_test(curves_on_curved_surfaces),
         cmocka_unit_test(lines_along_edges),
         cmocka_unit_test(wires_are_parts),
+        cmocka_unit_test(crossing_polylines_go_on),
         cmocka_unit_test(poses_and_refinements_keep_lines),
         cmocka_unit_test(sections_cut_lines),
         cmocka_unit_test(edge_visibility_is_drawn),
