@@ -340,12 +340,13 @@ static void test_every_parameter(void **state)
     assert_int_equal(f->mistakes, 0);
 }
 
-/* One part of two materials: two surfaces. */
+/* One part of two materials: two surfaces; above them a line. */
 static void write_plate(FILE *file, double x)
 {
     fprintf(file, "v %g 60 60\nv %g 60 60\nv %g 60 60\nv %g 60 90\nv %g 60 90\nv %g 60 90\n", x, x + 30, x + 60, x,
             x + 30, x + 60);
     fprintf(file, "o plate\nusemtl left\nf 4 5 2 1\nusemtl right\nf 5 6 3 2\n");
+    fprintf(file, "v %g 85 60\nv %g 75 60\nl 7 8\n", x, x + 60);
 }
 
 /* A block with a round hole, on it a ball cut by a plane: operands that meet at an angle. */
