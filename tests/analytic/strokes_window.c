@@ -23,7 +23,7 @@ static const char *look_of(const char *mode, double width, const char *more)
     snprintf(text, sizeof texts[0],
              "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":"
              "\"flat\",\"colour\":\"#ffffff\"},\"lines\":"
-             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,"
+             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,\"detail\":1,"
              "\"visibility\":\"%s\",\"width\":%g%s}}]}",
              mode, width, more);
     return text;
