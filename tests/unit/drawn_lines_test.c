@@ -119,6 +119,51 @@ static void lines_of_gltf(void **state)
     assert_int_equal(load_status(lines_file(7, "", wrong), &error), LMN_FORMAT);
 }
 
+/* Lines follow morphs, joints and instances like triangles. */
+static void lines_move(void **state)
+{
+    (void)state;
+    static const float    square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    static const float    weights[4][4] = {{1}, {1}, {1}, {1}};
+    static const uint8_t  joints[4][4] = {{0}, {1}, {1}, {0}};
+    static const uint16_t corners[4] = {0, 1, 2, 3};
+    memset(&g, 0, sizeof g);
+    glb_put(&g, square, sizeof square);
+    size_t b = glb_put(&g, weights, sizeof weights), c = glb_put(&g, joints, sizeof joints),
+           d = glb_put(&g, corners, sizeof corners);
+    snprintf(g.json, sizeof g.json,
+             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0,\"skin\":0},{},{\"translation\":[0,0,7]},"
+             "{\"mesh\":1,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":0}}}}],"
+             "\"scenes\":[{\"nodes\":[0,1,2,3]}],\"skins\":[{\"joints\":[1,2]}],\"extensionsUsed\":["
+             "\"EXT_mesh_gpu_instancing\"],\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,"
+             "\"byteLength\":48},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":64},{\"buffer\":0,\"byteOffset\":%zu,"
+             "\"byteLength\":16},{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":8}],\"accessors\":[{\"bufferView\":0,"
+             "\"count\":4,\"componentType\":5126,\"type\":\"VEC3\"},{\"bufferView\":1,\"count\":4,\"componentType\":"
+             "5126,\"type\":\"VEC4\"},{\"bufferView\":2,\"count\":4,\"componentType\":5121,\"type\":\"VEC4\"},"
+             "{\"bufferView\":3,\"count\":4,\"componentType\":5123,\"type\":\"SCALAR\"}],\"meshes\":[{\"primitives\":["
+             "{\"mode\":1,\"indices\":3,\"attributes\":{\"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":1}}]},"
+             "{\"weights\":[2],\"primitives\":[{\"mode\":1,\"attributes\":{\"POSITION\":0},\"targets\":[{"
+             "\"POSITION\":0}]}]}]}",
+             g.bin_size, b, c, d);
+    lmn_scene   *s = load_or_fail(glb_file(&g, "moved.glb"));
+    pose         now;
+    stroke_scene out;
+    assert_int_equal(pose_create(&now, s, &(moment){.seconds = 0}, NULL), LMN_OK);
+    assert_int_equal(stroke_scene_create(&out, &now, NULL, 0.5, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(s->parts[0].lines, 2);
+    assert_true(s->parts[0].bounds.min.z == 0 && s->parts[0].bounds.max.z == 7);
+    assert_int_equal(lmn_scene_info_of(s).lines, 2 + 4 * 2);
+    assert_int_equal(out.item_count, 1 + 4);
+    const edge_mesh *held = &out.meshes[out.items[0].mesh], *grown = &out.meshes[out.items[2].mesh];
+    assert_int_equal(held->line_count, 2);
+    assert_true(held->positions[held->lines[0].vertex[0]].z == 0 && held->positions[held->lines[0].vertex[1]].z == 7);
+    assert_true(grown->positions[grown->lines[0].vertex[1]].x == 3); /* 1 + 2 · 1 */
+    assert_true(out.items[2].world.m[12] == 1 && out.items[4].world.m[13] == 1);
+    stroke_scene_release(&out);
+    pose_release(&now);
+    lmn_scene_destroy(&s);
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -434,6 +479,7 @@ int main(void)
         cmocka_unit_test(polylines_of_obj),
         cmocka_unit_test(wrong_polylines_of_obj),
         cmocka_unit_test(lines_of_gltf),
+        cmocka_unit_test(lines_move),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(lines_on_and_behind_a_cube),
         cmocka_unit_test(curves_on_curved_surfaces),
