@@ -234,6 +234,18 @@ static void scale_ribbons(ribbon_set *r, const frame *f)
     }
 }
 
+/* Lines that files bring are held before the surfaces that they lie on, which may be another figure's; as sampled ones
+ * are (lines/stroke/edges.vert). */
+static void lift_strokes(stroke_set *set)
+{
+    const float as_seen = 2;
+    for (size_t i = 0; i < set->stroke_count; i++)
+        for (uint32_t k = 0; k < set->strokes[i].count && set->strokes[i].lift > 0; k++) {
+            stroke_point *p = &set->points[set->strokes[i].first + k];
+            p->depth -= as_seen * set->strokes[i].lift;
+        }
+}
+
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
                                const strokes_values *v, lmn_error *error)
 {
@@ -248,6 +260,7 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     if (status == LMN_OK)
         status = stroke_find(&set, store->view, &options, s->figure->designated, NULL, NULL, error);
     set.perspective = !f->camera.orthographic;
+    lift_strokes(&set);
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
     for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)

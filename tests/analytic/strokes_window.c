@@ -501,6 +501,7 @@ static const char *write_lines(void)
     FILE *file = fopen(path, "w");
     if (!file)
         return NULL;
+    fprintf(file, "o barrel\n");
     for (int i = 0; i < 2 * SIDES; i++)
         fprintf(file, "v %.9g %d %.9g\n", cos(2 * PI * (i % SIDES) / SIDES), i < SIDES ? -1 : 1,
                 sin(2 * PI * (i % SIDES) / SIDES));
@@ -515,11 +516,34 @@ static const char *write_lines(void)
             fprintf(file, " %d", lid ? 2 * SIDES - i : i + 1);
         fprintf(file, "\n");
     }
-    fprintf(file, "l");
+    fprintf(file, "o wire\nl");
     for (int i = 0; i <= AROUND; i++)
         fprintf(file, " %d", 2 * SIDES + i % AROUND + 1);
     fprintf(file, "\nl -6 -5\nl -4 -3\nl -2 -1\n");
     return fclose(file) == 0 ? path : NULL;
+}
+
+/* On the surface of another figure, lines are not broken by it. */
+static void lines_on_figures(const char *path, const shot_view *view, int number)
+{
+    static const char *const start =
+        "{\"version\":1,\"name\":\"two\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":"
+        "\"flat\",\"colour\":\"#ffffff\"}},{\"select\":\"wire\",\"surface\":\"flat\",\"lines\":{\"operator\":"
+        "\"strokes\","
+        "\"width\":2,\"crease_width\":1,\"detail\":1,\"simplify\":0,\"shortest\":0,\"visibility\":";
+    shot shots[2];
+    bool good = true;
+    for (int mode = 0; mode < 2; mode++) {
+        char look[1024];
+        snprintf(look, sizeof look, "%s\"%s\"}}]}", start, modes[mode]);
+        good = shot_take(&shots[mode], path, look, NULL, view) && good;
+    }
+    for (int mode = 0; mode < 2 && good; mode++)
+        check_at_most("EX-14", alone(&shots[mode], &shots[!mode]), 0.01,
+                      "lines on another figure, view %d: ink of %s strokes that the others have not", number,
+                      modes[mode]);
+    shot_release(&shots[0]);
+    shot_release(&shots[1]);
 }
 
 static void lines_of_files(void)
@@ -543,6 +567,7 @@ static void lines_of_files(void)
             check_at_most("EX-14", alone(&b, &a), 0.01,
                           "lines of files, view %d: ink of exact strokes that sampled ones have not", k);
         }
+        lines_on_figures(path, &view, k);
         shot_release(&a);
         shot_release(&b);
         shot_release(&none);
