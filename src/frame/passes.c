@@ -47,10 +47,12 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define SEEN_THROUGH\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
+    if (p->writes_too)
+        text_append(&prelude, "#define WRITES_TOO\n");
     if (params->perturbed && goes_onto_page(p)) {
         text_append(&prelude, "#define PERTURBED\n");
         const technique_use *lines = rule_inked_lines(s->figure->rule);
-        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
+        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_FOUND_WIDTH * (float)f->samples)
             text_append(&prelude, "#define BROAD_LINES\n");
         used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
         snprintf(path, sizeof path, "%s+%s", params->perturbed->positions, p->shader);
@@ -119,17 +121,19 @@ static void draw_strips(frame *f, const figure_state *s, const pass *p, const te
 }
 
 /* What a pass draws into. */
-static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written)
+static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written, gpu_texture *too)
 {
     bool     page = goes_onto_page(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
-    gpu_pass target = {.colours = {depth_alone ? NULL : written},
-                       .colour_count = !depth_alone,
+    gpu_pass target = {.colours = {depth_alone ? NULL : written, too},
+                       .colour_count = depth_alone ? 0 : too ? 2 : 1,
                        .depth = depth_alone ? written
                                 : p->depth  ? f->page_depth
                                             : NULL,
                        .clear = !page,
                        .keep_depth = !depth_alone};
     target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
+    if (too)
+        target_empty(target_row_of(s, p->writes_too), s->far, target.clear_values[1]);
     return target;
 }
 
@@ -144,6 +148,14 @@ static gpu_state pass_state(const figure_state *s, const pass *p)
                                                           : GPU_BLEND_NONE};
 }
 
+/* A pass's picture takes the place of the one before. */
+static void keep_written(frame *f, figure_state *s, target t, gpu_texture *written)
+{
+    if (s->targets[t] != s->geometry)
+        gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = written;
+}
+
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group,
                      int iteration)
 {
@@ -151,8 +163,9 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     gpu_program *program = pass_program(f, s, p, params);
     bool         page = goes_onto_page(p); /* pictures that are added to */
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
+    gpu_texture *too = p->writes_too ? frame_acquire_for(f, s, p->writes_too) : NULL;
     if (program && written && !gpu_failed(f->g)) {
-        gpu_pass target = pass_target(f, s, p, written);
+        gpu_pass target = pass_target(f, s, p, written, too);
         set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, pass_state(s, p));
@@ -175,11 +188,10 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         else
             gpu_draw_screen(f->g);
     }
-    if (!page) {
-        if (s->targets[p->writes] != s->geometry)
-            gpu_target_release(f->g, s->targets[p->writes]);
-        s->targets[p->writes] = written;
-    }
+    if (!page)
+        keep_written(f, s, p->writes, written);
+    if (too)
+        keep_written(f, s, p->writes_too, too);
     watch_stop(&f->profile, w, group, p->name);
 }
 
@@ -291,6 +303,11 @@ static bool is_due(const frame *f, const pass *p, bool before)
     return p->prepares == before && !(p->stylised && f->maps) && p->writes != TARGET_SHADOW;
 }
 
+static int rounds_of(const pass *p, const technique_use *use)
+{
+    return p->rounds ? p->rounds(use->values) : p->repeat > 1 ? p->repeat : 1;
+}
+
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
 {
     const technique *t = use->technique;
@@ -319,6 +336,8 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
             continue;
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->records)
+            records_run(f, s, p, use, kinds[id]->name);
         else if (p->scattered)
             run_scattered(f, s, p, use);
         else if (p->geometry)
@@ -326,7 +345,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         else if (p->process)
             run_process(f, s, p, use, kinds[id]->name);
         else
-            for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
+            for (int k = 0; k < rounds_of(p, use); k++)
                 run_pass(f, s, p, &params, kinds[id]->name, k);
     }
     forget_own(f, s);

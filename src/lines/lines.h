@@ -27,8 +27,8 @@ typedef struct lines_common {
  * than a line's weight is shading; lines that are translucent are lines all the same. */
 void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines);
 
-/* Lines wider than this, in pixels, are grown from the detected map. */
-enum { LINES_GROW_FROM = 2 };
+/* How wide lines are that operators find, in pixels: all that is known is between which pixels an edge runs. */
+enum { LINES_FOUND_WIDTH = 2 };
 
 /* What contrast-aware lines look at. */
 #define LINES_PASSES_CONTRAST                                                                                          \
@@ -49,8 +49,45 @@ enum { LINES_GROW_FROM = 2 };
 #define LINES_FILTERED   TARGET_OWN(2) /* normal and normalised depth, which may be sampled with a filter */
 #define LINES_GRADIENT   TARGET_OWN(3) /* r = first-order, g = second-order difference of depth */
 #define LINES_TARGETS    .targets = lines_targets, .target_count = LINES_TARGET_COUNT
-enum { LINES_TARGET_COUNT = 4 };
+#define LINES_RECORDS    TARGET_OWN(4) /* lines/record.glsl */
+#define LINES_FEET       TARGET_OWN(5) /* where the edge beside a pixel is: lines/edge/feet.glsl */
+#define LINES_TILES      TARGET_OWN(6) /* 1: a tile that lines may reach */
+#define LINES_SEEDS      TARGET_OWN(7) /* lines/seed.glsl */
+enum { LINES_TARGET_COUNT = 8 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
+
+/* Lines as wide as they are to be. */
+#define LINES_PASSES_SPREAD(condition)                                                                                 \
+    {.name = "tiles",                                                                                                  \
+     .shader = "lines/tiles.frag",                                                                                     \
+     .reads = {TARGET_EDGE},                                                                                           \
+     .writes = LINES_TILES,                                                                                            \
+     .when = condition,                                                                                                \
+     .stylised = true},                                                                                                \
+        {.name = "wide tiles",                                                                                         \
+         .shader = "lines/tiles_wide.frag",                                                                            \
+         .reads = {LINES_TILES},                                                                                       \
+         .writes = LINES_TILES,                                                                                        \
+         .when = "width>3",                                                                                            \
+         .stylised = true},                                                                                            \
+        {.name = "flood's first",                                                                                      \
+         .shader = "lines/flood_first.frag",                                                                           \
+         .reads = {TARGET_EDGE},                                                                                       \
+         .writes = LINES_SEEDS,                                                                                        \
+         .when = "width>3",                                                                                            \
+         .stylised = true},                                                                                            \
+        {.name = "flood",                                                                                              \
+         .shader = "lines/flood.frag",                                                                                 \
+         .reads = {LINES_SEEDS, LINES_TILES},                                                                          \
+         .writes = LINES_SEEDS,                                                                                        \
+         .rounds = lines_flood_rounds,                                                                                 \
+         .when = "width>3",                                                                                            \
+         .stylised = true},                                                                                            \
+    {                                                                                                                  \
+        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_FEET, LINES_TILES, LINES_SEEDS}, \
+        .writes = TARGET_EDGE, .when = condition, .stylised = true                                                     \
+    }
+int lines_flood_rounds(const void *values);
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they
  * grow: thin ones are traced best, and dashes know where lines end. */
@@ -59,7 +96,7 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
         .name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                    \
         .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"                                                               \
     }
-#define LINES_PASSES_BEHIND                                                                                            \
+#define LINES_PASSES_STYLISE                                                                                           \
     {.name = "overshoot",                                                                                              \
      .process = overshoot_process,                                                                                     \
      .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                                                                      \
@@ -96,13 +133,8 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
          .reads = {TARGET_EDGE},                                                                                       \
          .writes = TARGET_DASH,                                                                                        \
          .when = "dash",                                                                                               \
-         .stylised = true},                                                                                            \
-        {.name = "grow",                                                                                               \
-         .shader = "lines/edge/grow.frag",                                                                             \
-         .reads = {TARGET_EDGE},                                                                                       \
-         .writes = TARGET_EDGE,                                                                                        \
-         .when = "width>2"},                                                                                           \
-        LINES_PASSES_CONTRAST
+         .stylised = true}
+#define LINES_PASSES_BEHIND LINES_PASSES_STYLISE, LINES_PASSES_SPREAD("width>2"), LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
     lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;

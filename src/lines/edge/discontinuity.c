@@ -34,11 +34,15 @@ static const param params[] = {
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
+    {.name = "records", .records = true, .reads = {TARGET_DEPTH}, .writes = LINES_RECORDS, .stylised = true},
     {.name = "edges",
      .shader = "lines/edge/discontinuity.glsl+lines/edge/detect.frag",
-     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
-     .writes = TARGET_EDGE},
-    LINES_PASSES_BEHIND,
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH, LINES_RECORDS},
+     .writes = TARGET_EDGE,
+     .writes_too = LINES_FEET},
+    LINES_PASSES_STYLISE,
+    LINES_PASSES_SPREAD(NULL),
+    LINES_PASSES_CONTRAST,
 };
 
 const technique lines_discontinuity = {

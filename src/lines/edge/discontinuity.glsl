@@ -1,4 +1,5 @@
 /* See discontinuity.c. A pixel is ink when visibility, orientation or part changes between it and one of its four neighbours. */
+#define OWN_WIDTH
 #include "lines/edge/edge.glsl"
 
 #include "light/piece.glsl"
@@ -16,8 +17,15 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
+#ifdef WRITES_TOO
+#include "lines/edge/feet.glsl"
+#endif
+#ifdef HAS_RECORDS
+#include "lines/record.glsl"
+#endif
+
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
-vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uvec2 id, float crease_weight, float far_weight)
+vec2 inner_and_id(vec2 side, vec3 normal, vec3 ray, uvec2 id)
 {
     vec3 other = neighbour(t_normal_depth, side).xyz;
     float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
@@ -25,23 +33,23 @@ vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uvec2 id, floa
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
 #if PARTS
-    between = piece_of(other_id) != piece_of(id) ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
+    between = piece_of(other_id) != piece_of(id) ? 1.0 : 0.0;
 #endif
     bool meet = ((id.g ^ other_id.g) & SURFACE_INDEX_MASK) != 0u && (id.g & other_id.g & SURFACE_OPERAND) != 0u;
     faint = meet ? mix(1.0, u_line_meet, 0.5) : faint;
     crease = meet ? u_line_meet : crease;
 #endif
-    float inner = clamp((faint - cosine) / max(faint - crease, 1e-4), 0.0, 1.0) * crease_weight;
+    float inner = clamp((faint - cosine) / max(faint - crease, 1e-4), 0.0, 1.0);
     return vec2(inner, between);
 }
 
 /* Profile ink between this pixel and its neighbour of depth `next`; `before` and `behind_next` lie on either side of the two. Where
  * one of the two is empty there is nothing but a profile, and `inks` is cleared. */
-float profile_ink(float before, float depth, float next, float behind_next, float tolerance, float far_weight, inout vec2 inks)
+float profile_ink(float before, float depth, float next, float behind_next, float tolerance, inout vec2 inks)
 {
     if ((depth >= 1.0) != (next >= 1.0)) {
         inks = vec2(0.0);
-        return depth >= 1.0 ? far_weight : 1.0;
+        return 1.0;
     }
     float across = next - depth;
     float slope_before = before >= 1.0 ? behind_next - next : depth - before;
@@ -50,7 +58,7 @@ float profile_ink(float before, float depth, float next, float behind_next, floa
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
     excess -= inks.x * 0.5 * max(abs(slope_before), abs(slope_behind));
-    return smoothstep(0.5, 1.0, excess / tolerance) * (across > 0.0 ? 1.0 : far_weight);
+    return smoothstep(0.5, 1.0, excess / tolerance);
 }
 
 float depth_at(float x, float y)
@@ -64,6 +72,9 @@ void detect_edges()
     float right = depth_at(1.0, 0.0), left = depth_at(-1.0, 0.0), up = depth_at(0.0, 1.0), down = depth_at(0.0, -1.0);
     float profile = 0.0;
     vec2 inks = vec2(0.0);
+#ifdef WRITES_TOO
+    vec4 foot = vec4(0.0);
+#endif
     /* Loops that run once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
     int busy = min(depth, min(min(left, right), min(up, down))) < 1.0 ? 1 : 0;
     for (int once = 0; once < busy; once++) {
@@ -78,22 +89,39 @@ void detect_edges()
 #ifdef HAS_ID
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
-        float second = clamp(u_line_width - 1.0, 0.0, 1.0);
-        vec2 to_right = inner_and_id(vec2(1.0, 0.0), right - depth, normal, ray, id, 1.0, second);
-        vec2 to_left = inner_and_id(vec2(-1.0, 0.0), left - depth, normal, ray, id, second, second);
-        vec2 to_up = inner_and_id(vec2(0.0, 1.0), up - depth, normal, ray, id, 1.0, second);
-        vec2 to_down = inner_and_id(vec2(0.0, -1.0), down - depth, normal, ray, id, second, second);
+        vec2 to_right = inner_and_id(vec2(1.0, 0.0), normal, ray, id), to_left = inner_and_id(vec2(-1.0, 0.0), normal, ray, id);
+        vec2 to_up = inner_and_id(vec2(0.0, 1.0), normal, ray, id), to_down = inner_and_id(vec2(0.0, -1.0), normal, ray, id);
+        vec4 steps = vec4(0.0); /* to the right, left, up and down */
         /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
         float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
         float farthest = max(depth, max(max(left, right), max(up, down)));
         int bent = bend > 0.5 * tolerance || farthest >= 1.0 ? 1 : 0;
         for (int again = 0; again < bent; again++) {
-            profile = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, second, to_right);
-            profile = max(profile, profile_ink(right, depth, left, depth_at(-2.0, 0.0), tolerance, second, to_left));
-            profile = max(profile, profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, second, to_up));
-            profile = max(profile, profile_ink(up, depth, down, depth_at(0.0, -2.0), tolerance, second, to_down));
+            steps.x = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
+            steps.y = profile_ink(right, depth, left, depth_at(-2.0, 0.0), tolerance, to_left);
+            steps.z = profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
+            steps.w = profile_ink(up, depth, down, depth_at(0.0, -2.0), tolerance, to_down);
+            profile = max(max(steps.x, steps.y), max(steps.z, steps.w));
         }
         inks = max(max(to_right, to_left), max(to_up, to_down));
+#ifdef WRITES_TOO
+        vec4 creases = vec4(to_right.x, to_left.x, to_up.x, to_down.x), borders = vec4(to_right.y, to_left.y, to_up.y, to_down.y);
+        int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
+#ifdef HAS_RECORDS
+        vec4 record = texelFetch(t_records, ivec2(gl_FragCoord.xy), 0);
+        float crease = max(record.w >= RECORDED_BORDER ? 0.0 : record.w - RECORDED_OUTLINE, -record.w);
+        bool outline = record.w > 0.0 && (record.w >= RECORDED_BORDER || profile > 0.0);
+        profile = record.w >= RECORDED_BORDER ? 1.0 : profile;
+        inks.x = record.w != 0.0 && !outline ? crease : inks.x;
+        foot = record.w != 0.0 && profile + inks.x + inks.y > 0.0 ? vec4(record.xyz, 1.0) : foot;
+        unknown = foot.w > 0.0 ? 0 : unknown;
+#endif
+        for (int again = 0; again < unknown; again++)
+            foot = foot_of(steps, creases, borders, depth, vec4(right, left, up, down), normal_depth, ray, id);
+#endif
     }
     write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
+#ifdef WRITES_TOO
+    out_feet = foot;
+#endif
 }
