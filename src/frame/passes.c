@@ -21,10 +21,16 @@ static bool goes_onto_page(const pass *p)
     return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || p->writes == TARGET_SHADOW;
 }
 
+/* Is its picture one that is there and added to? */
+static bool adds(const pass *p)
+{
+    return p->onto || goes_onto_page(p);
+}
+
 /* Is the pass drawn in the tiles that have something, instead of everywhere? */
 static bool in_boxes(const figure_state *s, const pass *p)
 {
-    return s->boxes && target_row_of(s, p->writes)->scale == SCALE_PAGE;
+    return s->boxes && !p->tiles && target_row_of(s, p->writes)->scale == SCALE_PAGE;
 }
 
 static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
@@ -59,7 +65,10 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
     }
     if (p->strips && target_row_of(s, p->writes)->format == TEXEL_DEPTH32F)
         text_append(&prelude, "#define DEPTH_ALONE\n%s", p->writes == TARGET_SHADOW ? "#define INTO_SHADOW\n" : "");
-    const char *vertex = p->strips ? p->strips->vertex : in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert";
+    const char *vertex = p->strips        ? p->strips->vertex
+                         : in_boxes(s, p) ? "gpu/boxes.vert"
+                         : p->tiles       ? "lines/tile.vert"
+                                          : "gpu/screen.vert";
     return program_of(f, GPU_FLOOR, vertex, path, &prelude);
 }
 
@@ -120,12 +129,36 @@ static void draw_strips(frame *f, const figure_state *s, const pass *p, const te
     gpu_marks_destroy(f->g, &strips);
 }
 
+/* The figure's tiles as quads; those that have nothing are left out where vertices are placed. */
+static void draw_tiles(frame *f, const figure_state *s)
+{
+    const int *b = s->pixels, first[2] = {b[0] / TILE_PIXELS, b[1] / TILE_PIXELS};
+    int        columns = (b[0] + b[2] - 1) / TILE_PIXELS - first[0] + 1;
+    int        rows = (b[1] + b[3] - 1) / TILE_PIXELS - first[1] + 1;
+    float     *records = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *records), *at = records;
+    for (int i = 0; records && i < columns * rows; i++, at += 4) {
+        at[0] = (float)(first[0] + i % columns);
+        at[1] = (float)(first[1] + i / columns);
+        at[2] = at[3] = 0;
+    }
+    gpu_marks *tiles = records ? gpu_marks_create(f->g, 1, records, (size_t)columns * (size_t)rows) : NULL;
+    if (!records)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(records);
+    gpu_settle(f->g);
+    if (tiles)
+        gpu_draw_marks(f->g, tiles);
+    gpu_marks_destroy(f->g, &tiles);
+}
+
 /* What a pass draws into. */
 static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written, gpu_texture *too)
 {
-    bool     page = goes_onto_page(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
+    bool     page = adds(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
     gpu_pass target = {.colours = {depth_alone ? NULL : written, too},
-                       .colour_count = depth_alone ? 0 : too ? 2 : 1,
+                       .colour_count = depth_alone ? 0
+                                       : too       ? 2
+                                                   : 1,
                        .depth = depth_alone ? written
                                 : p->depth  ? f->page_depth
                                             : NULL,
@@ -161,7 +194,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
 {
     stopwatch    w = watch_start(&f->profile);
     gpu_program *program = pass_program(f, s, p, params);
-    bool         page = goes_onto_page(p); /* pictures that are added to */
+    bool         page = adds(p);
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     gpu_texture *too = p->writes_too ? frame_acquire_for(f, s, p->writes_too) : NULL;
     if (program && written && !gpu_failed(f->g)) {
@@ -174,7 +207,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
-        if (params->perturbed && page) {
+        if (params->perturbed && goes_onto_page(p)) {
             used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
             frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
         }
@@ -185,6 +218,8 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
             draw_strips(f, s, p, params->made);
         else if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
+        else if (p->tiles)
+            draw_tiles(f, s);
         else
             gpu_draw_screen(f->g);
     }
@@ -303,6 +338,12 @@ static bool is_due(const frame *f, const pass *p, bool before)
     return p->prepares == before && !(p->stylised && f->maps) && p->writes != TARGET_SHADOW;
 }
 
+/* Are the pictures there that the pass depends on, and none that it stands in for? */
+static bool has_pictures(const figure_state *s, const pass *p)
+{
+    return (!p->with || s->targets[p->with]) && (!p->without || !s->targets[p->without]);
+}
+
 static int rounds_of(const pass *p, const technique_use *use)
 {
     return p->rounds ? p->rounds(use->values) : p->repeat > 1 ? p->repeat : 1;
@@ -332,7 +373,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        if (!pass_applies(id, p, use) || !is_due(f, p, before))
+        if (!pass_applies(id, p, use) || !is_due(f, p, before) || !has_pictures(s, p))
             continue;
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);

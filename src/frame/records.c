@@ -7,6 +7,15 @@
 
 #include <string.h>
 
+/* In a record's bits, of what is wanted: outlines. */
+enum { RECORD_OUTLINE = 32 };
+
+/* Do passes follow that work on whole lines, two pixels wide? */
+static bool works_on_lines(const lines_common *lines)
+{
+    return lines->overshoot > 0 || lines->halo > 0 || lines->dash > 0;
+}
+
 static stroke_store *find_store(frame *f)
 {
     bool *parts = mem_calloc(f->up->part_count, sizeof *parts);
@@ -20,53 +29,77 @@ static stroke_store *find_store(frame *f)
     return s;
 }
 
-static void open_picture(frame *f, figure_state *s, const pass *p, gpu_texture *depth)
+static gpu_texture *renew(frame *f, figure_state *s, target t)
 {
-    gpu_target_release(f->g, s->targets[p->writes]);
-    s->targets[p->writes] = frame_acquire_for(f, s, p->writes);
-    gpu_pass target = {.colours = {s->targets[p->writes]}, .colour_count = 1, .depth = depth, .clear = true};
-    target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
-    memcpy(target.clear_box, s->around, sizeof target.clear_box);
-    memcpy(target.scissor, s->pixels, sizeof target.scissor);
+    gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = frame_acquire_for(f, s, t);
+    return s->targets[t];
+}
+
+/* Lines at once, and which pixels need no others; or where edges are, the nearest of each pixel by a depth of its own.
+ */
+static void open_pictures(frame *f, figure_state *s, const pass *p, bool inked, gpu_texture *depth)
+{
+    const target written[] = {inked ? TARGET_EDGE : p->writes, inked ? p->writes_too : TARGET_NONE};
+    gpu_pass     into = {.colour_count = inked ? 2 : 1, .depth = depth, .clear = true};
+    for (int i = 0; i < into.colour_count; i++) {
+        into.colours[i] = renew(f, s, written[i]);
+        target_empty(target_row_of(s, written[i]), s->far, into.clear_values[i]);
+    }
+    memcpy(into.clear_box, s->around, sizeof into.clear_box);
+    memcpy(into.scissor, s->pixels, sizeof into.scissor);
     if (!gpu_failed(f->g))
-        gpu_pass_begin(f->g, &target);
+        gpu_pass_begin(f->g, &into);
+}
+
+static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use, bool inked)
+{
+    text prelude = {0};
+    uniforms_declare(&prelude, use_own_set(KIND_LINES, use));
+    uniforms_declare(&prelude, use_common_set(KIND_LINES, use));
+    reads_declare(&prelude, f, s, p, NULL);
+    if (f->plan->has_cut || f->up->has_removed) /* then not all that is nearer is seen */
+        text_append(&prelude, "#define OPEN_BODIES\n");
+    if (inked)
+        text_append(&prelude, "#define INKED\n");
+    return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
 }
 
 static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use)
 {
-    const param_set own = use_own_set(KIND_LINES, use);
-    text            prelude = {0};
-    uniforms_declare(&prelude, own);
-    reads_declare(&prelude, f, s, p, NULL);
-    if (s->figure->layered || f->plan->has_cut || f->up->has_removed) /* then not all that is nearer is seen */
-        text_append(&prelude, "#define SEEN_THROUGH\n");
-    gpu_program *program = program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
+    const bool   inked = !works_on_lines(use->values);
+    gpu_program *drawing = program(f, s, p, use, inked);
     /* Before the pass begins: making records takes the place of what is bound. */
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             edges_bring(f, store, i, false);
-    gpu_texture *depth = frame_acquire(f, TARGET_DEPTH);
-    open_picture(f, s, p, depth);
-    if (program && !gpu_failed(f->g)) {
-        gpu_use(f->g, program, (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
+    gpu_texture *depth = inked ? NULL : frame_acquire(f, TARGET_DEPTH);
+    open_pictures(f, s, p, inked, depth);
+    if (drawing && !gpu_failed(f->g)) {
+        gpu_use(f->g, drawing,
+                inked ? (gpu_state){.blend = GPU_BLEND_MIN}
+                      : (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
         frame_set_common(f, s);
-        uniforms_set(f->g, own);
+        uniforms_set(f->g, use_own_set(KIND_LINES, use));
+        uniforms_set(f->g, use_common_set(KIND_LINES, use));
         reads_set(f, s, p, NULL);
         gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
-        gpu_set_int(f->g, "u_wanted", 32 | RECORD_BORDER | RECORD_CREASE);
-        gpu_set_int(f->g, "u_inside", s->figure->layered || f->plan->has_cut || f->up->has_removed || !eye_is_outside(f));
+        gpu_set_int(f->g, "u_wanted", RECORD_OUTLINE | RECORD_BORDER | RECORD_CREASE);
+        gpu_set_int(f->g, "u_inside", f->plan->has_cut || f->up->has_removed || !eye_is_outside(f));
         gpu_settle(f->g);
         for (uint32_t i = 0; i < store->scene.item_count; i++)
             if (s->figure->designated[store->scene.items[i].part_index])
                 edges_draw(f, store, i, false);
     }
-    gpu_target_release(f->g, depth);
+    if (depth)
+        gpu_target_release(f->g, depth);
 }
 
 void records_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
 {
-    /* Movers and mirrors are drawn in other moments and halves of the scene than the store's. */
-    if (f->mirror || s->figure->mover || gpu_failed(f->g))
+    /* Movers and mirrors are drawn in other moments and halves of the scene than the store's; of layers each would
+     * have to look for its own. */
+    if (f->mirror || s->figure->mover || s->figure->layered || gpu_failed(f->g))
         return;
     stopwatch     w = watch_start(&f->profile);
     stroke_store *store = find_store(f);

@@ -100,7 +100,10 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
     {"t_records", TEXEL_RGBA16F},
     {"t_feet", TEXEL_RGBA16F},
     {"t_tiles", TEXEL_R8, SCALE_TILE},
-    {"t_seeds", TEXEL_RGBA32UI},
+    {"t_seeds", TEXEL_RGBA32UI, .empty = {0xC000C000u, 0xC000C000u, 0xC000C000u, 0}}, /* none */
+    {"t_pairs", TEXEL_RGBA16F},
+    {"t_bare", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_thin", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
 };
 
 static const technique *const techniques[] = {

@@ -53,40 +53,52 @@ enum { LINES_FOUND_WIDTH = 2 };
 #define LINES_FEET       TARGET_OWN(5) /* where the edge beside a pixel is: lines/edge/feet.glsl */
 #define LINES_TILES      TARGET_OWN(6) /* 1: a tile that lines may reach */
 #define LINES_SEEDS      TARGET_OWN(7) /* lines/seed.glsl */
-enum { LINES_TARGET_COUNT = 8 };
+#define LINES_PAIRS      TARGET_OWN(8) /* lines/edge/pairs.frag */
+#define LINES_BARE       TARGET_OWN(9) /* r: of outlines, g: of others; 0 beside edges that are drawn already, else 1 */
+#define LINES_THIN       TARGET_OWN(10) /* the edge map of what is not */
+enum { LINES_TARGET_COUNT = 11 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 
-/* Lines as wide as they are to be. */
-#define LINES_PASSES_SPREAD(condition)                                                                                 \
+/* Of lines so broad that the pixels beside them are far: the nearest of those that have ink in the map. */
+#define LINES_PASSES_FLOOD(map, there, missing)                                                                        \
+    {.name = "wide tiles",                                                                                             \
+     .shader = "lines/tiles_wide.frag",                                                                                \
+     .reads = {LINES_TILES},                                                                                           \
+     .writes = LINES_TILES,                                                                                            \
+     .with = there,                                                                                                    \
+     .without = missing,                                                                                               \
+     .when = "width>3",                                                                                                \
+     .stylised = true},                                                                                                \
+        {.name = "flood's first",                                                                                      \
+         .shader = "lines/flood_first.frag",                                                                           \
+         .reads = {map, LINES_TILES},                                                                                  \
+         .writes = LINES_SEEDS,                                                                                        \
+         .tiles = LINES_TILES,                                                                                         \
+         .with = there,                                                                                                \
+         .without = missing,                                                                                           \
+         .when = "width>3",                                                                                            \
+         .stylised = true},                                                                                            \
+    {                                                                                                                  \
+        .name = "flood", .shader = "lines/flood.frag", .reads = {LINES_SEEDS, LINES_TILES}, .writes = LINES_SEEDS,     \
+        .rounds = lines_flood_rounds, .tiles = LINES_TILES, .with = there, .without = missing, .when = "width>3",      \
+        .stylised = true                                                                                               \
+    }
+/* Lines as wide as they are to be, from the edge map. */
+#define LINES_PASSES_WIDE(condition)                                                                                   \
+    LINES_PASSES_FLOOD(TARGET_EDGE, TARGET_NONE, LINES_BARE),                                                          \
+    {                                                                                                                  \
+        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_FEET, LINES_TILES, LINES_SEEDS}, \
+        .writes = TARGET_EDGE, .tiles = LINES_TILES, .without = LINES_BARE, .when = condition, .stylised = true        \
+    }
+/* The same of what operators found that know no more than pixels. */
+#define LINES_PASSES_SPREAD                                                                                            \
     {.name = "tiles",                                                                                                  \
      .shader = "lines/tiles.frag",                                                                                     \
      .reads = {TARGET_EDGE},                                                                                           \
      .writes = LINES_TILES,                                                                                            \
-     .when = condition,                                                                                                \
+     .when = "width>2",                                                                                                \
      .stylised = true},                                                                                                \
-        {.name = "wide tiles",                                                                                         \
-         .shader = "lines/tiles_wide.frag",                                                                            \
-         .reads = {LINES_TILES},                                                                                       \
-         .writes = LINES_TILES,                                                                                        \
-         .when = "width>3",                                                                                            \
-         .stylised = true},                                                                                            \
-        {.name = "flood's first",                                                                                      \
-         .shader = "lines/flood_first.frag",                                                                           \
-         .reads = {TARGET_EDGE},                                                                                       \
-         .writes = LINES_SEEDS,                                                                                        \
-         .when = "width>3",                                                                                            \
-         .stylised = true},                                                                                            \
-        {.name = "flood",                                                                                              \
-         .shader = "lines/flood.frag",                                                                                 \
-         .reads = {LINES_SEEDS, LINES_TILES},                                                                          \
-         .writes = LINES_SEEDS,                                                                                        \
-         .rounds = lines_flood_rounds,                                                                                 \
-         .when = "width>3",                                                                                            \
-         .stylised = true},                                                                                            \
-    {                                                                                                                  \
-        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_FEET, LINES_TILES, LINES_SEEDS}, \
-        .writes = TARGET_EDGE, .when = condition, .stylised = true                                                     \
-    }
+        LINES_PASSES_WIDE("width>2")
 int lines_flood_rounds(const void *values);
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they
@@ -128,13 +140,11 @@ int lines_flood_rounds(const void *values);
          .writes = TARGET_EDGE,                                                                                        \
          .when = "halo",                                                                                               \
          .stylised = true},                                                                                            \
-        {.name = "dashes",                                                                                             \
-         .process = dash_process,                                                                                      \
-         .reads = {TARGET_EDGE},                                                                                       \
-         .writes = TARGET_DASH,                                                                                        \
-         .when = "dash",                                                                                               \
-         .stylised = true}
-#define LINES_PASSES_BEHIND LINES_PASSES_STYLISE, LINES_PASSES_SPREAD("width>2"), LINES_PASSES_CONTRAST
+    {                                                                                                                  \
+        .name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",      \
+        .stylised = true                                                                                               \
+    }
+#define LINES_PASSES_BEHIND LINES_PASSES_STYLISE, LINES_PASSES_SPREAD, LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
     lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;

@@ -44,8 +44,13 @@ void place_edge(float code)
         begin = mix(end, begin, second / (second - first));
     else if (second <= 0.0)
         end = mix(begin, end, first / (first - second));
-    v_begin = vec4(on_page(begin), RECORD_REACH - 0.5);
-    v_end = vec4(on_page(end), RECORD_REACH - 0.5);
+#ifdef INKED
+    float room = max(0.5 * u_line_width + 0.75, RECORD_REACH) - 0.5; /* a quad has half a pixel more */
+#else
+    float room = RECORD_REACH - 0.5;
+#endif
+    v_begin = vec4(on_page(begin), room);
+    v_end = vec4(on_page(end), room);
     v_look.x = code;
     if (code >= RECORDED_OUTLINE && code <= RECORDED_OUTLINE + 1.0 && distance(v_begin.xy, v_end.xy) < FINE)
         v_normal = normal_of_outline(begin, end);

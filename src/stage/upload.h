@@ -119,9 +119,9 @@ typedef struct upload {
     float        *part_frame_values; /* what is in it */
     float        *rest_frame_values; /* the same of the pose at rest; NULL: not asked for yet */
     double        frame_origin[3];
-    mark_sets    *marks;      /* NULL: none yet */
+    mark_sets    *marks;                  /* NULL: none yet */
     stroke_store *strokes[STROKE_STORES]; /* NULL: not asked for yet */
-    uint64_t triangles;       /* drawn, instances counted */
+    uint64_t      triangles;              /* drawn, instances counted */
 } upload;
 
 /* How a scene is put on the GPU. */

@@ -41,7 +41,7 @@ typedef enum target {
 } target;
 
 /* Behind them lie the technique's own, in the order of its rows. */
-enum { OWN_TARGETS_MAX = 8, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
+enum { OWN_TARGETS_MAX = 11, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
 #define TARGET_OWN(index) ((target)(TARGET_COUNT + (index)))
 
 typedef enum target_format {
@@ -64,7 +64,7 @@ typedef enum target_scale {
     SCALE_OWN    /* as who makes it says */
 } target_scale;
 
-enum { DIRECTION_APART = 4, TILE_PIXELS = 8 };
+enum { DIRECTION_APART = 4, TILE_PIXELS = 16 };
 
 /* Who has a picture, and until when. Figures that are layered have theirs from the first layer to the last. */
 typedef enum target_owner {

@@ -68,15 +68,19 @@ typedef struct pass {
     /* Draws a mover's geometry, each pixel at as many moments of the exposure as this parameter says, with this
      * fragment shader; the nearest depth goes into the next of the technique's own targets. */
     const char *scattered;
-    bool records; /* instead of a shader: edges of the figure's meshes, where they are on the page: lines/records.vert */
-    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
+    target      tiles; /* TARGET_NONE, or a picture of SCALE_TILE: drawn only in the tiles where it is not 0 */
+    bool
+        records; /* instead of a shader: edges of the figure's meshes, where they are on the page: lines/records.vert */
+    bool strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
     const strip_source *strips; /* these instead of the screen, one over the other; into a picture of depth the nearest
                                    (DEPTH_ALONE) */
-    int         repeat;         /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    int repeat;                 /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
     int (*rounds)(const void *values); /* instead of `repeat`, by the technique's values */
-    const char *when;           /* condition on the technique's parameters; NULL: always */
+    target      with, without;         /* TARGET_NONE, or only if this picture is there, or is not */
+    const char *when;                  /* condition on the technique's parameters; NULL: always */
     bool prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded
                       with its geometry */
+    bool onto;     /* drawn onto what is there, which it does not read */
     bool stylised; /* left out in maps, which show what was detected */
 } pass;
 

@@ -1,5 +1,10 @@
-/* Where between pixels an edge runs of which the picture alone tells. Two planes that meet are crossed: window depth is affine on planes. Where surfaces part, the pattern of
+/* The edge map, two pixels wide, from pairs of pixels; and where between them an edge runs. Records of edges know it. Where there are none the picture must tell. Two planes that meet are crossed: window depth is affine on planes. Where surfaces part, the pattern of
  * the boundary tells the slant, as it does morphological antialiasing: a straight edge passes the middle between two pixels where the boundary moves on by one. */
+#define OWN_WIDTH
+#include "lines/edge/edge.glsl"
+
+#include "light/piece.glsl"
+#include "lines/record.glsl"
 layout(location = 1) out vec4 out_feet; /* x, y: unit normal of the edge; z: how far it is from the pixel's middle along it; w: 1 where there is one */
 
 /* Pixels along the boundary that are looked at, to either side. */
@@ -77,7 +82,7 @@ vec4 by_pattern(vec2 side, bool by_depth, float depth, float next, uint piece)
     return vec4(normal, dot(normal, side) * (0.5 + height), back.x + ahead.x);
 }
 
-vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, vec4 normal_depth, vec3 ray, uvec2 id)
+vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, vec4 normal_depth, uvec2 id)
 {
     const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
     vec4 found = vec4(0.0);
@@ -101,4 +106,46 @@ vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, v
         }
     }
     return found;
+}
+
+vec4 pairs_at(ivec2 off)
+{
+    ivec2 at = ivec2(gl_FragCoord.xy) + off;
+    return min(at.x, at.y) < 0 ? vec4(0.0) : texelFetch(t_pairs, at, 0);
+}
+
+void main()
+{
+    vec4 own = pairs_at(ivec2(0)), left = pairs_at(ivec2(-1, 0)), down = pairs_at(ivec2(0, -1));
+    vec4 steps = vec4(own.x, left.x, own.y, down.y), both = vec4(own.z, left.z, own.w, down.w);
+    vec4 borders = step(2.0, both), creases = both - 2.0 * borders, foot = vec4(0.0);
+    float profile = max(max(steps.x, steps.y), max(steps.z, steps.w));
+    vec2 inks = vec2(max(max(creases.x, creases.y), max(creases.z, creases.w)), max(max(borders.x, borders.y), max(borders.z, borders.w)));
+#ifdef HAS_BARE
+    /* Records have drawn it already. */
+    vec2 bare = texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).rg;
+    profile *= bare.x;
+    inks *= bare.y;
+#endif
+    int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
+#ifdef HAS_RECORDS
+    vec4 record = texelFetch(t_records, ivec2(gl_FragCoord.xy), 0);
+    float crease = record.w >= RECORDED_BORDER ? 0.0 : max(record.w - RECORDED_OUTLINE, -record.w);
+    bool outline = record.w > RECORDED_OUTLINE || (record.w > 0.0 && profile > 0.0);
+    profile = record.w > RECORDED_OUTLINE ? 1.0 : profile;
+    inks.x = record.w != 0.0 && !outline ? max(crease, 0.0) : inks.x;
+    foot = record.w != 0.0 && profile + inks.x + inks.y > 0.0 ? vec4(record.xyz, 1.0) : foot;
+    unknown = foot.w > 0.0 ? 0 : unknown;
+#endif
+    for (int once = 0; once < unknown; once++) {
+        vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
+        vec4 beside = vec4(neighbour(t_depth, vec2(1.0, 0.0)).r, neighbour(t_depth, vec2(-1.0, 0.0)).r, neighbour(t_depth, vec2(0.0, 1.0)).r, neighbour(t_depth, vec2(0.0, -1.0)).r);
+        uvec2 id = uvec2(0u);
+#ifdef HAS_ID
+        id = texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg;
+#endif
+        foot = foot_of(steps, creases, borders, neighbour(t_depth, vec2(0.0)).r, beside, normal_depth, id);
+    }
+    write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
+    out_feet = foot;
 }

@@ -1,5 +1,5 @@
-/* See discontinuity.c. A pixel is ink when visibility, orientation or part changes between it and one of its four neighbours. */
-#define OWN_WIDTH
+/* See discontinuity.c: where visibility, orientation or part changes between neighbours. x, y: profile ink to the right and up; z, w: inner ink, and 2 where there is id
+ * ink, the same. */
 #include "lines/edge/edge.glsl"
 
 #include "light/piece.glsl"
@@ -16,13 +16,6 @@ float unexplained(float before, float across, float behind)
     float excess = max(low - across, across - high);
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
-
-#ifdef WRITES_TOO
-#include "lines/edge/feet.glsl"
-#endif
-#ifdef HAS_RECORDS
-#include "lines/record.glsl"
-#endif
 
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
 vec2 inner_and_id(vec2 side, vec3 normal, vec3 ray, uvec2 id)
@@ -66,17 +59,13 @@ float depth_at(float x, float y)
     return neighbour(t_depth, vec2(x, y)).r;
 }
 
-void detect_edges()
+/* Of the pairs that this pixel makes with its neighbours to the right and above: each pair is looked at once. */
+void main()
 {
-    float depth = depth_at(0.0, 0.0);
-    float right = depth_at(1.0, 0.0), left = depth_at(-1.0, 0.0), up = depth_at(0.0, 1.0), down = depth_at(0.0, -1.0);
-    float profile = 0.0;
-    vec2 inks = vec2(0.0);
-#ifdef WRITES_TOO
-    vec4 foot = vec4(0.0);
-#endif
+    float depth = depth_at(0.0, 0.0), right = depth_at(1.0, 0.0), up = depth_at(0.0, 1.0);
+    vec2 steps = vec2(0.0), to_right = vec2(0.0), to_up = vec2(0.0);
     /* Loops that run once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
-    int busy = min(depth, min(min(left, right), min(up, down))) < 1.0 ? 1 : 0;
+    int busy = min(depth, min(right, up)) < 1.0 ? 1 : 0;
     for (int once = 0; once < busy; once++) {
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         /* Normals count as turned to the viewer, so that models of mixed winding show no lines where only the winding changes. */
@@ -89,39 +78,16 @@ void detect_edges()
 #ifdef HAS_ID
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
-        vec2 to_right = inner_and_id(vec2(1.0, 0.0), normal, ray, id), to_left = inner_and_id(vec2(-1.0, 0.0), normal, ray, id);
-        vec2 to_up = inner_and_id(vec2(0.0, 1.0), normal, ray, id), to_down = inner_and_id(vec2(0.0, -1.0), normal, ray, id);
-        vec4 steps = vec4(0.0); /* to the right, left, up and down */
+        to_right = inner_and_id(vec2(1.0, 0.0), normal, ray, id);
+        to_up = inner_and_id(vec2(0.0, 1.0), normal, ray, id);
+        float left = depth_at(-1.0, 0.0), down = depth_at(0.0, -1.0);
         /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
         float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
-        float farthest = max(depth, max(max(left, right), max(up, down)));
-        int bent = bend > 0.5 * tolerance || farthest >= 1.0 ? 1 : 0;
+        int bent = bend > 0.5 * tolerance || max(depth, max(right, up)) >= 1.0 ? 1 : 0;
         for (int again = 0; again < bent; again++) {
             steps.x = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
-            steps.y = profile_ink(right, depth, left, depth_at(-2.0, 0.0), tolerance, to_left);
-            steps.z = profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
-            steps.w = profile_ink(up, depth, down, depth_at(0.0, -2.0), tolerance, to_down);
-            profile = max(max(steps.x, steps.y), max(steps.z, steps.w));
+            steps.y = profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
         }
-        inks = max(max(to_right, to_left), max(to_up, to_down));
-#ifdef WRITES_TOO
-        vec4 creases = vec4(to_right.x, to_left.x, to_up.x, to_down.x), borders = vec4(to_right.y, to_left.y, to_up.y, to_down.y);
-        int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
-#ifdef HAS_RECORDS
-        vec4 record = texelFetch(t_records, ivec2(gl_FragCoord.xy), 0);
-        float crease = max(record.w >= RECORDED_BORDER ? 0.0 : record.w - RECORDED_OUTLINE, -record.w);
-        bool outline = record.w > 0.0 && (record.w >= RECORDED_BORDER || profile > 0.0);
-        profile = record.w >= RECORDED_BORDER ? 1.0 : profile;
-        inks.x = record.w != 0.0 && !outline ? crease : inks.x;
-        foot = record.w != 0.0 && profile + inks.x + inks.y > 0.0 ? vec4(record.xyz, 1.0) : foot;
-        unknown = foot.w > 0.0 ? 0 : unknown;
-#endif
-        for (int again = 0; again < unknown; again++)
-            foot = foot_of(steps, creases, borders, depth, vec4(right, left, up, down), normal_depth, ray, id);
-#endif
     }
-    write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
-#ifdef WRITES_TOO
-    out_feet = foot;
-#endif
+    out_edge = vec4(steps, to_right.x + 2.0 * to_right.y, to_up.x + 2.0 * to_up.y);
 }
