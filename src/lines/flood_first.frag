@@ -10,5 +10,10 @@ layout(location = 0) out uvec4 out_0;
 void main()
 {
     vec3 ink = 1.0 - texelFetch(t_found, ivec2(gl_FragCoord.xy), 0).rga;
-    out_0 = uvec4(ink.x > 0.004 ? 0u : NO_SEED, ink.y > 0.004 ? 0u : NO_SEED, ink.z > 0.004 ? 0u : NO_SEED, 0u);
+#ifdef HAS_FEET
+    float least = 0.004;
+#else
+    float least = 0.4; /* what is fainter would hide what is not */
+#endif
+    out_0 = uvec4(ink.x > least ? 0u : NO_SEED, ink.y > least ? 0u : NO_SEED, ink.z > least ? 0u : NO_SEED, 0u);
 }

@@ -8,5 +8,5 @@ float own_reach()
 
 float halo_reach()
 {
-    return max(u_line_halo + u_line_width - 1.0, 0.0);
+    return u_line_halo + u_line_width;
 }

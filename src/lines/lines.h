@@ -60,7 +60,7 @@ enum { LINES_TARGET_COUNT = 11 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 
 /* Of lines so broad that the pixels beside them are far: the nearest of those that have ink in the map. */
-#define LINES_PASSES_FLOOD(map, there, missing)                                                                        \
+#define LINES_PASSES_FLOOD(map, feet, there, missing)                                                                  \
     {.name = "wide tiles",                                                                                             \
      .shader = "lines/tiles_wide.frag",                                                                                \
      .reads = {LINES_TILES},                                                                                           \
@@ -71,7 +71,7 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
      .stylised = true},                                                                                                \
         {.name = "flood's first",                                                                                      \
          .shader = "lines/flood_first.frag",                                                                           \
-         .reads = {map, LINES_TILES},                                                                                  \
+         .reads = {map, LINES_TILES, feet},                                                                            \
          .writes = LINES_SEEDS,                                                                                        \
          .tiles = LINES_TILES,                                                                                         \
          .with = there,                                                                                                \
@@ -83,11 +83,11 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
         .rounds = lines_flood_rounds, .tiles = LINES_TILES, .with = there, .without = missing, .when = "width>3",      \
         .stylised = true                                                                                               \
     }
-/* Lines as wide as they are to be, from the edge map. */
-#define LINES_PASSES_WIDE(condition)                                                                                   \
-    LINES_PASSES_FLOOD(TARGET_EDGE, TARGET_NONE, LINES_BARE),                                                          \
+/* Lines as wide as they are to be, from the edge map and, where they are known, the places of edges. */
+#define LINES_PASSES_WIDE(condition, feet)                                                                             \
+    LINES_PASSES_FLOOD(TARGET_EDGE, feet, TARGET_NONE, LINES_BARE),                                                    \
     {                                                                                                                  \
-        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_FEET, LINES_TILES, LINES_SEEDS}, \
+        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_TILES, LINES_SEEDS, feet},       \
         .writes = TARGET_EDGE, .tiles = LINES_TILES, .without = LINES_BARE, .when = condition, .stylised = true        \
     }
 /* The same of what operators found that know no more than pixels. */
@@ -98,7 +98,7 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
      .writes = LINES_TILES,                                                                                            \
      .when = "width>2",                                                                                                \
      .stylised = true},                                                                                                \
-        LINES_PASSES_WIDE("width>2")
+        LINES_PASSES_WIDE("width>2", TARGET_NONE)
 int lines_flood_rounds(const void *values);
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they

@@ -25,7 +25,11 @@ struct nearest_edge {
 /* Beyond the end of an edge distance counts in all directions, so that lines end and meet in round joins. */
 void look_at(inout nearest_edge found, vec4 foot, vec2 off, float across, float square, vec2 ink)
 {
-    bool nearer = max(ink.x, ink.y) > 0.0 && square < found.square;
+    /* Where all that is known is pixels, ink is of many shades, and the darkest counts. */
+    bool plain = foot.w == 0.0;
+    float weight = max(ink.x, ink.y), had = max(found.ink.x, found.ink.y), half_width = max(0.5 * u_line_width, 1.0);
+    bool darker = weight * clamp(half_width - sqrt(square), 0.0, 1.0) > had * clamp(half_width - sqrt(found.square), 0.0, 1.0);
+    bool nearer = weight > 0.0 && (plain ? darker : square < found.square);
     found.square = nearer ? square : found.square;
     found.across = nearer ? across : found.across;
     found.normal = nearer ? foot.xy : found.normal;
@@ -68,6 +72,7 @@ void main()
     vec2 outer_ink = vec2(0.0), inner_ink = vec2(0.0);
 #ifdef HAS_SEEDS
     uvec3 words = texelFetch(t_seeds, ivec2(gl_FragCoord.xy), 0).xyz;
+    look_around(ivec2(0), outer, inner);
     for (int k = 0; k < 3; k++) {
         int found = words[k] != NO_SEED ? 1 : 0;
         for (int again = 0; again < found; again++)

@@ -70,11 +70,7 @@ static void compare_side(profile_error *e, const shot *s, page_point a, page_poi
 
 static void profile_of(const shape *square, const char *file, double slope, double width, double limit)
 {
-    shot_view   view = {.width = SIDE,
-                        .height = SIDE,
-                        .eye = {0, 0, 5},
-                        .up = {0, 1, 0},
-                        .orthographic = true};
+    shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
     char        lines[120];
     const char *row = "line-profile";
     snprintf(lines, sizeof lines, "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":%g}", width);

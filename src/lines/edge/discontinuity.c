@@ -57,7 +57,7 @@ static const pass passes[] = {
      .tiles = LINES_TILES,
      .with = LINES_BARE,
      .stylised = true},
-    LINES_PASSES_FLOOD(LINES_THIN, LINES_BARE, TARGET_NONE),
+    LINES_PASSES_FLOOD(LINES_THIN, LINES_FEET, LINES_BARE, TARGET_NONE),
     {.name = "spread others",
      .shader = "lines/spread.frag",
      .reads = {LINES_THIN, LINES_FEET, LINES_TILES, LINES_SEEDS},
@@ -82,7 +82,7 @@ static const pass passes[] = {
      .writes = LINES_TILES,
      .when = "overshoot",
      .stylised = true},
-    LINES_PASSES_WIDE(NULL),
+    LINES_PASSES_WIDE(NULL, LINES_FEET),
     LINES_PASSES_CONTRAST,
 };
 

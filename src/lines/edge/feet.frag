@@ -130,6 +130,8 @@ void main()
     int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
 #ifdef HAS_RECORDS
     vec4 record = texelFetch(t_records, ivec2(gl_FragCoord.xy), 0);
+    /* Two pixels, one on each side: so the map is thin wherever the edge comes from. */
+    record.w = abs(record.z) <= max(abs(record.x), abs(record.y)) + 0.05 ? record.w : 0.0;
     float crease = record.w >= RECORDED_BORDER ? 0.0 : max(record.w - RECORDED_OUTLINE, -record.w);
     bool outline = record.w > RECORDED_OUTLINE || (record.w > 0.0 && profile > 0.0);
     profile = record.w > RECORDED_OUTLINE ? 1.0 : profile;
