@@ -7,6 +7,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -19,7 +20,7 @@ typedef struct draw_values {
     word_list     sets;
     option_size   size;
     option_vector eye, target, up;
-    option_number fov, fit, time, seed, samples;
+    option_number fov, fit, time, seed, samples, dpi;
     int           view, up_axis, angle;
     word_list     defines;
     bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume;
@@ -54,7 +55,14 @@ static const option options[] = {
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",
      "Cut a section: x, -z=40%, 1,1,0@0,0,5 or box=50%,0%,50%:100%,100%,100%, several separated by ';'. The same as "
      "--set scene.cut=SPEC."},
-    {"size", 0, OPTION_SIZE, AT(size), "WxH", "Picture size in pixels. Default: 1024x1024.", 1, 16384},
+    {"size", 0, OPTION_SIZE, AT(size), "WxH",
+     "Picture size in pixels: how finely the drawing is seen. Its longer side is 271 mm (1024 px of 1/96 inch) unless "
+     "--dpi or --page say otherwise. Default: 1024x1024.",
+     1, 16384},
+    {"dpi", 0, OPTION_NUMBER, AT(dpi), "N",
+     "Pixels an inch, for lengths of looks, which are on paper. Default: what makes the longer side 271 mm; with "
+     "--page 96.",
+     1, 10000},
     {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.",
      .choices = views},
     {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
@@ -79,13 +87,16 @@ static const option options[] = {
     {"resume", 0, OPTION_FLAG, AT(resume), NULL,
      "Of numbered pictures: go on where a run was broken off, drawing only frames whose picture is not there yet."},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
-    {"samples", 0, OPTION_WHOLE, AT(samples), "N", "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1.", 1,
+    {"samples", 0, OPTION_WHOLE, AT(samples), "N",
+     "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1, and more for small pictures (below 64 --dpi).", 1,
      64},
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
     {"page", 0, OPTION_TEXT, AT(page), "PAGE",
-     "Of vector drawings: A4, A3-landscape, letter or 210x120mm. Default: the picture's size at 96 pixels an inch."},
+     "Size of the paper: A4, A3-landscape, letter or 210x120mm. Pictures have --dpi pixels an inch of it, or --size in "
+     "all. "
+     "Default: the picture's size at its resolution."},
     {"scale", 0, OPTION_TEXT, AT(scale), "PAPER:MODEL",
      "Of vector drawings, in parallel projection: 1:20, 2:1. Default: as large as fits."},
     {"unit", 0, OPTION_TEXT, AT(unit), "UNIT",
@@ -235,10 +246,9 @@ static int check_vectors(const session *s)
     const struct {
         const char *name;
         bool        given;
-    } sheet_only[] = {{"page", v->page != NULL},   {"scale", v->scale != NULL},   {"unit", v->unit != NULL},
-                      {"views", v->views != NULL}, {"projection", v->angle >= 0}, {"title", v->title != NULL},
-                      {"frame", v->frame},         {"plotter", v->plotter},       {"fill", v->fill},
-                      {"verify", v->verify}};
+    } sheet_only[] = {{"scale", v->scale != NULL},   {"unit", v->unit != NULL},   {"views", v->views != NULL},
+                      {"projection", v->angle >= 0}, {"title", v->title != NULL}, {"frame", v->frame},
+                      {"plotter", v->plotter},       {"fill", v->fill},           {"verify", v->verify}};
     char list[FORMAT_LIST_SIZE];
     for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)
         if (sheet_only[i].given)
@@ -257,8 +267,10 @@ static int check_vectors(const session *s)
         return message_usage(NULL, "--views are in parallel projection; they have no --fov");
     if (v->scale && v->fov.given)
         return message_usage(NULL, "--scale is for parallel projection; it excludes --fov");
-    if (v->page && v->size.given)
+    if (v->page && v->size.given && s->format.vectors)
         return message_usage(NULL, "--page and --size exclude each other");
+    if (v->page && v->size.given && v->dpi.given)
+        return message_usage("leave one of them out", "--page and --dpi say how many pixels there are, and --size too");
     return EXIT_DONE;
 }
 
@@ -399,7 +411,7 @@ static int set_one(lmn_look *look, const char *assignment)
     const char *equals = strchr(assignment, '=');
     char        key[256];
     if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof key)
-        return message_usage("for example --set lines.width=3", "--set is '%.120s'; allowed is KIND.PARAM=VALUE",
+        return message_usage("for example --set lines.width=3px", "--set is '%.120s'; allowed is KIND.PARAM=VALUE",
                              assignment);
     snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
     if (lmn_look_set(look, key, equals + 1, &error) == LMN_OK)
@@ -482,6 +494,7 @@ static void fill_desc(session *s)
     d.clip = v->clip;
     d.fit_time = v->fit_time;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
+    d.dpi = v->dpi.given ? v->dpi.value : d.dpi;
     d.samples = v->samples.given ? (int)v->samples.value : d.samples;
     d.background = v->background;
     d.select = v->select;
@@ -491,6 +504,34 @@ static void fill_desc(session *s)
     d.progress = s->frames.given ? frame_report : progress_report;
     d.progress_user = s->frames.given ? (void *)&s->run : &s->progress;
     s->desc = d;
+}
+
+/* The pixels of a page, or its resolution when they are given. */
+static int lay_page(session *s)
+{
+    enum { SCREEN_DPI = 96, SIDE_MOST = 16384 };
+    lmn_draw_desc *d = &s->desc;
+    lmn_error      error = {0};
+    double         mm[2];
+    if (!s->values->page)
+        return EXIT_DONE;
+    if (lmn_page_size(s->values->page, &mm[0], &mm[1], &error) != LMN_OK)
+        return message_error(&error);
+    if (s->format.vectors)
+        return EXIT_DONE; /* the sheet is laid out by the library */
+    double longer = fmax(mm[0], mm[1]) / 25.4, dpi = s->values->dpi.given ? s->values->dpi.value : SCREEN_DPI;
+    if (s->values->size.given) {
+        d->dpi = fmin(fmax((d->width > d->height ? d->width : d->height) / longer, 1), 10000);
+        return EXIT_DONE;
+    }
+    if (longer * dpi > SIDE_MOST)
+        return message_usage("give fewer --dpi",
+                             "a page of %.0f x %.0f mm has %.0f pixels at %g an inch; allowed are %d", mm[0], mm[1],
+                             longer * dpi, dpi, SIDE_MOST);
+    d->width = (int)fmax(round(mm[0] / 25.4 * dpi), 1);
+    d->height = (int)fmax(round(mm[1] / 25.4 * dpi), 1);
+    d->dpi = dpi;
+    return EXIT_DONE;
 }
 
 /* Target and up that were not given come from the scene; frames are fitted to its clips if it has any. */
@@ -823,6 +864,8 @@ static int run(const word_list *inputs, const void *values)
     s.pattern = v->output ? v->output : standard;
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);
+    if (status == EXIT_DONE)
+        status = lay_page(&s);
     if (status == EXIT_DONE)
         status = check_film(&s);
     lmn_task *task = NULL;

@@ -45,7 +45,7 @@ static void print_allowed(const json_t *p, char out[TEXT_SIZE])
 {
     const char *type = text_at(p, "type", "");
     const char *unit = text_at(p, "unit", ""), *or_auto = json_is_true(json_object_get(p, "auto")) ? ", auto" : "";
-    bool        shown = strcmp(unit, "px") == 0 || strcmp(unit, "deg") == 0;
+    bool        shown = strcmp(unit, "pt") == 0 || strcmp(unit, "deg") == 0;
     const char *form = strcmp(type, "bool") == 0        ? "true, false"
                        : strcmp(type, "direction") == 0 ? "X,Y,Z"
                        : strcmp(type, "palette") == 0   ? "colours with commas"

@@ -38,18 +38,19 @@ typedef struct lmn_renderer_desc {
 /* What to draw. Initialise with LMN_DRAW_DESC_INIT. Angles in degrees, lengths in the scene's unit, sizes in
  * pixels. */
 typedef struct lmn_draw_desc {
-    size_t          struct_size;
-    int             width, height; /* 1 … 16384 */
-    lmn_view        view;          /* used when neither eye nor camera is given */
-    bool            eye_given;     /* use eye, target, up */
-    double          eye[3], target[3], up[3];
-    const char     *camera; /* name of a camera of the scene, or NULL */
-    bool            orthographic;
-    double          fov_deg; /* vertical, 1 … 170 */
-    double          fit;     /* fraction of the frame that the projected bounds fill, 0.01 … 10 */
-    double          time_s;  /* seconds on the scene's timeline */
-    uint32_t        seed;
-    int             samples;    /* supersamples a pixel, a square number 1 … 64 */
+    size_t      struct_size;
+    int         width, height; /* 1 … 16384 */
+    lmn_view    view;          /* used when neither eye nor camera is given */
+    bool        eye_given;     /* use eye, target, up */
+    double      eye[3], target[3], up[3];
+    const char *camera; /* name of a camera of the scene, or NULL */
+    bool        orthographic;
+    double      fov_deg; /* vertical, 1 … 170 */
+    double      fit;     /* fraction of the frame that the projected bounds fill, 0.01 … 10 */
+    double      time_s;  /* seconds on the scene's timeline */
+    uint32_t    seed;
+    int samples; /* supersamples a pixel, a square number 1 … 64; 0: one, and more for pictures of less than 64
+                    pixels an inch */
     const char     *background; /* colour, "none", or NULL for the look's ground */
     const char     *select;     /* selector that restricts what is drawn and fitted, or NULL */
     bool            maps;       /* keep the AOVs for lmn_drawing_write_maps */
@@ -62,11 +63,14 @@ typedef struct lmn_draw_desc {
     bool        time_given;
     const char *clip;     /* clips by name or number from 1 on, separated by commas; NULL: the first of each file */
     bool        fit_time; /* fits the picture to all times of the clips, so that it stands still from time to time */
+    /* Pixels an inch of paper, 1 … 10000: how large widths of lines, dashes and strokes are. 0: the longer side is
+     * 1024/96 inches (270.93 mm), whatever its pixels, so that a picture of another size is the same drawing. */
+    double dpi;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 1, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false                            \
+            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0                         \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.

@@ -18,8 +18,8 @@ typedef enum lmn_angle { LMN_THIRD_ANGLE = 0, LMN_FIRST_ANGLE } lmn_angle;
 /* What lies on the sheet. Initialise with LMN_SHEET_DESC_INIT. */
 typedef struct lmn_sheet_desc {
     size_t      struct_size;
-    const char *page;  /* "A4", "A3-landscape", "A5-portrait", "letter", "120x80mm"; NULL: the picture's size at 96
-                          pixels an inch */
+    const char *page;  /* "A4", "A3-landscape", "A5-portrait", "letter", "120x80mm"; NULL: the picture's size
+                          at its resolution */
     const char *scale; /* "1:20", "2:1"; NULL: as large as fits. With a scale projection is parallel */
     const char *unit;  /* of the scene: "mm", "cm", "m", "in"; NULL: as the first file's format has it (glTF metres, all
                           others millimetres) */
@@ -43,7 +43,10 @@ typedef struct lmn_sheet_desc {
  * renderer. */
 LMN_API bool lmn_look_needs_pixels(const lmn_look *look);
 
-/* Draws a sheet. Sizes in pixels of the description and the look are of 1/96 inch. `renderer` may be NULL; then
+/* Width and height of a page in mm, by the names that lmn_sheet_desc.page takes. Errors: LMN_USAGE. Any thread. */
+LMN_API lmn_status lmn_page_size(const char *page, double *width_mm, double *height_mm, lmn_error *error);
+
+/* Draws a sheet. `renderer` may be NULL; then
  * surfaces that need pixels are left out, with a warning. `maps`, `profile` do not matter; `samples` does for
  * pictures below the lines. End it with lmn_sheet_destroy. Errors: LMN_USAGE (descriptions, selector, sections, a
  * time, a scale that leaves the page empty), LMN_UNSUPPORTED (solids), LMN_FORMAT (nothing to draw), LMN_LIMIT

@@ -66,11 +66,14 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
     if (status == LMN_OK)
         status = check_range(error, "fit", d->fit, 0.01, 10);
     if (status == LMN_OK)
-        status = check_range(error, "the number of samples", d->samples, 1, 64);
+        status = check_range(error, "the number of samples", d->samples, 0, 64);
+    if (status == LMN_OK && d->dpi != 0)
+        status = check_range(error, "the resolution", d->dpi, LIMIT_DPI_LEAST, LIMIT_DPI_MOST);
     int side = (int)lround(sqrt((double)d->samples));
     if (status == LMN_OK && side * side != d->samples)
-        status = error_set(error, LMN_USAGE,
-                           "the number of samples is %d, it must be a square number: 1, 4, 9, 16 … 64", d->samples);
+        status =
+            error_set(error, LMN_USAGE,
+                      "the number of samples is %d, it must be a square number, 1, 4, 9, 16 … 64, or 0", d->samples);
     for (int k = 0; k < 3 && status == LMN_OK; k++)
         if (!isfinite(d->eye[k]) || !isfinite(d->target[k]) || !isfinite(d->up[k]))
             status = error_set(error, LMN_USAGE, "the camera's numbers must be finite");
@@ -81,12 +84,13 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
 
 lmn_status check_pixels(const lmn_draw_desc *d, lmn_error *error)
 {
-    uint64_t pixels = (uint64_t)d->width * (uint64_t)d->height * (uint64_t)d->samples, most = work_limits().pixels;
+    int      side = samples_side(d), samples = side * side;
+    uint64_t pixels = (uint64_t)d->width * (uint64_t)d->height * (uint64_t)samples, most = work_limits().pixels;
     if (!most || pixels <= most)
         return LMN_OK;
     return work_exceeded(error, "pixels",
                          "a picture of %dx%d pixels with %d samples each has %llu in all; allowed are %llu", d->width,
-                         d->height, d->samples, (unsigned long long)pixels, (unsigned long long)most);
+                         d->height, samples, (unsigned long long)pixels, (unsigned long long)most);
 }
 
 lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors,

@@ -40,6 +40,17 @@ static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lm
     return LMN_OK;
 }
 
+lmn_status lmn_page_size(const char *page, double *width_mm, double *height_mm, lmn_error *error)
+{
+    double size[2] = {0, 0};
+    if (!page || !width_mm || !height_mm)
+        return missing("lmn_page_size", !page ? "page" : !width_mm ? "width_mm" : "height_mm", error);
+    lmn_status status = vector_parse_page(page, size, error);
+    *width_mm = size[0];
+    *height_mm = size[1];
+    return status;
+}
+
 lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                           const lmn_draw_desc *desc, const lmn_sheet_desc *sheet, lmn_error *error)
 {

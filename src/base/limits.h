@@ -26,7 +26,9 @@
 #define LIMIT_MARKS           2000000 /* dots or strokes on the surfaces of one drawing */
 #define LIMIT_LOOK_BYTES      ((size_t)4 << 20)
 #define LIMIT_LOOK_RULES      256
-#define LIMIT_LOOK_TECHNIQUES 64                /* of one kind in a rule */
+#define LIMIT_LOOK_TECHNIQUES 64 /* of one kind in a rule */
+#define LIMIT_DPI_LEAST       1
+#define LIMIT_DPI_MOST        10000
 #define LIMIT_PICTURE_SIDE    16384             /* pixels, supersampling counted */
 #define LIMIT_IMPORT_SECONDS  120               /* the child process that reads foreign formats */
 #define LIMIT_IMPORT_MEMORY   ((size_t)8 << 30) /* its address space */

@@ -21,14 +21,14 @@ typedef struct layer_style {
 #define LAYER_STYLE_ROWS                                                                                               \
     PARAM_COLOUR_ROW(layer_style, hidden_colour, .can_auto = true, .def_auto = true, .cpu_only = true,                 \
                      .doc = "Colour of all lines of hidden layers; auto takes those of the visible ones."),            \
-        PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 1, .min = 0.5, .max = 32, .soft_max = 8, .unit = UNIT_PX,    \
-                        .can_auto = true, .def_auto = true, .cpu_only = true,                                          \
+        PARAM_FLOAT_ROW(layer_style, hidden_width, .def = 0.75, .min = 0.375, .max = 24, .soft_max = 6,                \
+                        .unit = UNIT_PT, .can_auto = true, .def_auto = true, .cpu_only = true,                         \
                         .doc = "Width of hidden lines; auto takes that of the visible ones."),                         \
         PARAM_FLOAT_ROW(                                                                                               \
-            layer_style, hidden_dash, .def = 0, .min = 0, .max = 200, .soft_max = 12, .unit = UNIT_PX, .along = true,  \
+            layer_style, hidden_dash, .def = 0, .min = 0, .max = 150, .soft_max = 9, .unit = UNIT_PT, .along = true,   \
             .cpu_only = true,                                                                                          \
             .doc = "Length of the dashes of hidden lines, along the line; 0 leaves them as visible lines are."),       \
-        PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX,    \
+        PARAM_FLOAT_ROW(layer_style, hidden_gap, .def = 3, .min = 0.375, .max = 150, .soft_max = 18, .unit = UNIT_PT,  \
                         .along = true, .cpu_only = true, .only_if = "hidden_dash",                                     \
                         .doc = "Length of the gaps between the dashes of hidden lines."),                              \
         PARAM_FLOAT_ROW(layer_style, hidden_opacity, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,              \
@@ -43,7 +43,7 @@ typedef struct layer_style {
         PARAM_BOOL_ROW(layer_style, once, .def = 1, .variant = true,                                                   \
                        .doc = "An edge that repeats in the next layer is drawn once."),                                \
         PARAM_FLOAT_ROW(                                                                                               \
-            layer_style, halo, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,                          \
+            layer_style, halo, .def = 0, .min = 0, .max = 12, .soft_max = 4.5, .unit = UNIT_PT,                        \
             .doc = "Gap in farther lines beside nearer ones, as on drawings of crossing tubes; 0 leaves none.")
 
 /* What every composition of layers reads, and the passes behind it. */

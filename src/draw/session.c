@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/paper.h"
 #include "finish/finish.h"
 #include "frame/capacity.h"
 #include "light/light.h"
@@ -103,10 +104,12 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
     return status;
 }
 
-static int square_root(int samples)
+int samples_side(const lmn_draw_desc *desc)
 {
     int side = 1;
-    while (side * side < samples)
+    if (!desc->samples)
+        return paper_samples_side(desc->width, desc->height, desc->dpi);
+    while (side * side < desc->samples)
         side++;
     return side;
 }
@@ -176,7 +179,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
     const lmn_draw_desc *desc = w->desc;
     plan_options         options = {.select = desc->select,
                                     .background = desc->background,
-                                    .pixel_scale = side,
+                                    .pixels_per_mm = paper_pixels_per_mm(desc->width, desc->height, desc->dpi) * side,
                                     .as_sprites = w->maps,
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
@@ -190,7 +193,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
         status = split_movers(s, w, side, warnings, error);
     if (status == LMN_OK)
         status = bring_stage(r, &s->plan, desc, error);
-    if (r->width != desc->width || r->height != desc->height || r->samples != desc->samples)
+    if (r->width != desc->width || r->height != desc->height || r->samples != side)
         gpu_targets_trim(r->g);
     if (status == LMN_OK)
         status = capacity_check(
@@ -207,7 +210,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
                         const draw_options *options, warnings *warnings, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
-    int                  side = options->maps ? 1 : square_root(desc->samples);
+    int                  side = options->maps ? 1 : samples_side(desc);
     frame               *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
@@ -217,13 +220,14 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
         return status;
     r->width = desc->width;
     r->height = desc->height;
-    r->samples = desc->samples;
+    r->samples = side;
     f->g = r->g;
     f->profile.g = r->g;
     f->up = &r->up;
     f->plan = &s->plan;
     f->sheet = &s->textures.sheet;
     f->samples = side;
+    f->pixels_per_mm = s->plan.pixels_per_mm;
     f->width = desc->width * side;
     f->height = desc->height * side;
     f->ground = s->plan.ground;

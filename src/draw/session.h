@@ -22,6 +22,9 @@ struct lmn_renderer {
 lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);
 
+/* Samples along each side of a pixel. */
+int samples_side(const lmn_draw_desc *desc);
+
 /* What a drawing is made for. */
 typedef struct draw_options {
     const lmn_draw_desc *desc;

@@ -16,7 +16,7 @@ static const param params[] = {
                           "rough, laid (ribs and chain lines) or canvas."),
     PARAM_FLOAT_ROW(sheet_values, grain, .def = 0.7, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "paper",
                     .doc = "How much ink follows the grain."),
-    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 2, .min = 1.5, .max = 32, .soft_max = 8, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(sheet_values, grain_size, .def = 1.5, .min = 1.125, .max = 24, .soft_max = 6, .unit = UNIT_PT,
                     .logarithmic = true, .cpu_only = true, .only_if = "paper",
                     .doc = "Size of the fine tooth; rough paper's hills, ribs and threads are a few times as large."),
     PARAM_FLOAT_ROW(sheet_values, pressure, .def = 0.9, .min = 0.3, .max = 1, .unit = UNIT_FRACTION, .only_if = "paper",

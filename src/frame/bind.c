@@ -8,16 +8,15 @@
 #include "layer/layer.h"
 #include "light/light.h"
 
-/* How cut faces are hatched. Lengths count supersamples. */
+/* How cut faces are hatched. */
 static void set_cut(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    float               scale = (float)f->samples, colour[4], fill[4] = {1, 1, 1, -1};
+    float               colour[4], fill[4] = {1, 1, 1, -1};
     uniforms_linear(v->cut_colour, colour);
     if (!isnan(v->cut_fill.r))
         uniforms_linear(v->cut_fill, fill);
-    gpu_set_vec4(f->g, "u_cut_lines",
-                 (float[]){v->cut_hatch * scale, v->cut_width * scale, v->cut_angle * (3.14159265f / 180), 0});
+    gpu_set_vec4(f->g, "u_cut_lines", (float[]){v->cut_hatch, v->cut_width, v->cut_angle * (3.14159265f / 180), 0});
     gpu_set_vec4(f->g, "u_cut_colour", colour);
     gpu_set_vec4(f->g, "u_cut_fill", fill);
 }
@@ -166,6 +165,7 @@ void frame_set_common(frame *f, const figure_state *s)
     if (gpu_has_uniform(g, "u_rest") || gpu_has_uniform(g, "u_world_from_eye"))
         upload_part_frames(f->up, g);
     gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
+    gpu_set_float(g, "u_pixels_per_mm", (float)f->pixels_per_mm);
     gpu_set_vec2(g, "u_texel", 1 / (float)f->width, 1 / (float)f->height);
     gpu_set_float(g, "u_perspective", f->camera.orthographic ? 0 : 1);
     gpu_set_vec2(g, "u_unproject", (float)(1 / f->camera.projection.m[0]), (float)(1 / f->camera.projection.m[5]));

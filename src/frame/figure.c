@@ -9,7 +9,7 @@ static float lengths_of(const param *params, size_t count, const void *values)
     float sum = 0;
     for (size_t i = 0; i < count; i++) {
         const param *p = &params[i];
-        bool         widens = p->unit == UNIT_PX && p->type == PARAM_FLOAT && !p->along && !param_is_auto(p, values);
+        bool         widens = p->unit == UNIT_PT && p->type == PARAM_FLOAT && !p->along && !param_is_auto(p, values);
         if (widens && params_condition(p->only_if, params, count, values))
             sum += fabsf(*(const float *)param_field(p, values)) * (p->reach > 0 ? p->reach : 1);
     }

@@ -20,6 +20,7 @@ typedef struct frame {
     view_camera          camera_past[POSE_PAST_MAX]; /* where it was at the steps of the pose's past */
     int                  width, height;              /* of the page, supersamples counted */
     int                  samples;                    /* a side */
+    double               pixels_per_mm;              /* of paper, supersamples counted */
     colour               ground;
     box3                 anchor; /* strokes that lie on the page move with its middle */
     uint32_t             seed;

@@ -102,8 +102,10 @@ void paper_set(frame *f)
         return;
     const technique_use *sheet = sheet_of(f);
     sheet_view           view = view_of(f);
-    sheet_lie            lie = sheet_lay(sheet->values, &view);
-    float                ground[4], less[4], more[4];
+    sheet_values         seen = *(const sheet_values *)sheet->values;
+    seen.grain_size /= (float)f->samples; /* samples are averaged before they meet the paper */
+    sheet_lie lie = sheet_lay(&seen, &view);
+    float     ground[4], less[4], more[4];
     uniforms_linear(f->ground, ground);
     for (int k = 0; k < 3; k++)
         ground[k] *= f->ground.a;

@@ -6,7 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/limits.h"
 #include "base/memory.h"
+#include "base/paper.h"
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
 
@@ -165,6 +167,18 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
 
 /* --- exact ---------------------------------------------------------------------------------------------- */
 
+/* Strokes are found on the sheet, which is 96 units an inch however many pixels a picture of it has: which lines there
+ * are, and where they begin and end, is the same for pictures of all sizes, and for vector drawings. */
+static double pixels_a_unit(const frame *f)
+{
+    return f->pixels_per_mm * (MM_PER_INCH / PX_PER_INCH);
+}
+
+static int on_sheet(const frame *f, int pixels)
+{
+    return (int)fmin(fmax(round(pixels / pixels_a_unit(f)), 1), LIMIT_PICTURE_SIDE);
+}
+
 static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
 {
     stroke_camera camera;
@@ -173,10 +187,9 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     camera.projection = f->camera.projection;
     camera.near = f->camera.near;
     camera.orthographic = f->camera.orthographic;
-    camera.width =
-        f->width /
-        f->samples; /* of the page as it is seen: which lines there are does not depend on how finely it is sampled */
-    camera.height = f->height / f->samples;
+    camera.width = on_sheet(f, f->width);
+    camera.height = on_sheet(f, f->height);
+    camera.pixels_per_mm = PX_PER_INCH / MM_PER_INCH;
     return stroke_store_look(store, &camera, error);
 }
 
@@ -193,36 +206,38 @@ static void keep_layer(stroke_set *set, uint32_t layer)
     set->stroke_count = kept;
 }
 
-static void divide_lengths(const param *params, size_t count, void *values, int samples)
+static void divide_lengths(const param *params, size_t count, void *values, double pixels)
 {
     for (size_t i = 0; i < count; i++)
-        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
-            *(float *)((char *)values + params[i].offset) /= (float)samples;
+        if (params[i].unit == UNIT_PT && params[i].type == PARAM_FLOAT)
+            *(float *)((char *)values + params[i].offset) /= (float)pixels;
 }
 
-/* A drawing's lengths are in samples; here in pixels. */
-static strokes_values values_in_pixels(const strokes_values *v, int samples)
+/* A drawing's lengths are in samples; here in units of the sheet. */
+static strokes_values values_on_sheet(const strokes_values *v, double pixels)
 {
     strokes_values out = *v;
-    divide_lengths(lines_strokes.params, lines_strokes.param_count, &out, samples);
-    divide_lengths(kind_lines.common, kind_lines.common_count, &out, samples);
+    divide_lengths(lines_strokes.params, lines_strokes.param_count, &out, pixels);
+    divide_lengths(kind_lines.common, kind_lines.common_count, &out, pixels);
     return out;
 }
 
-static void scale_ribbons(ribbon_set *r, float samples)
+static void scale_ribbons(ribbon_set *r, const frame *f)
 {
+    float unit = (float)pixels_a_unit(f), right = (float)f->width / (float)on_sheet(f, f->width),
+          down = (float)f->height / (float)on_sheet(f, f->height);
     for (size_t i = 0; i < r->point_count; i++) {
-        r->points[i].x *= samples;
-        r->points[i].y *= samples;
-        r->points[i].half *= samples;
-        r->points[i].arc *= samples;
+        r->points[i].x *= right;
+        r->points[i].y *= down;
+        r->points[i].half *= unit;
+        r->points[i].arc *= unit;
     }
 }
 
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
                                const strokes_values *v, lmn_error *error)
 {
-    const strokes_values seen = values_in_pixels(v, f->samples);
+    const strokes_values seen = values_on_sheet(v, pixels_a_unit(f));
     stroke_options       options = strokes_options_of(&seen);
     stroke_style         style = strokes_style_of(&seen);
     stroke_set           set = {0};
@@ -240,7 +255,7 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, f->seed, error);
     if (status == LMN_OK)
-        scale_ribbons(out, (float)f->samples);
+        scale_ribbons(out, f);
     stroke_set_release(&set);
     return status;
 }
@@ -286,7 +301,7 @@ static void draw_exact(frame *f, figure_state *s, stroke_store *store, const str
     if (program && !gpu_failed(f->g)) {
         gpu_use(f->g, program, drawn);
         frame_set_common(f, s);
-        gpu_set_float(f->g, "u_pixel", (float)f->samples);
+        gpu_set_float(f->g, "u_pixel", (float)pixels_a_unit(f));
         gpu_draw_marks(f->g, marks);
     }
     if (marks)

@@ -14,8 +14,8 @@ static const param common[] = {
                      .doc = "Colour of inner lines: creases; auto takes colour."),
     PARAM_COLOUR_ROW(lines_common, id_colour, .can_auto = true, .def_auto = true, .auto_from = "colour",
                      .doc = "Colour of lines between parts; auto takes colour."),
-    PARAM_FLOAT_ROW(lines_common, width, .def = 2, .min = 0, .max = 32, .soft_min = 0.5, .soft_max = 8, .unit = UNIT_PX,
-                    .doc = "Width of the lines."),
+    PARAM_FLOAT_ROW(lines_common, width, .def = 1.5, .min = 0, .max = 24, .soft_min = 0.375, .soft_max = 6,
+                    .unit = UNIT_PT, .doc = "Width of the lines."),
     PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of profile lines; 0 hides them."),
     PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
@@ -35,30 +35,30 @@ static const param common[] = {
                "the dark colour by the ground; directed puts the second line towards the outside."),
     PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast",
                      .doc = "The second or the light colour of contrast-aware lines."),
-    PARAM_FLOAT_ROW(lines_common, offset_x, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4,
-                    .unit = UNIT_PX, .only_if = "contrast=double", .doc = "How far the second line lies to the right."),
-    PARAM_FLOAT_ROW(lines_common, offset_y, .def = 1, .min = -16, .max = 16, .soft_min = -4, .soft_max = 4,
-                    .unit = UNIT_PX, .only_if = "contrast=double", .doc = "How far the second line lies down."),
+    PARAM_FLOAT_ROW(lines_common, offset_x, .def = 0.75, .min = -12, .max = 12, .soft_min = -3, .soft_max = 3,
+                    .unit = UNIT_PT, .only_if = "contrast=double", .doc = "How far the second line lies to the right."),
+    PARAM_FLOAT_ROW(lines_common, offset_y, .def = 0.75, .min = -12, .max = 12, .soft_min = -3, .soft_max = 3,
+                    .unit = UNIT_PT, .only_if = "contrast=double", .doc = "How far the second line lies down."),
     PARAM_FLOAT_ROW(
         lines_common, suppress, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "contrast=adaptive",
         .doc =
             "Luminance step across a line above which the picture shows the edge by itself and the line is left out; "
             "0 keeps all lines."),
-    PARAM_FLOAT_ROW(lines_common, blur, .def = 6, .min = 1, .max = 32, .unit = UNIT_PX, .only_if = "contrast=adaptive",
-                    .doc = "Radius in which the ground's brightness is averaged."),
+    PARAM_FLOAT_ROW(lines_common, blur, .def = 4.5, .min = 0.75, .max = 24, .unit = UNIT_PT,
+                    .only_if = "contrast=adaptive", .doc = "Radius in which the ground's brightness is averaged."),
     PARAM_FLOAT_ROW(
-        lines_common, dash, .def = 0, .min = 0, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true,
+        lines_common, dash, .def = 0, .min = 0, .max = 150, .soft_max = 18, .unit = UNIT_PT, .along = true,
         .cpu_only = true,
         .doc = "Length of dashes along the lines, stretched so that lines begin, end and meet with ink; 0 leaves them "
                "unbroken, and a dash no longer than the line is wide becomes a dot."),
-    PARAM_FLOAT_ROW(lines_common, gap, .def = 4, .min = 0.5, .max = 200, .soft_max = 24, .unit = UNIT_PX, .along = true,
-                    .cpu_only = true, .only_if = "dash", .doc = "Length of the gaps between dashes."),
-    PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 64, .soft_max = 32, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(lines_common, gap, .def = 3, .min = 0.375, .max = 150, .soft_max = 18, .unit = UNIT_PT,
+                    .along = true, .cpu_only = true, .only_if = "dash", .doc = "Length of the gaps between dashes."),
+    PARAM_FLOAT_ROW(lines_common, overshoot, .def = 0, .min = 0, .max = 48, .soft_max = 24, .unit = UNIT_PT,
                     .reach = OVERSHOOT_MOST, .cpu_only = true,
                     .doc = "How far straight lines run on past corners and junctions, as in architects' drafts; it "
                            "varies from line to line, "
                            "and short lines run on less. 0 ends them where they meet."),
-    PARAM_FLOAT_ROW(lines_common, halo, .def = 0, .min = 0, .max = 32, .soft_max = 12, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(lines_common, halo, .def = 0, .min = 0, .max = 24, .soft_max = 9, .unit = UNIT_PT,
                     .doc = "Gap in lines behind an outline, beside it, so that objects separate; 0 leaves none."),
 };
 

@@ -48,7 +48,7 @@ void kind_hint_techniques(const kind *k, lmn_error *error);
 bool use_create(technique_use *out, const kind *k, const technique *t);
 void use_release(technique_use *use);
 
-enum { LOOK_VERSION = 1 };
+enum { LOOK_VERSION = 2 }; /* src/look/look_version.c reads older ones */
 
 /* See limner/look.h; these are what the public functions forward to. */
 lmn_status  look_load(lmn_look **out, const char *name_or_path, lmn_error *error);

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "look/locate.h"
+#include "look/look_version.h"
 #include "look/value.h"
 
 enum { STEPS_MAX = 6 };
@@ -22,10 +23,6 @@ typedef struct reader {
     locate_step steps[STEPS_MAX]; /* where the reader is in the document */
     size_t      depth;
 } reader;
-
-/* Step i turns version i + 1 into i + 2 and returns false when memory is gone. There is one version yet. */
-typedef bool (*migration)(json_t *root);
-static const migration migrations[LOOK_VERSION] = {NULL};
 
 static void enter_key(reader *r, const char *key)
 {
@@ -367,10 +364,7 @@ static lmn_status read_version(reader *r, json_t *root)
         error_hint(r->error, "the look was made for a newer Limner");
         return status;
     }
-    for (json_int_t step = number; step < LOOK_VERSION; step++)
-        if (!migrations[step - 1](root))
-            return error_memory(r->error);
-    return LMN_OK;
+    return look_bring_forward(root, number, r->error);
 }
 
 static lmn_status read_root(reader *r, json_t *root, lmn_look *look)

@@ -36,7 +36,11 @@ static const char *wanted_type(const param *p)
 {
     switch (p->type) {
     case PARAM_INT: return "a whole number";
-    case PARAM_FLOAT: return p->can_auto ? "a number or \"auto\"" : "a number";
+    case PARAM_FLOAT:
+        if (p->unit == UNIT_PT)
+            return p->can_auto ? "a number of points, a length as \"0.5mm\", or \"auto\""
+                               : "a number of points or a length as \"0.5mm\"";
+        return p->can_auto ? "a number or \"auto\"" : "a number";
     case PARAM_BOOL: return "true or false";
     case PARAM_ENUM: return "a name in quotes";
     case PARAM_COLOUR: return "a colour in quotes";
@@ -52,7 +56,7 @@ static bool has_type(const param *p, const json_t *json)
 {
     switch (p->type) {
     case PARAM_INT: return json_is_integer(json);
-    case PARAM_FLOAT: return json_is_number(json) || (p->can_auto && json_is_string(json));
+    case PARAM_FLOAT: return json_is_number(json) || ((p->can_auto || p->unit == UNIT_PT) && json_is_string(json));
     case PARAM_BOOL: return json_is_boolean(json);
     case PARAM_ENUM:
     case PARAM_TEXT:

@@ -36,7 +36,7 @@ static const char *const outward_names[] = {"continuous", "enlarged", NULL};
 
 static const param params[] = {
     PARAM_FLOAT_ROW(
-        uncertainty, amount, .def = 4, .min = 0, .max = 64, .soft_max = 16, .unit = UNIT_PX,
+        uncertainty, amount, .def = 3, .min = 0, .max = 48, .soft_max = 12, .unit = UNIT_PT,
         .doc = "Largest displacement for a degree of uncertainty of 1; 0 draws exactly, without grain or pressure."),
     PARAM_ENUM_ROW(uncertainty, lock, .names = lock_names, .variant = true,
                    .doc = "object: the wobble moves with the model; screen: it stays on the sheet, and a moving model "
@@ -44,12 +44,12 @@ static const param params[] = {
     PARAM_ENUM_ROW(
         uncertainty, field, .names = field_names, .variant = true,
         .doc = "noise: smooth waves; turbulence: waves with sharp turns, the sum of the octaves' absolute values."),
-    PARAM_FLOAT_ROW(uncertainty, scale, .def = 90, .min = 2, .max = 1000, .soft_min = 15, .soft_max = 400,
-                    .unit = UNIT_PX, .along = true, .logarithmic = true,
+    PARAM_FLOAT_ROW(uncertainty, scale, .def = 67.5, .min = 1.5, .max = 750, .soft_min = 11.25, .soft_max = 300,
+                    .unit = UNIT_PT, .along = true, .logarithmic = true,
                     .doc = "Length of the longest waves on the sheet, the same at any distance."),
     PARAM_INT_ROW(uncertainty, octaves, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Waves of how many lengths; each is half as long and half as strong as the one before."),
-    PARAM_FLOAT_ROW(uncertainty, tile, .def = 0, .min = 0, .max = 16384, .soft_max = 1024, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(uncertainty, tile, .def = 0, .min = 0, .max = 12288, .soft_max = 768, .unit = UNIT_PT,
                     .along = true, .only_if = "lock=screen",
                     .doc = "The field repeats after this length, both ways; 0: it does not."),
     PARAM_INT_ROW(uncertainty, seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
@@ -62,7 +62,7 @@ static const param params[] = {
     PARAM_ENUM_ROW(
         uncertainty, outward, .names = outward_names, .variant = true, .only_if = "lock=object",
         .doc = "How the field goes on beside a surface: spread from it without jumps, or that of the enlarged model."),
-    PARAM_FLOAT_ROW(uncertainty, enlarge, .def = 12, .min = 1, .max = 200, .soft_max = 40, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(uncertainty, enlarge, .def = 9, .min = 0.75, .max = 150, .soft_max = 30, .unit = UNIT_PT,
                     .along = true, .only_if = "outward=enlarged", .cpu_only = true,
                     .doc = "How far the enlarged model reaches beyond the model."),
     DEGREE_ROW(edges_xx, 1, "Degree of uncertainty of lines: fraction of the first noise in the way to the right."),
@@ -76,13 +76,13 @@ static const param params[] = {
     DEGREE_ROW(shades_xy, 0, "Of fill: fraction of the second noise in the way to the right."),
     DEGREE_ROW(shades_yx, 0, "Of fill: fraction of the first noise in the way up."),
     DEGREE_ROW(shades_yy, -0.75, "Of fill: fraction of the second noise in the way up."),
-    PARAM_FLOAT_ROW(uncertainty, rough, .def = 0, .min = 0, .max = 16, .soft_max = 6, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(uncertainty, rough, .def = 0, .min = 0, .max = 12, .soft_max = 4.5, .unit = UNIT_PT,
                     .doc = "Displacement of every grain of the paper by itself: borders fray as chalk's do."),
     PARAM_FLOAT_ROW(uncertainty, tooth, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Fraction of the paper's grains that the fill leaves bare; lines, drawn with more force, "
                            "leave half as many."),
-    PARAM_FLOAT_ROW(uncertainty, grain, .def = 1, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_PX, .along = true,
-                    .doc = "Size of the paper's grains."),
+    PARAM_FLOAT_ROW(uncertainty, grain, .def = 0.75, .min = 0.75, .max = 12, .soft_max = 3, .unit = UNIT_PT,
+                    .along = true, .doc = "Size of the paper's grains."),
     PARAM_INT_ROW(uncertainty, repeat, .def = 1, .min = 1, .max = 8, .soft_max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "How often lines are drawn, each time displaced in another direction."),
     PARAM_FLOAT_ROW(uncertainty, repeat_degree, .def = 1, .min = 0.1, .max = 2, .soft_min = 0.5, .soft_max = 1.5,

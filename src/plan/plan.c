@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/paper.h"
 #include "compose/compose.h"
 #include "finish/finish.h"
 #include "layer/layer.h"
 #include "light/light.h"
 #include "lines/lines.h"
+#include "plan/paper_look.h"
 #include "plan/refuse.h"
 
 const technique_use *rule_use(const rule *r, kind_id id)
@@ -31,35 +33,6 @@ const technique_use *rule_shades_again(const rule *r)
         if (compose->technique->passes[i].geometry && compose->technique->passes[i].writes == TARGET_PAGE)
             return compose;
     return NULL;
-}
-
-static void scale_lengths(const param *params, size_t count, void *values, int pixel_scale)
-{
-    for (size_t i = 0; i < count; i++)
-        if (params[i].unit == UNIT_PX && params[i].type == PARAM_FLOAT)
-            *(float *)((char *)values + params[i].offset) *= (float)pixel_scale;
-}
-
-/* Copies the uses of a rule; selectors and names stay the look's. */
-static bool copy_rule(rule *out, const rule *from, int pixel_scale)
-{
-    *out = *from;
-    memset(out->uses, 0, sizeof out->uses);
-    for (int k = 0; k < KIND_COUNT; k++) {
-        size_t count = from->use_counts[k];
-        out->uses[k] = mem_calloc(count, sizeof(technique_use));
-        if (!out->uses[k])
-            return false;
-        for (size_t i = 0; i < count; i++) {
-            const technique *t = from->uses[k][i].technique;
-            out->uses[k][i] = (technique_use){t, mem_copy(from->uses[k][i].values, t->params_size)};
-            if (!out->uses[k][i].values)
-                return false;
-            scale_lengths(t->params, t->param_count, out->uses[k][i].values, pixel_scale);
-            scale_lengths(kinds[k]->common, kinds[k]->common_count, out->uses[k][i].values, pixel_scale);
-        }
-    }
-    return true;
 }
 
 /* Leaves a perturbation out that moves nothing, so that such a picture is exactly the one without it; and where a
@@ -98,15 +71,6 @@ static void drop_lines(rule *r)
     for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++)
         use_release(&r->uses[KIND_LINES][i]);
     r->use_counts[KIND_LINES] = 0;
-}
-
-static void release_rule(rule *r)
-{
-    for (int k = 0; k < KIND_COUNT; k++) {
-        for (size_t i = 0; r->uses[k] && i < r->use_counts[k]; i++)
-            mem_free(r->uses[k][i].values);
-        mem_free(r->uses[k]);
-    }
 }
 
 /* Lines that run on do so in space, and those with halos by the planes of surfaces. */
@@ -381,7 +345,7 @@ static lmn_status make_figures(plan *p, const plan_options *options, warnings *w
 {
     for (size_t r = 0; r < p->look->rule_count; r++) {
         p->rule_count++;
-        if (!copy_rule(&p->rules[r], &p->look->rules[r], options->pixel_scale))
+        if (!paper_rule_create(&p->rules[r], &p->look->rules[r], 1))
             return error_memory(error);
         if (options->surfaces_only)
             drop_lines(&p->rules[r]);
@@ -441,7 +405,7 @@ static lmn_status split_mirrors(plan *p, lmn_error *error)
 static rule *add_rule(plan *p, const rule *from)
 {
     rule *r = &p->rules[p->rule_count++]; /* there is room for two variants of each */
-    return copy_rule(r, from, 1) ? r : NULL;
+    return paper_rule_create(r, from, 1) ? r : NULL;
 }
 
 /* The same lines as hidden layers have them. */
@@ -593,13 +557,16 @@ static lmn_status find_ground(colour *out, const lmn_look *look, const char *bac
 static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, const plan_options *options,
                             lmn_error *error)
 {
-    const scene_values *v = look->wide[KIND_SCENE].values;
     memset(out, 0, sizeof *out);
     out->pose = pose;
     out->scene = pose->scene;
-    out->look = look;
+    out->pixels_per_mm = options->pixels_per_mm;
+    out->look = look = out->own_look = paper_look_create(look, options->pixels_per_mm * MM_PER_POINT);
+    if (!look)
+        return error_memory(error);
     out->box = out->fit_box = box3_empty();
-    out->crease_angle = (double)v->crease_angle * (3.14159265358979323846 / 180);
+    out->crease_angle =
+        (double)((const scene_values *)look->wide[KIND_SCENE].values)->crease_angle * (3.14159265358979323846 / 180);
     out->meshes = needs_of(look, pose);
     out->has_removed = pose->ghost_count > 0 && asks_for_removed(look) && !options->parts_only;
     out->part_count = pose->part_count + (out->has_removed ? pose->ghost_count : 0);
@@ -677,12 +644,13 @@ void plan_release(plan *p)
         mem_free(p->figures[i].focus);
     }
     for (size_t i = 0; i < p->rule_count; i++)
-        release_rule(&p->rules[i]);
+        paper_rule_release(&p->rules[i]);
     mem_free(p->rules);
     mem_free(p->figures);
     mem_free(p->rule_of);
     section_release(&p->section);
     mem_free(p->selected);
     mem_free(p->opaque);
+    paper_look_destroy(&p->own_look);
     memset(p, 0, sizeof *p);
 }

@@ -34,7 +34,9 @@ typedef struct figure {
 typedef struct plan {
     const pose      *pose;
     const lmn_scene *scene;
-    const lmn_look  *look;
+    const lmn_look  *look;          /* with its lengths in pixels of this drawing, supersamples counted */
+    lmn_look        *own_look;      /* the same */
+    double           pixels_per_mm; /* of paper, supersamples counted */
     /* what stages need */
     section    section;
     bool       has_cut;      /* there may be cut faces */
@@ -51,7 +53,7 @@ typedef struct plan {
     box3     fit_box; /* what the picture is fitted to: the same, or where it comes over time */
     /* figures */
     colour  ground; /* of the page */
-    rule   *rules; /* the look's, with lengths in pixels of this drawing (supersamples counted), and variants of them */
+    rule   *rules;  /* the look's, and variants of them */
     size_t  rule_count;
     figure *figures; /* drawn in this order: direct ones, others, mirrors, what is seen through, movers; among
                         these as their rules. Rules without parts have none */
@@ -62,7 +64,7 @@ typedef struct plan {
 typedef struct plan_options {
     const char *select;        /* restricts what is drawn, or NULL */
     const char *background;    /* a colour, or NULL: the look's */
-    int         pixel_scale;   /* lengths in pixels are multiplied by it */
+    double      pixels_per_mm; /* of paper, supersamples counted */
     bool        as_sprites;    /* no figure is drawn directly (maps need their buffers) */
     bool        surfaces_only; /* neither lines, nor marks on surfaces, nor sections */
     bool        parts_only;    /* no figures, ghosts and sections: for who draws parts by the look's own rules */

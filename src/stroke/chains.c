@@ -8,15 +8,12 @@
 #include "base/memory.h"
 #include "stroke/curve_path.h"
 
-/* Stretches shorter than this take the visibility of what lies beside them, pixels: rounding, not geometry. */
+/* Stretches shorter than this take the visibility of what lies beside them, units of paper: rounding, not geometry. */
 #define FLICKER 0.9
 /* Where more than two outlines meet, those that turn by less than this go on as one: cosine. Both visible or both
  * hidden, they may turn more. */
 #define STRAIGHT_ON 0.5
 #define TURNS_BACK  -0.7
-/* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
-#define FORM_SHORTEST 16.0
-#define FORM_FRACTION (1.0 / 64)
 enum {
     OUTSIDE = -1,
     MEETING_MAX = 24,
@@ -377,18 +374,6 @@ static double measure(chainer *c)
     return arc;
 }
 
-/* Lines of form that are short for how faint they are say nothing: their visible length, each stretch by its
- * weight. */
-static bool is_crumb(const chainer *c, stroke_class kind)
-{
-    double ink = 0;
-    for (size_t i = 0; i + 1 < c->point_count; i++)
-        if (c->points[i].count == 0 || (c->options->hidden && c->points[i].count > 0))
-            ink += (c->points[i + 1].arc - c->points[i].arc) * 0.5 * (c->points[i].weight + c->points[i + 1].weight);
-    int side = c->v->camera.width > c->v->camera.height ? c->v->camera.width : c->v->camera.height;
-    return kind >= STROKE_SUGGESTIVE && ink < fmin(FORM_SHORTEST * c->options->shortest, FORM_FRACTION * side);
-}
-
 /* A closed chain begins where its visibility changes, so that no stretch is cut where the chain happens to begin. */
 static bool rotate(chainer *c)
 {
@@ -520,10 +505,19 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
     return true;
 }
 
+static uint32_t piece_of(const chainer *c, uint32_t line)
+{
+    const view_item *item = &c->v->items[c->lines->lines[line].item];
+    const edge_mesh *m = &c->v->scene->meshes[c->v->scene->items[c->lines->lines[line].item].mesh];
+    uint32_t         face = c->lines->segments[line].faces[0] - item->first_face;
+    return item->first_piece + (face < m->face_count ? m->pieces[face] : 0);
+}
+
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
     stroke s = {.kind = line->kind,
                 .part = c->v->scene->items[line->item].part_index + 1,
+                .piece = piece_of(c, c->path[0] / 2),
                 .chain = (uint32_t)c->out->chain_count,
                 .id = id,
                 .chain_length = (float)length,
@@ -563,7 +557,7 @@ static bool make_chain(chainer *c, uint32_t line)
     if (!put_path(c, closed) || (closed && !rotate(c)))
         return false;
     double length = measure(c);
-    if (length < c->options->shortest || length <= 0 || is_crumb(c, c->lines->lines[line].kind))
+    if (length <= 0)
         return true;
     calm(c);
     return put_strokes(c, &c->lines->lines[line], c->marks[0].id, closed, length);
@@ -611,20 +605,24 @@ void stroke_set_release(stroke_set *s)
 lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                        lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    view_lines lines;
-    visibility seen;
+    view_lines     lines;
+    visibility     seen;
+    stroke_options own = paper_options(v, options);
     memset(out, 0, sizeof *out);
-    lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
+    lmn_status status = lines_collect(&lines, v, &own, parts, progress, user, error);
     if (status != LMN_OK)
         return status;
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
-        status = chains_make(out, v, &lines, &seen, options, error);
+        status = chains_make(out, v, &lines, &seen, &own, error);
     if (status == LMN_OK)
-        status = strokes_join(out, v, error);
+        status = strokes_join(out, v, &own, error);
     if (status == LMN_OK)
-        status = strokes_thin(out, options->crowd, v->camera.width, v->camera.height, error);
+        status = strokes_choose(out, v, &own, error);
+    if (status == LMN_OK)
+        status = strokes_thin(out, own.crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;
+    paper_to_page(out, v);
     if (status != LMN_OK)
         stroke_set_release(out);
     visibility_release(&seen);

@@ -1,5 +1,14 @@
-/* Strokes whose ends almost touch become one. The outline of a polygon mesh jumps from one row of edges to the next
- * over edges that no one ever sees; on the page the pieces follow each other, and a hand would draw them in one go. */
+/* Chains made whole before anything is decided by their length. The outline of a polygon mesh jumps from one row of
+ * edges to the next over edges that no one ever sees, roofs come part by part, vertices are split, and bars thinner
+ * than the pen lie in front; on the page the pieces follow each other, and a hand would draw them in one go.
+ *
+ * Ends that lie close together are linked, the cheapest pair first, each end once:
+ *
+ *     cost = gap / τ + 2 (1 − cos turn₁) + 2 (1 − cos turn₂) + depth gap / scale + ½ where kinds or parts differ
+ *
+ * Linked strokes that are alike and almost touch become one stroke; those with a wider gap follow each other in one
+ * chain, and whoever draws them closes gaps that the pen would not leave. What differs in kind stays apart but counts
+ * as one chain for rules of length. After Blender's Line Art, which links the nearest ends, with tangents. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -8,16 +17,28 @@
 
 #include "base/memory.h"
 
-/* Ends this far apart are joined, pixels; those closer than OVERLAP even where one runs past the other. */
-#define GAP     1.0f
-#define OVERLAP 0.7f
+/* All lengths are on paper, in units of 1/96 inch. Ends this far apart may be linked (τ, half a millimetre); those
+ * closer than OVERLAP even where one runs past the other. */
+#define REACH_OF_LINKS (0.5 * PAPER_UNITS_PER_MM)
+#define OVERLAP        0.7f
+/* Strokes that are alike and as close become one. */
+#define GAP 1.0f
 /* Sharp lines whose ends are closer than this have been ended there, at a corner. */
 #define TOUCH 0.02f
-/* How much of a stroke says which way its end points, pixels. */
+/* How much of a stroke says which way its end points. */
 #define REACH 2.5f
-/* Cosine of how much a joined stroke may turn, and how much deeper it may go on, in pixels. */
-#define TURN  0.6f
-#define DEPTH 12.0f
+/* A link costs less than MOST; this much deeper, and it costs 1 more; this much deeper there is none. */
+#define MOST        2.0f
+#define DEPTH_SCALE 12.0f
+#define DEPTH_MOST  12.0f
+#define OTHER_KIND  0.5f
+/* What is drawn over anything thinner than this, in widths. */
+#define BRIDGED_WIDTHS 1.5f
+/* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
+#define FORM_SHORTEST 16.0
+#define FORM_FRACTION (1.0 / 64)
+/* Of ends in one cell so many are looked at. */
+enum { MEETING_MOST = 256 };
 
 /* An end of a stroke: number 2 · stroke, + 1 for its last point. */
 typedef struct stroke_end {
@@ -32,17 +53,25 @@ typedef struct candidate {
 } candidate;
 
 typedef struct joiner {
-    stroke_set *set;
-    double      focal;
-    bool        orthographic;
-    stroke_end *ends;
-    uint32_t   *heads, *nexts; /* hash table of cells */
-    size_t      mask;
-    candidate  *candidates;
-    size_t      candidate_count, candidate_capacity;
-    uint32_t   *partners;    /* per end; NO_VERTEX: none */
-    uint32_t   *first_marks; /* per chain, and one more */
+    stroke_set           *set;
+    double                focal;
+    bool                  orthographic;
+    stroke_end           *ends;
+    uint32_t             *heads, *nexts; /* hash table of cells */
+    size_t                mask;
+    candidate            *candidates;
+    size_t                candidate_count, candidate_capacity;
+    uint32_t             *partners;    /* per end; NO_VERTEX: none */
+    uint32_t             *first_marks; /* per chain, and one more */
+    const stroke_options *options;
+    float                 bridged; /* hidden stretches of a chain up to here are thinner than the pen */
+    uint32_t             *wholes;  /* per chain: another one of the same whole, or itself */
 } joiner;
+
+static int32_t cell_of(float at)
+{
+    return (int32_t)floor((double)at / REACH_OF_LINKS);
+}
 
 static stroke_end end_of(const joiner *j, uint32_t number)
 {
@@ -56,13 +85,7 @@ static stroke_end end_of(const joiner *j, uint32_t number)
     }
     float length = sqrtf(x * x + y * y);
     float fraction = length > 0 ? 1 / length : 0;
-    return (stroke_end){from->x,
-                        from->y,
-                        from->depth,
-                        x * fraction,
-                        y * fraction,
-                        (int32_t)floorf(from->x / GAP),
-                        (int32_t)floorf(from->y / GAP)};
+    return (stroke_end){from->x, from->y, from->depth, x * fraction, y * fraction, cell_of(from->x), cell_of(from->y)};
 }
 
 static size_t cell_hash(int32_t column, int32_t row)
@@ -95,32 +118,86 @@ static bool put_ends(joiner *j)
     return true;
 }
 
-/* What joining two ends costs; below 0: they are not joined. */
+static bool are_alike(const stroke *s, const stroke *t)
+{
+    return s->kind == t->kind && s->part == t->part && s->smooth == t->smooth;
+}
+
+static float gap_between(const joiner *j, uint32_t a, uint32_t b)
+{
+    return hypotf(j->ends[b].x - j->ends[a].x, j->ends[b].y - j->ends[a].y);
+}
+
+/* Has a corner ended both? */
+static bool meet_at_corner(const joiner *j, uint32_t a, uint32_t b)
+{
+    stroke_class kind = j->set->strokes[a / 2].kind;
+    return gap_between(j, a, b) < TOUCH && (kind == STROKE_CREASE || kind == STROKE_BORDER || kind == STROKE_MATERIAL);
+}
+
+/* Are both stretches of one chain, with nothing but what is thinner than the pen between them? */
+static bool is_bridge(const joiner *j, uint32_t a, uint32_t b)
+{
+    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
+    if (s->chain != t->chain || s->hidden_by != t->hidden_by || s == t || s->closed || (a & 1) == (b & 1))
+        return false;
+    const stroke *first = a & 1 ? s : t, *second = a & 1 ? t : s;
+    float         from = j->set->points[first->first + first->count - 1].arc, to = j->set->points[second->first].arc;
+    return to >= from && to - from <= j->bridged;
+}
+
+/* The cosines of the turns from one end into the gap and out of it; where there is hardly a gap, both are half of the
+ * whole turn. */
+static void turns_between(const stroke_end *p, const stroke_end *q, float out[2])
+{
+    float x = q->x - p->x, y = q->y - p->y, length = hypotf(x, y);
+    float whole = -(p->out_x * q->out_x + p->out_y * q->out_y);
+    if (length < OVERLAP) {
+        out[0] = out[1] = sqrtf(fmaxf(0.5f + 0.5f * whole, 0));
+        return;
+    }
+    out[0] = (x * p->out_x + y * p->out_y) / length;
+    out[1] = -(x * q->out_x + y * q->out_y) / length;
+}
+
+/* What linking two ends costs; below 0: they are not linked. */
 static float cost_of(const joiner *j, uint32_t a, uint32_t b)
 {
     const stroke     *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
     const stroke_end *p = &j->ends[a], *q = &j->ends[b];
-    if (s->kind != t->kind || s->part != t->part || s->smooth != t->smooth || s->hidden_by != t->hidden_by ||
-        s->closed || t->closed || (s == t && s->count < 4))
+    if (s->hidden_by != t->hidden_by || s->closed || t->closed || (s == t && s->count < 4))
         return -1;
-    float x = q->x - p->x, y = q->y - p->y, length = sqrtf(x * x + y * y),
-          turn = -(p->out_x * q->out_x + p->out_y * q->out_y);
+    if (is_bridge(j, a, b))
+        return 0;
+    float  gap = gap_between(j, a, b), turns[2];
     double deeper = fabs((double)p->depth - q->depth) * j->focal / (j->orthographic ? 1 : p->depth);
-    bool   corner =
-        length < TOUCH && (s->kind == STROKE_CREASE || s->kind == STROKE_BORDER || s->kind == STROKE_MATERIAL);
-    if (length > GAP || turn < TURN || deeper > DEPTH || corner)
+    if ((double)gap > REACH_OF_LINKS || deeper > DEPTH_MOST)
         return -1;
-    bool ahead = x * p->out_x + y * p->out_y >= TURN * length && -x * q->out_x - y * q->out_y >= TURN * length;
-    return ahead || length < OVERLAP ? length + 1 - turn : -1;
+    turns_between(p, q, turns);
+    float cost = gap / (float)REACH_OF_LINKS + 2 * (1 - turns[0]) + 2 * (1 - turns[1]) + (float)deeper / DEPTH_SCALE +
+                 (are_alike(s, t) ? 0 : OTHER_KIND);
+    return cost < MOST ? cost : -1;
+}
+
+/* A first look, for there may be many. */
+static bool is_far(const joiner *j, uint32_t a, uint32_t b)
+{
+    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
+    double        x = (double)j->ends[b].x - j->ends[a].x, y = (double)j->ends[b].y - j->ends[a].y;
+    return s->chain != t->chain && (s->hidden_by != t->hidden_by || x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS);
 }
 
 static bool find_candidates(joiner *j, uint32_t a)
 {
     const stroke_end *p = &j->ends[a];
     for (int32_t row = p->row - 1; row <= p->row + 1; row++)
-        for (int32_t column = p->column - 1; column <= p->column + 1; column++)
-            for (uint32_t b = j->heads[cell_hash(column, row) & j->mask]; b != NO_VERTEX; b = j->nexts[b]) {
+        for (int32_t column = p->column - 1; column <= p->column + 1; column++) {
+            int left = MEETING_MOST;
+            for (uint32_t b = j->heads[cell_hash(column, row) & j->mask]; b != NO_VERTEX && left; b = j->nexts[b]) {
                 if (b <= a || j->ends[b].column != column || j->ends[b].row != row)
+                    continue;
+                left--;
+                if (is_far(j, a, b))
                     continue;
                 float cost = cost_of(j, a, b);
                 if (cost < 0)
@@ -130,6 +207,7 @@ static bool find_candidates(joiner *j, uint32_t a)
                     return false;
                 j->candidates[j->candidate_count++] = (candidate){cost, {a, b}};
             }
+        }
     return true;
 }
 
@@ -143,22 +221,84 @@ static int compare_candidates(const void *a, const void *b)
                                      : p->ends[1] > q->ends[1];
 }
 
+/* The chain that stands for all of a whole. */
+static uint32_t whole_of(joiner *j, uint32_t chain)
+{
+    while (j->wholes[chain] != chain)
+        chain = j->wholes[chain] = j->wholes[j->wholes[chain]];
+    return chain;
+}
+
+static void link_ends(joiner *j, uint8_t *taken, const uint32_t ends[2])
+{
+    const stroke *s = &j->set->strokes[ends[0] / 2], *t = &j->set->strokes[ends[1] / 2];
+    if (taken[ends[0]] || taken[ends[1]])
+        return;
+    taken[ends[0]] = taken[ends[1]] = 1;
+    j->wholes[whole_of(j, s->chain)] = whole_of(j, t->chain);
+    if (are_alike(s, t) && !meet_at_corner(j, ends[0], ends[1])) {
+        j->partners[ends[0]] = ends[1];
+        j->partners[ends[1]] = ends[0];
+    }
+}
+
 /* The best ones first, each end once. */
 static bool match_ends(joiner *j)
 {
-    for (uint32_t i = 0; i < 2 * j->set->stroke_count; i++)
-        if (!find_candidates(j, i))
-            return false;
-    if (j->candidate_count)
+    uint8_t *taken = mem_calloc(2 * j->set->stroke_count + 1, 1);
+    bool     good = taken != NULL;
+    j->wholes = mem_alloc((j->set->chain_count + 1) * sizeof *j->wholes);
+    for (uint32_t i = 0; i < 2 * j->set->stroke_count && good; i++)
+        good = find_candidates(j, i);
+    good = good && j->wholes;
+    for (uint32_t i = 0; i < j->set->chain_count && good; i++)
+        j->wholes[i] = i;
+    if (good && j->candidate_count)
         qsort(j->candidates, j->candidate_count, sizeof *j->candidates, compare_candidates);
-    for (size_t i = 0; i < j->candidate_count; i++) {
-        const uint32_t *ends = j->candidates[i].ends;
-        if (j->partners[ends[0]] == NO_VERTEX && j->partners[ends[1]] == NO_VERTEX) {
-            j->partners[ends[0]] = ends[1];
-            j->partners[ends[1]] = ends[0];
-        }
+    for (size_t i = 0; i < j->candidate_count && good; i++)
+        link_ends(j, taken, j->candidates[i].ends);
+    mem_free(taken);
+    return good;
+}
+
+/* --- rules of length ------------------------------------------------------------------------------------ */
+
+/* What counts of a whole: its length on the page, hidden or not, and of lines of form the length that is inked, each
+ * point by its weight. */
+typedef struct whole_facts {
+    double length, ink;
+    bool   counted; /* of a chain: its length is in its whole */
+} whole_facts;
+
+static double ink_of(const joiner *j, const stroke *s)
+{
+    const stroke_point *p = &j->set->points[s->first];
+    double              ink = 0;
+    for (uint32_t i = 0; i + 1 < s->count; i++)
+        ink += ((double)p[i + 1].arc - p[i].arc) * 0.5 * ((double)p[i].weight + p[i + 1].weight);
+    return ink;
+}
+
+/* Marks what is too short as a whole, and lines of form that are short for how faint they are: they say nothing. */
+static bool leave_out(joiner *j, const stroke_view *v, uint8_t *used)
+{
+    whole_facts *facts = mem_calloc(j->set->chain_count + 1, sizeof *facts);
+    int          side = v->camera.width > v->camera.height ? v->camera.width : v->camera.height;
+    double       shortest = j->options->shortest, faint = fmin(FORM_SHORTEST * shortest, FORM_FRACTION * side);
+    for (size_t i = 0; i < j->set->stroke_count && facts; i++) {
+        const stroke *s = &j->set->strokes[i];
+        whole_facts  *whole = &facts[whole_of(j, s->chain)];
+        whole->length += facts[s->chain].counted ? 0 : (double)s->chain_length;
+        whole->ink += s->kind >= STROKE_SUGGESTIVE ? ink_of(j, s) : 0;
+        facts[s->chain].counted = true;
     }
-    return true;
+    for (size_t i = 0; i < j->set->stroke_count && facts; i++) {
+        const stroke      *s = &j->set->strokes[i];
+        const whole_facts *whole = &facts[whole_of(j, s->chain)];
+        used[i] = whole->length < shortest || (s->kind >= STROKE_SUGGESTIVE && whole->ink < faint);
+    }
+    mem_free(facts);
+    return facts != NULL;
 }
 
 /* --- joined strokes ------------------------------------------------------------------------------------- */
@@ -209,51 +349,75 @@ static void put_points(joined *out, const stroke_set *set, uint32_t entry, bool 
         out->points[out->point_count++] = set->points[s->first + (entry & 1 ? s->count - 1 - i : i)];
 }
 
-static void measure(joined *out, stroke *s)
+/* Arcs of the strokes of a chain from `first` on, gaps counted. */
+static void measure(joined *out, size_t first)
 {
-    float arc = 0;
-    for (uint32_t i = 0; i < s->count; i++) {
-        stroke_point *p = &out->points[s->first + i];
-        if (i > 0)
-            arc += hypotf(p->x - p[-1].x, p->y - p[-1].y);
-        p->arc = arc;
-    }
-    s->chain_length = arc;
+    const stroke_point *before = NULL;
+    float               arc = 0;
+    for (size_t i = first; i < out->stroke_count; i++)
+        for (uint32_t k = 0; k < out->strokes[i].count; k++) {
+            stroke_point *p = &out->points[out->strokes[i].first + k];
+            if (before)
+                arc += hypotf(p->x - before->x, p->y - before->y);
+            p->arc = arc;
+            before = p;
+        }
+    for (size_t i = first; i < out->stroke_count; i++)
+        out->strokes[i].chain_length = arc;
 }
 
-/* One stroke with all that is joined to it. `entry`: the end that it begins with. */
-static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
+/* All that is linked, in one chain: one stroke where pieces almost touch, the next one where they do not. `entry`: the
+ * end that it begins with. */
+static void put_linked(joined *out, joiner *j, uint32_t entry, uint8_t *used)
 {
-    stroke   s = j->set->strokes[entry / 2];
-    uint32_t first = entry;
-    float    arc = 0;
-    s.first = (uint32_t)out->point_count;
-    bool alone = j->partners[entry ^ 1] == NO_VERTEX;
-    if (!alone)
-        s.chain = (uint32_t)j->set->chain_count++;
-    for (uint32_t at = entry;;) {
+    uint32_t chain = (uint32_t)j->set->chain_count++;
+    size_t   first = out->stroke_count;
+    uint64_t id = j->set->strokes[entry / 2].id;
+    float    arc = 0, gap = 0;
+    for (uint32_t at = entry, next;; at = next) {
         const stroke *piece = &j->set->strokes[at / 2];
-        s.id = piece->id < s.id ? piece->id : s.id;
-        put_points(out, j->set, at, at != first);
-        if (!alone)
-            put_marks(out, j, at, arc, s.chain);
-        arc += j->set->points[piece->first + piece->count - 1].arc - j->set->points[piece->first].arc;
+        bool          goes_on = at != entry && gap <= GAP;
+        if (!goes_on) {
+            stroke s = *piece;
+            s.chain = chain;
+            s.first = (uint32_t)out->point_count;
+            out->strokes[out->stroke_count++] = s;
+        }
+        id = piece->id < id ? piece->id : id;
+        put_points(out, j->set, at, goes_on);
+        put_marks(out, j, at, arc + gap, chain);
+        arc += gap + j->set->points[piece->first + piece->count - 1].arc - j->set->points[piece->first].arc;
+        stroke *s = &out->strokes[out->stroke_count - 1];
+        s->count = (uint32_t)(out->point_count - s->first);
         used[at / 2] = 1;
-        uint32_t next = j->partners[at ^ 1];
-        s.closed = s.closed || next == first;
+        next = j->partners[at ^ 1];
+        gap = next == NO_VERTEX ? 0 : gap_between(j, at ^ 1, next);
+        if (next == entry && out->stroke_count == first + 1 && gap <= GAP) {
+            s->closed = true;
+            out->points[out->point_count - 1] = out->points[s->first];
+        }
         if (next == NO_VERTEX || used[next / 2])
             break;
-        at = next;
     }
-    if (s.closed && !alone)
-        out->points[out->point_count - 1] = out->points[s.first];
-    s.count = (uint32_t)(out->point_count - s.first);
-    if (!alone)
-        measure(out, &s);
-    out->strokes[out->stroke_count++] = s;
+    for (size_t i = first; i < out->stroke_count; i++)
+        out->strokes[i].id = id;
+    measure(out, first);
 }
 
-static bool put_all(joiner *j)
+static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
+{
+    if (j->partners[entry ^ 1] != NO_VERTEX) {
+        put_linked(out, j, entry, used);
+        return;
+    }
+    stroke s = j->set->strokes[entry / 2];
+    s.first = (uint32_t)out->point_count;
+    put_points(out, j->set, entry & ~1u, false);
+    out->strokes[out->stroke_count++] = s;
+    used[entry / 2] = 1;
+}
+
+static bool put_all(joiner *j, const stroke_view *v)
 {
     stroke_set *set = j->set;
     joined      out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)),
@@ -265,7 +429,7 @@ static bool put_all(joiner *j)
                        0,
                        false};
     uint8_t    *used = mem_calloc(set->stroke_count + 1, 1);
-    bool        good = out.strokes && out.points && used && index_marks(j);
+    bool        good = out.strokes && out.points && used && index_marks(j) && leave_out(j, v, used);
     for (int rings = 0; rings < 2 && good; rings++) /* what has an end, then what has come full circle */
         for (uint32_t i = 0; i < set->stroke_count; i++) {
             bool first_free = j->partners[2 * i] == NO_VERTEX, last_free = j->partners[2 * i + 1] == NO_VERTEX;
@@ -304,12 +468,14 @@ static int compare_strokes(const void *a, const void *b)
     return p->first < q->first ? -1 : p->first > q->first;
 }
 
-lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error)
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
 {
     joiner j = {.set = set,
+                .options = options,
+                .bridged = BRIDGED_WIDTHS * fmaxf(options->width, 0),
                 .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]),
                 .orthographic = v->camera.orthographic};
-    bool   good = put_ends(&j) && match_ends(&j) && put_all(&j);
+    bool   good = put_ends(&j) && match_ends(&j) && put_all(&j, v);
     if (good && set->stroke_count)
         qsort(set->strokes, set->stroke_count, sizeof *set->strokes, compare_strokes);
     mem_free(j.ends);
@@ -318,5 +484,6 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error)
     mem_free(j.candidates);
     mem_free(j.partners);
     mem_free(j.first_marks);
+    mem_free(j.wholes);
     return good ? LMN_OK : error_memory(error);
 }

@@ -6,8 +6,9 @@
 
 #include "base/memory.h"
 #include "stroke/ribbon_private.h"
+#include "stroke/stroke_private.h"
 
-/* Numbers of taste, in pixels unless they are shares. */
+/* Numbers of taste, on paper (1/96 inch) unless they are shares. */
 static const float pressure_wave = 70; /* how far apart swellings of the pressure are */
 static const float repeat_wave = 90;   /* the same of how repeats wander apart */
 static const float taper_most = 0.45f; /* fraction of a chain that one of its ends may take to thin out */
@@ -94,7 +95,7 @@ float ribbon_width(const ribbon_job *job, const stroke *s)
     const stroke_style *style = job->style;
     if (s->hidden_by > 0 && style->hidden_width > 0)
         return style->hidden_width;
-    return style->width * (is_outline(s->kind) ? 1 : style->crease_width);
+    return (float)stroke_width_on_piece(s, style->width * (is_outline(s->kind) ? 1 : style->crease_width));
 }
 
 float ribbon_depth_between(const ribbon_job *job, float a, float b, float fraction)
@@ -211,7 +212,9 @@ typedef struct line {
     const chain_facts *chain;
     int                repeat;
     float              begin, end;    /* of the stroke */
-    bool               starts, ends;  /* the chain does so here, and freely */
+    bool               starts, ends;  /* the chain does so here */
+    bool               thins[2];      /* the line runs out at its beginning, its end: nothing else is there */
+    float              thin[2];       /* what is left of the width then, fraction */
     bool               varies, moves; /* width or opacity; position */
     uint64_t           keys[NOISE_ENDS + 1];
 } line;
@@ -235,9 +238,9 @@ static float step_of(const builder *b, const line *l)
     if (l->moves && style->wobble > 0)
         step = fminf(step, fmaxf(style->wobble_length, 1) / 6);
     if (l->moves && l->repeat + style->repeats > 1)
-        step = fminf(step, repeat_wave / 8);
+        step = fminf(step, repeat_wave * b->job.unit / 8);
     if (l->varies && style->pressure > 0)
-        step = fminf(step, pressure_wave / 8);
+        step = fminf(step, pressure_wave * b->job.unit / 8);
     if (l->varies && style->taper > 0)
         step = fminf(step, fmaxf(style->taper / 6, 1));
     return step;
@@ -294,23 +297,26 @@ static void displace(const builder *b, const line *l, ribbon_point *p)
         p->y += style->wobble * noise_at(l->keys[NOISE_Y], along, wave, l->chain);
     }
     if (style->repeats > 1 && style->repeat_apart > 0) {
-        p->x += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_X], along, repeat_wave, l->chain);
-        p->y += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_Y], along, repeat_wave, l->chain);
+        p->x += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_X], along, repeat_wave * b->job.unit, l->chain);
+        p->y += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_Y], along, repeat_wave * b->job.unit, l->chain);
     }
 }
 
-/* 1 but near the ends of the chain. */
+/* At a distance from an end that the line runs out at. */
+static float taper_over(const line *l, int end, float distance, float reach)
+{
+    float fraction = fminf(fmaxf(distance / reach, 0), 1);
+    return l->thins[end] ? l->thin[end] + (1 - l->thin[end]) * sqrtf(fraction * (2 - fraction)) : 1;
+}
+
+/* 1 but near free ends. */
 static float taper_at(const builder *b, const line *l, float arc, span where)
 {
-    float reach = fminf(b->job.style->taper, taper_most * fmaxf(l->chain->length, where.to - where.from)), fraction = 1;
-    if (!(reach > 0) || l->chain->closed)
+    float reach = fminf(b->job.style->taper, taper_most * fmaxf(l->end - l->begin, where.to - where.from));
+    if (!(reach > 0))
         return 1;
-    if (l->starts)
-        fraction = fminf(fraction, (arc - fminf(where.from, l->begin)) / reach);
-    if (l->ends)
-        fraction = fminf(fraction, (fmaxf(where.to, l->end) - arc) / reach);
-    fraction = fminf(fmaxf(fraction, 0), 1);
-    return taper_end + (1 - taper_end) * sqrtf(fraction * (2 - fraction));
+    return fminf(taper_over(l, 0, arc - fminf(where.from, l->begin), reach),
+                 taper_over(l, 1, fmaxf(where.to, l->end) - arc, reach));
 }
 
 static void weigh(const builder *b, const line *l, ribbon_point *p, span where, float half, float alpha)
@@ -326,8 +332,9 @@ static void weigh(const builder *b, const line *l, ribbon_point *p, span where, 
         p->half *= weight;
     p->half *= taper_at(b, l, p->arc, where);
     if (style->pressure > 0)
-        p->half *= 1 + 0.5f * style->pressure *
-                           noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave, l->chain);
+        p->half *=
+            1 + 0.5f * style->pressure *
+                    noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave * b->job.unit, l->chain);
 }
 
 static bool has_weights(const builder *b, const stroke *s)
@@ -418,7 +425,7 @@ static bool is_straight(const builder *b, const line *l, bool at_end)
             return false;
         direction[0] += dx;
         direction[1] += dy;
-        if (fabsf(p->arc - end->arc) >= straight_over)
+        if (fabsf(p->arc - end->arc) >= straight_over * b->job.unit)
             return true;
     }
     return true;
@@ -450,12 +457,12 @@ static void find_inked(builder *b, uint32_t index, float from, float to, const g
         (*gap)++;
     for (; *gap < gaps->count && gaps->items[*gap].stroke == index; (*gap)++) {
         const stroke_gap *g = &gaps->items[*gap];
-        if (g->from - from > crumb)
+        if (g->from - from > crumb * b->job.unit)
             span_list_add(out, from, fminf(g->from, to));
         from = fmaxf(from, g->to);
         cut = true;
     }
-    if (!cut || to - from > crumb)
+    if (!cut || to - from > crumb * b->job.unit)
         span_list_add(out, from, to);
 }
 
@@ -470,7 +477,13 @@ static line line_of(const builder *b, uint32_t index, int repeat)
     l.starts = !chain->closed && index == chain->first;
     l.ends = !chain->closed && index + 1 == chain->first + chain->count;
     l.moves = style->wobble > 0 || (style->repeats > 1 && style->repeat_apart > 0);
-    l.varies = style->pressure > 0 || (style->taper > 0 && (l.starts || l.ends)) || has_weights(b, s);
+    for (uint32_t end = 0; end < 2; end++) {
+        const stroke_meeting *m = &b->job.meetings[2 * index + end];
+        bool                  may = s->hidden_by > 0 ? (end ? l.ends : l.starts) : !s->closed && !chain->closed;
+        l.thins[end] = may && (!m->meets || m->half > 0);
+        l.thin[end] = m->meets ? m->half / (ribbon_width(&b->job, s) / 2) : taper_end;
+    }
+    l.varies = style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
     for (int i = 0; i <= NOISE_ENDS; i++)
         l.keys[i] = noise_key(&b->job, s, repeat, i);
     return l;
@@ -493,9 +506,9 @@ static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t
         for (size_t i = 0; i < b->spans.count && !b->failed; i++) {
             span where = b->spans.items[i];
             if (where.from == l.begin)
-                where.from -= run_on(b, &l, false);
+                where.from -= run_on(b, &l, false) + b->job.meetings[2 * index].onward;
             if (where.to == l.end)
-                where.to += run_on(b, &l, true);
+                where.to += run_on(b, &l, true) + b->job.meetings[2 * index + 1].onward;
             if (where.to > where.from)
                 emit(b, &l, where, dashed);
         }
@@ -511,21 +524,36 @@ static void draw_strokes(builder *b, const gap_list *gaps, bool hidden)
             draw_stroke(b, (uint32_t)i, gaps, &gap);
 }
 
+/* What must be known of all strokes before the first one is drawn. */
+static bool look_round(ribbon_job *job, stroke_set *whole, gap_list *gaps)
+{
+    segment_grid grid = {0};
+    bool         good = ribbon_make_whole(whole, job);
+    job->strokes = whole;
+    good = good && find_chains(job) && ribbon_find_corners(job) && segment_grid_build(&grid, job) &&
+           ribbon_find_meetings(job, &grid);
+    if (good) {
+        ribbon_find_halos(gaps, job, &grid);
+        ribbon_find_crowds(gaps, job);
+        gap_list_sort(gaps);
+    }
+    segment_grid_release(&grid);
+    return good && !gaps->failed;
+}
+
 lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke_style *style, uint32_t seed,
                         lmn_error *error)
 {
     *out = (ribbon_set){0};
-    builder  b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out};
-    gap_list gaps = {0};
-    b.failed = !find_chains(&b.job);
+    double     unit = strokes->pixels_per_mm > 0 ? strokes->pixels_per_mm / PAPER_UNITS_PER_MM : 1;
+    builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed, .unit = (float)unit}, .out = out};
+    gap_list   gaps = {0};
+    stroke_set whole = {0};
+    b.failed = !look_round(&b.job, &whole, &gaps);
     if (!b.failed) {
-        ribbon_find_halos(&gaps, &b.job);
-        ribbon_find_crowds(&gaps, &b.job);
-        gap_list_sort(&gaps);
-        b.failed = gaps.failed;
+        draw_strokes(&b, &gaps, true);
+        draw_strokes(&b, &gaps, false);
     }
-    draw_strokes(&b, &gaps, true);
-    draw_strokes(&b, &gaps, false);
     gap_list_release(&gaps);
     span_list_release(&b.inked);
     span_list_release(&b.dashes);
@@ -534,6 +562,9 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     mem_free(b.job.chains);
     mem_free(b.job.chain_of);
     mem_free(b.job.drawn);
+    mem_free(b.job.meetings);
+    mem_free(b.job.corners);
+    stroke_set_release(&whole);
     if (!b.failed)
         return LMN_OK;
     ribbon_set_release(out);

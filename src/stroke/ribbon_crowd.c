@@ -14,7 +14,7 @@ static const float  samples_apart = 0.5f; /* fractions of the distance that is k
 static const float  own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
 static const float  run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
 static const float  crowded_from = 0.5f;  /* fraction of crowded samples */
-static const float  least_apart = 0.5f;   /* pixels */
+static const float  least_apart = 0.5f;   /* on paper */
 static const float  longest = 1e6f;       /* of a segment that anybody draws, pixels */
 static const size_t samples_most = 50000000;
 
@@ -53,7 +53,8 @@ static bool grid_begin(crowd_grid *g, const ribbon_job *job)
     }
     if (!(high[0] >= low[0]))
         return false;
-    *g = (crowd_grid){.job = job, .apart = fmaxf(job->style->hidden_crowd, least_apart), .left = low[0], .top = low[1]};
+    *g = (crowd_grid){
+        .job = job, .apart = fmaxf(job->style->hidden_crowd, least_apart * job->unit), .left = low[0], .top = low[1]};
     g->cell = fmaxf(g->apart, fmaxf(high[0] - low[0], high[1] - low[1]) / CELLS_MOST);
     g->columns = (int)((high[0] - low[0]) / g->cell) + 1;
     g->rows = (int)((high[1] - low[1]) / g->cell) + 1;

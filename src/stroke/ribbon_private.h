@@ -40,26 +40,68 @@ typedef struct chain_facts {
     uint32_t first, count; /* strokes */
     bool     closed;
     float    length;
+    size_t   first_corner, corner_count; /* in the job's */
 } chain_facts;
 
 typedef struct ribbon_job {
-    const stroke_set   *strokes;
-    const stroke_style *style;
-    uint32_t            seed;
-    chain_facts        *chains;
-    size_t              chain_count;
-    uint32_t           *chain_of; /* of each stroke */
-    bool               *drawn;    /* of each stroke: the style wants it */
+    const stroke_set      *strokes;
+    const stroke_style    *style;
+    uint32_t               seed;
+    chain_facts           *chains;
+    size_t                 chain_count;
+    uint32_t              *chain_of; /* of each stroke */
+    bool                  *drawn;    /* of each stroke: the style wants it */
+    float                  unit;     /* pixels to a unit of paper, 1/96 inch: all numbers of taste are on paper */
+    struct stroke_meeting *meetings; /* of both ends of each stroke */
+    float                 *corners;  /* of chains that are dashed: arcs at which they turn */
+    size_t                 corner_count, corner_capacity;
 } ribbon_job;
+
+/* What an end of a stroke comes to. */
+typedef struct stroke_meeting {
+    bool  meets;  /* another line is there; else it is free */
+    float onward; /* from there to the other line's axis, pixels */
+    float half;   /* of the widest line there, if that is narrower and goes on the same way: what this one thins out to;
+                     else 0 */
+} stroke_meeting;
 
 /* Width of a stroke's line where nothing varies it. */
 float ribbon_width(const ribbon_job *job, const stroke *s);
 
+/* Strokes with those stretches in one that have nothing but what is thinner than the pen between them. Release strokes
+ * and points with stroke_set_release. False: out of memory. */
+bool ribbon_make_whole(stroke_set *out, const ribbon_job *job);
+
+/* --- what lies where: the segments of visible strokes --- */
+typedef struct ribbon_segment {
+    uint32_t stroke, point;
+} ribbon_segment;
+
+typedef struct segment_grid {
+    float           left, top, cell, depth_range;
+    int             columns, rows;
+    uint32_t       *starts; /* of each cell in `items`, one more at the end */
+    ribbon_segment *items;  /* NULL: there is nothing */
+} segment_grid;
+bool segment_grid_build(segment_grid *g, const ribbon_job *job); /* false: out of memory */
+void segment_grid_release(segment_grid *g);
+/* The cells that a segment's box covers: first column, first row, last column, last row. False: it is nowhere. */
+bool segment_grid_box(const segment_grid *g, const stroke_point *a, const stroke_point *b, float margin, int out[4]);
+/* Long segments cover many cells of their box that they do not cross: a cell counts when its circle meets the line. */
+bool segment_grid_meets(const segment_grid *g, const stroke_point *a, const stroke_point *b, float margin, int column,
+                        int row);
+
+/* Fills the job's meetings; they belong to the caller. False: out of memory. */
+bool ribbon_find_meetings(ribbon_job *job, const segment_grid *grid);
+
 /* Where a stroke passes behind a visible one. */
-void ribbon_find_halos(gap_list *out, const ribbon_job *job);
+void ribbon_find_halos(gap_list *out, const ribbon_job *job, const segment_grid *grid);
 
 /* Where hidden strokes are left out because more important lines are too near. */
 void ribbon_find_crowds(gap_list *out, const ribbon_job *job);
+
+/* Finds the corners of all chains, if dashes are wanted. False: out of memory. */
+bool ribbon_find_corners(ribbon_job *job);
 
 /* The dashes of a stroke from arc `from` to `to`. */
 void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from,

@@ -8,6 +8,7 @@
 #ifndef LIMNER_STROKE_STROKE_H
 #define LIMNER_STROKE_STROKE_H
 
+#include "base/paper.h"
 #include "limner/error.h"
 #include "pose/pose.h"
 #include "scene/scene.h"
@@ -36,10 +37,12 @@ typedef struct stroke_point {
     float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
 } stroke_point;
 
-/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order. */
+/* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order;
+ * where chains were linked over a gap, arcs count it. */
 typedef struct stroke {
     stroke_class kind;
     uint32_t     part;      /* id */
+    uint32_t     piece;     /* of surface that it lies on, of all pieces in the view */
     uint32_t     hidden_by; /* surfaces in front, of closed bodies those that face the eye; 0: visible */
     uint32_t     chain;     /* number of the chain, from 0 */
     uint64_t     id;        /* of the chain: the same as long as its most lasting edge is in it, from frame to frame */
@@ -47,6 +50,7 @@ typedef struct stroke {
     bool         closed;       /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase; /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
     float        chain_length; /* pixels */
+    float        size;         /* of the piece on the page, pixels, its longer side; 0: not asked for */
     bool smooth; /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of
                     it */
 } stroke;
@@ -63,8 +67,9 @@ typedef struct stroke_set {
     stroke_point *points;
     stroke_mark  *marks; /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
-    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
-    uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
+    bool          perspective;   /* between two points it is 1 / depth that is linear on the page, not depth */
+    double        pixels_per_mm; /* of the page; 0: 96 to the inch */
+    uint64_t      pairs;         /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 
@@ -122,11 +127,15 @@ uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[
 
 /* --- the view ------------------------------------------------------------------------------------------- */
 
+/* Which lines there are, and numbers of taste, are of the page as paper, in units of 1/96 inch. */
+#define PAPER_UNITS_PER_MM (PX_PER_INCH / MM_PER_INCH)
+
 typedef struct stroke_camera {
     mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */
     double near;             /* eye depth, above 0 in perspective */
     bool   orthographic;
     int    width, height; /* of the page, pixels */
+    double pixels_per_mm; /* of paper: which lines there are depends on their lengths there alone; 0: 96 to the inch */
 } stroke_camera;
 
 typedef struct stroke_view stroke_view;
@@ -153,14 +162,16 @@ typedef struct stroke_options {
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
     bool    hidden;                                /* stretches behind surfaces too */
     float   simplify;                              /* by how much points may be moved, pixels */
-    float   shortest;                              /* chains shorter than this are left out, pixels */
-    float   crowd; /* strokes that run all their length this close to more important ones are left out, pixels */
+    float   shortest;                              /* whole chains shorter than this are left out, pixels */
+    float   width;  /* that lines are drawn with, pixels: what is thinner in front of a chain does not end it */
+    float   crowd;  /* strokes that run all their length this close to more important ones are left out, pixels */
+    float   detail; /* 1: all lines; less: what says least goes where lines crowd, whole chains, down to 0 */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 0.75f, 0, 0                                             \
+        CONTOURS_EDGES, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0                                 \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

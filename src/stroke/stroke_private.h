@@ -1,9 +1,9 @@
 /* What the files of this room share: what a camera sees of a scene, made ready for asking what lies in front of what.
  *
- * In *window space* x and y are whole numbers, small fractions of a pixel measured from the middle of the page, so that
- * on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53. z grows
- * with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines and
- * planes of the scene lines and planes of the window. */
+ * In *window space* x and y are whole numbers, small fractions of a unit of paper measured from the middle of the page,
+ * so that on which side of a line a point lies is worked out without rounding: products of differences stay below 2^53.
+ * z grows with the distance from the eye: the eye depth d in parallel projection, −1/d in perspective. Both make lines
+ * and planes of the scene lines and planes of the window. */
 #ifndef LIMNER_STROKE_STROKE_PRIVATE_H
 #define LIMNER_STROKE_STROKE_PRIVATE_H
 
@@ -78,10 +78,11 @@ typedef struct view_item {
 
 struct stroke_view {
     const stroke_scene *scene;
-    stroke_camera       camera;
-    mat4                whole; /* world to clip space */
-    double              units; /* window units in a pixel */
-    double              same;  /* SAME_POSITION in file units */
+    stroke_camera       page;   /* as it was asked for */
+    stroke_camera       camera; /* the same on paper; see paper.c */
+    mat4                whole;  /* world to clip space */
+    double              units;  /* window units in a unit of paper */
+    double              same;   /* SAME_POSITION in file units */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
@@ -230,8 +231,28 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                        const stroke_options *options, lmn_error *error);
 
 /* --- join.c --- */
-/* Joins strokes of one kind whose ends almost touch. */
-lmn_status strokes_join(stroke_set *set, const stroke_view *v, lmn_error *error);
+/* Makes chains whole: links strokes whose ends lie close together and follow each other, and only then leaves out what
+ * is too short. Lengths of the options on paper, as below. */
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
+
+/* --- paper.c --- */
+/* Which lines there are is decided on paper, in units of 1/96 inch, whatever resolution the picture has: the camera of
+ * a view counts in them. */
+stroke_camera  paper_camera(const stroke_camera *page);
+double         paper_units_per_pixel(const stroke_view *v);
+stroke_options paper_options(const stroke_view *v, const stroke_options *options);
+/* From paper to the pixels of the page that was asked for. */
+void paper_to_page(stroke_set *set, const stroke_view *v);
+
+/* --- density.c --- */
+/* Small pieces are drawn with a finer pen, so that their outlines enclose something. */
+static inline double stroke_width_on_piece(const stroke *s, double width)
+{
+    double most = s->size / 6, least = width / 3;
+    return !(s->size > 0) || most > width ? width : most > least ? most : least;
+}
+/* Leaves out the chains that say least where lines crowd, by the options' detail. */
+lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
 
 /* --- crowd.c --- */
 /* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's

@@ -62,8 +62,8 @@ float line_cover(float width, float grown, float away, uint key, float at, float
     return covered(width, away);
 }
 
-/* By number, lines come no closer than this, pixels: what is darker still has wider ones. */
-const float CLOSEST = 3.0;
+/* By number, lines come no closer than this: what is darker still has wider ones. */
+const float CLOSEST_MM = 0.8;
 
 /* The lines of one set around a position, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)
@@ -81,7 +81,7 @@ float lines_at(stroke_plane s, float darkness, uint set)
     darkness = min(darkness * (1.0 + u_uneven * noise.y) / stroke_ink(), 1.0);
     /* Lines to a unit, and those of them that are there however many are wanted. */
 #if TONE_BY == 0
-    float wanted = min(darkness, u_width / CLOSEST) / (u_width * g);
+    float wanted = min(darkness, u_width / (CLOSEST_MM * u_pixels_per_mm)) / (u_width * g);
 #else
     float wanted = 1.4142136 / apart_units;
 #endif

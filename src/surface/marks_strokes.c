@@ -40,10 +40,10 @@ static const param params[] = {
                        "form: each stroke runs along the direction in which the surface bends; planes: where planes "
                        "through the model "
                        "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
-    PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 1.3, .min = 0.1, .max = 64, .soft_min = 0.5, .soft_max = 6,
-                    .unit = UNIT_PX, .doc = "Width of strokes, wherever they are."),
-    PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 1, .min = 0.2, .max = 200, .soft_min = 0.5, .soft_max = 10,
-                    .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 0.975, .min = 0.075, .max = 48, .soft_min = 0.375,
+                    .soft_max = 4.5, .unit = UNIT_PT, .doc = "Width of strokes, wherever they are."),
+    PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 0.75, .min = 0.15, .max = 150, .soft_min = 0.375,
+                    .soft_max = 7.5, .unit = UNIT_PT,
                     .doc = "Mean distance of strokes where it is darkest, all sets together: they come no closer, "
                            "however dark it should be."),
     PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2,

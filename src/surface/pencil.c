@@ -41,8 +41,8 @@ static const param params[] = {
     PARAM_PALETTE_ROW(pencil_values, pencils, .def_palette = {1, {{0, 0, 0, 1}}},
                       .doc = "With several colours, each time over takes the next, and they mix as coloured pencils "
                              "do; with one, ink is the colour."),
-    PARAM_FLOAT_ROW(pencil_values, scale, .def = 1, .min = 0.25, .max = 16, .soft_min = 0.5, .soft_max = 4,
-                    .unit = UNIT_PX, .logarithmic = true,
+    PARAM_FLOAT_ROW(pencil_values, scale, .def = 0.75, .min = 0.1875, .max = 12, .soft_min = 0.375, .soft_max = 3,
+                    .unit = UNIT_PT, .logarithmic = true,
                     .doc = "Pixels that a texel of the strokes takes: how coarse they are."),
     PARAM_FLOAT_ROW(pencil_values, width, .def = 1.6, .min = 0.6, .max = 16, .soft_max = 6, .cpu_only = true,
                     .doc = "Width of strokes in texels."),

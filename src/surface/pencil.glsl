@@ -23,7 +23,7 @@ vec2 turn_of_degrees(float degrees)
 float strokes_at(stroke_plane s, float darkness, vec2 start)
 {
 #if defined(HAS_FORM) || COORDINATES == 2
-    return map_ink(s.at / (u_tones_facts.x * u_scale) + start, 0.0, darkness);
+    return map_ink(s.at * page_unit() / (u_tones_facts.x * u_scale) + start, 0.0, darkness);
 #else
     float level = screen_level(s, u_tones_facts.x, u_scale), bare = 1.0;
     for (int k = 0; k < 2; k++) {

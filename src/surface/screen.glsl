@@ -39,7 +39,7 @@ vec2 wavered(stroke_plane s)
     return s.at;
 #else
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
-    return s.at + u_wobble * rate * living_noise(s.at, 1.0 / (rate * 60.0), 3u, u_change);
+    return s.at + u_wobble * rate * living_noise(s.at, 1.0 / (rate * 60.0 * page_unit()), 3u, u_change);
 #endif
 }
 
@@ -157,7 +157,7 @@ float uneven_tone()
 #else
     stroke_plane s = main_plane();
     float rate = sqrt(max(length(s.right) * length(s.up), 1e-30));
-    return u_uneven * living_noise(s.at, 1.0 / (rate * 40.0), 5u, u_change).x;
+    return u_uneven * living_noise(s.at, 1.0 / (rate * 40.0 * page_unit()), 5u, u_change).x;
 #endif
 }
 

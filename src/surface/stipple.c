@@ -9,8 +9,8 @@
 
 static const param params[] = {
     MARK_ROWS(200000, "Dots"),
-    PARAM_FLOAT_ROW(stipple_values, diameter, .def = 2.2, .min = 0.3, .max = 64, .soft_min = 1, .soft_max = 10,
-                    .unit = UNIT_PX, .doc = "Diameter of the dots."),
+    PARAM_FLOAT_ROW(stipple_values, diameter, .def = 1.65, .min = 0.225, .max = 48, .soft_min = 0.75, .soft_max = 7.5,
+                    .unit = UNIT_PT, .doc = "Diameter of the dots."),
     PARAM_FLOAT_ROW(stipple_values, grow, .def = 1.5, .min = 1, .max = 16, .soft_max = 4, .unit = UNIT_NONE,
                     .doc =
                         "Dots become up to this many times as wide where there are not enough of them for the tone."),

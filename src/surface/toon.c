@@ -11,7 +11,7 @@ typedef struct toon {
 static const param params[] = {
     PARAM_INT_ROW(toon, bands, .def = 3, .min = 1, .max = 16, .soft_min = 2, .soft_max = 6, .unit = UNIT_COUNT,
                   .doc = "Number of flat tones between shadow and full light."),
-    PARAM_FLOAT_ROW(toon, softness, .def = 1, .min = 0, .max = 8, .soft_max = 3, .unit = UNIT_PX,
+    PARAM_FLOAT_ROW(toon, softness, .def = 0.75, .min = 0, .max = 6, .soft_max = 2.25, .unit = UNIT_PT,
                     .doc = "Width of the blend across a tone border; 0 is hard."),
     PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Brightness of the darkest tone."),

@@ -5,6 +5,7 @@
 /* The page, and how the viewer's rays run. */
 uniform vec2  u_size;         /* of the page, pixels */
 uniform vec2  u_texel;        /* 1 / u_size */
+uniform float u_pixels_per_mm; /* of paper; lengths among parameters are in pixels already */
 uniform float u_perspective;  /* 1, or 0 for parallel rays */
 uniform vec2  u_unproject;    /* eye xy of a pixel = ndc · this · (depth, or 1 for parallel rays) */
 uniform vec4  u_window_depth; /* of the projection: what makes window depth of eye depth */
@@ -47,6 +48,12 @@ uniform mat4  u_past_1;       /* to clip space, as it was earlier: from the geom
 uniform mat4  u_past_2;
 uniform mat4  u_past_3;
 uniform mat4  u_past_4;
+
+/* Pixels to 1/96 inch of paper: what is laid out on the page is laid out in these, so that it is the same in pictures of all sizes. */
+float page_unit()
+{
+    return u_pixels_per_mm * (25.4 / 96.0);
+}
 
 /* Window depth from eye depth and back, of the frame's projection. */
 float window_depth_at_eye(float eye)

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/paper.h"
 #include "base/text.h"
 
 enum { NUMBER_SIZE = 32, RANGE_SIZE = 2 * NUMBER_SIZE + 32, CONDITION_SIZE = 128 };
@@ -27,7 +28,7 @@ const char *param_type_text(param_type type)
 
 const char *param_unit_text(param_unit unit)
 {
-    static const char *const names[] = {"", "px", "deg", "count", "fraction"};
+    static const char *const names[] = {"", "pt", "deg", "count", "fraction"};
     return (size_t)unit < PARAM_COUNT(names) ? names[unit] : "";
 }
 
@@ -82,7 +83,7 @@ static void print_number(double value, char out[NUMBER_SIZE])
 void param_print_range(const param *p, char *out, size_t size)
 {
     char        low[NUMBER_SIZE], high[NUMBER_SIZE];
-    const char *unit = p->unit == UNIT_PX || p->unit == UNIT_DEGREES ? param_unit_text(p->unit) : "";
+    const char *unit = p->unit == UNIT_PT || p->unit == UNIT_DEGREES ? param_unit_text(p->unit) : "";
     print_number(p->min, low);
     print_number(p->max, high);
     snprintf(out, size, "%s to %s%s%s%s", low, high, *unit ? " " : "", unit, p->can_auto ? ", or auto" : "");
@@ -136,7 +137,8 @@ static lmn_status wrong_value(const param *p, const char *given, lmn_error *erro
         return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a whole number from %s", p->key, given, range);
     case PARAM_FLOAT:
         param_print_range(p, range, sizeof range);
-        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a number from %s", p->key, given, range);
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is a number from %s%s", p->key, given, range,
+                         p->unit == UNIT_PT ? "; lengths may say mm, cm, in, pt or px (1/96 in)" : "");
     case PARAM_BOOL: return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is true or false", p->key, given);
     case PARAM_COLOUR:
         return error_set(error, LMN_USAGE,
@@ -172,6 +174,13 @@ static lmn_status wrong_name(const param *p, const char *name, lmn_error *error)
     return status;
 }
 
+static const char *skip_blanks(const char *at)
+{
+    while (*at == ' ')
+        at++;
+    return at;
+}
+
 static bool is_auto(const param *p, const char *given)
 {
     return p->can_auto && strcmp(given, "auto") == 0;
@@ -186,6 +195,31 @@ static bool parse_int(const param *p, const char *given, int32_t *out)
     return true;
 }
 
+/* A number, for lengths also with a unit: "0.5mm". What has none is points. */
+static bool parse_number(const param *p, const char *given, double *out)
+{
+    static const struct {
+        const char *name;
+        double      points;
+    } units[] = {{"", 1},
+                 {"pt", 1},
+                 {"mm", 1 / MM_PER_POINT},
+                 {"cm", 10 / MM_PER_POINT},
+                 {"in", POINTS_PER_INCH},
+                 {"px", POINTS_PER_INCH / PX_PER_INCH}};
+    if (p->unit != UNIT_PT)
+        return text_is_double(given, out);
+    const char *unit = text_parse_double(given, given + strlen(given), out);
+    if (!unit)
+        return false;
+    for (size_t i = 0; i < PARAM_COUNT(units); i++)
+        if (strcmp(skip_blanks(unit), units[i].name) == 0) {
+            *out *= units[i].points;
+            return true;
+        }
+    return false;
+}
+
 static bool parse_float(const param *p, const char *given, float *out)
 {
     double value;
@@ -194,7 +228,7 @@ static bool parse_float(const param *p, const char *given, float *out)
         return true;
     }
     /* Written so that NaN is refused. */
-    if (!text_is_double(given, &value) || !(value >= p->min && value <= p->max) || !isfinite(value))
+    if (!parse_number(p, given, &value) || !(value >= p->min && value <= p->max) || !isfinite(value))
         return false;
     *out = (float)value;
     return true;
@@ -212,13 +246,6 @@ static bool parse_bool(const char *given, bool *out)
         }
     }
     return false;
-}
-
-static const char *skip_blanks(const char *at)
-{
-    while (*at == ' ')
-        at++;
-    return at;
 }
 
 static bool parse_direction(const param *p, const char *given, direction *out)

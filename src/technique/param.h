@@ -37,7 +37,13 @@ typedef enum param_type {
     PARAM_TEXT       /* param_words; no uniform */
 } param_type;
 
-typedef enum param_unit { UNIT_NONE, UNIT_PX, UNIT_DEGREES, UNIT_COUNT, UNIT_FRACTION } param_unit;
+typedef enum param_unit {
+    UNIT_NONE,
+    UNIT_PT /* points of paper, 1/72 inch */,
+    UNIT_DEGREES,
+    UNIT_COUNT,
+    UNIT_FRACTION
+} param_unit;
 
 typedef struct param {
     const char        *key; /* also the struct field, the look key and the uniform u_KEY */
@@ -112,7 +118,7 @@ typedef struct param {
 #define PARAM_COUNT(array) (sizeof(array) / sizeof *(array))
 
 const char *param_type_text(param_type type); /* "int", "float", … */
-const char *param_unit_text(param_unit unit); /* "", "px", "deg", "count", "share" */
+const char *param_unit_text(param_unit unit); /* "", "pt", "deg", "count", "share" */
 
 /* The size of a field of this type. */
 size_t param_size(param_type type);

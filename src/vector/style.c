@@ -79,6 +79,7 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
         return false;
     (lines->technique->lines->as_strokes ? lines->technique->lines->as_strokes : lines_as_strokes)(options, style,
                                                                                                    lines->values);
+    options->width = style->width;
     if (technique_draws_strokes(lines->technique)) {
         if (!(style->wobble > 0))
             take_hand(style, r);

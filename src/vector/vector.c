@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/paper.h"
 #include "plan/plan.h"
 #include "plan/refuse.h"
 #include "plan/time.h"
@@ -75,7 +76,10 @@ static bool lacks_solids(const vector_job *j, const rule *r)
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
-    const plan_options options = {.select = j->desc->select, .background = j->desc->background, .parts_only = true};
+    const plan_options options = {.select = j->desc->select,
+                                  .background = j->desc->background,
+                                  .pixels_per_mm = VECTOR_PIXELS_PER_MM,
+                                  .parts_only = true};
     size_t             solids = 0;
     moment             when;
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
@@ -87,6 +91,8 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
         status = swept_boxes_fit(&j->swept, &j->pose, error);
     if (status == LMN_OK)
         status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
+    if (status == LMN_OK)
+        j->look = j->plan.look;
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
         bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
         solids += solid && plan_rule(&j->plan, i) && lacks_solids(j, plan_rule(&j->plan, i));
@@ -275,7 +281,8 @@ static lmn_status place_views(vector_job *j, lmn_error *error)
 
 static lmn_status begin_page(vector_job *j, lmn_error *error)
 {
-    double     size[2] = {j->desc->width / VECTOR_PIXELS_PER_MM, j->desc->height / VECTOR_PIXELS_PER_MM};
+    double     resolution = paper_pixels_per_mm(j->desc->width, j->desc->height, j->desc->dpi);
+    double     size[2] = {j->desc->width / resolution, j->desc->height / resolution};
     bool       stated = true;
     lmn_status status = j->wanted->page ? vector_parse_page(j->wanted->page, size, error) : LMN_OK;
     if (status == LMN_OK && j->wanted->scale)
@@ -293,6 +300,18 @@ static lmn_status begin_page(vector_job *j, lmn_error *error)
 
 /* --- drawing -------------------------------------------------------------------------------------------- */
 
+/* As finely as the picture would be drawn; on a page of its own 96 pixels an inch, or as many as are asked for. */
+static void set_resolution(const vector_job *j, lmn_draw_desc *d)
+{
+    bool   stated = !j->wanted->page || j->desc->dpi > 0;
+    double finer =
+        stated ? paper_pixels_per_mm(j->desc->width, j->desc->height, j->desc->dpi) / VECTOR_PIXELS_PER_MM : 1;
+    finer = fmin(finer, (double)LIMIT_PICTURE_SIDE / (d->width > d->height ? d->width : d->height));
+    d->width = (int)fmax(round(d->width * finer), 1);
+    d->height = (int)fmax(round(d->height * finer), 1);
+    d->dpi = PX_PER_INCH * finer;
+}
+
 /* The surfaces of a view as pixels. The eye is given, so that the camera is the same. */
 static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
 {
@@ -303,6 +322,7 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
     d.background = ground;
     d.maps = d.profile = false;
     d.progress = NULL;
+    set_resolution(j, &d);
     if (!d.camera) {
         double distance =
             v->camera.orthographic ? v->camera.half_height / tan(d.fov_deg * (3.14159265358979323846 / 360)) : 0;
@@ -456,7 +476,7 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
 {
     stroke_view  *view = NULL;
     stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width,
-                            v->height};
+                            v->height,      VECTOR_PIXELS_PER_MM};
     lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
     stroke_view  *as_is = NULL;
     if (status == LMN_OK && j->as_is.item_count)

@@ -56,4 +56,7 @@ lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *
 char      *vector_report_json(const lmn_sheet *s);
 void       vector_destroy(lmn_sheet **s);
 
+/* A page, its orientation or its size in mm. Errors: LMN_USAGE. */
+lmn_status vector_parse_page(const char *text, double out[2], lmn_error *error);
+
 #endif

@@ -2,17 +2,16 @@
 #ifndef LIMNER_VECTOR_VECTOR_PRIVATE_H
 #define LIMNER_VECTOR_VECTOR_PRIVATE_H
 
+#include "base/paper.h"
 #include "stage/mark_ground.h"
 #include "plan/plan.h"
 #include "vector/vector.h"
 
 /* --- page.c: what descriptions say in words ------------------------------------------------------ */
 
-#define VECTOR_PIXELS_PER_MM (96 / 25.4)
+#define VECTOR_PIXELS_PER_MM (PX_PER_INCH / MM_PER_INCH)
 enum { PAGE_SIDE_MOST = 4000 }; /* mm */
 
-/* A page, its orientation or its size in mm. Errors: LMN_USAGE. */
-lmn_status vector_parse_page(const char *text, double out[2], lmn_error *error);
 /* "1:20": paper over model. Errors: LMN_USAGE. */
 lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
 /* Names separated by commas, none twice. Errors: LMN_USAGE. */

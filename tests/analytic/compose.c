@@ -322,7 +322,7 @@ static void measure_boundary(const shot *s, double boundary, double *outside, do
 /* Width and symmetry of outlines at several requested widths and sizes of picture. */
 static void widths(void)
 {
-    static const char *const requested[] = {"1", "2", "3", "4", "6", "9"};
+    static const char *const requested[] = {"1px", "2px", "3px", "4px", "6px", "9px"};
     static const char *const operators[] = {"discontinuity", "four-tap", "id"};
     for (int size = 128; size <= 512; size *= 2)
         for (int o = 0; o < 3; o++)

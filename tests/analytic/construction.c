@@ -116,7 +116,7 @@ static double run_of(const shot *s, dvec a, dvec b)
 
 static void overdrawn(void)
 {
-    static const char *const lengths[] = {"0", "10", "16", "24", "32"};
+    static const char *const lengths[] = {"0", "10px", "16px", "24px", "32px"};
     for (int i = 0; i < 5; i++) {
         const char *changes[] = {"lines.overshoot", lengths[i], NULL};
         shape       s = {0};

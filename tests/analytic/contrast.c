@@ -51,8 +51,8 @@ static void double_contours(void)
         char across[8], down[8];
         shot s;
         int  black = 0, white = 0, wrong = 0;
-        snprintf(across, sizeof across, "%d", offsets[o][0]);
-        snprintf(down, sizeof down, "%d", offsets[o][1]);
+        snprintf(across, sizeof across, "%dpx", offsets[o][0]);
+        snprintf(down, sizeof down, "%dpx", offsets[o][1]);
         const char *changes[] = {"lines.offset_x", across, "lines.offset_y", down, NULL};
         if (take_ball(&s, look, o ? changes : NULL))
             for (int y = 4; y < 236; y++)

@@ -18,7 +18,7 @@ static const char lined_look[] = "{\"version\": 1, \"rules\": [{\"surface\": \"l
 static void a_ball_has_a_disc(void)
 {
     const shot_view   view = {.width = 240, .height = 240, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
-    const char *const changes[] = {"scene.cut", "z=0.25", "scene.cut_hatch", "0", "scene.cut_fill", "#3060c0", NULL};
+    const char *const changes[] = {"scene.cut", "z=0.25", "scene.cut_hatch", "0px", "scene.cut_fill", "#3060c0", NULL};
     shape             s = {0};
     shot              cut;
     int               disc = 0, off = 0, turned = 0, coloured = 0;
@@ -106,7 +106,7 @@ static void hatch_covers_its_fraction(void)
         const char *apart, *width;
         double      fraction;
         int         samples;
-    } rows[] = {{"10", "2", 0.2, 1}, {"20", "5", 0.25, 1}, {"6", "1.5", 0.25, 4}, {"0", "2", 0, 1}};
+    } rows[] = {{"10px", "2px", 0.2, 1}, {"20px", "5px", 0.25, 1}, {"6px", "1.5px", 0.25, 4}, {"0px", "2px", 0, 1}};
     const shot_view front = {.width = 400, .height = 400, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         shape     s = {0};
@@ -139,7 +139,7 @@ static void hatch_covers_its_fraction(void)
 static void outlines_are_lines(void)
 {
     const shot_view   view = {.width = 300, .height = 300, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
-    const char *const changes[] = {"scene.cut", "z=0;0,0.05,1@0,0,0", "scene.cut_hatch", "0", NULL};
+    const char *const changes[] = {"scene.cut", "z=0;0,0.05,1@0,0,0", "scene.cut_hatch", "0px", NULL};
     shape             s = {0};
     shot              cut;
     shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));

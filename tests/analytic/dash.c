@@ -53,13 +53,13 @@ static bool draw(shot *out, void (*make)(shape *), const char *dash, const char 
 
 static void fraction_of_ink(void)
 {
-    static const char *const styles[][3] = {{"8", "5", "1"},  {"8", "5", "2"},   {"14", "4", "3"},
-                                            {"6", "10", "2"}, {"20", "20", "6"}, {"2", "6", "2"}};
+    static const char *const styles[][3] = {{"8px", "5px", "1px"},  {"8px", "5px", "2px"},   {"14px", "4px", "3px"},
+                                            {"6px", "10px", "2px"}, {"20px", "20px", "6px"}, {"2px", "6px", "2px"}};
     for (int shape_index = 0; shape_index < 2; shape_index++)
         for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
             shot   whole, dashed;
             double dash = atof(styles[i][0]), gap = atof(styles[i][1]);
-            bool   good = draw(&whole, shape_index ? torus_of : box_of, "0", styles[i][1], styles[i][2], &box_view);
+            bool   good = draw(&whole, shape_index ? torus_of : box_of, "0px", styles[i][1], styles[i][2], &box_view);
             if (draw(&dashed, shape_index ? torus_of : box_of, styles[i][0], styles[i][1], styles[i][2], &box_view) &&
                 good)
                 check_near("dash", 1 - ink_sum(&dashed) / ink_sum(&whole), gap / (dash + gap), 0.1 * gap / (dash + gap),
@@ -119,7 +119,7 @@ static void runs_along_edges(void)
         shot      s;
         verdict   v = {0};
         view.up = dvec_of(0.35 * roll - 0.7, 1, 0);
-        if (draw(&s, box_of, "12", "8", "2", &view)) {
+        if (draw(&s, box_of, "12px", "8px", "2px", &view)) {
             for (int e = 0; e < 9; e++) {
                 const double *p = corner[edges[e][0]], *q = corner[edges[e][1]];
                 judge_edge(&s, shot_project(&s, dvec_of(p[0], p[1], p[2])), shot_project(&s, dvec_of(q[0], q[1], q[2])),
@@ -142,12 +142,12 @@ static void what_stays(void)
     shot_view other = box_view;
     other.es = true;
     bool good = shot_of_shape(&plain, &s, "dash.glb", shot_line_look(LINES), NULL, &box_view);
-    if (draw(&zero, torus_of, "0", "17", "2", &box_view) && good)
+    if (draw(&zero, torus_of, "0px", "17px", "2px", &box_view) && good)
         check_at_most("dash", shot_differing(&plain, &zero, 0), 0, "values that dash 0 changes");
-    good = draw(&dashed, torus_of, "9", "6", "2", &box_view);
-    if (draw(&again, torus_of, "9", "6", "2", &box_view) && good)
+    good = draw(&dashed, torus_of, "9px", "6px", "2px", &box_view);
+    if (draw(&again, torus_of, "9px", "6px", "2px", &box_view) && good)
         check_at_most("dash", shot_differing(&dashed, &again, 0), 0, "values that differ in a second drawing");
-    if (draw(&es, torus_of, "9", "6", "2", &other) && good)
+    if (draw(&es, torus_of, "9px", "6px", "2px", &other) && good)
         check_at_most("GLES", shot_differing(&dashed, &es, 1), 0, "values that differ in the other dialect");
     /* Of two line techniques each has its own dashes: unbroken blue over and under dashed red. */
     static const char *const pairs[2] = {"[{\"operator\":\"discontinuity\",\"colour\":\"#ff0000\",\"dash\":9},{"
@@ -185,8 +185,8 @@ static void supersampled(void)
     shot_view fine = box_view;
     shot      one, many;
     fine.samples = 9;
-    bool good = draw(&one, box_of, "12", "8", "3", &box_view);
-    if (draw(&many, box_of, "12", "8", "3", &fine) && good) {
+    bool good = draw(&one, box_of, "12px", "8px", "3px", &box_view);
+    if (draw(&many, box_of, "12px", "8px", "3px", &fine) && good) {
         dvec    a = shot_project(&one, dvec_of(-1.4, 1.1, 1.3)), b = shot_project(&one, dvec_of(1.2, 1.1, 1.3));
         verdict v = {0};
         judge_edge(&many, a, b, 12, 8, &v);

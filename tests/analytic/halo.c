@@ -112,7 +112,7 @@ static void check_gaps(const gap_case *c)
 
 static void gaps(void)
 {
-    static const char *const halos[] = {"2", "4", "8", "12"}, *const widths[] = {"1", "2", "5"};
+    static const char *const halos[] = {"2px", "4px", "8px", "12px"}, *const widths[] = {"1px", "2px", "5px"};
     for (int h = 0; h < 4; h++)
         for (int w = 0; w < 3; w++)
             for (int roll = 0; roll < 3; roll++)
@@ -121,7 +121,8 @@ static void gaps(void)
         for (int parallel = 0; parallel < 2; parallel++)
             for (int fine = 0; fine < 2; fine++)
                 for (int depth = 0; depth < 2; depth++)
-                    check_gaps(&(gap_case){halos[h], depth ? "2" : "3", depth ? -6 : 0.7, 0.4, parallel, fine ? 4 : 1});
+                    check_gaps(
+                        &(gap_case){halos[h], depth ? "2px" : "3px", depth ? -6 : 0.7, 0.4, parallel, fine ? 4 : 1});
 }
 
 /* --- what stays ----------------------------------------------------------------------------------------- */
@@ -138,8 +139,8 @@ static void near_object_stays(void)
         view.eye = dvec_of(1.5, 1.1, 9);
         view.orthographic = parallel;
         plate_and_bar(&s, 0);
-        bool good = draw(&plain, &s, "0", "2", &view);
-        if (draw(&haloed, &s, "8", "2", &view) && good) {
+        bool good = draw(&plain, &s, "0px", "2px", &view);
+        if (draw(&haloed, &s, "8px", "2px", &view) && good) {
             int on_plate = 0, beside = 0, away = 0, gone = 0;
             for (int y = 0; y < plain.height; y++)
                 for (int x = 0; x < plain.width; x++) {
@@ -213,8 +214,8 @@ static void convex_bodies_stay(void)
                 view.orthographic = parallel;
                 view.samples = e == 1 ? 4 : 1;
                 bodies[b](&s);
-                bool good = draw(&plain, &s, "0", "2", &view);
-                if (draw(&haloed, &s, "9", "2", &view) && good)
+                bool good = draw(&plain, &s, "0px", "2px", &view);
+                if (draw(&haloed, &s, "9px", "2px", &view) && good)
                     check_at_most("P35", shot_differing(&plain, &haloed, 0), 0, "values of %s that change, eye %d, %s",
                                   names[b], e, parallel ? "parallel" : "perspective");
                 shot_release(&plain);
@@ -232,12 +233,12 @@ static void same_again(void)
     other.es = true;
     plate_and_bar(&s, 0);
     bool good = shot_of_shape(&plain, &s, "halo.glb", shot_line_look(LINES), NULL, &straight);
-    if (draw(&zero, &s, "0", "2", &straight) && good)
+    if (draw(&zero, &s, "0px", "2px", &straight) && good)
         check_at_most("P35", shot_differing(&plain, &zero, 0), 0, "values that halo 0 changes");
-    good = draw(&run, &s, "6", "2", &straight);
-    if (draw(&again, &s, "6", "2", &straight) && good)
+    good = draw(&run, &s, "6px", "2px", &straight);
+    if (draw(&again, &s, "6px", "2px", &straight) && good)
         check_at_most("P35", shot_differing(&run, &again, 0), 0, "values that differ in a second drawing");
-    if (draw(&es, &s, "6", "2", &other) && good)
+    if (draw(&es, &s, "6px", "2px", &other) && good)
         check_at_most("GLES", shot_differing(&run, &es, 1), 0, "values that differ in the other dialect");
     shot_release(&plain);
     shot_release(&zero);
@@ -252,7 +253,7 @@ static void same_again(void)
 /* A ball before a larger one: all ink of the larger one's outline by its distance from the nearer one's, a circle. */
 static void balls(void)
 {
-    static const char *const halos[] = {"4", "8", "14"};
+    static const char *const halos[] = {"4px", "8px", "14px"};
     for (int h = 0; h < 3; h++) {
         const double halo = atof(halos[h]), radius = 0.8;
         const dvec   centre = {1.15, 0.5, 2};
@@ -262,8 +263,8 @@ static void balls(void)
         view.orthographic = true;
         shape_sphere(&s, "near", centre, radius, 64, 128, true);
         shape_sphere(&s, "far", dvec_of(0, 0, -1), 1.5, 64, 128, true);
-        bool good = draw(&plain, &s, "0", "2", &view);
-        if (draw(&haloed, &s, halos[h], "2", &view) && good) {
+        bool good = draw(&plain, &s, "0px", "2px", &view);
+        if (draw(&haloed, &s, halos[h], "2px", &view) && good) {
             dvec middle = shot_project(&plain, centre),
                  rim = shot_project(&plain, dvec_of(centre.x + radius, centre.y, centre.z));
             int left = 0, changed = 0, within = 0;
@@ -293,8 +294,8 @@ static void with_overshoot(void)
     shape s = {0};
     shot  plain, haloed;
     plate_and_bar(&s, 0);
-    const char *before[] = {"lines.overshoot", "14", NULL},
-               *after[] = {"lines.overshoot", "14", "lines.halo", "7", NULL};
+    const char *before[] = {"lines.overshoot", "14px", NULL},
+               *after[] = {"lines.overshoot", "14px", "lines.halo", "7px", NULL};
     bool good = shot_of_shape(&plain, &s, "halo.glb", shot_line_look(LINES), before, &straight);
     if (shot_of_shape(&haloed, &s, "halo.glb", shot_line_look(LINES), after, &straight) && good) {
         int stays = 0;

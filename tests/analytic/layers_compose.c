@@ -645,7 +645,7 @@ static double ink_across(const shot *s, dvec position)
 
 static void hidden_width(void)
 {
-    static const char *const widths[] = {"1", "2", "4", "7"};
+    static const char *const widths[] = {"1px", "2px", "4px", "7px"};
     for (int w = 0; w < 4; w++) {
         const char *changes[] = {"compose.hidden_width", widths[w], NULL};
         shape       s = {0};
@@ -703,7 +703,7 @@ static void halo(void)
         shape       s = {0};
         shot        drawing;
         int         near = 0, near_ink = 0, far = 0, far_ink = 0;
-        snprintf(value, sizeof value, "%d", width);
+        snprintf(value, sizeof value, "%dpx", width);
         shape_quad(&s, "plate", 1, 0.5);
         shape_box(&s, "bar", dvec_of(-1.8, -0.2, -0.5), dvec_of(1.8, 0.25, -0.3));
         if (shot_of_shape(&drawing, &s, "halo.glb", WIRE_LOOK(""), changes, &straight)) {

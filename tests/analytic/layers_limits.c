@@ -53,7 +53,7 @@ static void bad_values(void)
         {"layers.count", "2.5"},      {"layers.count", "many"},       {"layers.fraction", "-0.1"},
         {"layers.fraction", "1.5"},   {"layers.fraction", "nan"},     {"layers.focus_fraction", "2"},
         {"layers.producer", "magic"}, {"compose.opacity", "1.01"},    {"compose.opacity", "-1"},
-        {"compose.fade", "2"},        {"compose.halo", "-1"},         {"compose.hidden_gap", "-3"},
+        {"compose.fade", "2"},        {"compose.halo", "-1px"},       {"compose.hidden_gap", "-3px"},
         {"compose.tint", "#ff0000"},  {"compose.technique", "xrays"}, {"layers.technique", "peeled"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         refuse(values[i][0], values[i][1]);

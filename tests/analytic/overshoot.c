@@ -143,7 +143,7 @@ static bool draw(shot *out, void (*make)(shape *), const char *overshoot, const 
 
 static void edges_of_a_box(void)
 {
-    static const char *const lengths[] = {"12", "20", "32"};
+    static const char *const lengths[] = {"12px", "20px", "32px"};
     for (int roll = 0; roll < 4; roll++)
         for (int i = 0; i < 3; i++)
             for (int parallel = 0; parallel < 2; parallel++) {
@@ -152,7 +152,7 @@ static void edges_of_a_box(void)
                 shot      s;
                 view.up = dvec_of(0.4 * roll - 0.7, 1, 0);
                 view.orthographic = parallel;
-                if (draw(&s, box_of, lengths[i], i == 1 ? "1" : "2", shot_line_look(LINES), &view)) {
+                if (draw(&s, box_of, lengths[i], i == 1 ? "1px" : "2px", shot_line_look(LINES), &view)) {
                     box_verdict v = judge_box(&s, 9, length, 2);
                     check_at_least("overshoot", v.shortest, least_of(length),
                                    "px of the shortest stroke of %s px, rolled %d", lengths[i], roll);
@@ -172,12 +172,12 @@ static void what_stays(void)
     other.es = true;
     box_of(&s);
     bool good = shot_of_shape(&plain, &s, "overshoot.glb", shot_line_look(LINES), NULL, &box_view);
-    if (draw(&zero, box_of, "0", "2", shot_line_look(LINES), &box_view) && good)
+    if (draw(&zero, box_of, "0px", "2px", shot_line_look(LINES), &box_view) && good)
         check_at_most("overshoot", shot_differing(&plain, &zero, 0), 0, "values that overshoot 0 changes");
-    good = draw(&run, box_of, "14", "2", shot_line_look(LINES), &box_view);
-    if (draw(&again, box_of, "14", "2", shot_line_look(LINES), &box_view) && good)
+    good = draw(&run, box_of, "14px", "2px", shot_line_look(LINES), &box_view);
+    if (draw(&again, box_of, "14px", "2px", shot_line_look(LINES), &box_view) && good)
         check_at_most("overshoot", shot_differing(&run, &again, 0), 0, "values that differ in a second drawing");
-    if (draw(&es, box_of, "14", "2", shot_line_look(LINES), &other) && good)
+    if (draw(&es, box_of, "14px", "2px", shot_line_look(LINES), &other) && good)
         check_at_most("GLES", shot_differing(&run, &es, 1), 0, "values that differ in the other dialect");
     shot_release(&plain);
     shot_release(&zero);
@@ -188,8 +188,8 @@ static void what_stays(void)
     /* Maps show what was detected. */
     shot_view mapped = box_view;
     mapped.without_maps = false;
-    good = draw(&zero, box_of, "0", "2", shot_line_look(LINES), &mapped);
-    if (draw(&run, box_of, "14", "2", shot_line_look(LINES), &mapped) && good)
+    good = draw(&zero, box_of, "0px", "2px", shot_line_look(LINES), &mapped);
+    if (draw(&run, box_of, "14px", "2px", shot_line_look(LINES), &mapped) && good)
         check_that("overshoot", memcmp(zero.edge, run.edge, (size_t)zero.width * (size_t)zero.height * 4) == 0,
                    "the edge map is the same");
     shot_release(&zero);
@@ -202,8 +202,8 @@ static void round_things(void)
     for (int i = 0; i < 3; i++) {
         shot_view view = box_view;
         view.eye = dvec_of(2 + 2 * i, 3.4, 6.3);
-        bool good = draw(&plain, sphere_of, "0", "2", shot_line_look(LINES), &view);
-        if (draw(&run, sphere_of, "20", "2", shot_line_look(LINES), &view) && good)
+        bool good = draw(&plain, sphere_of, "0px", "2px", shot_line_look(LINES), &view);
+        if (draw(&run, sphere_of, "20px", "2px", shot_line_look(LINES), &view) && good)
             check_at_most("overshoot", shot_differing(&plain, &run, 0), 0, "values of a sphere that change");
         shot_release(&plain);
         shot_release(&run);
@@ -213,8 +213,8 @@ static void round_things(void)
     view.up = dvec_of(0, 1, 0);
     view.eye = dvec_of(0, 2.2, 8);
     view.orthographic = true;
-    bool good = draw(&plain, cylinder_of, "0", "2", shot_line_look(LINES), &view);
-    if (draw(&run, cylinder_of, "16", "2", shot_line_look(LINES), &view) && good) {
+    bool good = draw(&plain, cylinder_of, "0px", "2px", shot_line_look(LINES), &view);
+    if (draw(&run, cylinder_of, "16px", "2px", shot_line_look(LINES), &view) && good) {
         int elsewhere = 0;
         for (int side = 0; side < 2; side++) {
             dvec low = shot_project(&run, dvec_of(side ? 1.2 : -1.2, -1.3, 0)),
@@ -319,7 +319,7 @@ static void through_layers(void)
         LOOK("{\"select\":\"*\"," FLAT ",\"lines\":" LINES ",\"layers\":{\"technique\":\"peel\",\"count\":0},"
              "\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"hidden_opacity\":1}}");
     shot run;
-    if (draw(&run, box_of, "16", "2", look, &box_view)) {
+    if (draw(&run, box_of, "16px", "2px", look, &box_view)) {
         box_verdict v = judge_box(&run, 12, 16, 2);
         check_at_least("B04", v.shortest, least_of(16),
                        "px of the shortest of the strokes of 16 px of all edges, hidden ones too");
@@ -334,13 +334,13 @@ static void variants(void)
     shot      run;
     shot_view fine = box_view;
     fine.samples = 9;
-    if (draw(&run, box_of, "16", "6", shot_line_look(LINES), &box_view)) {
+    if (draw(&run, box_of, "16px", "6px", shot_line_look(LINES), &box_view)) {
         box_verdict v = judge_box(&run, 9, 16, 6);
         check_at_least("overshoot", v.shortest, least_of(16), "px of the shortest stroke of wide lines");
         check_at_most("overshoot", v.strays, 0, "pixels of ink elsewhere");
     }
     shot_release(&run);
-    if (draw(&run, box_of, "16", "2", shot_line_look(LINES), &fine)) {
+    if (draw(&run, box_of, "16px", "2px", shot_line_look(LINES), &fine)) {
         box_verdict v = judge_box(&run, 9, 16, 2);
         check_at_least("samples", v.shortest, least_of(16), "px of the shortest stroke with nine samples a pixel");
         check_near("samples", v.mean, 16, 4, "px on average");

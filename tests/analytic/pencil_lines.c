@@ -10,6 +10,7 @@
 #include "check.h"
 #include "halftone/graphite.h"
 #include "look/look.h"
+#include "plan/paper_look.h"
 #include "shape.h"
 #include "shot.h"
 
@@ -49,7 +50,10 @@ static bool draw_numbers(setting *out, const char *keys, int dark, int light)
     if (!check_that("P11", lmn_look_parse(&look, pencil_look(keys), "look", &error) == LMN_OK,
                     "the look can be read: %s", error.message))
         return false;
-    const technique_use *use = &look->rules[0].uses[KIND_PERTURB][0];
+    lmn_look *on_page = paper_look_create(look, 96.0 / 72); /* its lengths in pixels */
+    if (!check_that("P11", on_page, "the look fits into memory"))
+        return false;
+    const technique_use *use = &on_page->rules[0].uses[KIND_PERTURB][0];
     size_t count = use->technique->numbers(use->values, (uint32_t)out->seed, out->width, out->height, numbers);
     check_near("P11", (double)count, 2 * (dark + light) + 1, 0, "vectors of numbers");
     out->dark = dark;
@@ -60,6 +64,7 @@ static bool draw_numbers(setting *out, const char *keys, int dark, int light)
                                 (double)rest[0], (double)rest[1], (double)rest[2]};
     }
     out->darkest = (double)numbers[count - 1][0];
+    paper_look_destroy(&on_page);
     lmn_look_destroy(&look);
     return true;
 }

@@ -87,8 +87,8 @@ static int run_command(const char *variable, const char *value, const char *mode
     pid_t child = fork();
     if (child == 0) {
         setenv(variable, value, 1);
-        execl(LIMNER_COMMAND, "limner", "draw", model, "-o", out, "--look", look, "--size", "200x160", "--eye", "4,3,5",
-              "--target", "0,0,0", "--up", "0,1,0", "--quiet", (char *)NULL);
+        execl(LIMNER_COMMAND, "limner", "draw", model, "-o", out, "--look", look, "--size", "200x160", "--dpi", "96",
+              "--eye", "4,3,5", "--target", "0,0,0", "--up", "0,1,0", "--quiet", (char *)NULL);
         _exit(127);
     }
     int status = -1;

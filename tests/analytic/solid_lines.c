@@ -361,7 +361,7 @@ static bool layer_around(const shot *s, int layer, int x, int y)
 /* Lines of a layer lie only where the layer is; the second pixel of a line two wide is beside it. */
 static void lines_on_layers(void)
 {
-    static const char *const widths[] = {"1", "2"};
+    static const char *const widths[] = {"1px", "2px"};
     for (int k = 0; k < 4; k++) {
         csg  c = {0};
         shot s;

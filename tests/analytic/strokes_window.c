@@ -23,7 +23,7 @@ static const char *look_of(const char *mode, double width, const char *more)
     snprintf(text, sizeof texts[0],
              "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{\"technique\":"
              "\"flat\",\"colour\":\"#ffffff\"},\"lines\":"
-             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,"
+             "{\"operator\":\"strokes\",\"colour\":\"#000000\",\"crease_width\":1,\"intersections\":false,\"detail\":1,"
              "\"visibility\":\"%s\",\"width\":%g%s}}]}",
              mode, width, more);
     return text;
@@ -129,6 +129,69 @@ static void widths(void)
             check_at_most("EX-12", worst, 0.25,
                           "%s: width %g at any angle and aspect, px off at worst (%.3f on average)", modes[mode],
                           wanted[w], mean / count);
+        }
+    shape_release(&s);
+}
+
+/* Fraction of a pixel that lies within half a width of a line, by a grid of positions in it. */
+static double exact_cover(double x, double y, dvec at, dvec along, double width)
+{
+    enum { SIDE = 64 };
+    int inside = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double px = x + (i % SIDE + 0.5) / SIDE - at.x, py = y + (i / SIDE + 0.5) / SIDE - at.y;
+        inside += fabs(px * along.y - py * along.x) <= width / 2;
+    }
+    return (double)inside / (SIDE * SIDE);
+}
+
+/* The edge map around the first border against what covers each pixel. */
+static void measure_cover(const shot *s, double width, double *worst, double *ink, double *wanted, int *count)
+{
+    dvec from = shot_project(s, dvec_of(-2, 0, 0)), to = shot_project(s, dvec_of(2, 0, 0)),
+         along = direction_of(from, to);
+    double length = hypot(to.x - from.x, to.y - from.y);
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            double ahead = (x + 0.5 - from.x) * along.x + (y + 0.5 - from.y) * along.y,
+                   aside = (x + 0.5 - from.x) * along.y - (y + 0.5 - from.y) * along.x;
+            if (ahead < 0 || ahead > length || fabs(aside) > width / 2 + 2 ||
+                is_crowded(s, dvec_of(x + 0.5, y + 0.5, 1), width + 8))
+                continue;
+            double cover = exact_cover(x, y, from, along, width), own = 1 - s->edge[4 * (y * s->width + x)] / 255.0;
+            *worst = fmax(*worst, fabs(own - cover));
+            *ink += own;
+            *wanted += cover;
+            ++*count;
+        }
+}
+
+/* Rims cover each pixel as much as they do, at one sample; what is thinner than a pixel keeps its area. */
+static void rims(void)
+{
+    static const double widths_of[] = {0.5, 0.7, 1, 2, 3.3, 6};
+    shape               s = {0};
+    sail_of(&s);
+    for (int mode = 0; mode < 2; mode++)
+        for (size_t w = 0; w < sizeof widths_of / sizeof *widths_of; w++) {
+            double worst = 0, ink = 0, wanted = 0;
+            int    count = 0;
+            for (int i = 0; i < 12; i++) {
+                double    turn = i * PI / 13 + 0.05;
+                shot_view view = {.width = 320,
+                                  .height = 320,
+                                  .eye = {0.3, 0.2, 12},
+                                  .up = {sin(turn), cos(turn), 0.1},
+                                  .orthographic = i % 2 == 1};
+                shot      t;
+                if (shot_of_shape(&t, &s, "sail.ply", look_of(modes[mode], widths_of[w], ""), NULL, &view))
+                    measure_cover(&t, widths_of[w], &worst, &ink, &wanted, &count);
+                shot_release(&t);
+            }
+            check_at_least("EX-12", count, 3000, "%s: pixels measured", modes[mode]);
+            check_at_most("EX-12", worst, 0.02, "%s: width %g, cover of a pixel off at worst", modes[mode],
+                          widths_of[w]);
+            check_at_most("EX-12", fabs(ink / wanted - 1), 0.01, "%s: width %g, ink off", modes[mode], widths_of[w]);
         }
     shape_release(&s);
 }
@@ -539,11 +602,17 @@ static void samples_and_dialects(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"widths", widths},       {"near", near_plane},
-        {"joints", joints},       {"whole", whole_lines},
-        {"full", full_width},     {"ways", both_ways},
-        {"crossings", crossings}, {"limits", limits},
-        {"figures", figures},     {"samples", samples_and_dialects},
+        {"widths", widths},
+        {"rims", rims},
+        {"near", near_plane},
+        {"joints", joints},
+        {"whole", whole_lines},
+        {"full", full_width},
+        {"ways", both_ways},
+        {"crossings", crossings},
+        {"limits", limits},
+        {"figures", figures},
+        {"samples", samples_and_dialects},
     };
     int status = check_main(argc, argv, "strokes_window", cases, sizeof cases / sizeof *cases);
     shot_end();

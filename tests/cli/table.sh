@@ -64,6 +64,17 @@ is_png() {
     [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || complain "$1 is no PNG"
 }
 
+# Width and height of a PNG: two numbers of four bytes each, behind signature and the first chunk's name.
+has_size() {
+    local width height
+    read -r width height < <(od -An -j16 -N8 --endian=big -tu4 "$1")
+    [ "$width $height" = "$2 $3" ] || complain "$1 has $width x $height pixels, expected $2 x $3"
+}
+
+same() {
+    cmp -s "$1" "$2" || complain "$1 and $2 differ"
+}
+
 gear=$examples/gearbox.stl
 box=$examples/box.glb
 
@@ -120,7 +131,7 @@ group_usage() {
     row 1 '^limner: --seed is given twice' '' draw "$gear" --seed 0 --seed 0
     row 1 '^limner: --eye is given twice' '' draw "$gear" --eye 1,2,3 --eye 1,2,3
     row 1 '^limner: --up-axis is given twice' '' info "$gear" --up-axis y --up-axis z
-    row 1 '^limner: --set lines.width is given twice' '' draw "$gear" --set lines.width=2 --set lines.width=3
+    row 1 '^limner: --set lines.width is given twice' '' draw "$gear" --set lines.width=2px --set lines.width=3px
     row 1 '^limner: --cut and --set scene.cut exclude' '' draw "$gear" --set scene.cut=y --cut x
     row 1 '^limner: --output has \{view\}' '' draw nosuch.stl -o 'a-{view}.png'
     row 1 '^limner: --output has \{stem\}, which stands for nothing' '' draw nosuch.stl -o 'a-{stem}.png'
@@ -141,12 +152,12 @@ group_usage() {
     row 1 "there is no look 'edgs'" '' draw "$gear" --look edgs
     row 1 "did you mean 'edges'" '' draw "$gear" --look edgs
     row 1 "it is a technique, not a look: --set lines.operator=sobel" '' looks sobel
-    row 1 'lines.width is .99.; allowed is a number from .* px' '' draw "$gear" --set lines.width=99
+    row 1 'lines.width is .99px.; allowed is a number from .* pt' '' draw "$gear" --set lines.width=99px
     row 1 "did you mean 'width'" '' draw "$gear" --set lines.widht=9
     row 1 'allowed is KIND.PARAM=VALUE' '' draw "$gear" --set lines.width
     row 1 'layers.count is .-1.; allowed is a whole number from 0 to 256' '' draw "$gear" --look blueprint --set layers.count=-1
     row 1 'layers.count is .10000.; allowed' '' draw "$gear" --look blueprint --set layers.count=10000
-    row 1 'has no lines' '' draw "$gear" --look plain --set lines.width=3
+    row 1 'has no lines' '' draw "$gear" --look plain --set lines.width=3px
     row 1 "^limner: scene.cut is 'w': a plane is x, y or z" '' draw "$gear" --cut w
     row 1 '^hint: for example x, -z=40%' '' draw "$gear" --cut w
     row 1 "cut is 'x=a%': behind '=' stands a number" '' draw "$gear" --cut x=a%
@@ -158,7 +169,7 @@ group_usage() {
 group_draw() {
     local view
     row 0 '' 'gearbox.png' draw "$gear" $small; is_png gearbox.png
-    row 0 '' 'x.png' draw "$gear" $small -o x.png --look toon --set lines.width=3 --set surface.bands=4
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --look toon --set lines.width=3px --set surface.bands=4
     row 0 '' 'x.png' draw -ox.png $small -- "$gear"
     row 0 '' 'x.tmp' draw "$gear" $small -o x.tmp --format png; is_png x.tmp
     row 0 '' '' draw "$gear" $small -o -; is_png .stdout
@@ -167,6 +178,16 @@ group_draw() {
         row 0 '' 'x.png' draw "$gear" $small -o x.png --view $view
     done
     row 0 '' 'x.png' draw "$gear" $small -o x.png --eye -300,-200,100.5
+    # A picture of twice as many pixels is the same drawing: as many bytes of lines as vectors have.
+    row 0 '' 'a.svg' draw "$gear" -o a.svg --look line --size 400x300; cp a.svg in-a.svg
+    row 0 '' 'b.svg' draw "$gear" -o b.svg --look line --size 1600x1200; same in-a.svg b.svg
+    row 0 '' 'x.png' draw "$gear" -o x.png --look line --page 30x20mm --dpi 127; has_size x.png 150 100
+    row 0 '' 'x.png' draw "$gear" -o x.png --look line --page 60x40mm; has_size x.png 227 151
+    row 0 '' 'x.png' draw "$gear" -o x.png --look line --page 60x40mm --size 120x80; has_size x.png 120 80
+    row 1 '--page and --dpi say how many pixels there are, and --size too' '' draw nosuch.stl -o x.png --page A4 --dpi 100 --size 10x10
+    row 1 'allowed is a number from 1 to 10000' '' draw nosuch.stl --dpi 0
+    row 1 'a page of 210 x 297 mm has 23386 pixels at 2000 an inch; allowed are 16384' '' draw nosuch.stl --page A4 --dpi 2000
+    row 1 "the page is 'A44'" '' draw nosuch.stl --page A44
     row 0 '' 'x.png' draw "$gear" $small -o x.png --eye=300,-200,100 --target 0,0,0 --up 0,0,1
     row 0 '' 'x.png' draw "$gear" $small -o x.png --ortho --fit 0.5 --seed 7 --samples 4 --up-axis y
     # A time that changes nothing is refused, before the first of several frames.
@@ -403,7 +424,7 @@ group_looks() {
     row 0 '' '' looks; out '^plain '; out '^edges '
     row 0 '' '' looks --json; documented .stdout looks-json.md
     row 0 '' '' looks edges --json; documented .stdout looks-json.md
-    row 0 '' '' looks edges; out 'lines.width .*px'
+    row 0 '' '' looks edges; out 'lines.width .*pt'
     row 1 "did you mean 'edges'" '' looks edgs
     row 1 '--markdown goes with neither' '' looks edges --markdown
     for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
@@ -429,7 +450,7 @@ group_sketch() {
     done
     # Nothing moves: the very picture of the look without it.
     row 0 '' 'a.png' draw "$gear" $small --look edges -o a.png && cp a.png in-plain.png
-    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty --set perturb.amount=0 -o a.png
+    row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty --set perturb.amount=0px -o a.png
     cmp -s a.png in-plain.png || complain "an amount of 0 changes the picture"
     row 0 '' 'a.png' draw "$gear" $small --look edges --set perturb.technique=uncertainty -o a.png && cp a.png in-moved.png
     cmp -s a.png in-plain.png && complain "the uncertainty changes nothing"
@@ -444,9 +465,9 @@ group_sketch() {
     row 0 '' 'a.png' draw "$gear" $small --look sketch -o a.png --aov .maps && [ -s .maps/uncertainty.pfm ] || complain "there is no uncertainty.pfm"
     row 0 '' 'a.png' draw "$gear" $small --look edges -o a.png --aov .exact && [ -e .exact/uncertainty.pfm ] && complain "nothing is uncertain here"
     row 0 "warning: compose 'superimpose' cannot be perturbed" 'a.png' draw "$gear" $small --look sketch --set compose.technique=superimpose -o a.png
-    row 1 'perturb.amount is .65.; allowed is a number from 0 to 64 px' '' draw "$gear" --look sketch --set perturb.amount=65
+    row 1 'perturb.amount is .65px.; allowed is a number from 0 to 48 pt' '' draw "$gear" --look sketch --set perturb.amount=65px
     row 1 'perturb.lock is .floor.' '' draw "$gear" --look sketch --set perturb.lock=floor
-    row 1 'set perturb.technique first' '' draw "$gear" --look edges --set perturb.amount=3
+    row 1 'set perturb.technique first' '' draw "$gear" --look edges --set perturb.amount=3px
 }
 
 group_solids() {
@@ -577,7 +598,7 @@ group_halftones() {
     cmp -s x.png in-shadow.png || complain "shadows of a solid depend on how its surface is found"
     # Pencils whose lines are left out.
     row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none "${small[@]}"
-    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none --set perturb.overrun=12 "${small[@]}"
+    row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none --set perturb.overrun=12px "${small[@]}"
     # What was drawn before, and is kept, changes nothing.
     row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
     row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
@@ -677,7 +698,7 @@ group_vectors() {
     row 1 '--verify puts its result into the report' '' draw nosuch.stl -o x.svg --verify
     row 1 '--fit does not go with --views' '' draw nosuch.stl -o x.svg --views front --fit 0.5
     row 1 '--fit does not go with --scale' '' draw nosuch.stl -o x.svg --scale 1:2 --fit 0.5
-    row 1 '--page and --size exclude' '' draw nosuch.stl -o x.svg --page A4 --size 10x10
+    row 1 '--page and --size exclude each other' '' draw nosuch.stl -o x.svg --page A4 --size 10x10
     row 1 '--views excludes' '' draw nosuch.stl -o x.svg --views front --view top
     row 1 '--scale is for parallel' '' draw nosuch.stl -o x.svg --scale 1:2 --fov 20
     row 1 "the page is 'A44'; allowed is" '' draw "$gear" -o x.svg "${sheet[@]}" --page A44
@@ -728,14 +749,14 @@ like() {
 }
 
 group_films() {
-    local moving=("$gear" --look sketch --set perturb.boil=24 --size 65x49) frames=(--frames 3:8:24) ending i
+    local moving=("$gear" --look sketch --set perturb.boil=24 --size 65x49 --dpi 96) frames=(--frames 3:8:24) ending i
     # Wrong arguments, before any work.
     for ending in mp4 webm gif webp; do
         row 1 "^limner: .$ending is a film, which needs --frames" '' draw nosuch.stl -o x.$ending
         row 1 "^limner: -o has \{frame\}, but a film has all frames" '' draw nosuch.stl -o "x-{frame}.$ending" --frames 0:1:2
         row 1 '^limner: --resume does not go with a film' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --resume
         row 1 '^hint: draw numbered pictures' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --resume
-        row 1 '^limner: --page goes with vector drawings' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --page A4
+        row 1 '^limner: --scale goes with vector drawings' '' draw nosuch.stl -o x.$ending --frames 0:1:2 --scale 1:2
         row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl -o x.$ending --frames 0:1:2
     done
     row 1 'of films mp4, webm, gif or webp$' '' draw nosuch.stl --format avi --frames 0:1:2

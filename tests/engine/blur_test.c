@@ -184,6 +184,7 @@ static void it_is_like_the_mean_of_many_pictures(void **state)
         int           missing;
         lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
         desc.width = desc.height = SIDE;
+        desc.dpi = 96;
         desc.background = "none";
         desc.clip = rows[i].clip;
         desc.time_s = rows[i].time;
@@ -569,6 +570,7 @@ static void other_rules_steps_change_nothing(void **state)
     const char    *rule = "{" PLAIN ", \"motion\": {\"technique\": \"blur\", \"exposure\": 0.1}}";
     char           rules[512];
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     desc.background = "none";
     desc.clip = "Run";
     desc.time_s = 0.4;

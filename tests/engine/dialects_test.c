@@ -69,6 +69,7 @@ static void draw(fixture *f, int which, const lmn_look *look, const char *what)
 {
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     lmn_drawing *drawing;
     lmn_error    error;
     check(lmn_draw(&drawing, f->renderers[which], f->scene, look, &desc, &error), &error, what);

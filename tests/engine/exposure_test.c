@@ -53,6 +53,7 @@ static lmn_status try_draw(const fixture *f, const lmn_scene *s, const char *rul
     snprintf(json, sizeof json, "{\"version\": 1, \"rules\": [%s]}", rules);
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     lmn_status status = lmn_draw(&drawing, f->renderer, s, look, &desc, &error);
     if (status == LMN_OK)
         memcpy(out, lmn_drawing_pixels(drawing, NULL, NULL), 4 * PIXELS);

@@ -38,6 +38,7 @@ static void draw(picture *out, lmn_renderer *renderer, const lmn_scene *s, const
     for (size_t i = 0; settings && settings[i][0]; i++)
         DO(lmn_look_set(look, settings[i][0], settings[i][1], &error));
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     DO(lmn_draw(&drawing, renderer, s, look, &desc, &error));
     memcpy(out->pixels, lmn_drawing_pixels(drawing, NULL, NULL), sizeof out->pixels);
     lmn_drawing_destroy(&drawing);

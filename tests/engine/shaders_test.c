@@ -109,6 +109,7 @@ static void draw(fixture *f, int dialects, const lmn_scene *scene, const lmn_loo
         lmn_drawing  *drawing = NULL;
         lmn_error     error = {0};
         desc.width = desc.height = SIDE;
+        desc.dpi = 96;
         desc.lenient = true;
         f->drawn++;
         if (lmn_draw(&drawing, f->renderers[i], scene, look, &desc, &error) != LMN_OK)

@@ -55,6 +55,7 @@ static void draw(const char *motion, uint32_t seed, double *pixels, double colum
              "{\"version\": 1, \"rules\": [{\"surface\": \"lit\", \"motion\": {\"exposure\": 1, %s}}]}", motion);
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     desc.camera = "eye";
     desc.time_given = true;
     desc.time_s = 2;

@@ -41,6 +41,7 @@ static void draw_look(const char *path, const char *json, double seconds, uint8_
     DO(lmn_scene_add_file(s, path, NULL, &error));
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     desc.camera = "eye";
     desc.time_given = true;
     desc.time_s = seconds;

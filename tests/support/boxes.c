@@ -36,6 +36,7 @@ void boxes_write(const char *path, const moving_box *boxes, int count)
 void boxes_view(lmn_draw_desc *desc, int side)
 {
     desc->width = desc->height = side;
+    desc->dpi = 96; /* lengths in px are pixels */
     desc->eye_given = true;
     desc->eye[0] = desc->eye[1] = 0;
     desc->eye[2] = 1000;

@@ -175,6 +175,7 @@ static lmn_drawing *draw(fixture *f, const lmn_scene *scene, const lmn_look *loo
     lmn_drawing *drawing = NULL;
     lmn_error    error = {0};
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     f->drawn++;
     if (lmn_draw(&drawing, f->renderer, scene, look, &desc, &error) == LMN_OK)
         return drawing;

@@ -56,7 +56,7 @@ static void test_parse(void **state)
     assert_int_equal(look->rules[1].use_counts[KIND_LINES], 0);
     assert_int_equal(look->rules[1].use_counts[KIND_COMPOSE], 1);
     assert_string_equal(value_of(look, 0, KIND_SURFACE, 0, "bands", out), "4");
-    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "3");
+    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "2.25");
     assert_string_equal(value_of(look, 0, KIND_LINES, 1, "colour", out), "#ff0000");
     assert_string_equal(value_of(look, 0, KIND_SCENE, 0, "crease_angle", out), "45");
     assert_string_equal(value_of(look, 0, KIND_FINISH, 0, "ground", out), "#eeeeff");
@@ -76,8 +76,8 @@ static void test_wrong_files(void **state)
         {"{\"version\": 1,\n \"rules\": [}", "not valid JSON", "", 2, 12},
         {"", "not valid JSON", "", -1, -1},
         {"[]", "must be an object", "", 1, 1},
-        {"{\"rules\": []}", "'version' is missing", "\"version\": 1", 1, 1},
-        {"{\"version\": 2}", "version is 2", "newer", 1, 2},
+        {"{\"rules\": []}", "'version' is missing", "\"version\": 2", 1, 1},
+        {"{\"version\": 3}", "version is 3", "newer", 1, 2},
         {"{\"version\": \"1\"}", "whole number", "", 1, 2},
         {"{\"version\": 1, \"version\": 1}", "not valid JSON: duplicate", "", 1, -1},
         {"{\"version\": 1}", "no rule", "add", 1, 1},
@@ -230,17 +230,46 @@ static void test_every_parameter_round_trips(void **state)
         }
 }
 
+/* Lengths of version 1 are pixels of 1/96 inch, those of version 2 points, or what they say. */
+static void test_versions(void **state)
+{
+    (void)state;
+    static const char rules[] = "\"finish\": {\"grain_size\": 4}, \"rules\": [{\"surface\": {\"technique\": \"hatch\", "
+                                "\"scale\": 8, \"series\": 2}, \"lines\": [{\"operator\": \"strokes\", \"taper\": 40, "
+                                "\"crease_width\": 0.5}, \"id\"], \"compose\": {\"technique\": \"wire\", "
+                                "\"hidden_width\": \"auto\"}}]}";
+    static const struct {
+        const char *grain, *scale, *taper;
+    } wanted[] = {{"3", "6", "30"}, {"4", "8", "40"}};
+    for (int version = 1; version <= 2; version++) {
+        char text[512], out[128];
+        snprintf(text, sizeof text, "{\"version\": %d, %s", version, rules);
+        lmn_look *look = parse(text);
+        assert_string_equal(value_of(look, 0, KIND_FINISH, 0, "grain_size", out), wanted[version - 1].grain);
+        assert_string_equal(value_of(look, 0, KIND_SURFACE, 0, "scale", out), wanted[version - 1].scale);
+        assert_string_equal(value_of(look, 0, KIND_SURFACE, 0, "series", out), "2");
+        assert_string_equal(value_of(look, 0, KIND_LINES, 0, "taper", out), wanted[version - 1].taper);
+        assert_string_equal(value_of(look, 0, KIND_LINES, 0, "crease_width", out), "0.5");
+        assert_string_equal(value_of(look, 0, KIND_COMPOSE, 0, "hidden_width", out), "auto");
+        lmn_look_destroy(&look);
+    }
+    char      out[128];
+    lmn_look *look = parse("{\"version\": 2, \"rules\": [{\"lines\": {\"operator\": \"id\", \"width\": \"0.25in\"}}]}");
+    assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "18");
+    lmn_look_destroy(&look);
+}
+
 static void test_set(void **state)
 {
     (void)state;
     char      out[128];
     lmn_look *look = parse(two_rules);
-    assert_int_equal(lmn_look_set(look, "lines.width", "5", NULL), LMN_OK);
-    assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "5");
-    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "5");
-    assert_int_equal(lmn_look_set(look, "lines[1].width", "6.5", NULL), LMN_OK);
-    assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "5");
-    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "6.5");
+    assert_int_equal(lmn_look_set(look, "lines.width", "5px", NULL), LMN_OK);
+    assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "3.75");
+    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "3.75");
+    assert_int_equal(lmn_look_set(look, "lines[1].width", "6.5px", NULL), LMN_OK);
+    assert_string_equal(value_of(look, 0, KIND_LINES, 0, "width", out), "3.75");
+    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "4.875");
     assert_int_equal(lmn_look_set(look, "wheels:surface.bands", "9", NULL), LMN_OK);
     assert_string_equal(value_of(look, 0, KIND_SURFACE, 0, "bands", out), "9");
     assert_int_equal(lmn_look_set(look, "0:surface.bands", "8", NULL), LMN_OK);
@@ -259,7 +288,7 @@ static void test_exchange(void **state)
     lmn_look *look = parse(two_rules);
     assert_int_equal(lmn_look_set(look, "lines[1].operator", "sobel", NULL), LMN_OK);
     assert_string_equal(look->rules[0].uses[KIND_LINES][1].technique->name, "sobel");
-    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "3");
+    assert_string_equal(value_of(look, 0, KIND_LINES, 1, "width", out), "2.25");
     assert_string_equal(value_of(look, 0, KIND_LINES, 1, "colour", out), "#ff0000");
     assert_int_equal(lmn_look_set(look, "lines[2].technique", "id", NULL), LMN_OK);
     assert_int_equal(look->rules[0].use_counts[KIND_LINES], 3);
@@ -295,12 +324,12 @@ static void test_set_refused(void **state)
     } cases[] = {
         {"line.width", "3", "no kind 'line'", "'lines.width'"},
         {"lines.widht", "3", "lines has no parameter 'widht'", "'width'"},
-        {"lines.width", "300", "lines.width is '300'; allowed is a number from 0.5 to 32 px", ""},
-        {"lines.width", "nan", "0.5 to 32 px", ""},
+        {"lines.width", "300px", "lines.width is '300px'; allowed is a number from 0.375 to 24 pt", ""},
+        {"lines.width", "nan", "0.375 to 24 pt", ""},
         {"wheels:surface.hardness", "1", "no parameter 'hardness'", ""},
         {"1:surface.bands", "3", "technique 'lit' has no parameter 'bands'; these have it: ", "surface.technique"},
         {"1:lines.width", "3", "has no lines", "lines.operator"},
-        {"lines[5].width", "3", "lines[0] to [1] only", ""},
+        {"lines[5].width", "3px", "lines[0] to [1] only", ""},
         {"1:lines[0].width", "3", "has no lines", ""},
         {"wheel:lines.width", "3", "no rule 'wheel'", "'wheels'"},
         {"7:lines.width", "3", "no rule '7'", "0 to 1"},
@@ -470,13 +499,13 @@ static void test_damage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parse),       cmocka_unit_test(test_wrong_files),
-        cmocka_unit_test(test_load),        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_round_trip),  cmocka_unit_test(test_every_parameter_round_trips),
-        cmocka_unit_test(test_set),         cmocka_unit_test(test_exchange),
-        cmocka_unit_test(test_set_refused), cmocka_unit_test(test_reference),
-        cmocka_unit_test(test_tables),      cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_damage),
+        cmocka_unit_test(test_parse),      cmocka_unit_test(test_wrong_files),
+        cmocka_unit_test(test_load),       cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_every_parameter_round_trips),
+        cmocka_unit_test(test_versions),   cmocka_unit_test(test_set),
+        cmocka_unit_test(test_exchange),   cmocka_unit_test(test_set_refused),
+        cmocka_unit_test(test_reference),  cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_memory),     cmocka_unit_test(test_damage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -475,12 +475,12 @@ static void test_wobble(void **state)
         most = fmaxf(most, fabsf(point_of(&whole, 0, i)->y - 50));
     assert_true(most > 1 && most <= 3);
     assert_true(whole.ribbons[0].count > 50 && whole.ribbons[0].even);
-    /* The same line in two strokes: nothing moves, and they meet. */
+    /* The same line in two strokes: nothing moves, and they are drawn as one. */
     begin();
     add(one, 2, 0, false);
     add(two, 2, 0, true);
     ribbon_set cut = make(&style);
-    assert_float_equal(end_of(&cut, 0)->y, point_of(&cut, 1, 0)->y, 1e-4);
+    assert_int_equal(cut.ribbon_count, 1);
     for (float arc = 1; arc < 300; arc += 7) {
         float x = position_at(&whole, 0, arc, &y), cut_x = position_at(&cut, 0, arc, &other_y);
         assert_float_equal(x, cut_x, 0.15);
@@ -686,18 +686,140 @@ static void test_out_of_memory(void **state)
     ribbon_set_release(&good);
 }
 
+/* --- where lines meet ----------------------------------------------------------------------------------- */
+
+static float half_at_end(const ribbon_set *r, uint32_t chain, bool at_end)
+{
+    for (size_t i = 0; i < r->ribbon_count; i++)
+        if (r->ribbons[i].chain == chain)
+            return at_end ? end_of(r, i)->half : point_of(r, i, 0)->half;
+    return NAN;
+}
+
+/* Three lines from one corner keep their width there and run out at their other ends. */
+static void test_nodes(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.taper = 20;
+    begin();
+    add_line(100, 100, 200, 100, 5, 0);
+    add_line(100, 100, 50, 180, 5, 0)->kind = STROKE_CREASE;
+    add_line(60, 20, 100, 100, 5, 0)->kind = STROKE_CREASE;
+    ribbon_set r = make(&style);
+    assert_float_equal(half_at_end(&r, 0, false), 1, 1e-3);
+    assert_float_equal(half_at_end(&r, 1, false), 0.5f, 1e-3);
+    assert_float_equal(half_at_end(&r, 2, true), 0.5f, 1e-3);
+    assert_true(half_at_end(&r, 0, true) < 0.2f && half_at_end(&r, 1, true) < 0.1f && half_at_end(&r, 2, false) < 0.1f);
+    ribbon_set_release(&r);
+}
+
+/* An outline that goes on as a finer crease thins out to that. */
+static void test_outline_into_crease(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.taper = 20;
+    begin();
+    add_line(0, 50, 100, 50, 5, 0);
+    add_line(100, 50, 200, 52, 5, 0)->kind = STROKE_CREASE;
+    ribbon_set r = make(&style);
+    assert_float_equal(half_at_end(&r, 0, true), 0.5f, 1e-2);
+    assert_float_equal(half_at_end(&r, 1, false), 0.5f, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* A line that stops a little before the axis of the one that hides it runs on to it; with halos it stops before. */
+static void test_junctions(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.taper = 20;
+    begin();
+    add_line(0, 50, 98.5f, 50, 9, 0);
+    add_line(100, 0, 100, 100, 2, 0);
+    add_line(0, 80, 90, 80, 9, 0); /* too far from it */
+    ribbon_set r = make(&style);
+    assert_float_equal(end_of(&r, 0)->x, 100, 1e-3);
+    assert_float_equal(end_of(&r, 0)->half, 1, 1e-3);
+    assert_float_equal(end_of(&r, 2)->x, 90, 1e-3);
+    assert_true(end_of(&r, 2)->half < 0.2f);
+    ribbon_set_release(&r);
+    style.halo = 4;
+    r = make(&style);
+    assert_float_equal(end_of(&r, 0)->x, 95, 1e-2);
+    ribbon_set_release(&r);
+}
+
+/* Lines that run side by side, one a little nearer, do not cross: halos leave them whole. */
+static void test_halos_beside(void **state)
+{
+    float        wavy[64][3];
+    stroke_style style = plain_style();
+    (void)state;
+    style.halo = 4;
+    for (int i = 0; i < 64; i++) {
+        wavy[i][0] = 5.0f * (float)i;
+        wavy[i][1] = 50 + (i % 2 ? 0.2f : -0.2f);
+        wavy[i][2] = 5;
+    }
+    begin();
+    add((const float(*)[3])wavy, 64, 0, false);
+    add_line(-100, 50, 400, 50, 4, 0);
+    add_line(20, 10, 20, 20, 60, 0);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 3);
+    assert_float_equal(end_of(&r, 0)->arc - point_of(&r, 0, 0)->arc, d.strokes[0].chain_length, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* Dashes turn corners with ink to both sides, and are never shorter than two widths. */
+static void test_dashes_at_corners(void **state)
+{
+    const float  bent[3][3] = {{0, 0, 5}, {47, 0, 5}, {47, 90, 5}};
+    stroke_style style = plain_style();
+    (void)state;
+    style.dash = 1;
+    style.gap = 3;
+    begin();
+    add(bent, 3, 0, false);
+    ribbon_set r = make(&style);
+    bool       turned = false;
+    for (size_t i = 0; i < r.ribbon_count; i++) {
+        float from = point_of(&r, i, 0)->arc, to = end_of(&r, i)->arc;
+        assert_true(to - from >= 4 * 0.8f); /* the pattern is stretched by less than that */
+        turned = turned || (from < 47 - 3 && to > 47 + 3);
+    }
+    assert_true(turned && r.ribbon_count > 12);
+    ribbon_set_release(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain),           cmocka_unit_test(test_colours_and_fading),
-        cmocka_unit_test(test_dashes),          cmocka_unit_test(test_closed_dashes),
-        cmocka_unit_test(test_hidden_dashes),   cmocka_unit_test(test_halos),
-        cmocka_unit_test(test_halos_at_ends),   cmocka_unit_test(test_halo_crumbs),
-        cmocka_unit_test(test_crowds_in_turns), cmocka_unit_test(test_halos_in_perspective),
-        cmocka_unit_test(test_crowds),          cmocka_unit_test(test_spring),
-        cmocka_unit_test(test_wobble),          cmocka_unit_test(test_overshoot),
-        cmocka_unit_test(test_widths),          cmocka_unit_test(test_repeats),
-        cmocka_unit_test(test_hostile),         cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_nodes),
+        cmocka_unit_test(test_outline_into_crease),
+        cmocka_unit_test(test_junctions),
+        cmocka_unit_test(test_halos_beside),
+        cmocka_unit_test(test_dashes_at_corners),
+        cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_colours_and_fading),
+        cmocka_unit_test(test_dashes),
+        cmocka_unit_test(test_closed_dashes),
+        cmocka_unit_test(test_hidden_dashes),
+        cmocka_unit_test(test_halos),
+        cmocka_unit_test(test_halos_at_ends),
+        cmocka_unit_test(test_halo_crumbs),
+        cmocka_unit_test(test_crowds_in_turns),
+        cmocka_unit_test(test_halos_in_perspective),
+        cmocka_unit_test(test_crowds),
+        cmocka_unit_test(test_spring),
+        cmocka_unit_test(test_wobble),
+        cmocka_unit_test(test_overshoot),
+        cmocka_unit_test(test_widths),
+        cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("ribbon", tests, NULL, NULL);
 }

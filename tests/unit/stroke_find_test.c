@@ -429,6 +429,7 @@ static void memory_may_run_out(void **state)
     stroke_camera  c = look_along(-1, -0.6, -0.8, origin, 20, 3, true, 200, 200);
     stroke_options w = all_lines();
     bool           done = false;
+    w.detail = 0.5f;
     for (long n = 1; n < 400 && !done; n++) {
         stroke_scene scene;
         stroke_view *view = NULL;

@@ -495,7 +495,7 @@ static void test_rims(void **state)
     for (int fine = 0; fine < 2; fine++) {
         lmn_draw_desc how = front();
         how.lenient = !fine; /* the page stays empty */
-        assert_int_equal(lmn_look_set(f.stipple, "surface.diameter", fine ? "0.5" : "12", &error), LMN_OK);
+        assert_int_equal(lmn_look_set(f.stipple, "surface.diameter", fine ? "0.5px" : "12px", &error), LMN_OK);
         lmn_sheet *s = draw(&f, f.stipple, &how, NULL);
         size_t     count = visit_dots(s, NULL, NULL);
         print_message("%zu dots on a strip\n", count);

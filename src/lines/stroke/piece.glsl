@@ -1,5 +1,6 @@
 /* A piece of a line at a pixel: how much of the pixel it covers, and the position of its axis that the pixel belongs to. Pieces that follow each other overlap in round
  * joins; the darker one counts, so that nothing shows where they do. */
+#include "lines/stroke/coverage.glsl"
 flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
@@ -13,12 +14,6 @@ struct piece_position {
     float fraction;   /* of the pixel */
 };
 
-/* How much of a pixel at this distance from the middle of a band lies in it. */
-float fraction_of(float distance, float half_width)
-{
-    return clamp(min(distance + 0.5, half_width) - max(distance - 0.5, -half_width), 0.0, 1.0);
-}
-
 piece_position position_in_piece()
 {
     piece_position p;
@@ -26,15 +21,16 @@ piece_position position_in_piece()
     float size = length(along), ahead = size > 0.0 ? dot(from, along) / size : 0.0;
     p.at = size > 0.0 ? clamp(ahead / size, 0.0, 1.0) : 0.0;
     p.axis = mix(v_begin, v_end, p.at);
-    float distance = length(gl_FragCoord.xy - p.axis.xy);
+    vec2 away = gl_FragCoord.xy - p.axis.xy, direction = size > 0.0 ? along / size : vec2(1.0, 0.0);
+    float distance = length(away);
     p.aside = size > 0.0 ? (along.x * from.y - along.y * from.x) / size : 0.0;
-    p.fraction = fraction_of(distance, p.axis.w);
+    p.fraction = band_fraction(distance, p.axis.w, distance > 1e-4 ? away / distance : vec2(-direction.y, direction.x));
 #ifndef SAMPLED
     int bits = int(v_look.w);
     if ((bits & BUTT_BEGIN) != 0)
-        p.fraction *= clamp(ahead + 0.5, 0.0, 1.0);
+        p.fraction *= half_plane_fraction(ahead, direction);
     if ((bits & BUTT_END) != 0)
-        p.fraction *= clamp(size - ahead + 0.5, 0.0, 1.0);
+        p.fraction *= half_plane_fraction(size - ahead, direction);
 #endif
     return p;
 }

@@ -10,8 +10,6 @@
 #include "surface/halftone/form.glsl"
 layout(location = 0) out vec4 out_0;
 
-const int STEP = 2; /* pixels to the neighbours that are asked */
-
 vec3 eye_at(ivec2 pixel, float depth)
 {
     vec2 ndc = 2.0 * (vec2(pixel) + 0.5) / u_size - 1.0;
@@ -55,18 +53,19 @@ vec2 direction_at(ivec2 pixel, uvec2 id)
     vec3 origin = eye_at(pixel, own.w);
     mat3 frame = frame_around(own.xyz);
     ray_sums sums = ray_sums(vec3(0.0), vec3(0.0), 0.0);
-    add_ray(sums, pixel + ivec2(STEP, 0), origin, frame);
-    add_ray(sums, pixel - ivec2(STEP, 0), origin, frame);
-    add_ray(sums, pixel + ivec2(0, STEP), origin, frame);
-    add_ray(sums, pixel - ivec2(0, STEP), origin, frame);
+    int far = max(int(2.0 * page_unit() + 0.5), 1);
+    add_ray(sums, pixel + ivec2(far, 0), origin, frame);
+    add_ray(sums, pixel - ivec2(far, 0), origin, frame);
+    add_ray(sums, pixel + ivec2(0, far), origin, frame);
+    add_ray(sums, pixel - ivec2(0, far), origin, frame);
     vec3 shape = shape_operator(sums);
     /* Half the difference of the curvatures, and their mean. The greater one by size has the direction. */
     vec2 doubled = 0.5 * vec2(shape.x - shape.z, 2.0 * shape.y);
     float apart = length(doubled), mean = 0.5 * (shape.x + shape.z);
     float unlike = apart / (apart + abs(mean) + 1e-20);
-    float pixel_length = 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
-    /* A normal that hardly turns from pixel to pixel does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
-    float turn = (apart + abs(mean)) * pixel_length;
+    float unit_length = page_unit() * 2.0 * u_unproject.y / u_size.y * (u_perspective > 0.5 ? own.w : 1.0);
+    /* A normal that hardly turns on 1/96 inch of the page does not turn; one that turns very much is an edge's, which has no room for strokes of its own. */
+    float turn = (apart + abs(mean)) * unit_length;
     /* Directions of curvatures that are alike are an accident of rounding, and so are those that fewer than three neighbours tell: there what lies beside, and the plain
      * way, take over. */
     float own_direction = smoothstep(0.02, 0.1, unlike) * step(2.5, sums.count);

@@ -17,7 +17,7 @@ vec4 smoothed(ivec2 texel, vec4 own)
 {
     vec3 normal = texelFetch(t_normal_depth, pixel_of(texel), 0).xyz;
     vec4 sum = own * 2.0;
-    int far = 1 + 2 * u_iteration;
+    int far = max(int(float(1 + 2 * u_iteration) * page_unit() + 0.5), 1);
     sum += weighed(texel + far * ivec2(1, 0), normal, 1.0) + weighed(texel - far * ivec2(1, 0), normal, 1.0);
     sum += weighed(texel + far * ivec2(0, 1), normal, 1.0) + weighed(texel - far * ivec2(0, 1), normal, 1.0);
     sum += weighed(texel + far * ivec2(2, -2), normal, 0.5) + weighed(texel - far * ivec2(2, -2), normal, 0.5);

@@ -338,7 +338,8 @@ stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
     float direction = low + float(i);
     direction = direction < 0.0 ? direction + float(DIRECTIONS_ON_PAGE) : direction >= float(DIRECTIONS_ON_PAGE) ? direction - float(DIRECTIONS_ON_PAGE) : direction;
     float angle = (direction + s_between) * (3.14159265 / float(DIRECTIONS_ON_PAGE));
-    stroke_plane s = stroke_plane(gl_FragCoord.xy - u_anchor, vec2(1.0, 0.0), vec2(0.0, 1.0), i == 0 ? 1.0 - fraction : fraction, uint(int(direction)));
+    float rate = 1.0 / page_unit();
+    stroke_plane s = stroke_plane((gl_FragCoord.xy - u_anchor) * rate, vec2(rate, 0.0), vec2(0.0, rate), i == 0 ? 1.0 - fraction : fraction, uint(int(direction)));
     return turned_plane(s, turns_added(vec2(cos(angle), sin(angle)), turn));
 }
 #else
@@ -350,7 +351,7 @@ int planes_at(rest_position r, vec2 turn)
 
 stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 {
-    vec2 pixel = gl_FragCoord.xy;
-    return turned_plane(stroke_plane(pixel, vec2(1.0, 0.0), vec2(0.0, 1.0), 1.0, 0u), turn);
+    float rate = 1.0 / page_unit();
+    return turned_plane(stroke_plane(gl_FragCoord.xy * rate, vec2(rate, 0.0), vec2(0.0, rate), 1.0, 0u), turn);
 }
 #endif

@@ -1,0 +1,243 @@
+/* Chains are whole before anything is decided by their length, and are the same on any page. */
+#include "stroke_shapes.h"
+
+#include "stroke/ribbon.h"
+
+static const double origin[3] = {0, 0, 0};
+
+/* A roof ridge of two faces, from x0 to x1 along y = 0. */
+static void add_ridge(lmn_scene *s, double x0, double x1)
+{
+    vec3           p[6] = {{(float)x0, -1, 0}, {(float)x1, -1, 0}, {(float)x0, 0, 1},
+                           {(float)x1, 0, 1},  {(float)x0, 1, 0},  {(float)x1, 1, 0}};
+    const uint32_t corners[12] = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4};
+    add_part(s, p, 6, corners, 12);
+}
+
+static stroke_options creases_alone(void)
+{
+    stroke_options w = STROKE_OPTIONS_INIT;
+    w.contours = CONTOURS_NONE;
+    w.borders = w.materials = w.intersections = 0;
+    return w;
+}
+
+/* 12 roofs of 5 px in a row, first wall to wall, then with half a millimetre between them, then far apart; a ridge of
+ * 60 px is longer than 20, one of 5 is not. 100 px a unit. */
+static void pieces_count_as_a_whole(void **state)
+{
+    (void)state;
+    const double apart[3] = {0, 0.015, 0.08};
+    for (int k = 0; k < 3; k++) {
+        lmn_scene *s = stroke_scene_begin();
+        for (int i = 0; i < 12; i++)
+            add_ridge(s, i * (0.05 + apart[k]) - 0.5, i * (0.05 + apart[k]) - 0.45);
+        stroke_options w = creases_alone();
+        w.shortest = 20;
+        stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+        double      length;
+        size_t      count = count_strokes(&shot.set, STROKE_CREASE, 0, &length);
+        assert_int_equal(count, k < 2 ? 12 : 0);
+        assert_true(k == 2 || fabs(length - 60) < 0.1);
+        shot_release(&shot);
+    }
+}
+
+/* Ends that turn away, or lie at another depth, are not of one line. */
+static void strangers_are_not_linked(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        lmn_scene *s = stroke_scene_begin();
+        add_ridge(s, -0.11, -0.01);
+        add_ridge(s, 0, 0.1);
+        node *second = &s->nodes[s->node_count - 1];
+        if (k == 1)
+            second->translation[2] = -0.5f; /* 50 px deeper */
+        if (k == 2)
+            second->translation[1] = 0.05f; /* 5 px aside */
+        stroke_options w = creases_alone();
+        w.shortest = 15;
+        stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CREASE, 0, NULL), k == 0 ? 2 : 0);
+        shot_release(&shot);
+    }
+}
+
+/* Bars of 2 px and of 12 px before a line: what is thinner than 1.5 widths is drawn over. */
+static void thin_bars_do_not_end_a_line(void **state)
+{
+    (void)state;
+    for (int thick = 0; thick < 2; thick++) {
+        lmn_scene *s = stroke_scene_begin();
+        add_ridge(s, -2, 2);
+        double half = thick ? 0.06 : 0.01;
+        add_plate(s, -half, -0.4, half, 0.4, 3);
+        stroke_options w = creases_alone();
+        stroke_shot    shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CREASE, 0, NULL), 2); /* the truth */
+        assert_int_equal(shot.check.wrong, 0);
+        assert_int_equal(shot.set.strokes[0].chain, shot.set.strokes[1].chain);
+        stroke_style style = {.width = 2, .crease_width = 1, .repeats = 1, .wobble_length = 40};
+        ribbon_set   drawn;
+        assert_int_equal(ribbons_make(&drawn, &shot.set, &style, 0, NULL), LMN_OK);
+        assert_int_equal(drawn.ribbon_count, thick ? 2 : 1);
+        ribbon_set_release(&drawn);
+        style.halo = 3; /* what passes in front is to be seen */
+        assert_int_equal(ribbons_make(&drawn, &shot.set, &style, 0, NULL), LMN_OK);
+        assert_int_equal(drawn.ribbon_count, 2);
+        ribbon_set_release(&drawn);
+        shot_release(&shot);
+    }
+}
+
+static lmn_scene *make_heap(void)
+{
+    lmn_scene *s = stroke_scene_begin();
+    add_ball(s, 0, 0, 0, 1, 60, 40);
+    add_ball(s, 0.7, 0.2, 0.4, 0.6, 50, 30);
+    for (int i = 0; i < 40; i++) {
+        double x = 3 * stroke_random((uint32_t)i * 3) - 1.5, y = 3 * stroke_random((uint32_t)i * 3 + 1) - 1.5,
+               z = 2 * stroke_random((uint32_t)i * 3 + 2) - 1, d = 0.02 + 0.3 * stroke_random(900 + (uint32_t)i);
+        add_box(s, x, y, z, x + d, y + 0.7 * d, z + 0.4 * d);
+    }
+    return s;
+}
+
+/* Longer sides of the page, pixels. */
+static const int sizes[] = {512, 1024, 2048, 4096};
+
+/* The same sheet at any resolution has the same chains: kinds, parts, numbers and ends, within 0.01 mm. */
+static void chains_do_not_depend_on_pixels(void **state)
+{
+    (void)state;
+    stroke_shot shots[4];
+    for (int k = 0; k < 4; k++) {
+        stroke_camera  c = look_along(-1, -1.3, -0.8, origin, 20, 0.12, false, sizes[k], sizes[k] * 3 / 4);
+        stroke_options w = STROKE_OPTIONS_INIT;
+        float          scale = (float)sizes[k] / 1024;
+        c.pixels_per_mm = PAPER_UNITS_PER_MM * (double)scale;
+        w.hidden = true;
+        w.detail = 0.7f;
+        w.shortest = 6 * scale;
+        w.simplify *= scale;
+        w.crowd *= scale;
+        w.width *= scale;
+        shots[k] = shoot(make_heap(), c, w);
+        assert_int_equal(shots[k].check.wrong, 0);
+    }
+    const stroke_set *first = &shots[0].set;
+    assert_true(first->stroke_count > 150);
+    for (int k = 1; k < 4; k++) {
+        const stroke_set *set = &shots[k].set;
+        double            mm = 1 / set->pixels_per_mm, first_mm = 1 / first->pixels_per_mm;
+        assert_int_equal(set->stroke_count, first->stroke_count);
+        for (size_t i = 0; i < set->stroke_count; i++) {
+            const stroke *s = &set->strokes[i], *t = &first->strokes[i];
+            assert_true(s->kind == t->kind && s->part == t->part && s->chain == t->chain && s->id == t->id &&
+                        s->hidden_by == t->hidden_by);
+            assert_true(fabs(s->chain_length * mm - t->chain_length * first_mm) < 0.01);
+            for (int end = 0; end < 2; end++) {
+                const stroke_point *p = &set->points[s->first + (end ? s->count - 1 : 0)],
+                                   *q = &first->points[t->first + (end ? t->count - 1 : 0)];
+                assert_true(hypot(p->x * mm - q->x * first_mm, p->y * mm - q->y * first_mm) < 0.01);
+            }
+        }
+    }
+    for (int k = 0; k < 4; k++)
+        shot_release(&shots[k]);
+}
+
+/* --- density -------------------------------------------------------------------------------------------- */
+
+/* A comb of 60 ridges 1.5 px apart, and one ridge across them all; then the same comb 12 px apart. */
+static stroke_shot shoot_comb(double apart, float detail)
+{
+    lmn_scene *s = stroke_scene_begin();
+    for (int i = 0; i < 60; i++) {
+        add_ridge(s, -1, 1);
+        node *n = &s->nodes[s->node_count - 1];
+        n->translation[1] = (float)(apart * (i - 29.5));
+        n->scale[1] = 1e-4f;
+    }
+    add_ridge(s, -3.5, 3.5);
+    node *across = &s->nodes[s->node_count - 1];
+    across->rotation[2] = across->rotation[3] = (float)sqrt(0.5);
+    across->scale[1] = 1e-4f;
+    across->translation[2] = 0.5f;
+    stroke_options w = creases_alone();
+    w.detail = detail;
+    w.crowd = 0;
+    return shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+}
+
+static bool has_part(const stroke_set *set, uint32_t part)
+{
+    for (size_t i = 0; i < set->stroke_count; i++)
+        if (set->strokes[i].part == part && set->strokes[i].hidden_by == 0)
+            return true;
+    return false;
+}
+
+/* Parallels fuse, those at the rim stay, what crosses stays, and chains go as a whole. */
+static void parallels_fuse(void **state)
+{
+    (void)state;
+    stroke_shot all = shoot_comb(0.015, 1), some = shoot_comb(0.015, 0.75f), few = shoot_comb(0.015, 0.3f),
+                wide = shoot_comb(0.12, 0.75f);
+    assert_int_equal(all.set.chain_count, some.set.chain_count);
+    assert_in_range(count_strokes(&all.set, STROKE_CREASE, 0, NULL), 61, 200);
+    assert_in_range(count_strokes(&some.set, STROKE_CREASE, 0, NULL), 10, 45);
+    assert_true(count_strokes(&few.set, STROKE_CREASE, 0, NULL) < count_strokes(&some.set, STROKE_CREASE, 0, NULL));
+    assert_true(has_part(&some.set, 61) && has_part(&few.set, 61));
+    assert_true(has_part(&some.set, 1) || has_part(&some.set, 2));
+    assert_true(has_part(&some.set, 60) || has_part(&some.set, 59));
+    assert_true(count_strokes(&wide.set, STROKE_CREASE, 0, NULL) >= 61);
+    for (size_t i = 0; i < some.set.stroke_count; i++) {
+        size_t own = 0, before = 0;
+        for (size_t k = 0; k < some.set.stroke_count; k++)
+            own += some.set.strokes[k].chain == some.set.strokes[i].chain;
+        for (size_t k = 0; k < all.set.stroke_count; k++)
+            before += all.set.strokes[k].chain == some.set.strokes[i].chain;
+        assert_int_equal(own, before);
+    }
+    shot_release(&all);
+    shot_release(&some);
+    shot_release(&few);
+    shot_release(&wide);
+}
+
+/* A box of 5 px keeps its outline, drawn finer; one of 100 px its creases too. */
+static void small_pieces_keep_their_outlines(void **state)
+{
+    (void)state;
+    for (int large = 0; large < 2; large++) {
+        lmn_scene *s = stroke_scene_begin();
+        double     half = large ? 0.5 : 0.02;
+        add_box(s, -half, -half, -half, half, half, half);
+        stroke_options w = STROKE_OPTIONS_INIT;
+        w.detail = 0.75f;
+        stroke_shot shot = shoot(s, look_along(-1, -1.2, -0.9, origin, 20, 4, true, 800, 800), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CONTOUR, 0, NULL), 1);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CREASE, 0, NULL), large ? 3 : 0);
+        stroke_style style = {.width = 2, .crease_width = 1, .repeats = 1, .wobble_length = 40};
+        ribbon_set   drawn;
+        assert_int_equal(ribbons_make(&drawn, &shot.set, &style, 0, NULL), LMN_OK);
+        assert_true(large ? drawn.points[0].half == 1 : drawn.points[0].half > 0.3f && drawn.points[0].half < 0.7f);
+        ribbon_set_release(&drawn);
+        shot_release(&shot);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pieces_count_as_a_whole),
+        cmocka_unit_test(strangers_are_not_linked),
+        cmocka_unit_test(thin_bars_do_not_end_a_line),
+        cmocka_unit_test(chains_do_not_depend_on_pixels),
+        cmocka_unit_test(parallels_fuse),
+        cmocka_unit_test(small_pieces_keep_their_outlines),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
