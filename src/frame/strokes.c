@@ -189,7 +189,6 @@ static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
     camera.orthographic = f->camera.orthographic;
     camera.width = on_sheet(f, f->width);
     camera.height = on_sheet(f, f->height);
-    camera.pixels_per_mm = PX_PER_INCH / MM_PER_INCH;
     return stroke_store_look(store, &camera, error);
 }
 

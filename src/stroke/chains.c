@@ -605,24 +605,22 @@ void stroke_set_release(stroke_set *s)
 lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                        lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    view_lines     lines;
-    visibility     seen;
-    stroke_options own = paper_options(v, options);
+    view_lines lines;
+    visibility seen;
     memset(out, 0, sizeof *out);
-    lmn_status status = lines_collect(&lines, v, &own, parts, progress, user, error);
+    lmn_status status = lines_collect(&lines, v, options, parts, progress, user, error);
     if (status != LMN_OK)
         return status;
     status = visibility_find(&seen, v, lines.segments, lines.count, progress, user, error);
     if (status == LMN_OK)
-        status = chains_make(out, v, &lines, &seen, &own, error);
+        status = chains_make(out, v, &lines, &seen, options, error);
     if (status == LMN_OK)
-        status = strokes_join(out, v, &own, error);
+        status = strokes_join(out, v, options, error);
     if (status == LMN_OK)
-        status = strokes_choose(out, v, &own, error);
+        status = strokes_choose(out, v, options, error);
     if (status == LMN_OK)
-        status = strokes_thin(out, own.crowd, v->camera.width, v->camera.height, error);
+        status = strokes_thin(out, options->crowd, v->camera.width, v->camera.height, error);
     out->perspective = !v->camera.orthographic;
-    paper_to_page(out, v);
     if (status != LMN_OK)
         stroke_set_release(out);
     visibility_release(&seen);

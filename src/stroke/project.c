@@ -358,8 +358,7 @@ lmn_status stroke_view_create(stroke_view **out, const stroke_scene *scene, cons
     if (!v)
         return error_memory(error);
     v->scene = scene;
-    v->page = *camera;
-    v->camera = paper_camera(camera);
+    v->camera = *camera;
     v->whole = mat4_multiply(&camera->projection, &camera->view);
     v->units = units_of(&v->camera);
     v->same = SAME_POSITION * scene->reach;

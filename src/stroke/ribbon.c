@@ -238,9 +238,9 @@ static float step_of(const builder *b, const line *l)
     if (l->moves && style->wobble > 0)
         step = fminf(step, fmaxf(style->wobble_length, 1) / 6);
     if (l->moves && l->repeat + style->repeats > 1)
-        step = fminf(step, repeat_wave * b->job.unit / 8);
+        step = fminf(step, repeat_wave / 8);
     if (l->varies && style->pressure > 0)
-        step = fminf(step, pressure_wave * b->job.unit / 8);
+        step = fminf(step, pressure_wave / 8);
     if (l->varies && style->taper > 0)
         step = fminf(step, fmaxf(style->taper / 6, 1));
     return step;
@@ -297,8 +297,8 @@ static void displace(const builder *b, const line *l, ribbon_point *p)
         p->y += style->wobble * noise_at(l->keys[NOISE_Y], along, wave, l->chain);
     }
     if (style->repeats > 1 && style->repeat_apart > 0) {
-        p->x += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_X], along, repeat_wave * b->job.unit, l->chain);
-        p->y += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_Y], along, repeat_wave * b->job.unit, l->chain);
+        p->x += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_X], along, repeat_wave, l->chain);
+        p->y += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_Y], along, repeat_wave, l->chain);
     }
 }
 
@@ -332,9 +332,8 @@ static void weigh(const builder *b, const line *l, ribbon_point *p, span where, 
         p->half *= weight;
     p->half *= taper_at(b, l, p->arc, where);
     if (style->pressure > 0)
-        p->half *=
-            1 + 0.5f * style->pressure *
-                    noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave * b->job.unit, l->chain);
+        p->half *= 1 + 0.5f * style->pressure *
+                           noise_at(l->keys[NOISE_PRESSURE], p->arc + l->s->phase, pressure_wave, l->chain);
 }
 
 static bool has_weights(const builder *b, const stroke *s)
@@ -425,7 +424,7 @@ static bool is_straight(const builder *b, const line *l, bool at_end)
             return false;
         direction[0] += dx;
         direction[1] += dy;
-        if (fabsf(p->arc - end->arc) >= straight_over * b->job.unit)
+        if (fabsf(p->arc - end->arc) >= straight_over)
             return true;
     }
     return true;
@@ -457,12 +456,12 @@ static void find_inked(builder *b, uint32_t index, float from, float to, const g
         (*gap)++;
     for (; *gap < gaps->count && gaps->items[*gap].stroke == index; (*gap)++) {
         const stroke_gap *g = &gaps->items[*gap];
-        if (g->from - from > crumb * b->job.unit)
+        if (g->from - from > crumb)
             span_list_add(out, from, fminf(g->from, to));
         from = fmaxf(from, g->to);
         cut = true;
     }
-    if (!cut || to - from > crumb * b->job.unit)
+    if (!cut || to - from > crumb)
         span_list_add(out, from, to);
 }
 
@@ -545,8 +544,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
                         lmn_error *error)
 {
     *out = (ribbon_set){0};
-    double     unit = strokes->pixels_per_mm > 0 ? strokes->pixels_per_mm / PAPER_UNITS_PER_MM : 1;
-    builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed, .unit = (float)unit}, .out = out};
+    builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out};
     gap_list   gaps = {0};
     stroke_set whole = {0};
     b.failed = !look_round(&b.job, &whole, &gaps);

@@ -9,7 +9,7 @@
 typedef enum hidden_style { HIDDEN_NONE, HIDDEN_SOLID, HIDDEN_DASHED } hidden_style;
 typedef enum stroke_brush { BRUSH_PEN, BRUSH_BRUSH, BRUSH_PENCIL, BRUSH_CHARCOAL, BRUSH_COUNT } stroke_brush;
 
-/* How strokes are drawn. Lengths in pixels. */
+/* How strokes are drawn. Lengths in units of the page (stroke/stroke.h). */
 typedef struct stroke_style {
     colour  colours[STROKE_CLASS_COUNT]; /* NaN red: not drawn in a colour of its own, takes that of the contour */
     float   width;
@@ -33,7 +33,7 @@ typedef struct stroke_style {
 
 typedef struct ribbon_point {
     float x, y, depth, arc;
-    float half;  /* half the width, pixels */
+    float half;  /* half the width */
     float alpha; /* 0 … 1 */
 } ribbon_point;
 

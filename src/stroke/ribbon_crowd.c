@@ -53,8 +53,7 @@ static bool grid_begin(crowd_grid *g, const ribbon_job *job)
     }
     if (!(high[0] >= low[0]))
         return false;
-    *g = (crowd_grid){
-        .job = job, .apart = fmaxf(job->style->hidden_crowd, least_apart * job->unit), .left = low[0], .top = low[1]};
+    *g = (crowd_grid){.job = job, .apart = fmaxf(job->style->hidden_crowd, least_apart), .left = low[0], .top = low[1]};
     g->cell = fmaxf(g->apart, fmaxf(high[0] - low[0], high[1] - low[1]) / CELLS_MOST);
     g->columns = (int)((high[0] - low[0]) / g->cell) + 1;
     g->rows = (int)((high[1] - low[1]) / g->cell) + 1;

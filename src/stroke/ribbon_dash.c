@@ -49,7 +49,7 @@ static bool is_corner(const stroke_point *points, uint32_t count, uint32_t at, f
 
 static bool add_corner(ribbon_job *job, chain_facts *chain, float arc)
 {
-    float reach = corner_reach * job->unit;
+    float reach = corner_reach;
     if (chain->corner_count && arc - job->corners[job->corner_count - 1] < 2 * reach)
         return true;
     if (!mem_grow((void **)&job->corners, &job->corner_capacity, job->corner_count + 1, sizeof *job->corners))
@@ -71,7 +71,7 @@ bool ribbon_find_corners(ribbon_job *job)
             const stroke       *s = &job->strokes->strokes[i];
             const stroke_point *p = &job->strokes->points[s->first];
             for (uint32_t k = 1; k + 1 < s->count; k++)
-                if (is_corner(p, s->count, k, corner_reach * job->unit) && !add_corner(job, chain, p[k].arc))
+                if (is_corner(p, s->count, k, corner_reach) && !add_corner(job, chain, p[k].arc))
                     return false;
         }
     }

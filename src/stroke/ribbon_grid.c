@@ -52,7 +52,7 @@ static void each_visible(segment_grid *g, const ribbon_job *job, uint32_t *count
             for (int row = cells[1]; row <= cells[3]; row++)
                 for (int column = cells[0]; column <= cells[2]; column++) {
                     size_t cell = (size_t)row * (size_t)g->columns + (size_t)column;
-                    if (!segment_grid_meets(g, a, b, 1.5f * job->unit, column, row))
+                    if (!segment_grid_meets(g, a, b, 1.5f, column, row))
                         continue;
                     if (next)
                         g->items[next[cell]++] = (ribbon_segment){(uint32_t)i, k};
@@ -80,7 +80,7 @@ static bool lay_out(segment_grid *g, const ribbon_job *job)
     g->depth_range = high[2] - low[2];
     g->left = low[0];
     g->top = low[1];
-    g->cell = fmaxf(cell_least * job->unit, fmaxf(high[0] - low[0], high[1] - low[1]) / CELLS_MOST);
+    g->cell = fmaxf(cell_least, fmaxf(high[0] - low[0], high[1] - low[1]) / CELLS_MOST);
     g->columns = (int)((high[0] - low[0]) / g->cell) + 1;
     g->rows = (int)((high[1] - low[1]) / g->cell) + 1;
     return true;

@@ -29,7 +29,7 @@ static void cross(halo_search *h, uint32_t own, const stroke_point *a, const str
     if (front.stroke == own || !(length > 0) || !(across > 0) || fabsf(area) < 1e-3f * length * across)
         return;
     float t = ((c->x - a->x) * vy - (c->y - a->y) * vx) / area, u = ((c->x - a->x) * uy - (c->y - a->y) * ux) / area;
-    float past = beyond * h->job->unit, reach = past / length, own_reach = past / across;
+    float past = beyond, reach = past / length, own_reach = past / across;
     if (t < (first ? -reach : 0) || t > (last ? 1 + reach : 1) || u < -own_reach || u > 1 + own_reach)
         return;
     float fraction = fminf(fmaxf(t, 0), 1), front_fraction = fminf(fmaxf(u, 0), 1);
@@ -38,7 +38,7 @@ static void cross(halo_search *h, uint32_t own, const stroke_point *a, const str
     /* Lines that meet on a surface are as deep as each other there but for how far they may lie beside their crossing.
      */
     float slope = fabsf(b->depth - a->depth) / length + fabsf(d->depth - c->depth) / across;
-    if (!(nearer < depth - h->depth_gap - lies_beside * h->job->unit * slope))
+    if (!(nearer < depth - h->depth_gap - lies_beside * slope))
         return;
     float sine = fabsf(area) / (length * across);
     bool  goes_on = !(first && t * length < past) && !(last && (1 - t) * length < past);
@@ -57,7 +57,7 @@ static void search_segment(halo_search *h, uint32_t own, uint32_t point)
     const segment_grid *g = h->grid;
     int                 cells[4];
     bool                first = point == s->first, last = point + 2 == s->first + s->count;
-    float               margin = beyond * h->job->unit;
+    float               margin = beyond;
     if (!segment_grid_box(g, a, b, margin, cells))
         return;
     for (int row = cells[1]; row <= cells[3]; row++)

@@ -52,7 +52,7 @@ static float distance_to(const stroke_point *p, const stroke_point *a, const str
 static float onward_to(const meeting_search *m, const stroke_point *a, const stroke_point *b)
 {
     float x = b->x - a->x, y = b->y - a->y, length = hypotf(x, y), area = m->out[0] * y - m->out[1] * x;
-    float past = touching * m->job->unit;
+    float past = touching;
     if (!(length > 0) || !(fabsf(area) > flattest * length))
         return NAN;
     float t = ((a->x - m->end->x) * y - (a->y - m->end->y) * x) / area;
@@ -65,20 +65,20 @@ static void meet(meeting_search *m, ribbon_segment other)
     const stroke_set   *set = m->job->strokes;
     const stroke_point *a = &set->points[other.point], *b = a + 1;
     const stroke       *s = &set->strokes[other.stroke];
-    float               half = ribbon_width(m->job, s) / 2, unit = m->job->unit;
+    float               half = ribbon_width(m->job, s) / 2;
     if (other.stroke == m->own &&
-        fminf(fabsf(a->arc - m->end->arc), fabsf(b->arc - m->end->arc)) < own_apart * unit + 2 * m->half)
+        fminf(fabsf(a->arc - m->end->arc), fabsf(b->arc - m->end->arc)) < own_apart + 2 * m->half)
         return;
     float onward = onward_to(m, a, b);
-    if (distance_to(m->end, a, b) <= half + touching * unit) {
+    if (distance_to(m->end, a, b) <= half + touching) {
         float x = b->x - a->x, y = b->y - a->y;
         bool  along = fabsf(x * m->out[0] + y * m->out[1]) > same_cosine * hypotf(x, y);
         m->same_way = half > m->widest ? along : m->same_way || (half == m->widest && along);
         m->widest = fmaxf(m->widest, half);
         m->found.meets = true;
-    } else if (!(onward > 0 && onward <= half + onward_most * unit))
+    } else if (!(onward > 0 && onward <= half + onward_most))
         return;
-    if (onward > 0 && onward <= half + onward_most * unit && !(m->found.onward >= onward)) {
+    if (onward > 0 && onward <= half + onward_most && !(m->found.onward >= onward)) {
         m->found.meets = true;
         m->found.onward = onward;
     }
@@ -90,7 +90,7 @@ static stroke_meeting search(const ribbon_job *job, const segment_grid *g, uint3
     const stroke_point *end = &job->strokes->points[s->first + (at_end ? s->count - 1 : 0)];
     meeting_search      m = {.job = job, .grid = g, .own = index, .end = end, .half = ribbon_width(job, s) / 2};
     int                 cells[4];
-    float               reach = onward_most * job->unit + job->style->width / 2 + m.half;
+    float               reach = onward_most + job->style->width / 2 + m.half;
     if (!direction_of(job->strokes, s, at_end, m.out) || !segment_grid_box(g, end, end, reach, cells))
         return m.found;
     for (int row = cells[1]; row <= cells[3]; row++)

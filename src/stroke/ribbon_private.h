@@ -1,5 +1,5 @@
 /* What the files of ribbons share: where along its chain a stroke is inked. Arcs are lengths along the chain,
- * pixels. */
+ * units of the page. */
 #ifndef LIMNER_STROKE_RIBBON_PRIVATE_H
 #define LIMNER_STROKE_RIBBON_PRIVATE_H
 
@@ -51,7 +51,6 @@ typedef struct ribbon_job {
     size_t                 chain_count;
     uint32_t              *chain_of; /* of each stroke */
     bool                  *drawn;    /* of each stroke: the style wants it */
-    float                  unit;     /* pixels to a unit of paper, 1/96 inch: all numbers of taste are on paper */
     struct stroke_meeting *meetings; /* of both ends of each stroke */
     float                 *corners;  /* of chains that are dashed: arcs at which they turn */
     size_t                 corner_count, corner_capacity;
@@ -60,7 +59,7 @@ typedef struct ribbon_job {
 /* What an end of a stroke comes to. */
 typedef struct stroke_meeting {
     bool  meets;  /* another line is there; else it is free */
-    float onward; /* from there to the other line's axis, pixels */
+    float onward; /* from there to the other line's axis */
     float half;   /* of the widest line there, if that is narrower and goes on the same way: what this one thins out to;
                      else 0 */
 } stroke_meeting;

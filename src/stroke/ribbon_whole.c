@@ -22,7 +22,7 @@ static const stroke_point *last_of(const stroke_set *set, const stroke *s)
 /* Up to which gap two stretches are one. With halos, what passes in front shall be seen to do so. */
 static float bridged_by(const ribbon_job *job, const stroke *s)
 {
-    float least = bridged_least * job->unit;
+    float least = bridged_least;
     return job->style->halo > 0 ? least : fmaxf(least, bridged_widths * ribbon_width(job, s));
 }
 

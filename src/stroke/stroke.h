@@ -4,7 +4,8 @@
  *   stroke_scene: edges of all parts, once a scene ──► stroke_view: what a camera sees of it ──► stroke_set: the lines
  * that were asked for
  *
- * The page has its origin at the top left, x to the right, y down, in pixels; what lies outside it is cut off. */
+ * The page has its origin at the top left, x to the right, y down, in units of 1/96 inch of paper, whatever pixels a
+ * picture of it has: so pictures of all sizes, and vectors, have the same lines. What lies outside it is cut off. */
 #ifndef LIMNER_STROKE_STROKE_H
 #define LIMNER_STROKE_STROKE_H
 
@@ -33,7 +34,7 @@ const char *stroke_class_name(stroke_class c);
 typedef struct stroke_point {
     float x, y;
     float depth;  /* eye depth, file units */
-    float arc;    /* length along the whole chain up to here, pixels */
+    float arc;    /* length along the whole chain up to here, units */
     float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
 } stroke_point;
 
@@ -49,8 +50,8 @@ typedef struct stroke {
     uint32_t     first, count; /* points; neighbours in a chain both have the point between them */
     bool         closed;       /* the whole chain is this stroke and ends where it began, the first point once more */
     float        phase; /* arc to add so that what repeats along the chain stays where it was; see stroke_follow */
-    float        chain_length; /* pixels */
-    float        size;         /* of the piece on the page, pixels, its longer side; 0: not asked for */
+    float        chain_length; /* units */
+    float        size;         /* of the piece on the page, units, its longer side; 0: not asked for */
     bool smooth; /* an outline by normals: it lies beside the mesh's own, whose fold does not count as being in front of
                     it */
 } stroke;
@@ -67,9 +68,8 @@ typedef struct stroke_set {
     stroke_point *points;
     stroke_mark  *marks; /* in the order of the chains */
     size_t        stroke_count, point_count, chain_count, mark_count;
-    bool          perspective;   /* between two points it is 1 / depth that is linear on the page, not depth */
-    double        pixels_per_mm; /* of the page; 0: 96 to the inch */
-    uint64_t      pairs;         /* of lines and triangles that were compared: what the work was */
+    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
+    uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 
@@ -127,15 +127,14 @@ uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[
 
 /* --- the view ------------------------------------------------------------------------------------------- */
 
-/* Which lines there are, and numbers of taste, are of the page as paper, in units of 1/96 inch. */
+/* For numbers of taste that are said in mm. */
 #define PAPER_UNITS_PER_MM (PX_PER_INCH / MM_PER_INCH)
 
 typedef struct stroke_camera {
     mat4   view, projection; /* GL's; near and far do not matter, but what is nearer than the near plane is cut off */
     double near;             /* eye depth, above 0 in perspective */
     bool   orthographic;
-    int    width, height; /* of the page, pixels */
-    double pixels_per_mm; /* of paper: which lines there are depends on their lengths there alone; 0: 96 to the inch */
+    int    width, height; /* of the page, units */
 } stroke_camera;
 
 typedef struct stroke_view stroke_view;
@@ -161,10 +160,10 @@ typedef struct stroke_options {
     bool    creases, borders, materials, intersections;
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
     bool    hidden;                                /* stretches behind surfaces too */
-    float   simplify;                              /* by how much points may be moved, pixels */
-    float   shortest;                              /* whole chains shorter than this are left out, pixels */
-    float   width;  /* that lines are drawn with, pixels: what is thinner in front of a chain does not end it */
-    float   crowd;  /* strokes that run all their length this close to more important ones are left out, pixels */
+    float   simplify;                              /* by how much points may be moved, units */
+    float   shortest;                              /* whole chains shorter than this are left out, units */
+    float   width;  /* that lines are drawn with, units: what is thinner in front of a chain does not end it */
+    float   crowd;  /* strokes that run all their length this close to more important ones are left out, units */
     float   detail; /* 1: all lines; less: what says least goes where lines crowd, whole chains, down to 0 */
     int32_t refine; /* 0 … 3: how often surfaces are refined, by whoever makes the scene: stroke_scene_create_refined */
     int32_t curve; /* 0 … 4: how often chains of contours are refined as curves */

@@ -78,7 +78,6 @@ typedef struct view_item {
 
 struct stroke_view {
     const stroke_scene *scene;
-    stroke_camera       page;   /* as it was asked for */
     stroke_camera       camera; /* the same on paper; see paper.c */
     mat4                whole;  /* world to clip space */
     double              units;  /* window units in a unit of paper */
@@ -232,17 +231,8 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
 
 /* --- join.c --- */
 /* Makes chains whole: links strokes whose ends lie close together and follow each other, and only then leaves out what
- * is too short. Lengths of the options on paper, as below. */
+ * is too short. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
-
-/* --- paper.c --- */
-/* Which lines there are is decided on paper, in units of 1/96 inch, whatever resolution the picture has: the camera of
- * a view counts in them. */
-stroke_camera  paper_camera(const stroke_camera *page);
-double         paper_units_per_pixel(const stroke_view *v);
-stroke_options paper_options(const stroke_view *v, const stroke_options *options);
-/* From paper to the pixels of the page that was asked for. */
-void paper_to_page(stroke_set *set, const stroke_view *v);
 
 /* --- density.c --- */
 /* Small pieces are drawn with a finer pen, so that their outlines enclose something. */
@@ -255,8 +245,8 @@ static inline double stroke_width_on_piece(const stroke *s, double width)
 lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
 
 /* --- crowd.c --- */
-/* Leaves out strokes that run all their length within about this many pixels of more important ones; the page's
- * size in pixels. */
+/* Leaves out strokes that run all their length within about this many units of more important ones; the page's
+ * size in units. */
 lmn_status strokes_thin(stroke_set *set, float apart, int width, int height, lmn_error *error);
 
 #endif

@@ -191,11 +191,7 @@ static ray_count count_in_front(const verifier *w, const ray *r)
 
 static void check_position(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
 {
-    bool   right = false, counted = false;
-    double scale[2] = {(double)w->v->camera.width / w->v->page.width,
-                       (double)w->v->camera.height / w->v->page.height}; /* rays go through paper */
-    x *= scale[0];
-    y *= scale[1];
+    bool right = false, counted = false;
     for (int ring = 0; ring < RINGS && !counted; ring++)
         for (int k = 0; k < (ring ? DIRECTIONS : 1) && !counted; k++) {
             double    turn = 2 * 3.14159265358979323846 * k / DIRECTIONS;

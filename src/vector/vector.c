@@ -476,7 +476,7 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
 {
     stroke_view  *view = NULL;
     stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width,
-                            v->height,      VECTOR_PIXELS_PER_MM};
+                            v->height};
     lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
     stroke_view  *as_is = NULL;
     if (status == LMN_OK && j->as_is.item_count)

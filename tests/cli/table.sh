@@ -317,6 +317,14 @@ group_report() {
     cp r.json in-report.json; documented in-report.json report.md
     row 0 '' 'x.png' draw "$gear" $small -o x.png --report -
     out '"path": "x.png"'; out '"load_ms"'
+    # Pictures of all sizes and samples have the same lines.
+    local size lines first=
+    for size in '256x192' '1024x768' '2048x1536' '512x384 --samples 16'; do
+        row 0 '' 'r.json x.png' draw "$examples/crank.glb" --look line --size $size -o x.png --report r.json
+        lines=$(sed -n '/"strokes": {/,/}/p' r.json)
+        [ "$lines" = "${first:=$lines}" ] || complain "there are other lines: $lines instead of $first"
+    done
+    [[ "$first" =~ contour.*crease ]] || complain "there are no lines: $first"
     mkfifo in-pipe
     timeout 60 cat in-pipe > .piped &
     row 0 '' 'x.png' draw "$gear" $small -o x.png --report in-pipe

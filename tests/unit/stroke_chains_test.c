@@ -91,63 +91,6 @@ static void thin_bars_do_not_end_a_line(void **state)
     }
 }
 
-static lmn_scene *make_heap(void)
-{
-    lmn_scene *s = stroke_scene_begin();
-    add_ball(s, 0, 0, 0, 1, 60, 40);
-    add_ball(s, 0.7, 0.2, 0.4, 0.6, 50, 30);
-    for (int i = 0; i < 40; i++) {
-        double x = 3 * stroke_random((uint32_t)i * 3) - 1.5, y = 3 * stroke_random((uint32_t)i * 3 + 1) - 1.5,
-               z = 2 * stroke_random((uint32_t)i * 3 + 2) - 1, d = 0.02 + 0.3 * stroke_random(900 + (uint32_t)i);
-        add_box(s, x, y, z, x + d, y + 0.7 * d, z + 0.4 * d);
-    }
-    return s;
-}
-
-/* Longer sides of the page, pixels. */
-static const int sizes[] = {512, 1024, 2048, 4096};
-
-/* The same sheet at any resolution has the same chains: kinds, parts, numbers and ends, within 0.01 mm. */
-static void chains_do_not_depend_on_pixels(void **state)
-{
-    (void)state;
-    stroke_shot shots[4];
-    for (int k = 0; k < 4; k++) {
-        stroke_camera  c = look_along(-1, -1.3, -0.8, origin, 20, 0.12, false, sizes[k], sizes[k] * 3 / 4);
-        stroke_options w = STROKE_OPTIONS_INIT;
-        float          scale = (float)sizes[k] / 1024;
-        c.pixels_per_mm = PAPER_UNITS_PER_MM * (double)scale;
-        w.hidden = true;
-        w.detail = 0.7f;
-        w.shortest = 6 * scale;
-        w.simplify *= scale;
-        w.crowd *= scale;
-        w.width *= scale;
-        shots[k] = shoot(make_heap(), c, w);
-        assert_int_equal(shots[k].check.wrong, 0);
-    }
-    const stroke_set *first = &shots[0].set;
-    assert_true(first->stroke_count > 150);
-    for (int k = 1; k < 4; k++) {
-        const stroke_set *set = &shots[k].set;
-        double            mm = 1 / set->pixels_per_mm, first_mm = 1 / first->pixels_per_mm;
-        assert_int_equal(set->stroke_count, first->stroke_count);
-        for (size_t i = 0; i < set->stroke_count; i++) {
-            const stroke *s = &set->strokes[i], *t = &first->strokes[i];
-            assert_true(s->kind == t->kind && s->part == t->part && s->chain == t->chain && s->id == t->id &&
-                        s->hidden_by == t->hidden_by);
-            assert_true(fabs(s->chain_length * mm - t->chain_length * first_mm) < 0.01);
-            for (int end = 0; end < 2; end++) {
-                const stroke_point *p = &set->points[s->first + (end ? s->count - 1 : 0)],
-                                   *q = &first->points[t->first + (end ? t->count - 1 : 0)];
-                assert_true(hypot(p->x * mm - q->x * first_mm, p->y * mm - q->y * first_mm) < 0.01);
-            }
-        }
-    }
-    for (int k = 0; k < 4; k++)
-        shot_release(&shots[k]);
-}
-
 /* --- density -------------------------------------------------------------------------------------------- */
 
 /* A comb of 60 ridges 1.5 px apart, and one ridge across them all; then the same comb 12 px apart. */
@@ -232,11 +175,8 @@ static void small_pieces_keep_their_outlines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_count_as_a_whole),
-        cmocka_unit_test(strangers_are_not_linked),
-        cmocka_unit_test(thin_bars_do_not_end_a_line),
-        cmocka_unit_test(chains_do_not_depend_on_pixels),
-        cmocka_unit_test(parallels_fuse),
+        cmocka_unit_test(pieces_count_as_a_whole),          cmocka_unit_test(strangers_are_not_linked),
+        cmocka_unit_test(thin_bars_do_not_end_a_line),      cmocka_unit_test(parallels_fuse),
         cmocka_unit_test(small_pieces_keep_their_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -441,6 +441,7 @@ static void check_fill(const char *model, bool coloured)
     lmn_sheet_desc    desc = LMN_SHEET_DESC_INIT;
     lmn_error         error = {0};
     how.width = how.height = SIDE;
+    how.dpi = 96;
     desc.fill = true;
     snprintf(path, sizeof path, "%s/examples/%s", LIMNER_SOURCE_DIR, model);
     assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);

@@ -14,6 +14,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "plan/paper_look.h"
 #include "stage/mark_ground.h"
 #include "vector/vector.h"
 #include "limner/limner.h"
@@ -101,6 +102,7 @@ static lmn_draw_desc front(void)
 {
     lmn_draw_desc how = LMN_DRAW_DESC_INIT;
     how.width = how.height = SIDE;
+    how.dpi = 96;
     how.view = LMN_VIEW_FRONT;
     how.orthographic = true;
     return how;
@@ -255,19 +257,22 @@ static void assert_same_dots(const fixture *f, const lmn_draw_desc *how)
     const double crease = 30 * 3.14159265358979 / 180;
     assert_int_equal(pose_create(&at_rest, f->scene, &(moment){.seconds = 0}, &error), LMN_OK);
     assert_int_equal(mark_ground_create(&ground, &at_rest, NULL, f->scene->part_count, crease, &error), LMN_OK);
+    lmn_look *on_page = paper_look_create(f->stipple, 96.0 / 72); /* its lengths in units of the sheet */
+    assert_non_null(on_page);
     rays r = {&ground, &s->views[0].camera};
     r.corners = corners_of(&ground);
     mark_page_options options = {.pose = &at_rest,
-                                 .look = f->stipple,
+                                 .look = on_page,
                                  .part_count = f->scene->part_count,
                                  .crease_angle = crease,
-                                 .surface = f->stipple->rules[0].uses[KIND_SURFACE],
+                                 .surface = on_page->rules[0].uses[KIND_SURFACE],
                                  .camera = r.camera,
                                  .width = SIDE,
                                  .height = SIDE,
                                  .hidden = cast,
                                  .user = &r};
     assert_int_equal(marks_on_page(&page, &options, &error), LMN_OK);
+    paper_look_destroy(&on_page);
     search look_for = {&page, calloc(page.dot_count, 1), 0};
     size_t drawn = visit_dots(s, find_dot, &look_for), outside = 0, missing = 0;
     for (size_t i = 0; i < page.dot_count; i++) {
