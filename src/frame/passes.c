@@ -307,7 +307,8 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
                       .scale = (float)f->samples,
                       .perspective = !f->camera.orthographic};
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
-        in.values[i] = read_floats(f, s, p->reads[i], box);
+        if (p->reads[i] < TARGET_COUNT || s->targets[p->reads[i]])
+            in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire_for(f, s, p->writes);
     void        *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
     if (out && s->targets[p->writes])

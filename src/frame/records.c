@@ -10,12 +10,6 @@
 /* In a record's bits, of what is wanted: outlines. */
 enum { RECORD_OUTLINE = 32 };
 
-/* Do passes follow that work on whole lines, two pixels wide? */
-static bool works_on_lines(const lines_common *lines)
-{
-    return lines->overshoot > 0 || lines->halo > 0 || lines->dash > 0;
-}
-
 static stroke_store *find_store(frame *f)
 {
     bool *parts = mem_calloc(f->up->part_count, sizeof *parts);
@@ -36,13 +30,11 @@ static gpu_texture *renew(frame *f, figure_state *s, target t)
     return s->targets[t];
 }
 
-/* Lines at once, and which pixels need no others; or where edges are, the nearest of each pixel by a depth of its own.
- */
-static void open_pictures(frame *f, figure_state *s, const pass *p, bool inked, gpu_texture *depth)
+static void open_pictures(frame *f, figure_state *s, const pass *p)
 {
-    const target written[] = {inked ? TARGET_EDGE : p->writes, inked ? p->writes_too : TARGET_NONE};
-    gpu_pass     into = {.colour_count = inked ? 2 : 1, .depth = depth, .clear = true};
-    for (int i = 0; i < into.colour_count; i++) {
+    const target written[] = {p->writes, p->writes_too};
+    gpu_pass     into = {.colour_count = 2, .clear = true};
+    for (int i = 0; i < 2; i++) {
         into.colours[i] = renew(f, s, written[i]);
         target_empty(target_row_of(s, written[i]), s->far, into.clear_values[i]);
     }
@@ -52,7 +44,7 @@ static void open_pictures(frame *f, figure_state *s, const pass *p, bool inked, 
         gpu_pass_begin(f->g, &into);
 }
 
-static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use, bool inked)
+static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use)
 {
     text prelude = {0};
     uniforms_declare(&prelude, use_own_set(KIND_LINES, use));
@@ -60,25 +52,19 @@ static gpu_program *program(frame *f, const figure_state *s, const pass *p, cons
     reads_declare(&prelude, f, s, p, NULL);
     if (f->plan->has_cut || f->up->has_removed) /* then not all that is nearer is seen */
         text_append(&prelude, "#define OPEN_BODIES\n");
-    if (inked)
-        text_append(&prelude, "#define INKED\n");
     return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
 }
 
 static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use)
 {
-    const bool   inked = !works_on_lines(use->values);
-    gpu_program *drawing = program(f, s, p, use, inked);
+    gpu_program *drawing = program(f, s, p, use);
     /* Before the pass begins: making records takes the place of what is bound. */
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
             edges_bring(f, store, i, false);
-    gpu_texture *depth = inked ? NULL : frame_acquire(f, TARGET_DEPTH);
-    open_pictures(f, s, p, inked, depth);
+    open_pictures(f, s, p);
     if (drawing && !gpu_failed(f->g)) {
-        gpu_use(f->g, drawing,
-                inked ? (gpu_state){.blend = GPU_BLEND_MIN}
-                      : (gpu_state){.depth_test = true, .depth_write = true, .depth_compare = GPU_LESS});
+        gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
         frame_set_common(f, s);
         uniforms_set(f->g, use_own_set(KIND_LINES, use));
         uniforms_set(f->g, use_common_set(KIND_LINES, use));
@@ -91,8 +77,6 @@ static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, 
             if (s->figure->designated[store->scene.items[i].part_index])
                 edges_draw(f, store, i, false);
     }
-    if (depth)
-        gpu_target_release(f->g, depth);
 }
 
 void records_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)

@@ -1,12 +1,12 @@
 /* Lengths that the passes of haloed lines share. */
 
-/* How far from an outline's pixel its own ink goes as it was found, two pixels wide, and farther lines are taken away: both are as wide as they are to be afterwards. */
+/* How far from an outline's pixel its own ink goes, and from where on farther lines are there again. */
 float own_reach()
 {
-    return 1.0;
+    return 0.5 * u_line_width;
 }
 
 float halo_reach()
 {
-    return u_line_halo + u_line_width;
+    return u_line_halo + own_reach() + 0.3 + 0.2 * min(own_reach(), 2.0); /* and what soft rims take away */
 }

@@ -74,6 +74,12 @@ int lines_flood_rounds(const void *values)
     return exponent + 2;
 }
 
+int lines_style_rounds(const void *values)
+{
+    const lines_common *lines = values;
+    return lines->overshoot > 0 || lines->halo > 0 || lines->dash > 0;
+}
+
 static float weight_of(float weight, colour own, colour standard)
 {
     float alpha = isnan(own.r) ? standard.a : own.a;
@@ -97,13 +103,14 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
     {"t_nearer_row", TEXEL_RGBA16F},
     {"t_filtered", TEXEL_RGBA16F, .filtered = true, .empty = {0, 0, 1, 1}},
     {"t_gradient", TEXEL_RGBA16F},
-    {"t_records", TEXEL_RGBA16F},
     {"t_feet", TEXEL_RGBA16F},
     {"t_tiles", TEXEL_R8, SCALE_TILE},
     {"t_seeds", TEXEL_RGBA32UI, .empty = {0xC000C000u, 0xC000C000u, 0xC000C000u, 0}}, /* none */
     {"t_pairs", TEXEL_RGBA16F},
     {"t_bare", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
     {"t_thin", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_whole", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_styled", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
 };
 
 static const technique *const techniques[] = {

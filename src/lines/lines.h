@@ -48,58 +48,47 @@ enum { LINES_FOUND_WIDTH = 2 };
 #define LINES_NEARER_ROW TARGET_OWN(1) /* how near the nearest outline is across */
 #define LINES_FILTERED   TARGET_OWN(2) /* normal and normalised depth, which may be sampled with a filter */
 #define LINES_GRADIENT   TARGET_OWN(3) /* r = first-order, g = second-order difference of depth */
-#define LINES_TARGETS    .targets = lines_targets, .target_count = LINES_TARGET_COUNT
-#define LINES_RECORDS    TARGET_OWN(4) /* lines/record.glsl */
-#define LINES_FEET       TARGET_OWN(5) /* where the edge beside a pixel is: lines/edge/feet.glsl */
-#define LINES_TILES      TARGET_OWN(6) /* 1: a tile that lines may reach */
-#define LINES_SEEDS      TARGET_OWN(7) /* lines/seed.glsl */
-#define LINES_PAIRS      TARGET_OWN(8) /* lines/edge/pairs.frag */
-#define LINES_BARE       TARGET_OWN(9) /* r: of outlines, g: of others; 0 beside edges that are drawn already, else 1 */
-#define LINES_THIN       TARGET_OWN(10) /* the edge map of what is not */
-enum { LINES_TARGET_COUNT = 11 };
+#define LINES_FEET       TARGET_OWN(4) /* where the edge beside a pixel is: lines/edge/feet.frag */
+#define LINES_TILES      TARGET_OWN(5) /* 1: a tile that lines may reach */
+#define LINES_SEEDS      TARGET_OWN(6) /* lines/seed.glsl */
+#define LINES_PAIRS      TARGET_OWN(7) /* lines/edge/pairs.frag */
+#define LINES_BARE       TARGET_OWN(8) /* r: of outlines, g: of others; 0 beside edges that are drawn already, else 1 */
+#define LINES_THIN       TARGET_OWN(9) /* the edge map, two pixels wide, of what is not drawn already */
+#define LINES_WHOLE      TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
+#define LINES_STYLED     TARGET_OWN(11) /* the same, run on and cut short */
+enum { LINES_TARGET_COUNT = 12 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
+#define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
 
-/* Of lines so broad that the pixels beside them are far: the nearest of those that have ink in the map. */
-#define LINES_PASSES_FLOOD(map, feet, there, missing)                                                                  \
+/* Lines as wide as they are to be, from a map of what is beside them and, where they are known, the places of edges. Of
+ * lines so broad that the pixels beside them are far, floods find the nearest of those that have ink. */
+#define LINES_PASSES_FLOOD(map, feet)                                                                                  \
     {.name = "wide tiles",                                                                                             \
      .shader = "lines/tiles_wide.frag",                                                                                \
      .reads = {LINES_TILES},                                                                                           \
      .writes = LINES_TILES,                                                                                            \
-     .with = there,                                                                                                    \
-     .without = missing,                                                                                               \
-     .when = "width>3",                                                                                                \
-     .stylised = true},                                                                                                \
+     .when = "width>3"},                                                                                               \
         {.name = "flood's first",                                                                                      \
          .shader = "lines/flood_first.frag",                                                                           \
          .reads = {map, LINES_TILES, feet},                                                                            \
          .writes = LINES_SEEDS,                                                                                        \
          .tiles = LINES_TILES,                                                                                         \
-         .with = there,                                                                                                \
-         .without = missing,                                                                                           \
-         .when = "width>3",                                                                                            \
-         .stylised = true},                                                                                            \
+         .when = "width>3"},                                                                                           \
     {                                                                                                                  \
         .name = "flood", .shader = "lines/flood.frag", .reads = {LINES_SEEDS, LINES_TILES}, .writes = LINES_SEEDS,     \
-        .rounds = lines_flood_rounds, .tiles = LINES_TILES, .with = there, .without = missing, .when = "width>3",      \
-        .stylised = true                                                                                               \
-    }
-/* Lines as wide as they are to be, from the edge map and, where they are known, the places of edges. */
-#define LINES_PASSES_WIDE(condition, feet)                                                                             \
-    LINES_PASSES_FLOOD(TARGET_EDGE, feet, TARGET_NONE, LINES_BARE),                                                    \
-    {                                                                                                                  \
-        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_TILES, LINES_SEEDS, feet},       \
-        .writes = TARGET_EDGE, .tiles = LINES_TILES, .without = LINES_BARE, .when = condition, .stylised = true        \
+        .rounds = lines_flood_rounds, .tiles = LINES_TILES, .when = "width>3"                                          \
     }
 /* The same of what operators found that know no more than pixels. */
 #define LINES_PASSES_SPREAD                                                                                            \
-    {.name = "tiles",                                                                                                  \
-     .shader = "lines/tiles.frag",                                                                                     \
-     .reads = {TARGET_EDGE},                                                                                           \
-     .writes = LINES_TILES,                                                                                            \
-     .when = "width>2",                                                                                                \
-     .stylised = true},                                                                                                \
-        LINES_PASSES_WIDE("width>2", TARGET_NONE)
+    {.name = "tiles", .shader = "lines/tiles.frag", .reads = {TARGET_EDGE}, .writes = LINES_TILES, .when = "width>2"}, \
+        LINES_PASSES_FLOOD(TARGET_EDGE, TARGET_NONE),                                                                  \
+    {                                                                                                                  \
+        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_TILES, LINES_SEEDS},             \
+        .writes = TARGET_EDGE, .tiles = LINES_TILES, .when = "width>2"                                                 \
+    }
 int lines_flood_rounds(const void *values);
+/* Once where lines run on, are cut short or dashed, else not at all. */
+int lines_style_rounds(const void *values);
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they
  * grow: thin ones are traced best, and dashes know where lines end. */
@@ -108,22 +97,22 @@ int lines_flood_rounds(const void *values);
         .name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                    \
         .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"                                                               \
     }
-#define LINES_PASSES_STYLISE                                                                                           \
+#define LINES_PASSES_STYLISE(found, styled, changed)                                                                   \
     {.name = "overshoot",                                                                                              \
      .process = overshoot_process,                                                                                     \
-     .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                                                                      \
+     .reads = {found, TARGET_NORMAL_DEPTH},                                                                            \
      .writes = TARGET_OVERSHOOT,                                                                                       \
      .when = "overshoot",                                                                                              \
      .stylised = true},                                                                                                \
         {.name = "overshoot ink",                                                                                      \
          .shader = "lines/edge/overshoot.frag",                                                                        \
-         .reads = {TARGET_EDGE, TARGET_OVERSHOOT},                                                                     \
-         .writes = TARGET_EDGE,                                                                                        \
+         .reads = {found, TARGET_OVERSHOOT},                                                                           \
+         .writes = styled,                                                                                             \
          .when = "overshoot",                                                                                          \
          .stylised = true},                                                                                            \
         {.name = "halo outlines",                                                                                      \
          .shader = "lines/halo_outline.frag",                                                                          \
-         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH},                                                    \
+         .reads = {found, TARGET_DEPTH, TARGET_NORMAL_DEPTH, changed},                                                 \
          .writes = LINES_OUTLINES,                                                                                     \
          .when = "halo",                                                                                               \
          .stylised = true},                                                                                            \
@@ -133,18 +122,20 @@ int lines_flood_rounds(const void *values);
          .writes = LINES_NEARER_ROW,                                                                                   \
          .when = "halo",                                                                                               \
          .stylised = true},                                                                                            \
-        {.name = "halo",                                                                                               \
-         .shader = "lines/halo.frag",                                                                                  \
-         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW,                   \
-                   TARGET_OVERSHOOT},                                                                                  \
-         .writes = TARGET_EDGE,                                                                                        \
-         .when = "halo",                                                                                               \
-         .stylised = true},                                                                                            \
     {                                                                                                                  \
-        .name = "dashes", .process = dash_process, .reads = {TARGET_EDGE}, .writes = TARGET_DASH, .when = "dash",      \
+        .name = "dashes", .process = dash_process, .reads = {found, changed}, .writes = TARGET_DASH, .when = "dash",   \
         .stylised = true                                                                                               \
     }
-#define LINES_PASSES_BEHIND LINES_PASSES_STYLISE, LINES_PASSES_SPREAD, LINES_PASSES_CONTRAST
+/* Last, when lines are as wide as they are to be. */
+#define LINES_PASSES_HALO                                                                                              \
+    {                                                                                                                  \
+        .name = "halo", .shader = "lines/halo.frag",                                                                   \
+        .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW, TARGET_OVERSHOOT}, \
+        .writes = TARGET_EDGE, .when = "halo", .stylised = true                                                        \
+    }
+#define LINES_PASSES_BEHIND                                                                                            \
+    LINES_PASSES_STYLISE(TARGET_EDGE, TARGET_EDGE, TARGET_NONE), LINES_PASSES_SPREAD, LINES_PASSES_HALO,               \
+        LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,
     lines_denormal, lines_id, lines_colour, lines_shadow, lines_shell, lines_strokes;

@@ -1,18 +1,12 @@
-/* INKED: edges of meshes as lines, straight into the edge map, which keeps the darkest of each class; and the pixels that need no other edge. Else where an edge is, at the
- * pixels beside it, for passes that work on whole lines; the nearest has the pixel, outlines before creases. */
+/* Edges of meshes as lines, straight into the edge map, which keeps the darkest of each class; and the pixels that need no other edge. */
 #include "lines/stroke/visible.glsl"
 #include "lines/record.glsl"
 flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
-flat in vec2 v_normal;
-#ifdef INKED
 #include "lines/cover.glsl"
 layout(location = 0) out vec4 out_edge;
 layout(location = 1) out vec4 out_bare;
-#else
-layout(location = 0) out vec4 out_0;
-#endif
 
 #ifdef OPEN_BODIES
 /* Where parts of the model are left out, an edge before what is seen may be one of those. */
@@ -41,7 +35,6 @@ bool is_seen(vec3 axis, bool wanted)
 #endif
 }
 
-#ifdef INKED
 float step_beside(ivec2 at)
 {
     vec2 own = texelFetch(t_pairs, at, 0).xy;
@@ -82,22 +75,3 @@ void main()
     float bare = d <= RECORD_REACH ? 0.0 : 1.0;
     out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, 1.0, 1.0);
 }
-#else
-void main()
-{
-    vec2 along = v_end.xy - v_begin.xy, from = gl_FragCoord.xy - v_begin.xy;
-    float size = length(along);
-    along = size > 0.0 ? along / size : vec2(1.0, 0.0);
-    float ahead = dot(from, along);
-    vec2 normal = v_normal != vec2(0.0) ? v_normal : vec2(-along.y, along.x);
-    vec4 axis = mix(v_begin, v_end, size > 0.0 ? clamp(ahead / size, 0.0, 1.0) : 0.5);
-    float off = dot(normal, (v_normal != vec2(0.0) ? axis.xy : v_begin.xy) - gl_FragCoord.xy);
-    bool beside = abs(off) <= RECORD_REACH && ahead >= -0.5 && ahead <= size + 0.5;
-    bool seen = is_seen(axis.xyz, beside);
-    if (!beside || !seen)
-        discard;
-    float nearness = abs(off) / RECORD_REACH + max(max(-ahead, ahead - size), 0.0);
-    gl_FragDepth = 0.25 * min(nearness, 1.9) + (v_look.x < 0.0 ? 0.5 : 0.0);
-    out_0 = vec4(normal, off, v_look.x);
-}
-#endif

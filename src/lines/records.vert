@@ -4,13 +4,9 @@
 #include "lines/stroke/visible.glsl"
 #include "lines/record.glsl"
 uniform mat4 u_clip; /* from the mesh's axes to clip space */
-flat out vec2 v_normal; /* across the line, where the edge is too short to tell; else 0 */
 
 /* Of edges longer than SHORT, in pixels, some position must be seen, STEP apart, so that those wholly hidden cost no fragments; it would take too long for those longer than LONG. */
 const float SHORT = 2.5, STEP = 2.0, LONG = 240.0;
-/* Edges shorter than FINE zigzag on what they are samples of: there the surface's own normals tell the direction of its outline. */
-const float FINE = 3.0;
-
 vec3 on_page(vec4 clip)
 {
     vec3 position = 0.5 * clip.xyz / clip.w + 0.5;
@@ -26,14 +22,6 @@ float code_of(int line)
     return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
 }
 
-vec2 normal_of_outline(vec4 begin, vec4 end)
-{
-    vec4 middle = 0.5 * (begin + end), outward = u_clip * vec4(a_first.xyz + a_second.xyz, 0.0);
-    vec2 normal = (outward.xy * middle.w - middle.xy * outward.w) * u_size;
-    float size = length(normal);
-    return size > 0.0 ? normal / size : vec2(0.0);
-}
-
 void place_edge(float code)
 {
     vec4 begin = u_clip * vec4(a_begin.xyz, 1.0), end = u_clip * vec4(a_end.xyz, 1.0);
@@ -44,16 +32,10 @@ void place_edge(float code)
         begin = mix(end, begin, second / (second - first));
     else if (second <= 0.0)
         end = mix(begin, end, first / (first - second));
-#ifdef INKED
     float room = max(0.5 * u_line_width + 0.75, RECORD_REACH) - 0.5; /* a quad has half a pixel more */
-#else
-    float room = RECORD_REACH - 0.5;
-#endif
     v_begin = vec4(on_page(begin), room);
     v_end = vec4(on_page(end), room);
     v_look.x = code;
-    if (code >= RECORDED_OUTLINE && code <= RECORDED_OUTLINE + 1.0 && distance(v_begin.xy, v_end.xy) < FINE)
-        v_normal = normal_of_outline(begin, end);
     gl_Position = corner_of(v_begin, v_end);
 }
 
@@ -63,7 +45,6 @@ void main()
     float code = code_of(line);
     gl_Position = NOWHERE;
     v_begin = v_end = v_look = vec4(0.0);
-    v_normal = vec2(0.0);
     if (code != 0.0)
         place_edge(code);
     float size = distance(v_begin.xy, v_end.xy);

@@ -54,25 +54,34 @@ static void plate_and_bar(shape *s, double bar_front)
     shape_box(s, "bar", dvec_of(-1.9, -bar_half, bar_front - 0.3), dvec_of(1.9, bar_half, bar_front));
 }
 
-/* The paper between the plate's outline and where a line of the bar begins again, along that line. Negative: there
- * is none. */
+/* The darkest position on the axis of a line, or within a pixel of it along the outline that it passes behind. */
+static double most_along(const shot *s, dvec at, dvec outline)
+{
+    double most = 0;
+    for (double along = -1; along <= 1; along += 0.5)
+        most = fmax(most, darkness(s, at.x + along * outline.x, at.y + along * outline.y));
+    return most;
+}
+
+/* The paper between the plate's outline and where a line of the bar begins again, across the outline: a halo is as wide
+ * whatever the slant at which lines pass behind. Negative: there is none. */
 static double gap_of(const shot *s, double bar_front, int side, int line)
 {
     double x = side ? plate_half : -plate_half, y = line ? bar_half : -bar_half;
     dvec   near_end = shot_project(s, dvec_of(0, y, bar_front)),
-         far_end = shot_project(s, dvec_of(side ? 1.7 : -1.7, y, bar_front));
-    dvec   from = crossing(near_end, far_end, shot_project(s, dvec_of(x, -1, plate_front)),
-                           shot_project(s, dvec_of(x, 1, plate_front)));
-    double length = hypot(far_end.x - from.x, far_end.y - from.y), ux = (far_end.x - from.x) / length,
-           uy = (far_end.y - from.y) / length;
-    double ends = 0, begins = -1;
-    for (double along = 0; along < length - 4 && begins < 0; along += 0.125) {
-        dvec at = dvec_of(from.x + along * ux, from.y + along * uy, 0);
-        bool ink = most_beside(s, at, ux, uy) > 0.5;
+         far_end = shot_project(s, dvec_of(side ? 1.7 : -1.7, y, bar_front)),
+         low = shot_project(s, dvec_of(x, -1, plate_front)), high = shot_project(s, dvec_of(x, 1, plate_front));
+    dvec   from = crossing(near_end, far_end, low, high);
+    double length = hypot(far_end.x - from.x, far_end.y - from.y), height = hypot(high.x - low.x, high.y - low.y);
+    dvec   way = {(far_end.x - from.x) / length, (far_end.y - from.y) / length, 0},
+         outline = {(high.x - low.x) / height, (high.y - low.y) / height, 0};
+    double across = fabs(way.x * outline.y - way.y * outline.x), ends = 0, begins = -1;
+    for (double along = 0; along < length - 4 && begins < 0; along += 0.125 / across) {
+        bool ink = most_along(s, dvec_of(from.x + along * way.x, from.y + along * way.y, 0), outline) > 0.5;
         if (!ink && ends == 0)
-            ends = along;
+            ends = along * across;
         else if (ink && ends > 0)
-            begins = along;
+            begins = along * across;
     }
     return begins - ends;
 }
@@ -215,8 +224,9 @@ static void convex_bodies_stay(void)
                 view.samples = e == 1 ? 4 : 1;
                 bodies[b](&s);
                 bool good = draw(&plain, &s, "0px", "2px", &view);
+                /* Where lines meet at a corner, what their soft rims have beyond it may become a fifth lighter. */
                 if (draw(&haloed, &s, "9px", "2px", &view) && good)
-                    check_at_most("P35", shot_differing(&plain, &haloed, 0), 0, "values of %s that change, eye %d, %s",
+                    check_at_most("P35", shot_differing(&plain, &haloed, 51), 0, "values of %s that change, eye %d, %s",
                                   names[b], e, parallel ? "parallel" : "perspective");
                 shot_release(&plain);
                 shot_release(&haloed);

@@ -4,7 +4,6 @@
 #include "lines/edge/edge.glsl"
 
 #include "light/piece.glsl"
-#include "lines/record.glsl"
 layout(location = 1) out vec4 out_feet; /* x, y: unit normal of the edge; z: how far it is from the pixel's middle along it; w: 1 where there is one */
 
 /* Pixels along the boundary that are looked at, to either side. */
@@ -128,17 +127,6 @@ void main()
     inks *= bare.y;
 #endif
     int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
-#ifdef HAS_RECORDS
-    vec4 record = texelFetch(t_records, ivec2(gl_FragCoord.xy), 0);
-    /* Two pixels, one on each side: so the map is thin wherever the edge comes from. */
-    record.w = abs(record.z) <= max(abs(record.x), abs(record.y)) + 0.05 ? record.w : 0.0;
-    float crease = record.w >= RECORDED_BORDER ? 0.0 : max(record.w - RECORDED_OUTLINE, -record.w);
-    bool outline = record.w > RECORDED_OUTLINE || (record.w > 0.0 && profile > 0.0);
-    profile = record.w > RECORDED_OUTLINE ? 1.0 : profile;
-    inks.x = record.w != 0.0 && !outline ? max(crease, 0.0) : inks.x;
-    foot = record.w != 0.0 && profile + inks.x + inks.y > 0.0 ? vec4(record.xyz, 1.0) : foot;
-    unknown = foot.w > 0.0 ? 0 : unknown;
-#endif
     for (int once = 0; once < unknown; once++) {
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         vec4 beside = vec4(neighbour(t_depth, vec2(1.0, 0.0)).r, neighbour(t_depth, vec2(-1.0, 0.0)).r, neighbour(t_depth, vec2(0.0, 1.0)).r, neighbour(t_depth, vec2(0.0, -1.0)).r);

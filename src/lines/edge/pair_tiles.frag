@@ -1,4 +1,4 @@
-/* Which tiles have pairs of pixels that an edge parts, or records of edges, within reach of one pixel's neighbours. */
+/* Which tiles have pairs of pixels that an edge parts and records of edges have not drawn, within reach of one pixel's neighbours. */
 layout(location = 0) out vec4 out_0;
 
 const int BESIDE = 2;
@@ -15,9 +15,6 @@ void main()
             ink = ink.x + ink.y > 0.0 ? ink * texelFetch(t_bare, ivec2(x, y), 0).rg : vec2(0.0);
 #endif
             most += ink.x + ink.y;
-#ifdef HAS_RECORDS
-            most += abs(texelFetch(t_records, ivec2(x, y), 0).w);
-#endif
         }
     out_0 = vec4(most > 0.0 ? 1.0 : 0.0);
 }
