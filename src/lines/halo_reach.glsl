@@ -8,5 +8,6 @@ float own_reach()
 
 float halo_reach()
 {
-    return u_line_halo + own_reach() + 0.3 + 0.2 * min(own_reach(), 2.0); /* and what soft rims take away */
+    /* And what soft rims take away, of broad lines on either side. */
+    return u_line_halo + own_reach() + (own_reach() < 1.0 ? 0.15 : 0.3 + 0.2 * min(own_reach(), 2.0));
 }

@@ -63,6 +63,10 @@ vec2 ink_of(nearest_edge found)
     /* Beyond the end the way there is what the band is measured along. */
     vec2 along = vec2(-found.normal.y, found.normal.x), way = found.normal * share + along * sqrt(max(1.0 - share * share, 0.0));
     float cover = found.normal == vec2(0.0) ? clamp(max(half_width, 1.0) - d, 0.0, 1.0) : line_cover(d, d > 0.01 ? way : found.normal, half_width);
+#ifdef HAS_FEET
+    /* Of narrower ones that know no more than pixels. */
+    cover *= found.normal == vec2(0.0) ? min(half_width, 1.0) : 1.0;
+#endif
     return found.ink * cover;
 }
 

@@ -15,7 +15,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(discontinuity, step, .def = 0.0006, .min = 0.00001, .max = 1, .soft_min = 0.0001, .soft_max = 0.1,
                     .unit = UNIT_FRACTION, .logarithmic = true,
                     .doc = "Smallest depth step that is a profile line, as a fraction of the figure's depth range."),
-    PARAM_FLOAT_ROW(discontinuity, slope, .def = 1.05, .min = 0, .max = 10, .soft_max = 3,
+    PARAM_FLOAT_ROW(discontinuity, slope, .def = 1.25, .min = 0, .max = 10, .soft_max = 3,
                     .doc = "How much more than the steeper slope beside it a depth step must be, as a multiple of that "
                            "slope; less finds "
                            "more lines in rough terrain, more keeps it quiet."),

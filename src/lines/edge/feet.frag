@@ -37,7 +37,7 @@ vec4 crossing(vec2 side, float depth, float next, vec4 normal_depth)
 bool is_beside(vec2 off, bool by_depth, float middle, bool own_nearer, uint piece)
 {
     bool same = (neighbour(t_depth, off).r < middle) == own_nearer;
-#ifdef HAS_ID
+#if defined(HAS_ID) && PARTS
     uint other = piece_of(textureLod(t_id, (gl_FragCoord.xy + off) * u_texel, 0.0).rg);
     same = by_depth ? same : other == piece;
 #endif
@@ -131,7 +131,7 @@ void main()
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         vec4 beside = vec4(neighbour(t_depth, vec2(1.0, 0.0)).r, neighbour(t_depth, vec2(-1.0, 0.0)).r, neighbour(t_depth, vec2(0.0, 1.0)).r, neighbour(t_depth, vec2(0.0, -1.0)).r);
         uvec2 id = uvec2(0u);
-#ifdef HAS_ID
+#if defined(HAS_ID) && PARTS
         id = texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg;
 #endif
         foot = foot_of(steps, creases, borders, neighbour(t_depth, vec2(0.0)).r, beside, normal_depth, id);

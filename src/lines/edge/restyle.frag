@@ -13,6 +13,6 @@ void main()
             vec3 more = max(texelFetch(t_whole, at, 0).rga - texelFetch(t_styled, at, 0).rga, vec3(0.0));
             grown = max(grown, more * clamp(radius + 1.0 - length(vec2(x, y)), 0.0, 1.0));
         }
-    vec3 left = 1.0 - max(1.0 - texelFetch(t_edge, pixel, 0).rga, grown * min(0.5 * u_line_width, 1.0));
+    vec3 left = 1.0 - max(1.0 - texelFetch(t_edge, pixel, 0).rga, grown);
     out_0 = vec4(left.r, left.g, left.r * left.g, left.b);
 }
