@@ -229,8 +229,9 @@ static void convex_bodies_stay(void)
                 bodies[b](&s);
                 bool good = draw(&plain, &s, "0px", "2px", &view);
                 if (draw(&haloed, &s, "9px", "2px", &view) && good)
-                    check_at_most("P35", shot_differing(&plain, &haloed, SOFT_RIM), 0, "values of %s that change, eye %d, %s",
-                                  names[b], e, parallel ? "parallel" : "perspective");
+                    check_at_most("P35", shot_differing(&plain, &haloed, SOFT_RIM), 0,
+                                  "values of %s that change, eye %d, %s", names[b], e,
+                                  parallel ? "parallel" : "perspective");
                 shot_release(&plain);
                 shot_release(&haloed);
                 shape_release(&s);

@@ -395,8 +395,8 @@ static void against_opaque(const char *row, const char *what, const shape *s, co
     for (int i = 0; i < drawing->width * drawing->height; i++) {
         const stack_hit *hits = stack_at(&map, i);
         paint            wanted = paint_of(ground, 1);
-        bool             sure = map.sharp[i] && !has_open_order(&map, i) && !ink_around(drawing, i, 1) &&
-                    !trace_map_border(&front, i % drawing->width, i / drawing->width, 1);
+        bool             sure = map.sharp[i] && !has_open_order(&map, i) && !ink_around(drawing, i, 2) &&
+                    !trace_map_border(&front, i % drawing->width, i / drawing->width, 2);
         size_t count = stack_count(&map, i), before = 0;
         count = layers && count > (size_t)layers ? (size_t)layers : count;
         while (before < count && hits[before].depth < front.depth[i]) {
@@ -526,7 +526,7 @@ static void check_wire(scene_kind kind, const char *lines, const char *value, bo
     scene_make(&s, kind, 31);
     snprintf(look, sizeof look,
              LOOK("{\"select\":\"*\"," OWN_COLOUR "," ALL_LAYERS ",\"lines\":{\"operator\":%s,\"colour\":\"#102080\"},"
-                  "\"compose\":{\"technique\":\"wire\",\"once\":false,\"threshold\":%s}}"),
+                  "\"compose\":{\"technique\":\"wire\",\"once\":false,\"softness\":0,\"threshold\":%s}}"),
              lines, value);
     if (shot_of_shape(&drawing, &s, "wire.glb", look, NULL, view))
         for (int i = 0; i < drawing.width * drawing.height; i++) {
@@ -638,7 +638,7 @@ static double ink_across(const shot *s, dvec position)
 {
     double sum = 0;
     for (int x = -8; x < 8; x++)
-        for (int y = (int)position.y - 8; y < (int)position.y + 8; y++)
+        for (int y = (int)position.y - 5; y < (int)position.y + 5; y++)
             sum += (1 - picture_linear(pixel(s, (int)position.x + x, y)[0]) / picture_linear(ground[0])) / 16;
     return sum;
 }
