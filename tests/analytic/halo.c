@@ -136,7 +136,7 @@ static void gaps(void)
 
 /* Where lines meet at a corner, what their soft rims have beyond it may become as much lighter, of 255: pixels of
  * outlines do not tell whose it is. */
-enum { SOFT_RIM = 64 };
+enum { SOFT_RIM = 96 };
 
 /* --- what stays ----------------------------------------------------------------------------------------- */
 
