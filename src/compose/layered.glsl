@@ -66,7 +66,8 @@ vec4 stacked_ink(vec2 position, int i)
         for (int k = 1; k <= reach; k++)
             before = max(before, max(max(ink_before(pixel + ivec2(k, 0)), ink_before(pixel - ivec2(k, 0))),
                                      max(ink_before(pixel + ivec2(0, k)), ink_before(pixel - ivec2(0, k)))));
-        ink *= 1.0 - before;
+        /* Of the same edge it has as much of the pixel. */
+        ink *= clamp(1.0 - before / max(1.0 - min(edge.b, edge.a), 1e-3), 0.0, 1.0);
 #endif
 #ifdef HAS_NEARER
         vec4 nearer = texelFetch(t_nearer, pixel, 0);

@@ -11,8 +11,10 @@ static const param params[] = {
     LAYER_STYLE_ROWS,
     PARAM_FLOAT_ROW(wire, threshold, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Ink below this fraction is left out."),
-    PARAM_FLOAT_ROW(wire, softness, .def = 0, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_FRACTION,
-                    .doc = "Width of a soft threshold; 0 leaves lines fully inked or out, as Nienhaus (2005) does."),
+    PARAM_FLOAT_ROW(wire, softness, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Width of a soft threshold: 1 leaves ink around 0.5 as it is, and so smooth rims; 0 leaves "
+                           "lines fully inked or out, "
+                           "as Nienhaus (2005) does."),
 };
 
 static const pass passes[] = {

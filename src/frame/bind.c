@@ -226,7 +226,7 @@ const technique_use *rule_inked_lines(const rule *r)
 
 static const gpu_format formats[TEXEL_FORMAT_COUNT] = {
     [TEXEL_R8] = GPU_R8,         [TEXEL_RGBA16F] = GPU_RGBA16F,   [TEXEL_RGBA32F] = GPU_RGBA32F,
-    [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F,
+    [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F, [TEXEL_RGBA32UI] = GPU_RGBA32UI,
 };
 
 const target_row *target_row_of(const figure_state *s, target t)
@@ -244,10 +244,10 @@ gpu_texture *frame_acquire(frame *f, target t)
     return frame_acquire_sized(f, t, f->width, f->height);
 }
 
-static void size_apart(const frame *f, int out[2])
+static void size_in_squares(const frame *f, int side, int out[2])
 {
-    out[0] = (f->width + DIRECTION_APART - 1) / DIRECTION_APART;
-    out[1] = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
+    out[0] = (f->width + side - 1) / side;
+    out[1] = (f->height + side - 1) / side;
 }
 
 static void size_in_cells(const frame *f, const figure_state *s, int out[2])
@@ -264,7 +264,9 @@ void target_size(const frame *f, const figure_state *s, target_scale scale, int 
     out[0] = f->width;
     out[1] = f->height;
     if (scale == SCALE_APART)
-        size_apart(f, out);
+        size_in_squares(f, DIRECTION_APART, out);
+    else if (scale == SCALE_TILE)
+        size_in_squares(f, TILE_PIXELS, out);
     else if (scale == SCALE_CELL)
         size_in_cells(f, s, out);
 }
@@ -354,7 +356,7 @@ const pass *rule_merged_detection(const rule *r)
 
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
-    text_append(prelude, "#define DIRECTION_APART %d\n", DIRECTION_APART);
+    text_append(prelude, "#define DIRECTION_APART %d\n#define TILE_PIXELS %d\n", DIRECTION_APART, TILE_PIXELS);
     if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
         text_append(prelude, "#define HAS_FOCUS\n");
     return view_program(f->g, dialect, vertex, fragment, prelude);

@@ -192,6 +192,14 @@ void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
 /* --- strokes.c: lines with geometry --- */
 void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group);
 
+/* Edges of the figure's meshes into the pass's picture: where on the page those are that are lines. Nothing where
+ * meshes are not what is drawn, or have no edges that last. */
+void records_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group);
+/* For programs with lines/stroke/decide.glsl: draws all edges of the item; brings what they are drawn from before. */
+void edges_bring(frame *f, stroke_store *store, uint32_t index, bool crossings);
+void edges_draw(frame *f, stroke_store *store, uint32_t index, bool crossings);
+bool eye_is_outside(const frame *f);
+
 /* --- paper.c: what the sheet's ink is rubbed onto; nothing where there is no paper --- */
 void paper_declare(text *prelude, const frame *f);
 void paper_set(frame *f);

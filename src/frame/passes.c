@@ -21,10 +21,16 @@ static bool goes_onto_page(const pass *p)
     return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || p->writes == TARGET_SHADOW;
 }
 
+/* Is its picture one that is there and added to? */
+static bool adds(const pass *p)
+{
+    return p->onto || goes_onto_page(p);
+}
+
 /* Is the pass drawn in the tiles that have something, instead of everywhere? */
 static bool in_boxes(const figure_state *s, const pass *p)
 {
-    return s->boxes && target_row_of(s, p->writes)->scale == SCALE_PAGE;
+    return s->boxes && !p->tiles && target_row_of(s, p->writes)->scale == SCALE_PAGE;
 }
 
 static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
@@ -47,17 +53,22 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define SEEN_THROUGH\n");
     if (s->figure->complement)
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
+    if (p->writes_too)
+        text_append(&prelude, "#define WRITES_TOO\n");
     if (params->perturbed && goes_onto_page(p)) {
         text_append(&prelude, "#define PERTURBED\n");
         const technique_use *lines = rule_inked_lines(s->figure->rule);
-        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_GROW_FROM * (float)f->samples)
+        if (lines && ((const lines_common *)lines->values)->width > (float)LINES_FOUND_WIDTH * (float)f->samples)
             text_append(&prelude, "#define BROAD_LINES\n");
         used_textures_declare(&prelude, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
         snprintf(path, sizeof path, "%s+%s", params->perturbed->positions, p->shader);
     }
     if (p->strips && target_row_of(s, p->writes)->format == TEXEL_DEPTH32F)
         text_append(&prelude, "#define DEPTH_ALONE\n%s", p->writes == TARGET_SHADOW ? "#define INTO_SHADOW\n" : "");
-    const char *vertex = p->strips ? p->strips->vertex : in_boxes(s, p) ? "gpu/boxes.vert" : "gpu/screen.vert";
+    const char *vertex = p->strips        ? p->strips->vertex
+                         : in_boxes(s, p) ? "gpu/boxes.vert"
+                         : p->tiles       ? "lines/tile.vert"
+                                          : "gpu/screen.vert";
     return program_of(f, GPU_FLOOR, vertex, path, &prelude);
 }
 
@@ -118,18 +129,44 @@ static void draw_strips(frame *f, const figure_state *s, const pass *p, const te
     gpu_marks_destroy(f->g, &strips);
 }
 
-/* What a pass draws into. */
-static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written)
+/* The figure's tiles as quads; those that have nothing are left out where vertices are placed. */
+static void draw_tiles(frame *f, const figure_state *s)
 {
-    bool     page = goes_onto_page(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
-    gpu_pass target = {.colours = {depth_alone ? NULL : written},
-                       .colour_count = !depth_alone,
+    const int *b = s->pixels, first[2] = {b[0] / TILE_PIXELS, b[1] / TILE_PIXELS};
+    int        columns = (b[0] + b[2] - 1) / TILE_PIXELS - first[0] + 1;
+    int        rows = (b[1] + b[3] - 1) / TILE_PIXELS - first[1] + 1;
+    float     *records = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *records), *at = records;
+    for (int i = 0; records && i < columns * rows; i++, at += 4) {
+        at[0] = (float)(first[0] + i % columns);
+        at[1] = (float)(first[1] + i / columns);
+        at[2] = at[3] = 0;
+    }
+    gpu_marks *tiles = records ? gpu_marks_create(f->g, 1, records, (size_t)columns * (size_t)rows) : NULL;
+    if (!records)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(records);
+    gpu_settle(f->g);
+    if (tiles)
+        gpu_draw_marks(f->g, tiles);
+    gpu_marks_destroy(f->g, &tiles);
+}
+
+/* What a pass draws into. */
+static gpu_pass pass_target(frame *f, const figure_state *s, const pass *p, gpu_texture *written, gpu_texture *too)
+{
+    bool     page = adds(p), depth_alone = target_row_of(s, p->writes)->format == TEXEL_DEPTH32F;
+    gpu_pass target = {.colours = {depth_alone ? NULL : written, too},
+                       .colour_count = depth_alone ? 0
+                                       : too       ? 2
+                                                   : 1,
                        .depth = depth_alone ? written
                                 : p->depth  ? f->page_depth
                                             : NULL,
                        .clear = !page,
                        .keep_depth = !depth_alone};
     target_empty(target_row_of(s, p->writes), s->far, target.clear_values[0]);
+    if (too)
+        target_empty(target_row_of(s, p->writes_too), s->far, target.clear_values[1]);
     return target;
 }
 
@@ -144,15 +181,24 @@ static gpu_state pass_state(const figure_state *s, const pass *p)
                                                           : GPU_BLEND_NONE};
 }
 
+/* A pass's picture takes the place of the one before. */
+static void keep_written(frame *f, figure_state *s, target t, gpu_texture *written)
+{
+    if (s->targets[t] != s->geometry)
+        gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = written;
+}
+
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group,
                      int iteration)
 {
     stopwatch    w = watch_start(&f->profile);
     gpu_program *program = pass_program(f, s, p, params);
-    bool         page = goes_onto_page(p); /* pictures that are added to */
+    bool         page = adds(p);
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
+    gpu_texture *too = p->writes_too ? frame_acquire_for(f, s, p->writes_too) : NULL;
     if (program && written && !gpu_failed(f->g)) {
-        gpu_pass target = pass_target(f, s, p, written);
+        gpu_pass target = pass_target(f, s, p, written, too);
         set_scissor(f, s, p, &target);
         gpu_pass_begin(f->g, &target);
         gpu_use(f->g, program, pass_state(s, p));
@@ -161,7 +207,7 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
         for (size_t i = 0; i < params->count; i++)
             uniforms_set(f->g, params->sets[i]);
         reads_set(f, s, p, params->merged);
-        if (params->perturbed && page) {
+        if (params->perturbed && goes_onto_page(p)) {
             used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
             frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
         }
@@ -172,14 +218,15 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
             draw_strips(f, s, p, params->made);
         else if (in_boxes(s, p))
             gpu_draw_boxes(f->g, s->boxes, s->box_count);
+        else if (p->tiles)
+            draw_tiles(f, s);
         else
             gpu_draw_screen(f->g);
     }
-    if (!page) {
-        if (s->targets[p->writes] != s->geometry)
-            gpu_target_release(f->g, s->targets[p->writes]);
-        s->targets[p->writes] = written;
-    }
+    if (!page)
+        keep_written(f, s, p->writes, written);
+    if (too)
+        keep_written(f, s, p->writes_too, too);
     watch_stop(&f->profile, w, group, p->name);
 }
 
@@ -260,7 +307,8 @@ static void run_process(frame *f, figure_state *s, const pass *p, const techniqu
                       .scale = (float)f->samples,
                       .perspective = !f->camera.orthographic};
     for (int i = 0; i < PASS_READS_MAX && p->reads[i]; i++)
-        in.values[i] = read_floats(f, s, p->reads[i], box);
+        if (p->reads[i] < TARGET_COUNT || s->targets[p->reads[i]])
+            in.values[i] = read_floats(f, s, p->reads[i], box);
     gpu_texture *written = frame_acquire_for(f, s, p->writes);
     void        *out = written ? mem_calloc((size_t)box[2] * (size_t)box[3], gpu_texel_size(written)) : NULL;
     if (out && s->targets[p->writes])
@@ -291,6 +339,17 @@ static bool is_due(const frame *f, const pass *p, bool before)
     return p->prepares == before && !(p->stylised && f->maps) && p->writes != TARGET_SHADOW;
 }
 
+/* Are the pictures there that the pass depends on, and none that it stands in for? */
+static bool has_pictures(const figure_state *s, const pass *p)
+{
+    return (!p->with || s->targets[p->with]) && (!p->without || !s->targets[p->without]);
+}
+
+static int rounds_of(const pass *p, const technique_use *use)
+{
+    return p->rounds ? p->rounds(use->values) : p->repeat > 1 ? p->repeat : 1;
+}
+
 static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *use, bool before)
 {
     const technique *t = use->technique;
@@ -315,10 +374,12 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
     }
     for (size_t i = 0; i < t->pass_count; i++) {
         const pass *p = &t->passes[i];
-        if (!pass_applies(id, p, use) || !is_due(f, p, before))
+        if (!pass_applies(id, p, use) || !is_due(f, p, before) || !has_pictures(s, p))
             continue;
         if (p->strokes)
             strokes_run(f, s, p, use, kinds[id]->name);
+        else if (p->records)
+            records_run(f, s, p, use, kinds[id]->name);
         else if (p->scattered)
             run_scattered(f, s, p, use);
         else if (p->geometry)
@@ -326,7 +387,7 @@ static void run_use(frame *f, figure_state *s, kind_id id, const technique_use *
         else if (p->process)
             run_process(f, s, p, use, kinds[id]->name);
         else
-            for (int k = 0; k < (p->repeat > 1 ? p->repeat : 1); k++)
+            for (int k = 0; k < rounds_of(p, use); k++)
                 run_pass(f, s, p, &params, kinds[id]->name, k);
     }
     forget_own(f, s);

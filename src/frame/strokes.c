@@ -85,7 +85,7 @@ static gpu_marks *upload_records(frame *f, float *records, size_t count)
 }
 
 /* Makes what the item's lines are drawn from, unless it is there. */
-static void bring_item(frame *f, stroke_store *store, uint32_t index, bool crossings)
+void edges_bring(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
     uint32_t mesh = store->scene.items[index].mesh;
     if (!store->edges[mesh] && !gpu_failed(f->g))
@@ -112,7 +112,7 @@ static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
     gpu_draw_marks(f->g, marks);
 }
 
-static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool crossings)
+void edges_draw(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
     const stroke_item *item = &store->scene.items[index];
     const mat4         still = mat4_identity();
@@ -122,7 +122,7 @@ static void draw_lines_of(frame *f, stroke_store *store, uint32_t index, bool cr
 }
 
 /* Is the near plane before all parts, so that closed ones are seen from outside? */
-static bool eye_is_outside(const frame *f)
+bool eye_is_outside(const frame *f)
 {
     double nearest = INFINITY, farthest = -INFINITY;
     for (size_t i = 0; i < f->up->part_count;
@@ -149,7 +149,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     /* Before the pass begins: making records takes the place of what is bound. */
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            bring_item(f, store, i, v->options.intersections);
+            edges_bring(f, store, i, v->options.intersections);
     open_maps(f, s);
     if (!program || gpu_failed(f->g))
         return;
@@ -163,7 +163,7 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
     gpu_settle(f->g);
     for (uint32_t i = 0; i < store->scene.item_count; i++)
         if (s->figure->designated[store->scene.items[i].part_index])
-            draw_lines_of(f, store, i, v->options.intersections);
+            edges_draw(f, store, i, v->options.intersections);
 }
 
 /* --- exact ---------------------------------------------------------------------------------------------- */

@@ -195,7 +195,7 @@ bool dash_process(const pass_pixels *in, void *out, const void *values)
     uint8_t            *ink = mem_alloc(count);
     bool                good = ink != NULL;
     if (good) {
-        lines_find_ink(ink, in->values[0], count, lines);
+        lines_find_ink(ink, in->values[1] ? in->values[1] : in->values[0], count, lines);
         good = chains_trace(&set, ink, in->width, in->height, LINES_SPUR) &&
                dash_paint(out, in->width, in->height, &set, &style);
     }

@@ -5,6 +5,10 @@
 #include "lines/halo.glsl"
 layout(location = 0) out vec4 out_0;
 
+/* The rims of lines are soft, and outlines up to a pixel off the middle of theirs: no farther than this beyond its reach an outline has ink of its own. */
+const float RIM = 1.6;
+float s_own = 0.0; /* fraction of the pixel that nearer outlines beside it may have inked themselves */
+
 /* Whose line this pixel's ink is: x, y = where, from here; z = its window depth. */
 vec3 owner_here()
 {
@@ -13,7 +17,7 @@ vec3 owner_here()
     for (int y = -own; y <= own; y++)
         for (int x = -own; x <= own; x++) {
             vec2 off = vec2(float(x), float(y));
-            bool outline = textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).r > 0.0;
+            bool outline = length(off) < own_reach() + 0.8 && textureLod(t_outlines, (gl_FragCoord.xy + off) * u_texel, 0.0).r > 0.0;
             float depth = outline ? depth_at(off) : 1.0;
             owner = depth < owner.z ? vec3(off, depth) : owner;
         }
@@ -48,7 +52,9 @@ float kept_beside(vec2 off, float beyond, vec3 owner, vec3 plane, float clear_ti
     float depth = depth_at(off), apart = plane.z * (1.0 + 0.125 * length(off));
     apart += clear_step(depth) * (clear_times + (plane.z > 0.0 ? there.g : 0.0));
     bool nearer = owner.z + min(0.0, dot(plane.xy, off - owner.xy)) - depth > apart;
-    return there.r > 0.0 && nearer ? clamp(beyond, 0.0, 1.0) : 1.0;
+    nearer = nearer && there.r > 0.0;
+    s_own = nearer ? max(s_own, clamp(own_reach() + RIM - length(off), 0.0, 1.0)) : s_own;
+    return nearer ? clamp(beyond, 0.0, 1.0) : 1.0;
 }
 
 /* The same of all outlines around; rows that have none nearer are left out. */
@@ -86,6 +92,6 @@ void main()
         for (int again = 0; again < crossed; again++)
             kept = kept_of(owner, clear_times);
     }
-    vec4 left = 1.0 - (1.0 - edge) * kept;
+    vec4 left = 1.0 - max((1.0 - edge) * kept, min(1.0 - edge, vec4(s_own)));
     out_0 = vec4(left.r, left.g, left.r * left.g, left.a);
 }

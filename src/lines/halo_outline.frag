@@ -1,11 +1,12 @@
 /* Where the outlines are that give farther lines a halo: r = 1 − window depth, 0 elsewhere; g = how
  * uncertain its slope is there, in clear steps. */
 #include "lines/halo.glsl"
+#include "lines/lines.glsl"
 layout(location = 0) out vec4 out_0;
 
 bool is_ink(vec2 off)
 {
-    vec4 edge = textureLod(t_edge, (gl_FragCoord.xy + off) * u_texel, 0.0);
+    vec4 edge = textureLod(t_lines, (gl_FragCoord.xy + off) * u_texel, 0.0);
     vec3 ink = (1.0 - edge.rga) * vec3(u_line_profile_weight, u_line_inner_weight, u_line_id_weight);
     return max(ink.x, max(ink.y, ink.z)) >= LINE_INK;
 }
@@ -22,13 +23,13 @@ void main()
 {
     float depth = depth_at(vec2(0.0)), nearness = 0.0, steep = 0.0;
     bool inked = is_ink(vec2(0.0));
-    /* Loops that run once or not at all: software drivers skip loops, not branches. Thin lines may lie on the farther side alone. */
-    int busy = depth < 1.0 && (inked || own_reach() < 1.0) ? 1 : 0;
+    /* Loops that run once or not at all: software drivers skip loops, not branches. */
+    int busy = depth < 1.0 && inked ? 1 : 0;
     for (int once = 0; once < busy; once++) {
         float clear = clear_step(depth);
         const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
         for (int k = 0; k < 4; k++)
-            nearness = steps_down(depth, sides[k], clear) && (inked || is_ink(sides[k])) ? max(1.0 - depth, 1e-4) : nearness;
+            nearness = steps_down(depth, sides[k], clear) ? max(1.0 - depth, 1e-4) : nearness;
         int found = nearness > 0.0 ? 1 : 0;
         for (int again = 0; again < found; again++)
             steep = min(plane_at(vec3(0.0, 0.0, depth)).z / clear, 60000.0);

@@ -14,8 +14,8 @@ static const param common[] = {
                      .doc = "Colour of inner lines: creases; auto takes colour."),
     PARAM_COLOUR_ROW(lines_common, id_colour, .can_auto = true, .def_auto = true, .auto_from = "colour",
                      .doc = "Colour of lines between parts; auto takes colour."),
-    PARAM_FLOAT_ROW(lines_common, width, .def = 1.5, .min = 0.375, .max = 24, .soft_min = 0.75, .soft_max = 6,
-                    .unit = UNIT_PT, .doc = "Width of the lines; above 2 they grow from the detected map."),
+    PARAM_FLOAT_ROW(lines_common, width, .def = 1.5, .min = 0, .max = 24, .soft_min = 0.375, .soft_max = 6,
+                    .unit = UNIT_PT, .doc = "Width of the lines."),
     PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of profile lines; 0 hides them."),
     PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
@@ -65,6 +65,21 @@ static const param common[] = {
 /* Ink of less than this is shading. */
 static const float line_ink = 0.15f;
 
+/* One for steps of one pixel, then those of lines/reach.glsl. */
+int lines_flood_rounds(const void *values)
+{
+    int reach = (int)ceilf(0.5f * ((const lines_common *)values)->width + 0.75f), exponent = 0;
+    while (1 << (exponent + 1) < reach)
+        exponent++;
+    return exponent + 2;
+}
+
+int lines_style_rounds(const void *values)
+{
+    const lines_common *lines = values;
+    return lines->overshoot > 0 || lines->halo > 0 || lines->dash > 0;
+}
+
 static float weight_of(float weight, colour own, colour standard)
 {
     float alpha = isnan(own.r) ? standard.a : own.a;
@@ -88,6 +103,14 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
     {"t_nearer_row", TEXEL_RGBA16F},
     {"t_filtered", TEXEL_RGBA16F, .filtered = true, .empty = {0, 0, 1, 1}},
     {"t_gradient", TEXEL_RGBA16F},
+    {"t_feet", TEXEL_RGBA16F},
+    {"t_tiles", TEXEL_R8, SCALE_TILE},
+    {"t_seeds", TEXEL_RGBA32UI, .empty = {0xC000C000u, 0xC000C000u, 0xC000C000u, 0}}, /* none */
+    {"t_pairs", TEXEL_RGBA16F},
+    {"t_bare", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_thin", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_whole", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_styled", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
 };
 
 static const technique *const techniques[] = {

@@ -27,8 +27,8 @@ typedef struct lines_common {
  * than a line's weight is shading; lines that are translucent are lines all the same. */
 void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_common *lines);
 
-/* Lines wider than this, in pixels, are grown from the detected map. */
-enum { LINES_GROW_FROM = 2 };
+/* How wide lines are that operators find, in pixels: all that is known is between which pixels an edge runs. */
+enum { LINES_FOUND_WIDTH = 2 };
 
 /* What contrast-aware lines look at. */
 #define LINES_PASSES_CONTRAST                                                                                          \
@@ -48,9 +48,47 @@ enum { LINES_GROW_FROM = 2 };
 #define LINES_NEARER_ROW TARGET_OWN(1) /* how near the nearest outline is across */
 #define LINES_FILTERED   TARGET_OWN(2) /* normal and normalised depth, which may be sampled with a filter */
 #define LINES_GRADIENT   TARGET_OWN(3) /* r = first-order, g = second-order difference of depth */
-#define LINES_TARGETS    .targets = lines_targets, .target_count = LINES_TARGET_COUNT
-enum { LINES_TARGET_COUNT = 4 };
+#define LINES_FEET       TARGET_OWN(4) /* where the edge beside a pixel is: lines/edge/feet.frag */
+#define LINES_TILES      TARGET_OWN(5) /* 1: a tile that lines may reach */
+#define LINES_SEEDS      TARGET_OWN(6) /* lines/seed.glsl */
+#define LINES_PAIRS      TARGET_OWN(7) /* lines/edge/pairs.frag */
+#define LINES_BARE       TARGET_OWN(8) /* r: of outlines, g: of others; 0 beside edges that are drawn already, else 1 */
+#define LINES_THIN       TARGET_OWN(9) /* the edge map, two pixels wide, of what is not drawn already */
+#define LINES_WHOLE      TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
+#define LINES_STYLED     TARGET_OWN(11) /* the same, run on and cut short */
+enum { LINES_TARGET_COUNT = 12 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
+#define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
+
+/* Lines as wide as they are to be, from a map of what is beside them and, where they are known, the places of edges. Of
+ * lines so broad that the pixels beside them are far, floods find the nearest of those that have ink. */
+#define LINES_PASSES_FLOOD(map, feet)                                                                                  \
+    {.name = "wide tiles",                                                                                             \
+     .shader = "lines/tiles_wide.frag",                                                                                \
+     .reads = {LINES_TILES},                                                                                           \
+     .writes = LINES_TILES,                                                                                            \
+     .when = "width>3"},                                                                                               \
+        {.name = "flood's first",                                                                                      \
+         .shader = "lines/flood_first.frag",                                                                           \
+         .reads = {map, LINES_TILES, feet},                                                                            \
+         .writes = LINES_SEEDS,                                                                                        \
+         .tiles = LINES_TILES,                                                                                         \
+         .when = "width>3"},                                                                                           \
+    {                                                                                                                  \
+        .name = "flood", .shader = "lines/flood.frag", .reads = {LINES_SEEDS, LINES_TILES}, .writes = LINES_SEEDS,     \
+        .rounds = lines_flood_rounds, .tiles = LINES_TILES, .when = "width>3"                                          \
+    }
+/* The same of what operators found that know no more than pixels. */
+#define LINES_PASSES_SPREAD                                                                                            \
+    {.name = "tiles", .shader = "lines/tiles.frag", .reads = {TARGET_EDGE}, .writes = LINES_TILES, .when = "width>2"}, \
+        LINES_PASSES_FLOOD(TARGET_EDGE, TARGET_NONE),                                                                  \
+    {                                                                                                                  \
+        .name = "spread", .shader = "lines/spread.frag", .reads = {TARGET_EDGE, LINES_TILES, LINES_SEEDS},             \
+        .writes = TARGET_EDGE, .tiles = LINES_TILES, .when = "width>2"                                                 \
+    }
+int lines_flood_rounds(const void *values);
+/* Once where lines run on, are cut short or dashed, else not at all. */
+int lines_style_rounds(const void *values);
 
 /* Passes that surround an operator's own. Lines run on, stop short of what is in front and are dashed before they
  * grow: thin ones are traced best, and dashes know where lines end. */
@@ -59,22 +97,22 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
         .name = "prefilter", .shader = "lines/edge/prefilter.frag", .reads = {TARGET_NORMAL_DEPTH},                    \
         .writes = TARGET_NORMAL_DEPTH, .when = "sharpen"                                                               \
     }
-#define LINES_PASSES_BEHIND                                                                                            \
+#define LINES_PASSES_STYLISE(found, styled, changed)                                                                   \
     {.name = "overshoot",                                                                                              \
      .process = overshoot_process,                                                                                     \
-     .reads = {TARGET_EDGE, TARGET_NORMAL_DEPTH},                                                                      \
+     .reads = {found, TARGET_NORMAL_DEPTH},                                                                            \
      .writes = TARGET_OVERSHOOT,                                                                                       \
      .when = "overshoot",                                                                                              \
      .stylised = true},                                                                                                \
         {.name = "overshoot ink",                                                                                      \
          .shader = "lines/edge/overshoot.frag",                                                                        \
-         .reads = {TARGET_EDGE, TARGET_OVERSHOOT},                                                                     \
-         .writes = TARGET_EDGE,                                                                                        \
+         .reads = {found, TARGET_OVERSHOOT},                                                                           \
+         .writes = styled,                                                                                             \
          .when = "overshoot",                                                                                          \
          .stylised = true},                                                                                            \
         {.name = "halo outlines",                                                                                      \
          .shader = "lines/halo_outline.frag",                                                                          \
-         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH},                                                    \
+         .reads = {found, TARGET_DEPTH, TARGET_NORMAL_DEPTH, changed},                                                 \
          .writes = LINES_OUTLINES,                                                                                     \
          .when = "halo",                                                                                               \
          .stylised = true},                                                                                            \
@@ -84,24 +122,19 @@ extern const target_row lines_targets[LINES_TARGET_COUNT];
          .writes = LINES_NEARER_ROW,                                                                                   \
          .when = "halo",                                                                                               \
          .stylised = true},                                                                                            \
-        {.name = "halo",                                                                                               \
-         .shader = "lines/halo.frag",                                                                                  \
-         .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW,                   \
-                   TARGET_OVERSHOOT},                                                                                  \
-         .writes = TARGET_EDGE,                                                                                        \
-         .when = "halo",                                                                                               \
-         .stylised = true},                                                                                            \
-        {.name = "dashes",                                                                                             \
-         .process = dash_process,                                                                                      \
-         .reads = {TARGET_EDGE},                                                                                       \
-         .writes = TARGET_DASH,                                                                                        \
-         .when = "dash",                                                                                               \
-         .stylised = true},                                                                                            \
-        {.name = "grow",                                                                                               \
-         .shader = "lines/edge/grow.frag",                                                                             \
-         .reads = {TARGET_EDGE},                                                                                       \
-         .writes = TARGET_EDGE,                                                                                        \
-         .when = "width>2"},                                                                                           \
+    {                                                                                                                  \
+        .name = "dashes", .process = dash_process, .reads = {found, changed}, .writes = TARGET_DASH, .when = "dash",   \
+        .stylised = true                                                                                               \
+    }
+/* Last, when lines are as wide as they are to be. */
+#define LINES_PASSES_HALO                                                                                              \
+    {                                                                                                                  \
+        .name = "halo", .shader = "lines/halo.frag",                                                                   \
+        .reads = {TARGET_EDGE, TARGET_DEPTH, TARGET_NORMAL_DEPTH, LINES_OUTLINES, LINES_NEARER_ROW, TARGET_OVERSHOOT}, \
+        .writes = TARGET_EDGE, .when = "halo", .stylised = true                                                        \
+    }
+#define LINES_PASSES_BEHIND                                                                                            \
+    LINES_PASSES_STYLISE(TARGET_EDGE, TARGET_EDGE, TARGET_NONE), LINES_PASSES_SPREAD, LINES_PASSES_HALO,               \
         LINES_PASSES_CONTRAST
 
 extern const technique lines_discontinuity, lines_four_tap, lines_sobel, lines_saito, lines_saito_normalised,

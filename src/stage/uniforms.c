@@ -18,7 +18,7 @@ void target_declare(text *prelude, const target_row *row)
     char capitals[CAPITALS_SIZE];
     uniforms_capitals(row->name + 2, capitals);
     text_append(prelude, "#ifndef HAS_%s\n#define HAS_%s\nuniform %s %s;\n#endif\n", capitals, capitals,
-                row->format == TEXEL_RG32UI ? "usampler2D" : "sampler2D", row->name);
+                row->format == TEXEL_RG32UI || row->format == TEXEL_RGBA32UI ? "usampler2D" : "sampler2D", row->name);
 }
 
 static void declare_variant(text *prelude, const param *p, const void *values)

@@ -233,7 +233,7 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
-    for (int i = 0; i < 2 && u->revision == earlier->revision; i++) {
+    for (int i = 0; i < STROKE_STORES && u->revision == earlier->revision; i++) {
         u->strokes[i] = earlier->strokes[i]; /* these know their moment, too */
         earlier->strokes[i] = NULL;
     }
@@ -309,7 +309,7 @@ void upload_release(upload *u, gpu *g)
         upload_shape_release(&u->shapes[i]);
     mark_sets_release(&u->marks, g);
     gpu_target_release(g, u->part_frames);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < STROKE_STORES; i++)
         stroke_store_destroy(&u->strokes[i], g);
     mem_free(u->part_frame_values);
     mem_free(u->rest_frame_values);

@@ -79,6 +79,9 @@ typedef struct draw_item {
     float nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
 } draw_item;
 
+/* Stores of figures that hide what is behind, of those that are seen through, and of edges that are looked up. */
+enum { STROKES_OPAQUE, STROKES_SEEN_THROUGH, STROKES_LOOKED_UP, STROKE_STORES };
+
 typedef struct upload {
     uint64_t        revision, identity; /* of the scene */
     double          crease_angle;       /* radians */
@@ -116,10 +119,9 @@ typedef struct upload {
     float        *part_frame_values; /* what is in it */
     float        *rest_frame_values; /* the same of the pose at rest; NULL: not asked for yet */
     double        frame_origin[3];
-    mark_sets    *marks;      /* NULL: none yet */
-    stroke_store *strokes[2]; /* of figures that hide what is behind, and of those that are seen through; NULL: not
-                                 asked for yet */
-    uint64_t triangles;       /* drawn, instances counted */
+    mark_sets    *marks;                  /* NULL: none yet */
+    stroke_store *strokes[STROKE_STORES]; /* NULL: not asked for yet */
+    uint64_t      triangles;              /* drawn, instances counted */
 } upload;
 
 /* How a scene is put on the GPU. */

@@ -41,7 +41,7 @@ typedef enum target {
 } target;
 
 /* Behind them lie the technique's own, in the order of its rows. */
-enum { OWN_TARGETS_MAX = 4, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
+enum { OWN_TARGETS_MAX = 12, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
 #define TARGET_OWN(index) ((target)(TARGET_COUNT + (index)))
 
 typedef enum target_format {
@@ -50,6 +50,7 @@ typedef enum target_format {
     TEXEL_RGBA16F,
     TEXEL_RGBA32F,
     TEXEL_RG32UI,
+    TEXEL_RGBA32UI,
     TEXEL_DEPTH32F,
     TEXEL_FORMAT_COUNT
 } target_format;
@@ -59,10 +60,11 @@ typedef enum target_scale {
     SCALE_PAGE,  /* one a pixel */
     SCALE_APART, /* one for DIRECTION_APART² pixels, of the one in its middle */
     SCALE_CELL,  /* one a cell of the figure's perturbation, at its corners */
+    SCALE_TILE,  /* one a square of TILE_PIXELS² pixels */
     SCALE_OWN    /* as who makes it says */
 } target_scale;
 
-enum { DIRECTION_APART = 4 };
+enum { DIRECTION_APART = 4, TILE_PIXELS = 16 };
 
 /* Who has a picture, and until when. Figures that are layered have theirs from the first layer to the last. */
 typedef enum target_owner {

@@ -54,6 +54,7 @@ typedef struct pass {
     const char *shader;                /* path below src/, for example "lines/edge/four_tap.frag" */
     target      reads[PASS_READS_MAX]; /* as samplers t_NAME, with HAS_NAME, in capitals, where the picture is there */
     target      writes;
+    target      writes_too; /* TARGET_NONE, or a second picture of the same size: WRITES_TOO */
     pass_blend  blend;
     bool depth;    /* test gl_FragDepth against the page, and write it there (a depth sprite) unless a layer is drawn */
     bool geometry; /* draws the figure's parts again instead of a full screen: shaded and inked by the shader file's
@@ -67,13 +68,19 @@ typedef struct pass {
     /* Draws a mover's geometry, each pixel at as many moments of the exposure as this parameter says, with this
      * fragment shader; the nearest depth goes into the next of the technique's own targets. */
     const char *scattered;
-    bool        strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
+    target      tiles; /* TARGET_NONE, or a picture of SCALE_TILE: drawn only in the tiles where it is not 0 */
+    bool
+        records; /* instead of a shader: edges of the figure's meshes, where they are on the page: lines/records.vert */
+    bool strokes; /* instead of a shader: strokes of the figure's parts, as the technique's strokes_values say */
     const strip_source *strips; /* these instead of the screen, one over the other; into a picture of depth the nearest
                                    (DEPTH_ALONE) */
-    int         repeat;         /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
-    const char *when;           /* condition on the technique's parameters; NULL: always */
+    int repeat;                 /* 0 and 1: once; n: n times, ping-ponged, with u_iteration counting */
+    int (*rounds)(const void *values); /* instead of `repeat`, by the technique's values */
+    target      with, without;         /* TARGET_NONE, or only if this picture is there, or is not */
+    const char *when;                  /* condition on the technique's parameters; NULL: always */
     bool prepares; /* surface: run before the figure is shaded from its G-buffer, not after; left out where it is shaded
                       with its geometry */
+    bool onto;     /* drawn onto what is there, which it does not read */
     bool stylised; /* left out in maps, which show what was detected */
 } pass;
 

@@ -187,6 +187,9 @@ static void forms_agree(void)
     }
 }
 
+/* Half a step of a map of 8 bits, which is linear, is so many of the picture's beside black. */
+enum { HALF_STEP = 7 };
+
 /* The picture is the edge map inked onto the shade map, pixel by pixel, in each class's colour. */
 static void superimposed_colours(void)
 {
@@ -207,10 +210,10 @@ static void superimposed_colours(void)
                 const uint8_t *e = &drawing.edge[4 * i], *p = &drawing.picture[4 * i];
                 if (e[0] == 0) {
                     profile++;
-                    wrong += !is_colour(p, 255, 0, 0, 1);
+                    wrong += !is_colour(p, 255, 0, 0, HALF_STEP);
                 } else if (e[0] == 255 && e[1] == 0) {
                     inner++;
-                    wrong += !is_colour(p, 0, 0, 255, 1);
+                    wrong += !is_colour(p, 0, 0, 255, HALF_STEP);
                 } else if (e[0] == 255 && e[1] == 255 && e[3] == 255) {
                     wrong += !is_colour(p, 255, 255, 255, 1);
                 }

@@ -104,7 +104,7 @@ static const layered_case cases[] = {
      "{\"technique\":\"uncertainty\",\"amount\":7,\"scale\":45}",
      {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_SHADE, 0.4, 1},
      0.995},
-    {"{\"technique\":\"wire\",\"once\":false}",
+    {"{\"technique\":\"wire\",\"once\":false,\"softness\":0}",
      "{\"technique\":\"uncertainty\",\"amount\":7,\"field\":\"turbulence\"}",
      {7, {1, 0, 0, 1}, {-0.75, 0, 0, -0.75}, FILL_NONE, 0, 1},
      0.99},

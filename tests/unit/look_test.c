@@ -324,8 +324,8 @@ static void test_set_refused(void **state)
     } cases[] = {
         {"line.width", "3", "no kind 'line'", "'lines.width'"},
         {"lines.widht", "3", "lines has no parameter 'widht'", "'width'"},
-        {"lines.width", "300px", "lines.width is '300px'; allowed is a number from 0.375 to 24 pt", ""},
-        {"lines.width", "nan", "0.375 to 24 pt", ""},
+        {"lines.width", "300px", "lines.width is '300px'; allowed is a number from 0 to 24 pt", ""},
+        {"lines.width", "nan", "0 to 24 pt", ""},
         {"wheels:surface.hardness", "1", "no parameter 'hardness'", ""},
         {"1:surface.bands", "3", "technique 'lit' has no parameter 'bands'; these have it: ", "surface.technique"},
         {"1:lines.width", "3", "has no lines", "lines.operator"},

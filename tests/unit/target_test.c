@@ -74,7 +74,7 @@ static bool reads(const pass *p, target t)
 /* Passes of movers at each pixel's moments write the depth behind their picture, too. */
 static bool pass_writes(const pass *p, target which)
 {
-    return p->writes == which || (p->scattered && p->writes + 1 == which);
+    return p->writes == which || (p->writes_too && p->writes_too == which) || (p->scattered && p->writes + 1 == which);
 }
 
 /* A pass that is repeated reads what it wrote itself. */

@@ -17,11 +17,21 @@ float emphasised(float intensity)
     return 1.0 - clamp((1.0 - intensity - u_line_threshold) * u_line_gain, 0.0, 1.0);
 }
 
+/* Ink of operators that find lines two pixels wide, of narrower ones. */
+float narrowed(float intensity)
+{
+#ifdef OWN_WIDTH
+    return intensity;
+#else
+    return 1.0 - (1.0 - intensity) * min(0.5 * u_line_width, 1.0);
+#endif
+}
+
 void write_edges(float profile, float inner, float id)
 {
-    profile = emphasised(profile);
-    inner = emphasised(inner);
-    out_edge = vec4(profile, inner, profile * inner, emphasised(id));
+    profile = narrowed(emphasised(profile));
+    inner = narrowed(emphasised(inner));
+    out_edge = vec4(profile, inner, profile * inner, narrowed(emphasised(id)));
 }
 
 /* The texel `off` pixels from this one, clamped at the border by the sampler, which costs less than fetching by index. */

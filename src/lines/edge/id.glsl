@@ -18,6 +18,6 @@ void detect_edges()
     bool up = id_at(ivec2(0, 1)) != own || id_at(ivec2(1, 0)) != own;
     bool down = id_at(ivec2(0, -1)) != own || id_at(ivec2(-1, 0)) != own;
     /* One pixel wide, the line lies on one side of the border; at two it lies on both. */
-    float ink = up ? 1.0 : down ? clamp(u_line_width - 1.0, 0.0, 1.0) : 0.0;
+    float ink = up ? 1.0 : down ? 1.0 : 0.0;
     write_edges(1.0, 1.0, 1.0 - ink);
 }

@@ -1,5 +1,6 @@
 /* Ink where the light on one surface differs across the pixel. Both ends must face the light and lie in one surface: where a shape turns away from the light,
  * or another begins, is a matter for other operators. */
+#define OWN_WIDTH
 #include "lines/edge/edge.glsl"
 #include "light/shadow.glsl"
 

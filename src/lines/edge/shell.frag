@@ -1,4 +1,5 @@
 /* Ink where the shell is nearer than the figure; of several layers the first has it. */
+#define OWN_WIDTH
 #include "lines/edge/edge.glsl"
 
 /* Of window depth: what two ways to the same position may differ by. */

@@ -1,4 +1,5 @@
-/* See discontinuity.c. A pixel is ink when visibility, orientation or part changes between it and one of its four neighbours. */
+/* See discontinuity.c: where visibility, orientation or part changes between neighbours. x, y: profile ink to the right and up; z, w: inner ink, and 2 where there is id
+ * ink, the same. */
 #include "lines/edge/edge.glsl"
 
 #include "light/piece.glsl"
@@ -17,7 +18,7 @@ float unexplained(float before, float across, float behind)
 }
 
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
-vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uvec2 id, float crease_weight, float far_weight)
+vec2 inner_and_id(vec2 side, vec3 normal, vec3 ray, uvec2 id)
 {
     vec3 other = neighbour(t_normal_depth, side).xyz;
     float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
@@ -25,23 +26,23 @@ vec2 inner_and_id(vec2 side, float across, vec3 normal, vec3 ray, uvec2 id, floa
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
 #if PARTS
-    between = piece_of(other_id) != piece_of(id) ? (across > 0.0 ? 1.0 : far_weight) : 0.0;
+    between = piece_of(other_id) != piece_of(id) ? 1.0 : 0.0;
 #endif
     bool meet = ((id.g ^ other_id.g) & SURFACE_INDEX_MASK) != 0u && (id.g & other_id.g & SURFACE_OPERAND) != 0u;
     faint = meet ? mix(1.0, u_line_meet, 0.5) : faint;
     crease = meet ? u_line_meet : crease;
 #endif
-    float inner = clamp((faint - cosine) / max(faint - crease, 1e-4), 0.0, 1.0) * crease_weight;
+    float inner = clamp((faint - cosine) / max(faint - crease, 1e-4), 0.0, 1.0);
     return vec2(inner, between);
 }
 
 /* Profile ink between this pixel and its neighbour of depth `next`; `before` and `behind_next` lie on either side of the two. Where
  * one of the two is empty there is nothing but a profile, and `inks` is cleared. */
-float profile_ink(float before, float depth, float next, float behind_next, float tolerance, float far_weight, inout vec2 inks)
+float profile_ink(float before, float depth, float next, float behind_next, float tolerance, inout vec2 inks)
 {
     if ((depth >= 1.0) != (next >= 1.0)) {
         inks = vec2(0.0);
-        return depth >= 1.0 ? far_weight : 1.0;
+        return 1.0;
     }
     float across = next - depth;
     float slope_before = before >= 1.0 ? behind_next - next : depth - before;
@@ -50,7 +51,7 @@ float profile_ink(float before, float depth, float next, float behind_next, floa
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
     excess -= inks.x * 0.5 * max(abs(slope_before), abs(slope_behind));
-    return smoothstep(0.5, 1.0, excess / tolerance) * (across > 0.0 ? 1.0 : far_weight);
+    return smoothstep(0.5, 1.0, excess / tolerance);
 }
 
 float depth_at(float x, float y)
@@ -58,14 +59,13 @@ float depth_at(float x, float y)
     return neighbour(t_depth, vec2(x, y)).r;
 }
 
-void detect_edges()
+/* Of the pairs that this pixel makes with its neighbours to the right and above: each pair is looked at once. */
+void main()
 {
-    float depth = depth_at(0.0, 0.0);
-    float right = depth_at(1.0, 0.0), left = depth_at(-1.0, 0.0), up = depth_at(0.0, 1.0), down = depth_at(0.0, -1.0);
-    float profile = 0.0;
-    vec2 inks = vec2(0.0);
+    float depth = depth_at(0.0, 0.0), right = depth_at(1.0, 0.0), up = depth_at(0.0, 1.0);
+    vec2 steps = vec2(0.0), to_right = vec2(0.0), to_up = vec2(0.0);
     /* Loops that run once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
-    int busy = min(depth, min(min(left, right), min(up, down))) < 1.0 ? 1 : 0;
+    int busy = min(depth, min(right, up)) < 1.0 ? 1 : 0;
     for (int once = 0; once < busy; once++) {
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         /* Normals count as turned to the viewer, so that models of mixed winding show no lines where only the winding changes. */
@@ -78,22 +78,16 @@ void detect_edges()
 #ifdef HAS_ID
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
-        float second = clamp(u_line_width - 1.0, 0.0, 1.0);
-        vec2 to_right = inner_and_id(vec2(1.0, 0.0), right - depth, normal, ray, id, 1.0, second);
-        vec2 to_left = inner_and_id(vec2(-1.0, 0.0), left - depth, normal, ray, id, second, second);
-        vec2 to_up = inner_and_id(vec2(0.0, 1.0), up - depth, normal, ray, id, 1.0, second);
-        vec2 to_down = inner_and_id(vec2(0.0, -1.0), down - depth, normal, ray, id, second, second);
+        to_right = inner_and_id(vec2(1.0, 0.0), normal, ray, id);
+        to_up = inner_and_id(vec2(0.0, 1.0), normal, ray, id);
+        float left = depth_at(-1.0, 0.0), down = depth_at(0.0, -1.0);
         /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
         float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
-        float farthest = max(depth, max(max(left, right), max(up, down)));
-        int bent = bend > 0.5 * tolerance || farthest >= 1.0 ? 1 : 0;
+        int bent = bend > 0.5 * tolerance || max(depth, max(right, up)) >= 1.0 ? 1 : 0;
         for (int again = 0; again < bent; again++) {
-            profile = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, second, to_right);
-            profile = max(profile, profile_ink(right, depth, left, depth_at(-2.0, 0.0), tolerance, second, to_left));
-            profile = max(profile, profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, second, to_up));
-            profile = max(profile, profile_ink(up, depth, down, depth_at(0.0, -2.0), tolerance, second, to_down));
+            steps.x = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
+            steps.y = profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
         }
-        inks = max(max(to_right, to_left), max(to_up, to_down));
     }
-    write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
+    out_edge = vec4(steps, to_right.x + 2.0 * to_right.y, to_up.x + 2.0 * to_up.y);
 }

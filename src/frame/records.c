@@ -1,0 +1,93 @@
+/* The pass "records": where the edges of a figure's meshes are on the page, exactly, for lines that are found in
+ * pictures. Pixels tell that surfaces part, records where. Persson's geometric post-process antialiasing (2011) does
+ * the same for edges of triangles. */
+#include "base/memory.h"
+#include "frame/frame_private.h"
+#include "lines/stroke/strokes.h"
+
+#include <string.h>
+
+/* In a record's bits, of what is wanted: outlines. */
+enum { RECORD_OUTLINE = 32 };
+
+static stroke_store *find_store(frame *f)
+{
+    bool *parts = mem_calloc(f->up->part_count, sizeof *parts);
+    for (size_t i = 0; parts && i < f->up->part_count; i++)
+        parts[i] = f->plan->selected[i];
+    if (!parts)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    stroke_store_options options = {f->up->pose, parts, f->up->part_count, f->up->crease_angle, 0};
+    stroke_store        *s = parts ? stroke_store_find(&f->up->strokes[STROKES_LOOKED_UP], f->g, &options) : NULL;
+    mem_free(parts);
+    return s;
+}
+
+static gpu_texture *renew(frame *f, figure_state *s, target t)
+{
+    gpu_target_release(f->g, s->targets[t]);
+    s->targets[t] = frame_acquire_for(f, s, t);
+    return s->targets[t];
+}
+
+static void open_pictures(frame *f, figure_state *s, const pass *p)
+{
+    const target written[] = {p->writes, p->writes_too};
+    gpu_pass     into = {.colour_count = 2, .clear = true};
+    for (int i = 0; i < 2; i++) {
+        into.colours[i] = renew(f, s, written[i]);
+        target_empty(target_row_of(s, written[i]), s->far, into.clear_values[i]);
+    }
+    memcpy(into.clear_box, s->around, sizeof into.clear_box);
+    memcpy(into.scissor, s->pixels, sizeof into.scissor);
+    if (!gpu_failed(f->g))
+        gpu_pass_begin(f->g, &into);
+}
+
+static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use)
+{
+    text prelude = {0};
+    uniforms_declare(&prelude, use_own_set(KIND_LINES, use));
+    uniforms_declare(&prelude, use_common_set(KIND_LINES, use));
+    reads_declare(&prelude, f, s, p, NULL);
+    if (f->plan->has_cut || f->up->has_removed) /* then not all that is nearer is seen */
+        text_append(&prelude, "#define OPEN_BODIES\n");
+    return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
+}
+
+static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use)
+{
+    gpu_program *drawing = program(f, s, p, use);
+    /* Before the pass begins: making records takes the place of what is bound. */
+    for (uint32_t i = 0; i < store->scene.item_count; i++)
+        if (s->figure->designated[store->scene.items[i].part_index])
+            edges_bring(f, store, i, false);
+    open_pictures(f, s, p);
+    if (drawing && !gpu_failed(f->g)) {
+        gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
+        frame_set_common(f, s);
+        uniforms_set(f->g, use_own_set(KIND_LINES, use));
+        uniforms_set(f->g, use_common_set(KIND_LINES, use));
+        reads_set(f, s, p, NULL);
+        gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
+        gpu_set_int(f->g, "u_wanted", RECORD_OUTLINE | RECORD_BORDER | RECORD_CREASE);
+        gpu_set_int(f->g, "u_inside", f->plan->has_cut || f->up->has_removed || !eye_is_outside(f));
+        gpu_settle(f->g);
+        for (uint32_t i = 0; i < store->scene.item_count; i++)
+            if (s->figure->designated[store->scene.items[i].part_index])
+                edges_draw(f, store, i, false);
+    }
+}
+
+void records_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)
+{
+    /* Movers and mirrors are drawn in other moments and halves of the scene than the store's; of layers each would
+     * have to look for its own. */
+    if (f->mirror || s->figure->mover || s->figure->layered || gpu_failed(f->g))
+        return;
+    stopwatch     w = watch_start(&f->profile);
+    stroke_store *store = find_store(f);
+    if (store && store->scene.item_count > 0)
+        draw(f, s, p, store, use);
+    watch_stop(&f->profile, w, group, p->name);
+}

@@ -1,0 +1,77 @@
+/* Edges of meshes as lines, straight into the edge map, which keeps the darkest of each class; and the pixels that need no other edge. */
+#include "lines/stroke/visible.glsl"
+#include "lines/record.glsl"
+flat in vec4 v_begin;
+flat in vec4 v_end;
+flat in vec4 v_look;
+#include "lines/cover.glsl"
+layout(location = 0) out vec4 out_edge;
+layout(location = 1) out vec4 out_bare;
+
+#ifdef OPEN_BODIES
+/* Where parts of the model are left out, an edge before what is seen may be one of those. */
+bool is_on_surface(vec3 axis, bool wanted)
+{
+    const vec2 X = vec2(1.0, 0.0), Y = vec2(0.0, 1.0);
+    bool on = false;
+    int turns = wanted ? 9 : 0;
+    for (int i = 0; i < turns; i++) {
+        turns = on ? 0 : turns;
+        vec2 pixel = floor(axis.xy) + vec2(float(i % 3) - 1.0, float(i / 3) - 1.0), off = axis.xy - pixel - 0.5;
+        float here = depth_at(pixel);
+        vec2 slope = vec2(smaller(depth_at(pixel + X) - here, here - depth_at(pixel - X)), smaller(depth_at(pixel + Y) - here, here - depth_at(pixel - Y)));
+        on = on || (here < 1.0 && abs(axis.z - here - dot(slope, off)) <= ROUNDING + (abs(slope.x) + abs(slope.y)));
+    }
+    return on;
+}
+#endif
+
+bool is_seen(vec3 axis, bool wanted)
+{
+#ifdef OPEN_BODIES
+    return is_on_surface(axis, wanted);
+#else
+    return is_visible(axis, wanted);
+#endif
+}
+
+float step_beside(ivec2 at)
+{
+    vec2 own = texelFetch(t_pairs, at, 0).xy;
+    return max(max(own.x, own.y), max(texelFetch(t_pairs, max(at - ivec2(1, 0), ivec2(0)), 0).x, texelFetch(t_pairs, max(at - ivec2(0, 1), ivec2(0)), 0).y));
+}
+
+/* How much of an outline the picture has at a position of its axis: depth steps between pixels on its sides. */
+float step_at(vec2 axis, vec2 normal)
+{
+    ivec2 last = ivec2(u_size) - 1;
+    return max(step_beside(clamp(ivec2(axis + 0.5 * normal), ivec2(0), last)), step_beside(clamp(ivec2(axis - 0.5 * normal), ivec2(0), last)));
+}
+
+void main()
+{
+    vec2 along = v_end.xy - v_begin.xy, from = gl_FragCoord.xy - v_begin.xy;
+    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0), half_width = 0.5 * u_line_width;
+    vec3 axis = mix(v_begin.xyz, v_end.xyz, at);
+    vec2 way = gl_FragCoord.xy - axis.xy;
+    float d = length(way);
+    bool within = d <= max(half_width + 0.75, RECORD_REACH);
+    int wanted = is_seen(axis, within) && within ? 1 : 0;
+    vec2 ink = vec2(0.0); /* of outlines and of creases */
+    for (int once = 0; once < wanted; once++) {
+        vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6), strength = vec2(v_look.x > RECORDED_OUTLINE ? 1.0 : 0.0, max(-v_look.x, 0.0));
+        /* What is smooth has an outline only where something is behind it. */
+        int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
+        for (int again = 0; again < uncertain; again++)
+            strength.x = step_at(axis.xy, normal);
+        ink = strength * line_cover(d, d > 0.01 ? way / d : normal, half_width);
+        wanted = max(strength.x, strength.y) > 0.0 ? wanted : 0;
+    }
+    if (wanted == 0)
+        discard;
+    vec2 left = 1.0 - ink;
+    out_edge = vec4(left.x, left.y, left.x * left.y, 1.0);
+    /* Beside a crease another edge may be an outline. */
+    float bare = d <= RECORD_REACH ? 0.0 : 1.0;
+    out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, 1.0, 1.0);
+}

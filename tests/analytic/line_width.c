@@ -1,0 +1,115 @@
+/* Profiles of slanted lines at one sample: how much of each pixel across the border of a turned square is ink, against
+ * the area of a band of the line's width in the pixel, counted on a fine lattice; and all of its ink together. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+#include "picture.h"
+#include "shape.h"
+#include "shot.h"
+
+enum { SIDE = 200, FINE = 40 };
+
+static const double slopes[] = {0.05, 0.13, 0.31, 0.5, 0.77, 1}, widths[] = {0.5, 1, 1.6, 2, 3, 4.5, 6};
+
+typedef struct page_point {
+    double x, y;
+} page_point;
+
+/* Pixels, row 0 on top. */
+static page_point on_page(const shot *s, dvec p)
+{
+    double eye[4], clip[4];
+    for (int row = 0; row < 4; row++)
+        eye[row] = s->view[row] * p.x + s->view[4 + row] * p.y + s->view[8 + row] * p.z + s->view[12 + row];
+    for (int row = 0; row < 4; row++) {
+        clip[row] = 0;
+        for (int k = 0; k < 4; k++)
+            clip[row] += s->projection[4 * k + row] * eye[k];
+    }
+    return (page_point){(clip[0] / clip[3] + 1) / 2 * s->width, (1 - clip[1] / clip[3]) / 2 * s->height};
+}
+
+/* The area of a pixel within half a width of the line through a and b. */
+static double band_in_pixel(page_point a, page_point b, int x, int y, double width)
+{
+    double dx = b.x - a.x, dy = b.y - a.y, size = hypot(dx, dy);
+    int    inside = 0;
+    for (int v = 0; v < FINE; v++)
+        for (int u = 0; u < FINE; u++) {
+            double px = x + (u + 0.5) / FINE - a.x, py = y + (v + 0.5) / FINE - a.y;
+            inside += fabs(px * dy - py * dx) / size <= width / 2;
+        }
+    return (double)inside / (FINE * FINE);
+}
+
+typedef struct profile_error {
+    double most, area, truth_area;
+    int    pixels;
+} profile_error;
+
+/* Pixels beside one side of the square, away from its corners. */
+static void compare_side(profile_error *e, const shot *s, page_point a, page_point b, double width)
+{
+    double dx = b.x - a.x, dy = b.y - a.y, size = hypot(dx, dy), away = 4 * width + 12;
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            double px = x + 0.5 - a.x, py = y + 0.5 - a.y, along = (px * dx + py * dy) / size;
+            double across = (px * dy - py * dx) / size;
+            if (along < away || along > size - away || fabs(across) > width / 2 + 3)
+                continue;
+            double truth = band_in_pixel(a, b, x, y, width);
+            double ink = 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
+            e->most = fmax(e->most, fabs(ink - truth));
+            e->area += ink;
+            e->truth_area += truth;
+            e->pixels++;
+        }
+}
+
+static void profile_of(const shape *square, const char *file, double slope, double width, double limit)
+{
+    shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    char        lines[120];
+    const char *row = "line-profile";
+    snprintf(lines, sizeof lines, "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":%g}", width);
+    shot          s;
+    profile_error e = {0};
+    if (shot_of_shape(&s, square, file, shot_line_look(lines), NULL, &view)) {
+        const shape_part *p = &square->parts[0];
+        for (uint32_t i = 0; i < p->vertex_count; i++)
+            for (uint32_t k = i + 1; k < p->vertex_count; k++) {
+                page_point a = on_page(&s, shape_point(p, i)), b = on_page(&s, shape_point(p, k));
+                dvec       u = shape_point(p, i), v = shape_point(p, k);
+                if (hypot(u.x - v.x, u.y - v.y) < 2.5 && hypot(a.x - b.x, a.y - b.y) > 10) /* no diagonal */
+                    compare_side(&e, &s, a, b, width);
+            }
+        check_at_most(row, e.most, limit, "slope %g, width %g: ink against area, worst of %d pixels", slope, width,
+                      e.pixels);
+        check_near(row, e.area / e.truth_area, 1, 0.01, "slope %g, width %g: all ink", slope, width);
+        shot_release(&s);
+    }
+}
+
+static void run_profiles(void)
+{
+    for (size_t i = 0; i < sizeof slopes / sizeof *slopes; i++) {
+        shape square = {0};
+        char  file[40];
+        shape_quad(&square, "square", 1, 0);
+        shape_place(&square, (dvec){0, 0, 1}, atan(slopes[i]) * 180 / 3.14159265358979, (dvec){0.0123, 0.0077, 0});
+        snprintf(file, sizeof file, "square-%zu.ply", i);
+        for (size_t k = 0; k < sizeof widths / sizeof *widths; k++)
+            profile_of(&square, file, slopes[i], widths[k], 0.02);
+        shape_release(&square);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {{"profiles", run_profiles}};
+    int                     status = check_main(argc, argv, "line_width", cases, 1);
+    shot_end();
+    return status;
+}
