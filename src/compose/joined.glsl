@@ -46,17 +46,10 @@ float depth_of_ink(vec2 position)
 {
     ivec2 at = pixel_at(position);
     float depth = own_depth(at);
-#ifdef BROAD_COPIES
     int search = depth >= 1.0 ? 1 : 0;
     for (int once = 0; once < search; once++)
         depth = neighbour_depth(at);
     return depth;
-#else
-    /* Thin lines lie at most two pixels off, between pixels; without a loop. */
-    float beside = min(min(own_depth(at + ivec2(1, 1)), own_depth(at + ivec2(-1, 1))), min(own_depth(at + ivec2(1, -1)), own_depth(at - ivec2(1, 1))));
-    float farther = min(min(own_depth(at + ivec2(2, 0)), own_depth(at - ivec2(2, 0))), min(own_depth(at + ivec2(0, 2)), own_depth(at - ivec2(0, 2))));
-    return depth < 1.0 ? depth : min(beside, farther);
-#endif
 }
 
 /* All copies. `depth` of the fill becomes that of one with ink where there is no fill; on surfaces ink is as deep as they are. */

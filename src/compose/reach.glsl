@@ -14,7 +14,7 @@ float overshoot_depth(ivec2 pixel)
 float neighbour_depth(ivec2 pixel)
 {
     ivec2 last = ivec2(u_size) - 1;
-    float extent = 0.5 * u_line_width + 0.75; /* the rim is soft */
+    float extent = 0.5 * u_line_width + 1.7; /* rims are soft, and edges up to a pixel off what has depth */
 #if CONTRAST == 1
     extent += max(abs(u_line_offset_x), abs(u_line_offset_y));
 #elif CONTRAST == 3

@@ -4,7 +4,6 @@
 #define JOINS_INK
 #ifdef BROAD_LINES
 #undef BROAD_LINES
-#define BROAD_COPIES
 #endif
 #ifndef WITH_OVERRUN
 #define FILL_STAYS

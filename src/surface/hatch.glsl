@@ -63,7 +63,7 @@ float line_cover(float width, float grown, float away, uint key, float at, float
 }
 
 /* By number, lines come no closer than this: what is darker still has wider ones. */
-const float CLOSEST_MM = 0.8;
+const float CLOSEST_MM = 0.79375; /* 1/32 in */
 
 /* The lines of one set around a position, of this darkness. */
 float lines_at(stroke_plane s, float darkness, uint set)

@@ -73,6 +73,7 @@ static lmn_status draw_text(const char *model, const char *look_text, lmn_error 
     lmn_renderer_desc how = LMN_RENDERER_DESC_INIT;
     lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = 64;
+    desc.dpi = 96;
     lmn_status status = lmn_scene_create(&scene, error);
     if (status == LMN_OK && model)
         status = lmn_scene_add_file(scene, model, NULL, error);

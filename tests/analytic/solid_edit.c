@@ -310,6 +310,7 @@ static lmn_drawing *draw(lmn_renderer **r, const lmn_scene *scene, const lmn_loo
     lmn_drawing  *out = NULL;
     lmn_error     error;
     desc.width = desc.height = SIDE;
+    desc.dpi = 96;
     if (lmn_scene_info_of(scene).parts > 0)
         DO(lmn_draw(&out, renderer_of(r), scene, look, &desc, &error));
     return out;

@@ -125,6 +125,15 @@ static bool is_border(const truth *t, int x, int y)
     return csg_map_border(&t->whole, x, y, 1) || csg_map_border(&t->gone, x, y, 0);
 }
 
+/* Lines have soft rims: a pixel farther. */
+static bool is_line(const truth *t, int x, int y)
+{
+    for (int k = 0; k < 9; k++)
+        if (is_border(t, x + k % 3 - 1, y + k / 3 - 1))
+            return true;
+    return false;
+}
+
 /* Pixels in which it is seen are tinted towards red; beyond the reach of its lines nothing changes. `unseen`:
  * nothing of it has a colour. Where it sticks out nearer or farther than the solid, the depth range is another one
  * and depth is rounded otherwise, in which a pixel of a line may differ from edges. */
@@ -134,11 +143,11 @@ static void check_tint(const char *name, const truth *t, const shot *plain, cons
     for (int i = 0; i < plain->width * plain->height; i++) {
         const uint8_t *a = &plain->picture[4 * i], *b = &ghost->picture[4 * i];
         int            x = i % plain->width, y = i / plain->width;
-        if (!seen_near(t, x, y, 3)) {
+        if (!seen_near(t, x, y, 5)) {
             alone++;
             changed += memcmp(&unseen->picture[4 * i], b, 4) != 0;
             rounded += memcmp(a, b, 4) != 0;
-        } else if (layers_in_front(t, i, &on) > 0 && !is_border(t, x, y)) {
+        } else if (layers_in_front(t, i, &on) > 0 && !is_line(t, x, y)) {
             tinted++;
             bare += memcmp(a, b, 4) == 0 || b[0] - (b[1] + b[2]) / 2 <= a[0] - (a[1] + a[2]) / 2;
         }
@@ -291,6 +300,7 @@ static void in_turn(void)
     drilled(&whole, &gone);
     snprintf(path, sizeof path, "%s", check_path("turns.csg"));
     desc.width = desc.height = 160;
+    desc.dpi = 96;
     bool good = csg_write(&whole, path) && lmn_renderer_create(&renderer, &how, NULL) == LMN_OK &&
                 lmn_scene_create(&scene, NULL) == LMN_OK && lmn_scene_add_file(scene, path, NULL, NULL) == LMN_OK;
     for (int i = 0; i < TURNS && good; i++) {

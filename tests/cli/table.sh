@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
 unset DISPLAY WAYLAND_DISPLAY
 rows=0 wrong=0
-small="--size 64x64"
+small="--size 64x64 --dpi 96"
 
 complain() {
     printf 'limner %s\n  %s\n' "$row" "$1"
@@ -374,9 +374,9 @@ group_report() {
     row 0 'transparent materials are drawn as cut-outs' 'x.png' draw in-glass.obj $small -o x.png --look edges
     row 0 '' 'x.png' draw in-glass.obj $small -o x.png --look xray
     grep -q cut-outs .stderr && complain "a transparent material is said to be cut out where it is seen through"
-    row 0 '' '' bench "$gear" --look edges --look toon $small --repeat 2 --json
+    row 0 '' '' bench "$gear" --look edges --look toon --size 64x64 --repeat 2 --json
     documented .stdout bench.md
-    row 0 '' '' bench "$gear" --look edges $small --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
+    row 0 '' '' bench "$gear" --look edges --size 64x64 --repeat 2; out '^edges +[0-9.]+ +[0-9.]+'
     row 1 "there is no look 'nosuch'" '' bench "$gear" --look nosuch
     row 0 '' '' info "$gear" --json; documented .stdout info.md
     row 0 '' '' info "$gear"; out '^triangles +9532$'
@@ -510,7 +510,7 @@ group_solids() {
     # Several files are one scene, solids among meshes.
     row 0 '' 'x.png' draw "$widget" "$gear" $small -o x.png
     row 0 '' '' info "$examples/csg/spanner.csg"; out 'solid: [0-9]+ operands'; out '^ +difference +\(line [0-9]+\)$'
-    row 0 '' '' bench "$widget" $small --look edges --repeat 2 --view top --ortho; out '^edges +[0-9.]+ +[0-9.]+'
+    row 0 '' '' bench "$widget" --size 64x64 --look edges --repeat 2 --view top --ortho; out '^edges +[0-9.]+ +[0-9.]+'
     # Mistakes are told with line and column, what is left out with its line.
     printf 'group() {\n cube(size = 1;\n}' > in-wrong.csg
     row 2 '^limner: in-wrong.csg:2:15: expected' '' draw in-wrong.csg $small
@@ -604,7 +604,7 @@ group_strokes() {
 }
 
 group_halftones() {
-    local csg=$source/examples/csg/widget.csg spot=$source/examples/spot.obj small=(--size 120x100 -o x.png)
+    local csg=$source/examples/csg/widget.csg spot=$source/examples/spot.obj small=(--size 120x100 --dpi 96 -o x.png)
     local kept; kept=$(mktemp -d) # not here, where each row begins with an empty folder
     export LIMNER_CACHE=$kept
     # Solids throw shadows on every path.

@@ -45,6 +45,7 @@ static void draw(const fixture *f)
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     lmn_drawing  *drawing = NULL;
     desc.width = desc.height = 48;
+    desc.dpi = 96;
     DO(lmn_draw(&drawing, f->renderer, f->scene, f->look, &desc, &error));
     lmn_drawing_destroy(&drawing);
 }

@@ -58,6 +58,7 @@ static lmn_status run(job *j, uint64_t *hash, lmn_error *error)
     load.progress = draw.progress = go_on;
     load.progress_user = draw.progress_user = &j->moment;
     draw.width = draw.height = SIDE;
+    draw.dpi = 96;
     lmn_status status = lmn_look_load(&look, j->look, error);
     if (status == LMN_OK)
         status = lmn_scene_create(&scene, error);

@@ -82,6 +82,7 @@ static lmn_status draw_once(lmn_renderer *renderer, const char *path, const char
     lmn_sheet    *sheet = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = 64;
+    desc.dpi = 96;
     desc.view = (lmn_view)(n % 7);
     desc.maps = n % 5 == 0;
     lmn_status status = lmn_scene_create(&scene, error);
