@@ -150,6 +150,8 @@ void raster_layer(frame *f, layer_stack *stack, bool first);
 void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
 /* The depth of what is drawn at all, in a picture of the frame's size. */
 void raster_depth(frame *f, gpu_texture *depth);
+/* The same of some parts. */
+void raster_depth_of(frame *f, gpu_texture *depth, bool *parts);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 

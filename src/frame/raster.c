@@ -789,12 +789,16 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 
 void raster_depth(frame *f, gpu_texture *depth)
 {
+    raster_depth_of(f, depth, f->plan->selected);
+}
+
+void raster_depth_of(frame *f, gpu_texture *depth, bool *parts)
+{
     gpu_pass pass = {.depth = depth, .clear = true};
-    figure   all = {
-          .rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = f->plan->selected};
+    figure   all = {.rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = parts};
     figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
     solid_layers solids = {.ready = false};
-    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});
+    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = parts});
     solids_release(f->g, &solids);
 }
 
