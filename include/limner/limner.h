@@ -9,6 +9,7 @@
 #include "limner/host.h"
 #include "limner/limits.h"
 #include "limner/look.h"
+#include "limner/maps.h"
 #include "limner/scene.h"
 #include "limner/sheet.h"
 #include "limner/solid.h"
