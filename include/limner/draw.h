@@ -29,10 +29,16 @@ typedef struct lmn_renderer_desc {
     size_t struct_size;
     bool   es;    /* ask for OpenGL ES 3 instead of desktop GL */
     bool   debug; /* debug context; GL errors become LMN_GL errors */
+    /* Takes the context that is current on the calling thread, of EGL or GLX, OpenGL 3.3 or OpenGL ES 3.0 at least,
+     * instead of making one; `es` is ignored. It stays the caller's, must be current in all calls with the renderer,
+     * and end after it. docs/EMBEDDING.md. Since 0.1. */
+    bool adopt;
+    /* With adopt: the context's state is not given back after calls (docs/reference/gl-state.md). Since 0.1. */
+    bool no_restore;
 } lmn_renderer_desc;
 #define LMN_RENDERER_DESC_INIT                                                                                         \
     {                                                                                                                  \
-        sizeof(lmn_renderer_desc), false, false                                                                        \
+        sizeof(lmn_renderer_desc), false, false, false, false                                                          \
     }
 
 /* What to draw. Initialise with LMN_DRAW_DESC_INIT. Angles in degrees, lengths in the scene's unit, sizes in
@@ -66,18 +72,31 @@ typedef struct lmn_draw_desc {
     /* Pixels an inch of paper, 1 … 10000: how large widths of lines, dashes and strokes are. 0: the longer side is
      * 1024/96 inches (270.93 mm), whatever its pixels, so that a picture of another size is the same drawing. */
     double dpi;
+    /* Use these instead of eye, camera and view: from the scene to eye space (rigid; the viewer looks along −Z) and on
+     * to clip space (−1 … 1), column by column, as OpenGL takes them. Near and far of the projection cut what is drawn.
+     * A perspective must be symmetric; y goes up. Not for sheets. Since 0.1. */
+    bool   matrices_given;
+    double view_matrix[16], projection_matrix[16];
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0                         \
+            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0},            \
+        {                                                                                                              \
+            0                                                                                                          \
+        }                                                                                                              \
     }
 
-/* Makes a renderer with a GL context of its own, without display or window. End it with lmn_renderer_destroy.
- * A renderer belongs to the thread that made it. Errors: LMN_USAGE (desc), LMN_GL, LMN_MEMORY. */
+/* Makes a renderer with a GL context of its own, without display or window, or one that draws in the caller's (adopt).
+ * End it with lmn_renderer_destroy. An own context is current only while a call runs: afterwards that is current which
+ * was before. Several renderers can be there at once, and each be used by any thread, by one at a time: a second one
+ * gets LMN_USAGE. Progress callbacks run with Limner's context, or the caller's with Limner's state, current: they draw
+ * nothing. Errors: LMN_USAGE (desc; adopt: no context is current), LMN_GL (also when a context lacks something, and
+ * once it was lost: then the renderer can only be destroyed), LMN_MEMORY. */
 LMN_API lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error);
 
-/* Frees a renderer and sets the handle to NULL; NULL and a pointer to NULL are accepted. */
+/* Frees a renderer and sets the handle to NULL; NULL and a pointer to NULL are accepted. When the context that it
+ * adopted is not current on this thread, or was lost, what lies in the context stays there and goes with it. */
 LMN_API void lmn_renderer_destroy(lmn_renderer **renderer);
 
 /* The driver as JSON: versions, limits, paths, extensions used. Free with lmn_text_free. NULL when memory is gone. */

@@ -5,6 +5,7 @@
 #include "limner/draw.h"
 #include "limner/error.h"
 #include "limner/film.h"
+#include "limner/host.h"
 #include "limner/limits.h"
 #include "limner/look.h"
 #include "limner/scene.h"

@@ -31,8 +31,10 @@ lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc
         desc = &standard;
     if (desc->struct_size != sizeof *desc)
         return error_set(error, LMN_USAGE, "the renderer description was not initialised with LMN_RENDERER_DESC_INIT");
-    const char *wish = getenv("LIMNER_GL");
-    return renderer_create(out, desc->es || (wish && strcmp(wish, "es") == 0), desc->debug, error);
+    lmn_renderer_desc full = *desc;
+    const char       *wish = getenv("LIMNER_GL");
+    full.es = desc->es || (wish && strcmp(wish, "es") == 0);
+    return renderer_create(out, &full, error);
 }
 
 void lmn_renderer_destroy(lmn_renderer **renderer)
@@ -77,6 +79,9 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
     for (int k = 0; k < 3 && status == LMN_OK; k++)
         if (!isfinite(d->eye[k]) || !isfinite(d->target[k]) || !isfinite(d->up[k]))
             status = error_set(error, LMN_USAGE, "the camera's numbers must be finite");
+    for (int k = 0; k < 16 && status == LMN_OK && d->matrices_given; k++)
+        if (!isfinite(d->view_matrix[k]) || !isfinite(d->projection_matrix[k]))
+            status = error_set(error, LMN_USAGE, "the matrices' numbers must be finite");
     if (status == LMN_OK && !isfinite(d->time_s))
         status = error_set(error, LMN_USAGE, "the time must be finite");
     return status;

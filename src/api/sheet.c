@@ -63,6 +63,8 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
     lmn_status status = check_draw_desc(desc, error);
     if (status == LMN_OK)
         status = complete(&full, sheet, error);
+    if (status == LMN_OK && desc->matrices_given)
+        status = error_set(error, LMN_UNSUPPORTED, "a sheet's camera is given by eye and target, not by matrices");
     if (status != LMN_OK)
         return status;
     work w;

@@ -97,9 +97,12 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
                       const lmn_look *plain, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
     *out = NULL;
-    series    *all = mem_calloc(count + 1, sizeof *all);
-    lmn_status status = all ? LMN_OK : error_memory(error);
-    warnings   warnings = {0};
+    lmn_status status = gpu_enter(r->g, error);
+    if (status != LMN_OK)
+        return status;
+    series *all = mem_calloc(count + 1, sizeof *all);
+    status = all ? LMN_OK : error_memory(error);
+    warnings warnings = {0};
     for (size_t k = 0; k <= count && status == LMN_OK; k++) {
         all[k].ms = mem_calloc((size_t)repeat, sizeof(double));
         status = all[k].ms ? session_open(&all[k].session, r, scene, k ? looks[k - 1] : plain,
@@ -114,5 +117,5 @@ lmn_status bench_json(char **out, lmn_renderer *r, const lmn_scene *scene, const
     }
     mem_free(all);
     warnings_release(&warnings);
-    return status;
+    return gpu_leave(r->g, status, error);
 }

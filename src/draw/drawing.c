@@ -142,6 +142,21 @@ static void warn_of_marks(const session *s, warnings *warnings)
     }
 }
 
+lmn_status drawing_refuse(const session *s, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                          warnings *warnings, lmn_error *error)
+{
+    refusal    refusals = {scene, desc->lenient, warnings, error};
+    lmn_status status = refuse_time(&refusals, look, desc->time_s, true);
+    if (status == LMN_OK && s->plan.figure_count == 0)
+        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL,
+                        "no rule of the look '%s' selects a part: the page stays empty", look->name);
+    if (status == LMN_OK)
+        status = refuse_strokes(&refusals, s);
+    if (status == LMN_OK)
+        status = refuse_scattered(&refusals, s);
+    return status == LMN_OK ? refuse_marks(&refusals, s) : status;
+}
+
 /* What could not be drawn as it was asked for. */
 static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                           const session *s)
@@ -193,16 +208,7 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     d->facts.bounds = s->plan.box;
     warnings_append(&d->warnings, &scene->warnings);
     keep_warnings(d, r, scene, look, s);
-    refusal refusals = {scene, desc->lenient, &d->warnings, error};
-    status = refuse_time(&refusals, look, desc->time_s, true);
-    if (status == LMN_OK && s->plan.figure_count == 0)
-        status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL,
-                        "no rule of the look '%s' selects a part: the page stays empty", d->facts.look);
-    if (status == LMN_OK)
-        status = refuse_strokes(&refusals, s);
-    if (status == LMN_OK)
-        status = refuse_scattered(&refusals, s);
-    return status == LMN_OK ? refuse_marks(&refusals, s) : status;
+    return drawing_refuse(s, scene, look, desc, &d->warnings, error);
 }
 
 /* An extra frame with one sample and all buffers read back. */
@@ -291,12 +297,11 @@ static bool cancelled(const lmn_draw_desc *desc, double fraction, const char *st
     return desc->progress && !desc->progress(fraction, stage, desc->progress_user);
 }
 
-lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                         const draw_options *options, lmn_error *error)
+static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                               const draw_options *options, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
-    *out = NULL;
-    lmn_drawing *d = mem_calloc(1, sizeof *d);
+    lmn_drawing         *d = mem_calloc(1, sizeof *d);
     if (!d)
         return error_memory(error);
     d->width = desc->width;
@@ -317,6 +322,19 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
     if (status != LMN_OK)
         drawing_destroy(&d);
     *out = d;
+    return status;
+}
+
+lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                         const draw_options *options, lmn_error *error)
+{
+    *out = NULL;
+    lmn_status status = gpu_enter(r->g, error);
+    if (status != LMN_OK)
+        return status;
+    status = gpu_leave(r->g, draw_picture(out, r, scene, look, options, error), error);
+    if (status != LMN_OK)
+        drawing_destroy(out);
     return status;
 }
 

@@ -25,6 +25,10 @@ struct lmn_drawing {
 
 lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                          const draw_options *options, lmn_error *error);
+/* Refuses what the look cannot draw of what is in the session, or with desc->lenient warns of it. Errors:
+ * LMN_UNSUPPORTED, LMN_USAGE. */
+lmn_status drawing_refuse(const session *s, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                          warnings *warnings, lmn_error *error);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
 void       drawing_destroy(lmn_drawing **d);

@@ -11,19 +11,23 @@
 #include "plan/movers.h"
 #include "plan/refuse.h"
 
-lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error)
+lmn_status renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error)
 {
     *out = NULL;
     lmn_renderer *r = mem_calloc(1, sizeof *r);
     if (!r)
         return error_memory(error);
-    lmn_status status = gpu_create(&r->g, es, debug, error);
-    if (status != LMN_OK) {
+    lmn_status status = desc->adopt ? gpu_adopt(&r->g, desc->debug, desc->no_restore, error)
+                                    : gpu_create(&r->g, desc->es, desc->debug, error);
+    if (status == LMN_OK)
+        status = gpu_leave(r->g, LMN_OK, error);
+    if (status != LMN_OK && !r->g)
         mem_free(r);
-        return status;
-    }
-    *out = r;
-    return LMN_OK;
+    else if (status != LMN_OK)
+        renderer_destroy(&r);
+    else
+        *out = r;
+    return status;
 }
 
 void renderer_destroy(lmn_renderer **renderer)
@@ -31,7 +35,7 @@ void renderer_destroy(lmn_renderer **renderer)
     if (!renderer || !*renderer)
         return;
     lmn_renderer *r = *renderer;
-    gpu_make_current(r->g);
+    gpu_enter_to_free(r->g);
     upload_release(&r->up, r->g);
     pose_release(&r->pose);
     swept_boxes_release(&r->swept);
@@ -214,7 +218,6 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     frame               *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
-    gpu_make_current(r->g);
     lmn_status status = prepare(s, scene, look, options, side, warnings, error);
     if (status != LMN_OK)
         return status;
@@ -234,6 +237,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->anchor = s->plan.box;
     f->seed = desc->seed;
     f->time_s = desc->time_s;
+    f->keeps_depth = options->keeps_depth;
     if (!options->maps)
         s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);
     return gpu_check(r->g, error);
@@ -241,8 +245,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
 
 void session_close(session *s)
 {
-    if (s->renderer)
+    if (s->renderer) {
         gpu_target_release(s->renderer->g, s->out);
+        gpu_target_release(s->renderer->g, s->frame.kept_depth);
+        gpu_target_release(s->renderer->g, s->frame.seen_depth);
+    }
     plan_release(&s->plan);
     plan_textures_release(&s->textures);
     memset(s, 0, sizeof *s);

@@ -19,7 +19,7 @@ struct lmn_renderer {
     int width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
 };
 
-lmn_status renderer_create(lmn_renderer **out, bool es, bool debug, lmn_error *error);
+lmn_status renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);
 
 /* Samples along each side of a pixel. */
@@ -31,9 +31,10 @@ typedef struct draw_options {
     bool                 maps; /* its buffers alone, one sample a pixel */
     bool surfaces_only;        /* what lies below the lines of a sheet: neither lines, nor marks, nor sections */
     /* One of several times of an exposure. */
-    const pose        *held;   /* parts without `moves` are as in this pose; NULL: all are as at the time */
-    const bool        *moves;  /* per part, then per ghost */
-    const view_camera *camera; /* NULL: as the description says */
+    const pose        *held;        /* parts without `moves` are as in this pose; NULL: all are as at the time */
+    const bool        *moves;       /* per part, then per ghost */
+    const view_camera *camera;      /* NULL: as the description says */
+    bool               keeps_depth; /* of the frame, until the session is closed */
 } draw_options;
 
 /* A drawing set up and ready to be repeated. */

@@ -14,12 +14,16 @@ static void release_targets(frame *f, figure_state *s)
     solids_release(f->g, &s->solids);
 }
 
+void frame_ground(const frame *f, float out[4])
+{
+    const colour c = f->ground;
+    memcpy(out, (float[]){c.r * c.a, c.g * c.a, c.b * c.a, c.a}, 4 * sizeof *out);
+}
+
 static void clear_page(frame *f)
 {
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
-    uniforms_linear(f->ground, pass.clear_values[0]);
-    for (int k = 0; k < 3; k++)
-        pass.clear_values[0][k] *= f->ground.a;
+    frame_ground(f, pass.clear_values[0]);
     gpu_pass_begin(f->g, &pass);
 }
 
@@ -123,6 +127,32 @@ static void encode(frame *f, gpu_texture *out)
     watch_stop(&f->profile, w, "", "encode");
 }
 
+/* Figures that are seen through leave no depth on the page, nor do those that move. */
+static void keep_seen_depth(frame *f)
+{
+    const plan *p = f->plan;
+    bool        any = false, *parts = mem_calloc(p->part_count, sizeof *parts);
+    if (!parts) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    for (size_t i = 0; i < p->figure_count; i++) {
+        const figure *fig = &p->figures[i];
+        if (!fig->layered && !fig->mover)
+            continue;
+        int reach = figure_reach(fig);
+        f->seen_reach = reach > f->seen_reach ? reach : f->seen_reach;
+        for (size_t k = 0; k < p->part_count; k++)
+            any |= parts[k] |= fig->designated[k];
+    }
+    if (any) {
+        f->seen_depth = frame_acquire(f, TARGET_DEPTH);
+        if (!gpu_failed(f->g))
+            raster_depth_of(f, f->seen_depth, parts);
+    }
+    mem_free(parts);
+}
+
 static void draw_page(frame *f)
 {
     f->page = frame_acquire(f, TARGET_PAGE);
@@ -135,12 +165,17 @@ static void draw_page(frame *f)
         clear_page(f);
         draw_figures(f);
     }
+    if (f->keeps_depth && !gpu_failed(f->g))
+        keep_seen_depth(f);
 }
 
 static void release_page(frame *f)
 {
     gpu_target_release(f->g, f->page);
-    gpu_target_release(f->g, f->page_depth);
+    if (f->keeps_depth)
+        f->kept_depth = f->page_depth;
+    else
+        gpu_target_release(f->g, f->page_depth);
     gpu_target_release(f->g, f->shadow);
     gpu_target_release(f->g, f->visibility);
     f->page = f->page_depth = f->shadow = f->visibility = NULL;

@@ -28,8 +28,13 @@ typedef struct frame {
     gpu_profile          profile;
     frame_maps          *maps; /* collects the figures' buffers when not NULL */
     gpu_texture         *page, *page_depth;
-    gpu_texture         *shadow;        /* depth of what the first light sees; NULL: it throws no shadow */
-    view_camera          shadow_camera; /* the light's eye */
+    bool                 keeps_depth; /* of the page, for who asks after frame_draw */
+    gpu_texture         *kept_depth;  /* with keeps_depth: the page's; the caller's to release */
+    gpu_texture
+        *seen_depth; /* the same of what is seen through or moves, which the page's leaves out; NULL: there is none */
+    int  seen_reach; /* how far ink of that lies beside it, samples */
+    gpu_texture *shadow;        /* depth of what the first light sees; NULL: it throws no shadow */
+    view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
     float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
@@ -63,7 +68,7 @@ struct frame_maps {
     float    *normal; /* 3 */
     uint32_t *id;
     float    *edge;        /* 4 */
-    float    *shade;       /* 4, linear premultiplied */
+    float    *shade;       /* 4, sRGB, premultiplied */
     float    *uncertainty; /* 3; NULL while nothing is perturbed */
     float    *velocity;    /* 3: pixels moved over the exposure, right, up, 0; NULL: the scene is at rest */
     float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks

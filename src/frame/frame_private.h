@@ -107,6 +107,8 @@ void frame_set_numbers(frame *f, const technique_use *use);
 void frame_set_common(frame *f, const figure_state *s);
 /* For programs that tie something to parts: from eye space to the part's frame (upload_part_frames). */
 void frame_set_rest(frame *f, size_t part_index);
+/* The ground as the page holds it, premultiplied: 4 floats. */
+void frame_ground(const frame *f, float out[4]);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
 gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);
@@ -148,6 +150,8 @@ void raster_layer(frame *f, layer_stack *stack, bool first);
 void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_limit);
 /* The depth of what is drawn at all, in a picture of the frame's size. */
 void raster_depth(frame *f, gpu_texture *depth);
+/* The same of some parts. */
+void raster_depth_of(frame *f, gpu_texture *depth, bool *parts);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 

@@ -26,11 +26,11 @@ static const material *material_of(const frame *f, const figure *fig, const draw
     const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
     if (!(fig->highlight.a > 0))
         return own;
-    float linear[4];
-    uniforms_linear(fig->highlight, linear);
+    float light[4];
+    uniforms_light(fig->highlight, light);
     *capacity = *own;
     capacity->base_texture = standard.base_texture;
-    capacity->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
+    capacity->base_colour = (vec4){light[0], light[1], light[2], light[3]};
     return capacity;
 }
 
@@ -502,7 +502,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
     float highlight[4] = {0, 0, 0, 0};
     if (s->figure->highlight.a > 0)
-        uniforms_linear(s->figure->highlight, highlight);
+        uniforms_light(s->figure->highlight, highlight);
     gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);
@@ -789,12 +789,16 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 
 void raster_depth(frame *f, gpu_texture *depth)
 {
+    raster_depth_of(f, depth, f->plan->selected);
+}
+
+void raster_depth_of(frame *f, gpu_texture *depth, bool *parts)
+{
     gpu_pass pass = {.depth = depth, .clear = true};
-    figure   all = {
-          .rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = f->plan->selected};
+    figure   all = {.rule = f->plan->figures[0].rule, .layering = f->plan->figures[0].layering, .designated = parts};
     figure_state s = {.figure = &all, .near = f->camera.near, .far = f->camera.far};
     solid_layers solids = {.ready = false};
-    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = f->plan->selected});
+    draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = parts});
     solids_release(f->g, &solids);
 }
 

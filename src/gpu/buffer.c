@@ -54,7 +54,8 @@ void gpu_buffers_trim(gpu *g)
             g->buffers[kept++] = g->buffers[i];
             continue;
         }
-        glDeleteBuffers(1, &g->buffers[i]->name);
+        if (!g->gone)
+            glDeleteBuffers(1, &g->buffers[i]->name);
         mem_free(g->buffers[i]);
     }
     g->buffer_count = kept;

@@ -16,7 +16,8 @@ void gpu_forget_framebuffers(gpu *g, const gpu_texture *t)
             i++;
             continue;
         }
-        glDeleteFramebuffers(1, &f->name);
+        if (!g->gone)
+            glDeleteFramebuffers(1, &f->name);
         g->framebuffers[i] = g->framebuffers[--g->framebuffer_count];
     }
 }
@@ -111,7 +112,7 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass)
     memcpy(g->box, pass->scissor[2] > 0 ? pass->scissor : (const int[]){0, 0, any->width, any->height}, sizeof g->box);
 }
 
-static const GLenum compares[] = {GL_LEQUAL, GL_LESS, GL_EQUAL, GL_NOTEQUAL, GL_GREATER, GL_ALWAYS};
+static const GLenum compares[] = {GL_LEQUAL, GL_LESS, GL_EQUAL, GL_NOTEQUAL, GL_GREATER, GL_GEQUAL, GL_ALWAYS};
 
 static void set_stencil(const gpu_stencil *s)
 {
@@ -371,11 +372,12 @@ bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
 
 void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
 {
-    (void)g;
     if (!*m)
         return;
-    glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers(GPU_BUFFERS, (*m)->buffers);
+    if (!g->gone) {
+        glDeleteVertexArrays(1, &(*m)->array);
+        glDeleteBuffers(GPU_BUFFERS, (*m)->buffers);
+    }
     mem_free(*m);
     *m = NULL;
 }

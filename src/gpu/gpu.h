@@ -41,11 +41,25 @@ typedef enum gpu_dialect { GPU_FLOOR, GPU_FAST } gpu_dialect;
 typedef enum gpu_wrap { GPU_CLAMP, GPU_REPEAT, GPU_MIRROR } gpu_wrap;
 enum { GPU_COLOURS_MAX = 6 };
 
-/* Makes a context without display or window and makes it current on this thread. Errors: LMN_GL (with what is
- * missing and how to get it), LMN_MEMORY. */
+/* Makes a context without display or window. Errors: LMN_GL (with what is missing and how to get it), LMN_MEMORY. */
 lmn_status gpu_create(gpu **out, bool es, bool debug, lmn_error *error);
-void       gpu_destroy(gpu **g);
-void       gpu_make_current(gpu *g);
+/* Takes the context that is current on this thread, which stays the host's. `keeps_state`: its state is left as
+ * drawing leaves it. Errors: LMN_USAGE (none is current), LMN_GL (with what it lacks), LMN_MEMORY. */
+lmn_status gpu_adopt(gpu **out, bool debug, bool keeps_state, lmn_error *error);
+/* Both leave the context entered. Whoever is outside calls nothing of GL in between: enter makes the context current,
+ * or saves the state of the host's; leave gives back what was current, or the state. Errors of enter, after which
+ * there is nothing to leave: LMN_USAGE (in use by another thread; the host's context is not current; what runs in it
+ * is in the way), LMN_GL (lost, or cannot be made current). Leave returns `status`, or when that is LMN_OK what else
+ * went wrong: LMN_GL. */
+lmn_status gpu_enter(gpu *g, lmn_error *error);
+lmn_status gpu_leave(gpu *g, lmn_status status, lmn_error *error);
+bool       gpu_entered(const gpu *g);
+/* Enters so that things can be freed; where that cannot be done, freeing calls nothing of GL: what it made goes with
+ * the context. */
+void gpu_enter_to_free(gpu *g);
+/* Leaves, too. */
+void gpu_destroy(gpu **g);
+bool gpu_is_adopted(const gpu *g);
 /* Returns the sticky error and clears it. */
 lmn_status gpu_check(gpu *g, lmn_error *error);
 void       gpu_fail(gpu *g, lmn_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -181,8 +195,29 @@ typedef struct gpu_pass {
 } gpu_pass;
 void gpu_pass_begin(gpu *g, const gpu_pass *pass);
 
+/* A framebuffer of the host whose context was adopted. */
+typedef struct gpu_host_target {
+    unsigned framebuffer;
+    bool     encodes;     /* it encodes as sRGB what is written, and cannot be told not to */
+    bool     zero_to_one; /* the host's clip space has depths from 0 on, not from −1 */
+    double   range[2];    /* of the host's window depth */
+} gpu_host_target;
+/* Looks at it. Errors: LMN_USAGE (it is not there, not complete, or has no depth and that is wanted). */
+lmn_status gpu_host_open(gpu *g, unsigned framebuffer, bool depth, gpu_host_target *out, lmn_error *error);
+/* Begins a pass into a box of its pixels, and ends it. Only the first draw buffer is written. */
+void gpu_host_begin(gpu *g, const gpu_host_target *target, const int box[4]);
+void gpu_host_end(gpu *g);
+
 /* What a fragment must be, compared with what is there. */
-typedef enum gpu_compare { GPU_LESS_EQUAL, GPU_LESS, GPU_EQUAL, GPU_NOT_EQUAL, GPU_GREATER, GPU_ALWAYS } gpu_compare;
+typedef enum gpu_compare {
+    GPU_LESS_EQUAL,
+    GPU_LESS,
+    GPU_EQUAL,
+    GPU_NOT_EQUAL,
+    GPU_GREATER,
+    GPU_GREATER_EQUAL,
+    GPU_ALWAYS
+} gpu_compare;
 typedef enum gpu_stencil_action {
     GPU_STENCIL_KEEP,
     GPU_STENCIL_ZERO,
@@ -218,6 +253,7 @@ void gpu_set_int(gpu *g, const char *name, int value);
 void gpu_set_uint(gpu *g, const char *name, unsigned value);
 void gpu_set_float(gpu *g, const char *name, float value);
 void gpu_set_vec2(gpu *g, const char *name, float x, float y);
+void gpu_set_ivec2(gpu *g, const char *name, int x, int y);
 void gpu_set_vec3(gpu *g, const char *name, const float v[3]);
 void gpu_set_vec4(gpu *g, const char *name, const float v[4]);
 void gpu_set_vec4_array(gpu *g, const char *name, const float *v, int count);

@@ -5,6 +5,9 @@
 #include <epoxy/gl.h>
 #include <epoxy/egl.h>
 
+#include <stdatomic.h>
+
+#include "gpu/current.h"
 #include "gpu/gpu.h"
 
 enum { FRAMEBUFFERS_MAX = 64, UNIFORMS_MAX = 96 };
@@ -59,8 +62,19 @@ typedef struct framebuffer {
 } framebuffer;
 
 struct gpu {
-    EGLDisplay       display;
-    EGLContext       context;
+    current_context   own;                  /* Limner's context, or the host's that it adopted */
+    current_context   before;               /* what was current when the call entered */
+    bool              adopted, keeps_state; /* of a host; without giving its state back */
+    bool              entered, gone;        /* gone: no call of GL is possible any more */
+    atomic_bool       busy;
+    int               version;             /* times ten */
+    bool              compatibility;       /* the profile */
+    GLuint            probe, probe_buffer; /* adopted: a framebuffer with stencil */
+    union host_value *host_values;         /* adopted: what the host's state was */
+    bool             *host_has;            /* per row of the table */
+    bool              host_zero_to_one;    /* adopted: of the host's clip control */
+    double            host_range[2];       /* of its depth */
+    GLenum (*reset_status)(void);          /* NULL: the driver does not tell */
     gpu_capabilities capabilities;
     lmn_error        error;
     bool             failed;
@@ -91,6 +105,16 @@ uint32_t pace_indices(const gpu *g, uint32_t count); /* how many at once */
 int      pace_rows(const gpu *g, int width, int height);
 
 void gpu_buffers_trim(gpu *g);
+/* --- context.c, adopt.c --- */
+lmn_status gpu_begin(gpu **out, bool debug, lmn_error *error); /* an empty one, busy; `before` is asked */
+lmn_status gpu_no_gl(gpu **g, lmn_error *error, const char *what);
+bool       gpu_library_is_there(const char *const *names);
+lmn_status gpu_start(gpu **g, lmn_error *error); /* capabilities and objects of the context that is current */
+bool       gpu_has_debug_output(const gpu *g);
+lmn_status adopt_enter(gpu *g, lmn_error *error);
+void       adopt_leave(gpu *g);
+void       adopt_release(gpu *g);
+
 /* Triangles of the vertex array that is bound, from the first index on; at most as many at once as the driver holds
  * well. */
 void gpu_draw_indices(gpu *g, uint32_t count);

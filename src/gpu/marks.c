@@ -105,11 +105,12 @@ gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, si
 
 void gpu_marks_destroy(gpu *g, gpu_marks **m)
 {
-    (void)g;
     if (!*m)
         return;
-    glDeleteVertexArrays(1, &(*m)->array);
-    glDeleteBuffers((*m)->points || (*m)->strip ? 1 : 2, (*m)->buffers);
+    if (!g->gone) {
+        glDeleteVertexArrays(1, &(*m)->array);
+        glDeleteBuffers((*m)->points || (*m)->strip ? 1 : 2, (*m)->buffers);
+    }
     mem_free(*m);
     *m = NULL;
 }

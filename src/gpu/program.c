@@ -312,6 +312,11 @@ void gpu_set_vec2(gpu *g, const char *name, float x, float y)
     glUniform2f(location_of(g, name), x, y);
 }
 
+void gpu_set_ivec2(gpu *g, const char *name, int x, int y)
+{
+    glUniform2i(location_of(g, name), x, y);
+}
+
 void gpu_set_vec3(gpu *g, const char *name, const float v[3])
 {
     glUniform3fv(location_of(g, name), 1, v);

@@ -138,10 +138,10 @@ gpu_texture *gpu_texture_of_levels(gpu *g, const gpu_levels *l)
 
 void gpu_texture_destroy(gpu *g, gpu_texture **t)
 {
-    (void)g;
     if (!*t)
         return;
-    glDeleteTextures(1, &(*t)->name);
+    if (!g->gone)
+        glDeleteTextures(1, &(*t)->name);
     mem_free(*t);
     *t = NULL;
 }
@@ -202,7 +202,8 @@ void gpu_targets_trim(gpu *g)
             continue;
         }
         gpu_forget_framebuffers(g, t);
-        glDeleteTextures(1, &t->name);
+        if (!g->gone)
+            glDeleteTextures(1, &t->name);
         mem_free(t);
     }
     g->target_count = kept;

@@ -205,12 +205,88 @@ static lmn_status place_file_camera(view_camera *c, const lmn_draw_desc *desc, c
     return status;
 }
 
+static lmn_status refuse_matrix(lmn_error *error, const char *which, const char *what)
+{
+    return error_set(error, LMN_USAGE, "the %s matrix %s", which, what);
+}
+
+/* Rows of length 1 at right angles, right-handed, and nothing but a shift beside them. */
+static bool is_rigid(const double m[16])
+{
+    const double TOLERANCE = 1e-5;
+    double       rows[3][3], across[3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            rows[i][k] = m[4 * k + i];
+    cross3(rows[0], rows[1], across);
+    for (int i = 0; i < 3; i++)
+        if (fabs(across[i] - rows[2][i]) > TOLERANCE || fabs(dot3(rows[i], rows[i]) - 1) > TOLERANCE)
+            return false;
+    return fabs(dot3(rows[0], rows[1])) <= TOLERANCE && m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+}
+
+/* The depths at which the projection puts −1 and 1, the smaller one first. */
+static void set_limits(view_camera *c, const double p[16])
+{
+    double ends[2];
+    for (int i = 0; i < 2; i++) {
+        double ndc = i ? 1 : -1, rise = p[10] - p[11] * ndc;
+        ends[i] = rise != 0 ? (p[14] - p[15] * ndc) / rise : INFINITY;
+        if (!c->orthographic && !(ends[i] > 0))
+            ends[i] = INFINITY;
+    }
+    c->limited = true;
+    c->limits[0] = fmin(ends[0], ends[1]);
+    c->limits[1] = fmax(ends[0], ends[1]);
+}
+
+static lmn_status place_projection(view_camera *c, const double given[16], lmn_error *error)
+{
+    double p[16], by = given[11] != 0 ? -given[11] : given[15];
+    for (int i = 0; i < 16; i++)
+        p[i] = by != 0 ? given[i] / by : 0;
+    c->orthographic = given[11] == 0;
+    if (!(by > 0) || p[1] != 0 || p[2] != 0 || p[3] != 0 || p[4] != 0 || p[6] != 0 || p[7] != 0 || p[10] == 0 ||
+        !(p[0] > 0) || !(p[5] > 0) || (!c->orthographic && (p[12] != 0 || p[13] != 0 || p[15] != 0 || p[14] == 0)))
+        return refuse_matrix(error, "projection", "is neither that of a perspective nor of parallel rays");
+    if (p[8] != 0 || p[9] != 0) {
+        error_set(error, LMN_UNSUPPORTED, "the projection matrix has its middle beside the picture's");
+        error_hint(error, "draw a larger picture whose middle it is, of which the target shows a part");
+        return LMN_UNSUPPORTED;
+    }
+    c->fov_y = 2 * atan(1 / p[5]);
+    c->half_height = 1 / p[5];
+    c->aspect = p[5] / p[0];
+    set_limits(c, p);
+    /* Parallel rays beside the middle are those of an eye that stands there. */
+    c->view.m[12] += p[12] / p[0];
+    c->view.m[13] += p[13] / p[5];
+    return LMN_OK;
+}
+
+static lmn_status place_matrices(view_camera *c, const lmn_draw_desc *desc, lmn_error *error)
+{
+    memcpy(c->view.m, desc->view_matrix, sizeof c->view.m);
+    const double *m = c->view.m;
+    if (!is_rigid(m))
+        return refuse_matrix(error, "view", "does more than turn and shift");
+    lmn_status status = place_projection(c, desc->projection_matrix, error);
+    for (int k = 0; k < 3; k++) {
+        c->eye[k] = -(m[4 * k] * m[12] + m[4 * k + 1] * m[13] + m[4 * k + 2] * m[14]);
+        c->up[k] = m[4 * k + 1];
+        c->target[k] = c->eye[k] - m[4 * k + 2];
+    }
+    return status;
+}
+
 lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error)
 {
     memset(c, 0, sizeof *c);
     c->aspect = (double)desc->width / desc->height;
     c->fov_y = desc->fov_deg * (3.14159265358979323846 / 180);
     c->orthographic = desc->orthographic;
+    if (desc->matrices_given)
+        return place_matrices(c, desc, error);
     if (desc->camera)
         return place_file_camera(c, desc, pose, error);
     double forward[3], right[3], up[3];
@@ -265,6 +341,10 @@ void camera_set_range(view_camera *c, double nearest, double farthest)
         if (!(c->far > 0) || !isfinite(c->far))
             c->far = 1; /* everything is behind the viewer */
         c->near = fmax(c->near, c->far * 1e-4);
+    }
+    if (c->limited) {
+        c->near = fmax(c->near, c->limits[0]);
+        c->far = fmin(c->far, c->limits[1]);
     }
     if (!(c->far > c->near))
         c->far = c->near + 1;

@@ -11,11 +11,14 @@ typedef struct view_camera {
     double fov_y;       /* radians */
     double half_height; /* orthographic */
     double aspect, near, far;
+    bool   limited; /* near and far stay within the limits, those of a projection that was given */
+    double limits[2];
     mat4   view, projection;
 } view_camera;
 
 /* Sets everything but the clip planes. `bounds` is what is to be fitted.
- * Errors: LMN_USAGE (eye equals target, unknown camera: nearest in the hint). */
+ * Errors: LMN_USAGE (eye equals target, unknown camera: nearest in the hint; matrices of no camera), LMN_UNSUPPORTED (a
+ * perspective with a shifted middle). */
 lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error);
 
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */

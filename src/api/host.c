@@ -1,0 +1,54 @@
+/* Drawing inside of a host: arguments are checked here, the work is done in src/draw. */
+#include "limner/host.h"
+
+#include "api/check_desc.h"
+#include "base/error.h"
+#include "base/work.h"
+#include "draw/into.h"
+
+static lmn_status check_target(const lmn_target *t, const lmn_draw_desc *d, lmn_error *error)
+{
+    if (!t || t->struct_size != sizeof *t)
+        return error_set(error, LMN_USAGE, "the target was not initialised with LMN_TARGET_INIT");
+    if (t->depth != LMN_TARGET_DEPTH_IGNORE && t->depth != LMN_TARGET_DEPTH_TEST_AND_WRITE)
+        return error_set(error, LMN_USAGE, "the target's depth is %d, which is nothing of lmn_target_depth",
+                         (int)t->depth);
+    if (t->depth == LMN_TARGET_DEPTH_TEST_AND_WRITE && !d->matrices_given) {
+        error_set(error, LMN_USAGE, "depth can be compared only with the host's camera");
+        error_hint(error, "set matrices_given, view_matrix and projection_matrix of the description");
+        return LMN_USAGE;
+    }
+    if (d->maps || d->profile)
+        return error_set(error, LMN_USAGE, "lmn_draw_into keeps neither maps nor a profile; lmn_draw does");
+    return LMN_OK;
+}
+
+lmn_status lmn_draw_into(lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                         const lmn_draw_desc *desc, const lmn_target *target, lmn_error *error)
+{
+    if (!renderer || !scene || !look || !desc)
+        return error_set(error, LMN_USAGE, "a renderer, a scene, a look and a description are needed to draw");
+    if (!gpu_is_adopted(renderer->g)) {
+        error_set(error, LMN_USAGE, "the renderer has a context of its own, which has no framebuffer of a host's");
+        error_hint(error, "set `adopt` of its description; lmn_draw draws a picture with any renderer");
+        return LMN_USAGE;
+    }
+    lmn_draw_desc sized;
+    lmn_status    status = desc->struct_size == sizeof sized ? LMN_OK : check_draw_desc(desc, error);
+    if (status == LMN_OK)
+        status = check_target(target, desc, error);
+    if (status != LMN_OK)
+        return status;
+    sized = *desc;
+    sized.width = target->width;
+    sized.height = target->height;
+    status = check_draw_desc(&sized, error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, sized.progress, sized.progress_user);
+    status = check_pixels(&sized, error);
+    if (status == LMN_OK)
+        status = renderer_draw_into(renderer, scene, look, &sized, target, error);
+    return work_end(&w, status, error);
+}
