@@ -104,7 +104,7 @@ class Headers:
         body = self.standards.get(name.upper() + "_INIT")
         if body is None:
             return None
-        body = " ".join(body.split()).replace("{", "(").replace("}", ")")
+        body = " ".join(body.split()).replace("{", "(").replace("}", ",)")  # a list of one, too
         for old, new in (("NULL", "None"), ("true", "True"), ("false", "False")):
             body = re.sub(rf"\b{old}\b", new, body)
         values = re.findall(r"(?:[^,()]|\([^()]*\))+", body)

@@ -23,6 +23,8 @@ LMN_GL = 7
 LMN_MEMORY = 8
 LMN_CANCELLED = 9
 LMN_INTERNAL = 10
+LMN_TARGET_DEPTH_IGNORE = 0
+LMN_TARGET_DEPTH_TEST_AND_WRITE = 1
 LMN_UP_AUTO = 0
 LMN_UP_Y = 1
 LMN_UP_Z = 2
@@ -70,6 +72,8 @@ class lmn_renderer_desc(Structure):
         ("struct_size", c_size_t),
         ("es", c_bool),
         ("debug", c_bool),
+        ("adopt", c_bool),
+        ("no_restore", c_bool),
     ]
 
 
@@ -101,6 +105,9 @@ class lmn_draw_desc(Structure):
         ("clip", c_char_p),
         ("fit_time", c_bool),
         ("dpi", c_double),
+        ("matrices_given", c_bool),
+        ("view_matrix", c_double * 16),
+        ("projection_matrix", c_double * 16),
     ]
 
 
@@ -135,6 +142,18 @@ class lmn_film_format_info(Structure):
         ("program", c_char_p),
         ("package", c_char_p),
         ("usable", c_bool),
+    ]
+
+
+class lmn_target(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("framebuffer", c_uint32),
+        ("x", c_int),
+        ("y", c_int),
+        ("width", c_int),
+        ("height", c_int),
+        ("depth", c_int),
     ]
 
 
@@ -334,9 +353,10 @@ class lmn_task_desc(Structure):
 
 # What the macros LMN_…_INIT make.
 STANDARDS: dict[type, Callable[[], Any]] = {
-    lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False),
-    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0), (0, 0, 0), (0, 0, 0), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0),
+    lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
+    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
+    lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
     lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
@@ -368,6 +388,7 @@ FUNCTIONS = {
     "lmn_film_warning_count": (c_size_t, [c_void_p]),
     "lmn_film_warning_at": (c_char_p, [c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_size_t)]),
     "lmn_picture_is_whole": (c_bool, [c_char_p, c_int, c_int]),
+    "lmn_draw_into": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_target), POINTER(lmn_error)]),
     "lmn_limits_standard": (lmn_limits, []),
     "lmn_limits_safe": (lmn_limits, []),
     "lmn_limits_set": (c_int, [POINTER(lmn_limits), c_char_p, POINTER(lmn_error)]),
