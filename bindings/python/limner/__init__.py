@@ -107,7 +107,7 @@ class Look(Handle):
 
 
 class Renderer(Handle):
-    """What draws. It belongs to the thread that made it; without one, draw() makes one for each thread."""
+    """What draws. Any thread may use it, one at a time; without one, draw() makes one for each thread."""
 
     _end = "lmn_renderer_destroy"
 
