@@ -9,14 +9,16 @@ function(limner_finish target)
 endfunction()
 
 # In the static library one object holds everything, and only lmn_* can be seen from outside: names of functions inside are short and could be
-# those of the program. Where that cannot be done (instrumented code, objects of the link-time optimiser) it is a plain archive.
+# those of the program. That takes GNU's linker, whichever links programs; without it, and for instrumented code and objects of the link-time
+# optimiser, it is a plain archive.
+find_program(LIMNER_JOINER NAMES ${_CMAKE_TOOLCHAIN_PREFIX}ld.bfd)
 function(limner_add_static target)
-  if(LIMNER_SANITIZE OR LIMNER_FUZZ OR CMAKE_INTERPROCEDURAL_OPTIMIZATION OR APPLE OR NOT CMAKE_OBJCOPY)
+  if(LIMNER_SANITIZE OR LIMNER_FUZZ OR CMAKE_INTERPROCEDURAL_OPTIMIZATION OR NOT LIMNER_JOINER OR NOT CMAKE_OBJCOPY)
     add_library(${target} STATIC ${LIMNER_OBJECTS})
   else()
     set(whole ${PROJECT_BINARY_DIR}/limner_whole.o)
     add_custom_command(OUTPUT ${whole}
-      COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${whole} ${LIMNER_OBJECTS}
+      COMMAND ${LIMNER_JOINER} -r --force-group-allocation -o ${whole} ${LIMNER_OBJECTS}
       COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${whole}
       DEPENDS ${LIMNER_OBJECTS} COMMAND_EXPAND_LISTS VERBATIM COMMENT "Putting the static library into one object")
     add_library(${target} STATIC ${whole})

@@ -11,7 +11,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libxml2-dev libseccomp-dev
           libcairo2-dev libpango1.0-dev
           libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium ffmpeg
-          abigail-tools mandoc zsh fish
+          abigail-tools mandoc zsh fish python3 python3-numpy
           clang clang-format libclang-rt-dev llvm lld ccache)
 
 if ! command -v dpkg-query > /dev/null; then

@@ -73,7 +73,7 @@ static void write_option(FILE *out, const command *c, const option *o)
 
 static void write_command(FILE *out, const command *c)
 {
-    fprintf(out, "        %s)\n            _arguments -s -S \\\n", c->name);
+    fprintf(out, "    %s)\n        _arguments -s -S \\\n", c->name);
     for (size_t i = 0; i < c->option_count; i++)
         write_option(out, c, &c->options[i]);
     fputs("            '(- *)'{-h,--help}'[Print the options]'", out);
@@ -84,7 +84,7 @@ static void write_command(FILE *out, const command *c)
         write_action(out, input_value_kind(c), NULL);
         fputc('\'', out);
     }
-    fputs("\n            ;;\n", out);
+    fputs("\n        ;;\n", out);
 }
 
 static void write_words_function(FILE *out, const char *name, value_kind kind)
@@ -110,22 +110,20 @@ void write_zsh(FILE *out)
     write_words_function(out, "look", VALUE_LOOK);
     write_words_function(out, "setting", VALUE_SETTING);
     write_words_function(out, "pattern", VALUE_PATTERN);
-    fputs("_limner() {\n    local context state state_descr line\n    typeset -A opt_args\n"
-          "    _arguments -C '(- *)'{-h,--help}'[List the commands]' '(- *)--version[Print the version]' \\\n"
-          "        '1:command:->command' '*::argument:->argument' && return 0\n"
-          "    case $state in\n    command)\n        local -a commands=(\n",
+    fputs("_limner() {\n    local context state state_descr line\n    typeset -A opt_args\n    local -a commands=(\n",
           out);
     for (size_t i = 0; commands[i]; i++) {
-        fprintf(out, "            '%s:", commands[i]->name);
+        fprintf(out, "        '%s:", commands[i]->name);
         write_spec(out, commands[i]->summary);
         fputs("'\n", out);
     }
-    fputs("        )\n        _describe -t commands command commands\n        ;;\n    argument)\n"
-          "        case $line[1] in\n",
+    fputs("    )\n    if ((CURRENT == 2)); then\n        _describe -t commands command commands\n"
+          "        [[ $PREFIX == -* ]] && compadd -- --help --version\n        return\n    fi\n"
+          "    # What follows is the subcommand's own.\n    shift words\n    ((CURRENT--))\n    case $words[1] in\n",
           out);
     for (size_t i = 0; commands[i]; i++)
         write_command(out, commands[i]);
-    fputs("        esac\n        ;;\n    esac\n}\n\n"
+    fputs("    esac\n}\n\n"
           "if [[ $funcstack[1] == _limner ]]; then\n    _limner \"$@\"\nelse\n    compdef _limner limner\nfi\n",
           out);
 }

@@ -1,0 +1,453 @@
+"""What the C headers declare. Made by make_declarations.py; not to be changed by hand."""
+# mypy: ignore-errors
+from ctypes import *  # noqa: F403
+from typing import Any, Callable
+
+VERSION = "0.1.0"
+
+LMN_VIEW_ISO = 0
+LMN_VIEW_FRONT = 1
+LMN_VIEW_BACK = 2
+LMN_VIEW_LEFT = 3
+LMN_VIEW_RIGHT = 4
+LMN_VIEW_TOP = 5
+LMN_VIEW_BOTTOM = 6
+LMN_OK = 0
+LMN_USAGE = 1
+LMN_READ = 2
+LMN_FORMAT = 3
+LMN_LIMIT = 4
+LMN_UNSUPPORTED = 5
+LMN_WRITE = 6
+LMN_GL = 7
+LMN_MEMORY = 8
+LMN_CANCELLED = 9
+LMN_INTERNAL = 10
+LMN_TARGET_DEPTH_IGNORE = 0
+LMN_TARGET_DEPTH_TEST_AND_WRITE = 1
+LMN_UP_AUTO = 0
+LMN_UP_Y = 1
+LMN_UP_Z = 2
+LMN_THIRD_ANGLE = 0
+LMN_FIRST_ANGLE = 1
+LMN_SHAPE = 0
+LMN_UNION = 1
+LMN_INTERSECTION = 2
+LMN_DIFFERENCE = 3
+LMN_SHAPE_BOX = 1
+LMN_SHAPE_SPHERE = 2
+LMN_SHAPE_CYLINDER = 3
+LMN_SHAPE_POLYHEDRON = 4
+LMN_SHAPE_EXTRUSION = 5
+LMN_SHAPE_REVOLUTION = 6
+LMN_PATTERN_PARALLEL = 0
+LMN_PATTERN_CROSS = 1
+LMN_PATTERN_CONTOUR = 2
+LMN_PATTERN_BRICK = 3
+LMN_PATTERN_STIPPLE = 4
+LMN_PATTERN_SCRIBBLE = 5
+LMN_PATTERN_RANDOM = 6
+LMN_ORDER_DRAWN = 0
+LMN_ORDER_SHUFFLED = 1
+LMN_ORDER_EVEN = 2
+LMN_FRACTION_COUNT = 0
+LMN_FRACTION_LENGTH = 1
+LMN_FRACTION_AREA = 2
+LMN_PERSPECTIVE_TIED = 0
+LMN_PERSPECTIVE_RANDOM = 1
+LMN_PERSPECTIVE_EVEN = 2
+LMN_PERSPECTIVE_LAYERS = 3
+LMN_FILES_NEAR = 0
+LMN_FILES_FOLDER = 1
+LMN_FILES_ANY = 2
+LMN_SOLID_ROOT = 1
+
+lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
+
+lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
+
+
+class lmn_renderer_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("es", c_bool),
+        ("debug", c_bool),
+        ("adopt", c_bool),
+        ("no_restore", c_bool),
+    ]
+
+
+class lmn_draw_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("width", c_int),
+        ("height", c_int),
+        ("view", c_int),
+        ("eye_given", c_bool),
+        ("eye", c_double * 3),
+        ("target", c_double * 3),
+        ("up", c_double * 3),
+        ("camera", c_char_p),
+        ("orthographic", c_bool),
+        ("fov_deg", c_double),
+        ("fit", c_double),
+        ("time_s", c_double),
+        ("seed", c_uint32),
+        ("samples", c_int),
+        ("background", c_char_p),
+        ("select", c_char_p),
+        ("maps", c_bool),
+        ("profile", c_bool),
+        ("progress", lmn_progress_fn),
+        ("progress_user", c_void_p),
+        ("lenient", c_bool),
+        ("time_given", c_bool),
+        ("clip", c_char_p),
+        ("fit_time", c_bool),
+        ("dpi", c_double),
+        ("matrices_given", c_bool),
+        ("view_matrix", c_double * 16),
+        ("projection_matrix", c_double * 16),
+    ]
+
+
+class lmn_error(Structure):
+    _fields_ = [
+        ("status", c_int),
+        ("message", c_char * 512),
+        ("file", c_char * 512),
+        ("line", c_int),
+        ("column", c_int),
+        ("hint", c_char * 256),
+    ]
+
+
+class lmn_film_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("width", c_int),
+        ("height", c_int),
+        ("rate", c_double),
+        ("frame_count", c_uint32),
+        ("format", c_char_p),
+        ("progress", lmn_progress_fn),
+        ("progress_user", c_void_p),
+    ]
+
+
+class lmn_film_format_info(Structure):
+    _fields_ = [
+        ("ending", c_char_p),
+        ("doc", c_char_p),
+        ("program", c_char_p),
+        ("package", c_char_p),
+        ("usable", c_bool),
+    ]
+
+
+class lmn_target(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("framebuffer", c_uint32),
+        ("x", c_int),
+        ("y", c_int),
+        ("width", c_int),
+        ("height", c_int),
+        ("depth", c_int),
+    ]
+
+
+class lmn_limits(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("time_s", c_double),
+        ("memory", c_uint64),
+        ("triangles", c_uint64),
+        ("pixels", c_uint64),
+        ("textures", c_uint64),
+    ]
+
+
+class lmn_limit_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("standard", c_char * 32),
+        ("safe", c_char * 32),
+    ]
+
+
+class lmn_load_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("up_axis", c_int),
+        ("progress", lmn_progress_fn),
+        ("progress_user", c_void_p),
+        ("defines", POINTER(c_char_p)),
+        ("define_count", c_size_t),
+        ("strict", c_bool),
+    ]
+
+
+class lmn_scene_info(Structure):
+    _fields_ = [
+        ("parts", c_size_t),
+        ("nodes", c_size_t),
+        ("meshes", c_size_t),
+        ("materials", c_size_t),
+        ("textures", c_size_t),
+        ("cameras", c_size_t),
+        ("lights", c_size_t),
+        ("animations", c_size_t),
+        ("skins", c_size_t),
+        ("triangles", c_uint64),
+        ("lines", c_uint64),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+        ("up", c_char),
+    ]
+
+
+class lmn_part_info(Structure):
+    _fields_ = [
+        ("id", c_uint32),
+        ("name", c_char_p),
+        ("path", c_char_p),
+        ("triangles", c_uint64),
+        ("lines", c_uint64),
+        ("instances", c_size_t),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+    ]
+
+
+class lmn_sheet_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("page", c_char_p),
+        ("scale", c_char_p),
+        ("unit", c_char_p),
+        ("views", c_char_p),
+        ("angle", c_int),
+        ("title", c_char_p),
+        ("frame", c_bool),
+        ("plotter", c_bool),
+        ("lines_only", c_bool),
+        ("fill", c_bool),
+        ("verify", c_bool),
+    ]
+
+
+class lmn_format_info(Structure):
+    _fields_ = [
+        ("ending", c_char_p),
+        ("doc", c_char_p),
+        ("vectors", c_bool),
+        ("ground", c_bool),
+        ("pictures", c_bool),
+        ("areas", c_bool),
+        ("title", c_bool),
+    ]
+
+
+class lmn_facets(Structure):
+    _fields_ = [
+        ("fn", c_double),
+        ("fa", c_double),
+        ("fs", c_double),
+    ]
+
+
+class lmn_shape(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_int),
+        ("centred", c_bool),
+        ("facets", lmn_facets),
+        ("size", c_double * 3),
+        ("radius", c_double),
+        ("top_radius", c_double),
+        ("height", c_double),
+        ("twist", c_double),
+        ("scale", c_double * 2),
+        ("slices", c_uint32),
+        ("angle", c_double),
+        ("profile", POINTER(c_double * 2)),
+        ("profile_count", c_size_t),
+        ("contour_sizes", POINTER(c_uint32)),
+        ("contour_count", c_size_t),
+        ("points", POINTER(c_double * 3)),
+        ("point_count", c_size_t),
+        ("corners", POINTER(c_uint32)),
+        ("face_sizes", POINTER(c_uint32)),
+        ("face_count", c_size_t),
+    ]
+
+
+class lmn_solid_info(Structure):
+    _fields_ = [
+        ("operation", c_int),
+        ("parent", c_uint32),
+        ("first_child", c_uint32),
+        ("next_sibling", c_uint32),
+        ("child_count", c_size_t),
+        ("name", c_char_p),
+        ("matrix", c_double * 16),
+        ("has_colour", c_bool),
+        ("colour", c_float * 4),
+        ("triangles", c_uint64),
+        ("is_empty", c_bool),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+        ("part", c_uint32),
+    ]
+
+
+class lmn_stroke(Structure):
+    _fields_ = [
+        ("u0", c_float),
+        ("v0", c_float),
+        ("u1", c_float),
+        ("v1", c_float),
+        ("light", c_float),
+        ("perspective", c_float),
+        ("layer", c_int32),
+    ]
+
+
+class lmn_pattern_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("pattern", c_int),
+        ("count", c_size_t),
+        ("length", c_double),
+        ("uneven", c_double),
+        ("seed", c_uint32),
+    ]
+
+
+class lmn_strokes_view(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("size", c_int),
+        ("width", c_double),
+        ("light", c_double),
+        ("distance", c_double),
+    ]
+
+
+class lmn_task_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("limits", lmn_limits),
+        ("progress", lmn_progress_fn),
+        ("progress_user", c_void_p),
+        ("files", c_int),
+        ("allow_paths", POINTER(c_char_p)),
+        ("allow_path_count", c_size_t),
+        ("read_file", lmn_read_fn),
+        ("read_user", c_void_p),
+        ("in_process", c_bool),
+    ]
+
+
+# What the macros LMN_…_INIT make.
+STANDARDS: dict[type, Callable[[], Any]] = {
+    lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
+    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
+    lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
+    lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
+    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False),
+    lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
+    lmn_facets: lambda: lmn_facets(0, 12, 2),
+    lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
+    lmn_strokes_view: lambda: lmn_strokes_view(sizeof(lmn_strokes_view), 512, 0, 0, 0),
+}
+
+FUNCTIONS = {
+    "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
+    "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_renderer_json": (c_void_p, [c_void_p]),
+    "lmn_draw_check": (c_int, [c_void_p, c_void_p, POINTER(lmn_draw_desc), c_bool, POINTER(lmn_error)]),
+    "lmn_draw": (c_int, [POINTER(c_void_p), c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_error)]),
+    "lmn_drawing_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_drawing_pixels": (POINTER(c_uint8), [c_void_p, POINTER(c_int), POINTER(c_int)]),
+    "lmn_drawing_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_drawing_write_maps": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_drawing_report_json": (c_void_p, [c_void_p]),
+    "lmn_drawing_warning_count": (c_size_t, [c_void_p]),
+    "lmn_drawing_warning_at": (c_char_p, [c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_size_t)]),
+    "lmn_bench_json": (c_int, [POINTER(c_void_p), c_void_p, c_void_p, POINTER(c_char_p), c_size_t, POINTER(lmn_draw_desc), c_int, POINTER(lmn_error)]),
+    "lmn_status_text": (c_char_p, [c_int]),
+    "lmn_film_format_at": (c_bool, [c_size_t, POINTER(lmn_film_format_info)]),
+    "lmn_film_check": (c_int, [c_char_p, POINTER(lmn_film_desc), POINTER(lmn_error)]),
+    "lmn_film_open": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_film_desc), POINTER(lmn_error)]),
+    "lmn_film_add": (c_int, [c_void_p, POINTER(c_uint8), POINTER(lmn_error)]),
+    "lmn_film_close": (c_int, [POINTER(c_void_p), POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_film_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_film_warning_count": (c_size_t, [c_void_p]),
+    "lmn_film_warning_at": (c_char_p, [c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_size_t)]),
+    "lmn_picture_is_whole": (c_bool, [c_char_p, c_int, c_int]),
+    "lmn_draw_into": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_target), POINTER(lmn_error)]),
+    "lmn_limits_standard": (lmn_limits, []),
+    "lmn_limits_safe": (lmn_limits, []),
+    "lmn_limits_set": (c_int, [POINTER(lmn_limits), c_char_p, POINTER(lmn_error)]),
+    "lmn_limit_at": (c_bool, [c_size_t, POINTER(lmn_limit_info)]),
+    "lmn_look_load": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_error)]),
+    "lmn_look_parse": (c_int, [POINTER(c_void_p), c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_look_set": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_json": (c_void_p, [c_void_p]),
+    "lmn_look_name": (c_char_p, [c_void_p]),
+    "lmn_look_count": (c_size_t, []),
+    "lmn_look_name_at": (c_char_p, [c_size_t]),
+    "lmn_look_reference_json": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_error)]),
+    "lmn_scene_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_scene_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_scene_add_file": (c_int, [c_void_p, c_char_p, POINTER(lmn_load_desc), POINTER(lmn_error)]),
+    "lmn_scene_info_of": (lmn_scene_info, [c_void_p]),
+    "lmn_scene_part_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_part_info)]),
+    "lmn_scene_info_json": (c_void_p, [c_void_p]),
+    "lmn_text_free": (None, [c_void_p]),
+    "lmn_text_write": (c_int, [c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_needs_pixels": (c_bool, [c_void_p]),
+    "lmn_page_size": (c_int, [c_char_p, POINTER(c_double), POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_draw_sheet": (c_int, [POINTER(c_void_p), c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_sheet_desc), POINTER(lmn_error)]),
+    "lmn_sheet_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_format_at": (c_bool, [c_size_t, POINTER(lmn_format_info)]),
+    "lmn_sheet_report_json": (c_void_p, [c_void_p]),
+    "lmn_sheet_warning_count": (c_size_t, [c_void_p]),
+    "lmn_sheet_warning_at": (c_char_p, [c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_size_t)]),
+    "lmn_sheet_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_scene_add_solid": (c_int, [c_void_p, c_char_p, c_int, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_solid_add_operation": (c_int, [c_void_p, c_uint32, c_uint32, c_int, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_solid_add_shape": (c_int, [c_void_p, c_uint32, c_uint32, POINTER(lmn_shape), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_solid_add_file": (c_int, [c_void_p, c_uint32, c_uint32, c_char_p, POINTER(lmn_load_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_solid_add_copy": (c_int, [c_void_p, c_uint32, c_uint32, c_uint32, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_solid_set_matrix": (c_int, [c_void_p, c_uint32, c_uint32, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_solid_set_colour": (c_int, [c_void_p, c_uint32, c_uint32, POINTER(c_float), POINTER(lmn_error)]),
+    "lmn_solid_set_operation": (c_int, [c_void_p, c_uint32, c_uint32, c_int, POINTER(lmn_error)]),
+    "lmn_solid_set_shape": (c_int, [c_void_p, c_uint32, c_uint32, POINTER(lmn_shape), POINTER(lmn_error)]),
+    "lmn_solid_set_name": (c_int, [c_void_p, c_uint32, c_uint32, c_char_p, POINTER(lmn_error)]),
+    "lmn_solid_remove": (c_int, [c_void_p, c_uint32, c_uint32, POINTER(lmn_error)]),
+    "lmn_solid_move": (c_int, [c_void_p, c_uint32, c_uint32, c_uint32, c_uint32, POINTER(lmn_error)]),
+    "lmn_scene_solid_count": (c_size_t, [c_void_p]),
+    "lmn_scene_solid_at": (c_uint32, [c_void_p, c_size_t]),
+    "lmn_solid_info_of": (c_bool, [c_void_p, c_uint32, c_uint32, POINTER(lmn_solid_info)]),
+    "lmn_strokes_create": (c_int, [POINTER(c_void_p), POINTER(lmn_pattern_desc), POINTER(lmn_error)]),
+    "lmn_strokes_load": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_error)]),
+    "lmn_strokes_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_stroke_pattern_name": (c_char_p, [c_int]),
+    "lmn_strokes_count": (c_size_t, [c_void_p]),
+    "lmn_strokes_get": (c_int, [c_void_p, c_size_t, POINTER(lmn_stroke), POINTER(lmn_error)]),
+    "lmn_strokes_set": (c_int, [c_void_p, c_size_t, POINTER(lmn_stroke), POINTER(lmn_error)]),
+    "lmn_strokes_set_light": (c_int, [c_void_p, c_int, c_int, c_double, c_uint32, POINTER(lmn_error)]),
+    "lmn_strokes_set_perspective": (c_int, [c_void_p, c_int, c_uint32, POINTER(lmn_error)]),
+    "lmn_strokes_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(lmn_strokes_view), POINTER(lmn_error)]),
+    "lmn_task_desc_standard": (lmn_task_desc, []),
+    "lmn_task_begin": (c_int, [POINTER(c_void_p), POINTER(lmn_task_desc), POINTER(lmn_error)]),
+    "lmn_task_end": (None, [POINTER(c_void_p)]),
+    "lmn_fence_kind": (c_char_p, []),
+    "lmn_file_alloc": (c_void_p, [c_size_t]),
+    "lmn_version": (c_char_p, []),
+}

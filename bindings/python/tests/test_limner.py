@@ -1,0 +1,206 @@
+"""Tests of the package. Environment: LIMNER_LIBRARY, the library; CC, a C compiler (else cc)."""
+import ctypes
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent.parent
+sys.path.insert(0, str(HERE.parent))
+
+import limner  # noqa: E402
+from limner import _declarations as c  # noqa: E402
+
+BOX = ROOT / "examples" / "box.glb"
+SMALL = {"size": (64, 48), "dpi": 96}
+
+
+class Declarations(unittest.TestCase):
+    """What ctypes is told is what the C compiler makes of the headers."""
+
+    structs = [kind for kind in vars(c).values() if isinstance(kind, type) and issubclass(kind, ctypes.Structure) and kind.__module__ == c.__name__]
+
+    def printed(self, lines):
+        """What a C program with these statements prints."""
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder, "layout.c")
+            source.write_text('#include <limner/limner.h>\n#include <stdio.h>\n#include <stddef.h>\nint main(void)\n{\n' + "\n".join(lines) +
+                              "\nreturn 0;\n}\n", encoding="utf-8")
+            program = pathlib.Path(folder, "layout")
+            subprocess.run([os.environ.get("CC", "cc"), "-I", ROOT / "include", "-o", program, source], check=True)
+            return subprocess.run([program], check=True, capture_output=True, text=True).stdout.split("\n")[:-1]
+
+    def test_current(self):
+        subprocess.run([sys.executable, HERE.parent / "make_declarations.py", "--check"], check=True)
+
+    def test_layouts(self):
+        self.assertGreater(len(self.structs), 15)
+        lines, expected = [], []
+        for kind in self.structs:
+            name = kind.__name__
+            lines.append(f'printf("{name} %zu\\n", sizeof({name}));')
+            expected.append(f"{name} {ctypes.sizeof(kind)}")
+            for field, _ in kind._fields_:
+                lines.append(f'printf("{name}.{field} %zu %zu\\n", offsetof({name}, {field}), sizeof((({name} *)0)->{field}));')
+                expected.append(f"{name}.{field} {getattr(kind, field).offset} {getattr(kind, field).size}")
+        self.assertEqual(self.printed(lines), expected)
+
+    def test_standards(self):
+        """LMN_…_INIT byte by byte, callbacks and all."""
+        lines, expected = [], []
+        for kind, standard in c.STANDARDS.items():
+            name = kind.__name__
+            lines.append(f"{{ static const {name} s = {name.upper()}_INIT; const unsigned char *b = (const unsigned char *)&s;"
+                         f'printf("{name} "); for (size_t i = 0; i < sizeof s; i++) printf("%02x", b[i]); printf("\\n"); }}')
+            expected.append(f"{name} {bytes(standard()).hex()}")
+        self.assertGreater(len(lines), 4)
+        self.assertEqual(self.printed(lines), expected)
+
+    def test_constants(self):
+        names = [name for name in vars(c) if name.startswith("LMN_")]
+        self.assertGreater(len(names), 40)
+        self.assertEqual(self.printed([f'printf("{name} %d\\n", {name});' for name in names]), [f"{name} {getattr(c, name)}" for name in names])
+
+    def test_functions(self):
+        """Every function of the headers is known, with as many parameters."""
+        declared = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "include" / "limner").glob("*.h"))
+        self.assertEqual(len(c.FUNCTIONS), declared.count("LMN_API ") - declared.count("#define LMN_API "))
+        # The compiler refuses calls with too many or too few.
+        lines = [f"if (0) (void)sizeof({name}({', '.join('0' * len(arguments))}));" for name, (result, arguments) in c.FUNCTIONS.items()
+                 if result is not None and not any(isinstance(a, type) and issubclass(a, ctypes.Structure) for a in arguments)]
+        self.printed(lines)
+
+
+class Pictures(unittest.TestCase):
+    def test_draw(self):
+        picture = limner.draw(BOX, look="hatch", **SMALL)
+        self.assertEqual(picture.size, (64, 48))
+        self.assertEqual(picture.array.shape, (48, 64, 4))
+        pixels = bytes(memoryview(picture.array).cast("B"))
+        self.assertEqual(len(pixels), 48 * 64 * 4)
+        self.assertGreater(len(set(pixels)), 4, "the picture is not empty")
+        self.assertEqual(picture._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(picture.report["size"], [64, 48])
+        self.assertEqual(picture.warnings, [])
+
+    def test_same(self):
+        """The same bytes as the command's, of several paths, scenes and looks that are kept."""
+        scene, look = limner.Scene(BOX), limner.Look("line", {"lines.width": "3px"})
+        first = limner.draw(scene, look, view="front", **SMALL).png()
+        self.assertEqual(first, limner.draw([str(BOX)], "line", settings={"lines.width": "3px"}, view="front", **SMALL).png())
+        self.assertNotEqual(first, limner.draw(scene, look, view="iso", **SMALL).png())
+        self.assertNotEqual(first, limner.draw(scene, "line", view="front", **SMALL).png())
+
+    def test_without_numpy(self):
+        code = ("import sys; sys.modules['numpy'] = None; import limner; a = limner.draw(sys.argv[1], size=(32, 16), dpi=96).array;"
+                "assert isinstance(a, memoryview) and a.shape == (16, 32, 4) and a[0, 0, 3] == 255, a.shape")
+        subprocess.run([sys.executable, "-c", code, BOX], check=True, env={**os.environ, "PYTHONPATH": str(HERE.parent)})
+
+    def test_numpy(self):
+        try:
+            import numpy
+        except ImportError:
+            self.skipTest("numpy is not installed")
+        array = limner.draw(BOX, **SMALL).array
+        self.assertIsInstance(array, numpy.ndarray)
+        self.assertTrue(array.flags.writeable)
+
+    def test_eye(self):
+        """Without target the viewer looks at the middle, as with the command."""
+        eye = (3, 2, 5)
+        self.assertEqual(limner.draw(BOX, eye=eye, **SMALL).png(), limner.draw(BOX, eye=eye, target=(0, 0, 0), up=(0, 1, 0), **SMALL).png())
+
+    def test_sheets(self):
+        sheet = limner.draw_svg(BOX, page="A5", title="A box")
+        self.assertIn("<svg", sheet._repr_svg_())
+        self.assertIn("A box", sheet.svg())
+        with tempfile.TemporaryDirectory() as folder:
+            sheet.save(pathlib.Path(folder, "box.pdf"))
+            self.assertEqual(pathlib.Path(folder, "box.pdf").read_bytes()[:5], b"%PDF-")
+        self.assertIn("<image", limner.draw_svg(BOX, look="toon").svg(), "surfaces are a picture below the lines")
+
+    def test_scenes(self):
+        scene = limner.Scene(BOX)
+        with self.assertRaises(limner.UnsupportedError):
+            scene.add(ROOT / "README.md")
+        scene.add(ROOT / "examples" / "gearbox.stl", up_axis="z")
+        self.assertGreater(len(scene.info["parts"]), 1)
+        self.assertIn("hatch", limner.looks())
+        self.assertEqual(limner.version(), c.VERSION)
+
+    def test_settings(self):
+        look = limner.Look("toon")
+        look.set("surface.bands", 2)
+        look.set("scene.shadows", True)
+        look.set("scene.light_direction", (1, 1, 1))
+        with self.assertRaises(limner.UsageError) as caught:
+            look.set("surface.bonds", 2)
+        self.assertIn("'bands'", caught.exception.hint + caught.exception.message)
+
+    def test_threads(self):
+        """Each thread has its own renderer, and they give the same."""
+        done = []
+        threads = [threading.Thread(target=lambda: done.append(limner.draw(BOX, **SMALL).png())) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(done, [limner.draw(BOX, **SMALL).png()] * 3)
+
+
+class Mistakes(unittest.TestCase):
+    def test_kinds(self):
+        cases = [
+            (limner.UsageError, lambda: limner.draw(BOX, look="hutch"), "hatch"),
+            (limner.UsageError, lambda: limner.draw(BOX, view="inside"), "front"),
+            (limner.UsageError, lambda: limner.draw(BOX, target=(0, 0, 0)), "viewer"),
+            (limner.UsageError, lambda: limner.draw(BOX, eye=(0, 0)), "three"),
+            (limner.UsageError, lambda: limner.draw(BOX, size=(0, 10)), "width"),
+            (limner.UsageError, lambda: limner.draw([]), "model"),
+            (limner.ReadError, lambda: limner.draw("missing.glb"), "missing.glb"),
+            (limner.UnsupportedError, lambda: limner.draw(ROOT / "README.md"), "README.md"),
+            (limner.WriteError, lambda: limner.draw(BOX, **SMALL).save("/nowhere/box.png"), "/nowhere"),
+        ]
+        for kind, action, words in cases:
+            with self.subTest(words=words), self.assertRaises(kind) as caught:
+                action()
+            self.assertIn(words, str(caught.exception))
+            self.assertIsInstance(caught.exception, limner.Error)
+        self.assertTrue(issubclass(limner.ReadError, OSError) and issubclass(limner.UsageError, ValueError))
+
+    def test_closed(self):
+        with limner.draw(BOX, **SMALL) as picture:
+            self.assertEqual(picture.size, (64, 48))
+        for action in (lambda: picture.array, picture.png, lambda: picture.report):
+            with self.assertRaises(ValueError):
+                action()
+        picture.close()
+
+    def test_progress(self):
+        seen = []
+        limner.draw(BOX, progress=lambda fraction, stage: seen.append((fraction, stage)), **SMALL)
+        self.assertTrue(seen and all(0 <= fraction <= 1 and stage for fraction, stage in seen))
+        with self.assertRaises(limner.CancelledError):
+            limner.draw(BOX, progress=lambda *_: False, **SMALL)
+
+    def test_interrupts(self):
+        def stop(*_):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            limner.draw(BOX, progress=stop, **SMALL)
+        self.assertEqual(limner.draw(BOX, **SMALL).size, (64, 48))
+
+    def test_no_library(self):
+        done = subprocess.run([sys.executable, "-c", "import limner"], capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": str(HERE.parent), "LIMNER_LIBRARY": "/nowhere/liblimner.so.1"})
+        self.assertIn("ImportError", done.stderr)
+        self.assertIn("/nowhere/liblimner.so.1", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
