@@ -308,6 +308,46 @@ static void running_queries_are_in_the_way(void **unused)
     close_arguments(&a);
 }
 
+/* Feedback that a host has begun goes on after the call, into the same place. */
+static void feedback_waits(void **unused)
+{
+    (void)unused;
+    arguments     a;
+    state_objects o;
+    GLuint        buffer;
+    GLint         active = 0, paused = 1;
+    float         got[4][4] = {{0}};
+    open_arguments(&a);
+    lmn_draw_desc desc = description();
+    lmn_target    target = target_of(&a.picture);
+    state_objects_create(&o);
+    glTransformFeedbackVaryings(o.program, 1, (const char *const[]){"gl_Position"}, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(o.program);
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer);
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, sizeof got, NULL, GL_STATIC_READ);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+    glUseProgram(o.program);
+    glBindVertexArray(o.array);
+    glBindFramebuffer(GL_FRAMEBUFFER, a.picture.framebuffer);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, 2);
+    DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
+    glGetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+    glGetIntegerv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+    assert_true(active && !paused);
+    glDrawArrays(GL_POINTS, 2, 2);
+    glEndTransformFeedback();
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, sizeof got, got);
+    const float expected[4][2] = {{-0.9f, -0.9f}, {0.7f, -0.6f}, {-0.2f, 0.9f}, {0.9f, 0.9f}};
+    for (int i = 0; i < 4; i++)
+        assert_memory_equal(got[i], expected[i], sizeof expected[i]);
+    glDeleteBuffers(1, &buffer);
+    state_objects_destroy(&o);
+    close_arguments(&a);
+}
+
 typedef struct again {
     arguments *a;
     int        asked;
@@ -426,7 +466,6 @@ static void matrices_are_a_camera(void **unused)
     lmn_scene    *scene = load("box.glb");
     lmn_look     *line = look("line");
     lmn_drawing  *drawings[2];
-    plane         p = {.orthographic = false};
     DO(lmn_renderer_create(&r, NULL, &error));
     for (int parallel = 0; parallel < 2; parallel++) {
         lmn_draw_desc by_eye = description(), by_matrix = description();
@@ -448,7 +487,6 @@ static void matrices_are_a_camera(void **unused)
         lmn_drawing_destroy(&drawings[0]);
         lmn_drawing_destroy(&drawings[1]);
     }
-    (void)p;
     lmn_renderer_destroy(&r);
     lmn_look_destroy(&line);
     lmn_scene_destroy(&scene);
@@ -696,6 +734,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(targets_are_checked),
         cmocka_unit_test(own_contexts_have_no_targets),
         cmocka_unit_test(running_queries_are_in_the_way),
+        cmocka_unit_test(feedback_waits),
         cmocka_unit_test(one_call_at_a_time),
         cmocka_unit_test(renderers_on_two_threads),
         cmocka_unit_test(matrices_are_a_camera),

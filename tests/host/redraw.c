@@ -68,6 +68,18 @@ static double median(job *j, bool into, int frames)
     return out;
 }
 
+/* Refused once the state is saved and set. */
+static double nothing(job *j)
+{
+    enum { CALLS = 2000 };
+    lmn_target none = j->target;
+    double     start = now_ms();
+    none.framebuffer = 4711;
+    for (int i = 0; i < CALLS; i++)
+        must_be(lmn_draw_into(j->renderer, j->scene, j->look, &j->desc, &none, NULL) == LMN_USAGE, "refused");
+    return (now_ms() - start) / CALLS;
+}
+
 int main(int count, char **arguments)
 {
     job               j = {.desc = LMN_DRAW_DESC_INIT, .target = LMN_TARGET_INIT};
@@ -75,12 +87,12 @@ int main(int count, char **arguments)
     lmn_renderer_desc how = LMN_RENDERER_DESC_INIT;
     context           c;
     picture           p;
-    int               frames = count > 5 ? atoi(arguments[5]) : 30;
+    int               frames = count > 5 ? (int)strtol(arguments[5], NULL, 10) : 30;
     if (count < 3 || !context_open(&c, CONTEXT_CORE, 3, 3))
         return 1;
     j.desc.samples = 1;
-    j.target.width = j.desc.width = count > 4 ? atoi(arguments[3]) : 640;
-    j.target.height = j.desc.height = count > 4 ? atoi(arguments[4]) : 450;
+    j.target.width = j.desc.width = count > 4 ? (int)strtol(arguments[3], NULL, 10) : 640;
+    j.target.height = j.desc.height = count > 4 ? (int)strtol(arguments[4], NULL, 10) : 450;
     picture_open(&p, j.target.width, j.target.height, PICTURE_DEPTH_24);
     j.target.framebuffer = p.framebuffer;
     how.adopt = true;
@@ -90,14 +102,13 @@ int main(int count, char **arguments)
     must(lmn_look_load(&j.look, arguments[2], &error), &error, arguments[2]);
     double start = now_ms();
     draw_once(&j, true, 0);
-    double first = now_ms() - start, into = median(&j, true, frames), read = median(&j, false, frames);
+    double first = now_ms() - start, into = median(&j, true, frames), read = median(&j, false, frames),
+           kept = nothing(&j);
     lmn_renderer_destroy(&j.renderer);
     how.no_restore = true;
     must(lmn_renderer_create(&j.renderer, &how, &error), &error, "a renderer");
-    draw_once(&j, true, 0);
-    double left = median(&j, true, frames);
-    printf("%s %s %dx%d: first %.1f, again %.2f, read back %.2f, without restoring %.2f ms\n", arguments[1],
-           arguments[2], j.target.width, j.target.height, first, into, read, left);
+    printf("%s %s %dx%d: first %.1f, again %.2f, read back %.2f, nothing %.4f, without restoring %.4f ms\n",
+           arguments[1], arguments[2], j.target.width, j.target.height, first, into, read, kept, nothing(&j));
     lmn_renderer_destroy(&j.renderer);
     lmn_look_destroy(&j.look);
     lmn_scene_destroy(&j.scene);
