@@ -199,13 +199,18 @@ static void refused(const arguments *a, const lmn_draw_desc *desc, const lmn_tar
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-static void open_arguments(arguments *a)
+static void open_arguments_in(arguments *a, context_kind kind)
 {
-    assert_true(context_open(&a->context, CONTEXT_CORE, 3, 3));
+    assert_true(context_open(&a->context, kind, 3, kind == CONTEXT_ES ? 0 : 3));
     picture_open(&a->picture, SIDE, SIDE, PICTURE_DEPTH_24);
     a->renderer = adopt();
     a->scene = load("box.glb");
     a->look = look("plain");
+}
+
+static void open_arguments(arguments *a)
+{
+    open_arguments_in(a, CONTEXT_CORE);
 }
 
 static void close_arguments(arguments *a)
@@ -381,6 +386,47 @@ static void one_call_at_a_time(void **unused)
     close_arguments(&a);
 }
 
+static bool cancel_later(double fraction, const char *stage, void *user)
+{
+    (void)fraction, (void)stage;
+    int *left = user;
+    return --*left > 0;
+}
+
+/* Wherever a call ends, the state is as before, and the next call is a good one. */
+static void cancelled_calls_give_back(void **unused)
+{
+    (void)unused;
+    arguments     a;
+    state_objects o;
+    static state  before, after;
+    int           cancelled = 0;
+    open_arguments(&a);
+    lmn_look_destroy(&a.look);
+    a.look = look("pencil");
+    state_objects_create(&o);
+    lmn_target target = target_of(&a.picture);
+    for (int k = 1; k <= 4; k++) {
+        lmn_draw_desc desc = description();
+        int           left = k;
+        desc.progress = cancel_later;
+        desc.progress_user = &left;
+        state_upset(&o, STATE_DEADLY);
+        state_take(&before);
+        lmn_status status = lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error);
+        state_take(&after);
+        assert_true(status == LMN_OK || status == LMN_CANCELLED);
+        cancelled += status == LMN_CANCELLED;
+        assert_true(state_same(&before, &after));
+        desc.progress = NULL;
+        DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
+    }
+    assert_true(cancelled > 0);
+    state_calm();
+    state_objects_destroy(&o);
+    close_arguments(&a);
+}
+
 /* --- threads --- */
 
 typedef struct thread_job {
@@ -545,29 +591,36 @@ static void check_rays(const plane *p, const uint8_t *pixels)
         fail_msg("%d of %d pixels are not what rays meet, %d lie on borders", wrong, SIDE * SIDE, unsure);
 }
 
+static void check_depth(arguments *a, plane_depth depth, picture_depth kind, bool parallel)
+{
+    static uint8_t pixels[2][SIDE * SIDE * 4];
+    plane          p;
+    picture        before = a->picture;
+    picture_open(&a->picture, SIDE, SIDE, kind);
+    plane_open(&p, depth, parallel, 0.05);
+    draw_both(a, &p, true, pixels[0]);
+    check_rays(&p, pixels[0]);
+    draw_both(a, &p, false, pixels[1]);
+    check_rays(&p, pixels[1]);
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    plane_close(&p);
+    picture_close(&a->picture);
+    a->picture = before;
+}
+
 static void depth_interleaves(void **unused)
 {
     (void)unused;
-    arguments      a;
-    static uint8_t pixels[2][SIDE * SIDE * 4];
-    open_arguments(&a);
-    for (int depth = 0; depth < PLANE_DEPTHS; depth++)
-        for (int kind = PICTURE_DEPTH_24; kind <= PICTURE_DEPTH_32F; kind++)
-            for (int parallel = 0; parallel < 2; parallel++) {
-                plane   p;
-                picture before = a.picture;
-                picture_open(&a.picture, SIDE, SIDE, (picture_depth)kind);
-                plane_open(&p, (plane_depth)depth, parallel, 0.05);
-                draw_both(&a, &p, true, pixels[0]);
-                check_rays(&p, pixels[0]);
-                draw_both(&a, &p, false, pixels[1]);
-                check_rays(&p, pixels[1]);
-                assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
-                plane_close(&p);
-                picture_close(&a.picture);
-                a.picture = before;
-            }
-    close_arguments(&a);
+    for (int api = CONTEXT_CORE; api <= CONTEXT_ES; api++) {
+        arguments a;
+        open_arguments_in(&a, (context_kind)api);
+        for (int depth = 0; depth < PLANE_DEPTHS; depth++)
+            for (int kind = PICTURE_DEPTH_24; kind <= PICTURE_DEPTH_32F; kind++)
+                for (int parallel = 0; parallel < 2; parallel++)
+                    if (api != CONTEXT_ES || depth != PLANE_REVERSED) /* which ES has by an extension alone */
+                        check_depth(&a, (plane_depth)depth, (picture_depth)kind, parallel);
+        close_arguments(&a);
+    }
 }
 
 /* Seen through, the cube shows what is behind it and is hidden by what is in front of it. */
@@ -736,6 +789,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(running_queries_are_in_the_way),
         cmocka_unit_test(feedback_waits),
         cmocka_unit_test(one_call_at_a_time),
+        cmocka_unit_test(cancelled_calls_give_back),
         cmocka_unit_test(renderers_on_two_threads),
         cmocka_unit_test(matrices_are_a_camera),
         cmocka_unit_test(depth_interleaves),
