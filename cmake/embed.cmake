@@ -6,6 +6,6 @@ function(embed_files output table root files)
   string(REPLACE ";" "|" joined "${files}")
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DTABLE=${table} -DROOT=${root} "-DFILES=${joined}"
-            -P ${CMAKE_SOURCE_DIR}/cmake/embed_run.cmake
-    DEPENDS ${paths} ${CMAKE_SOURCE_DIR}/cmake/embed_run.cmake VERBATIM)
+            -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/embed_run.cmake
+    DEPENDS ${paths} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/embed_run.cmake VERBATIM)
 endfunction()

@@ -12,6 +12,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libcairo2-dev libpango1.0-dev
           xvfb libglfw3-dev libsdl2-dev libgtk-4-dev
           libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium ffmpeg
+          abigail-tools mandoc zsh fish
           clang clang-format libclang-rt-dev llvm lld ccache)
 
 if ! command -v dpkg-query > /dev/null; then

@@ -10,6 +10,9 @@
 
 extern const command command_draw, command_info, command_looks, command_bench, command_doctor, command_strokes;
 
+/* All of them in the order of the usage text; NULL at the end. */
+extern const command *const commands[];
+
 /* "y" and "z" for --up-axis; index −1 … 1 gives the axis of the same position. */
 extern const char *const up_axis_choices[];
 lmn_up_axis              up_axis_of(int choice);

@@ -2,6 +2,7 @@
 #ifndef LIMNER_LIMNER_H
 #define LIMNER_LIMNER_H
 
+#include "limner/content.h"
 #include "limner/draw.h"
 #include "limner/error.h"
 #include "limner/film.h"

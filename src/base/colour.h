@@ -1,4 +1,5 @@
-/* Colours: sRGB with straight alpha wherever people write them, linear inside shaders. */
+/* Colours: sRGB with straight alpha wherever people write them and on pages; light, which is linear, where something is
+ * lit. */
 #ifndef LIMNER_BASE_COLOUR_H
 #define LIMNER_BASE_COLOUR_H
 

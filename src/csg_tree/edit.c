@@ -4,7 +4,7 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
-#include "scene/parts.h"
+#include "scene/content.h"
 #include "csg_tree/links.h"
 
 /* --- after an edit -------------------------------------------------------------------------------------- */
@@ -24,18 +24,6 @@ static bool parts_hold(const lmn_scene *scene)
     return listed == wanted;
 }
 
-static lmn_status list_parts(lmn_scene *scene, lmn_error *error)
-{
-    part_list list;
-    if (!parts_list(scene, NULL, 0, NULL, &list))
-        return error_memory(error);
-    parts_release(scene->parts, scene->part_count + scene->ghost_count);
-    scene->parts = list.parts;
-    scene->part_count = list.part_count;
-    scene->ghost_count = list.ghost_count;
-    return LMN_OK;
-}
-
 /* Solids without triangles are no parts. Only where that changes is the list made again, and only then can this
  * fail: parts are as they were then. */
 static lmn_status settle_part(lmn_scene *scene, size_t index, lmn_error *error)
@@ -43,7 +31,7 @@ static lmn_status settle_part(lmn_scene *scene, size_t index, lmn_error *error)
     if (!scene_update_removed(scene, index))
         return error_memory(error);
     if (!parts_hold(scene)) {
-        lmn_status status = list_parts(scene, error);
+        lmn_status status = scene_list_parts(scene, error);
         if (status != LMN_OK)
             return status;
     }
@@ -93,7 +81,7 @@ static void spare_mesh(lmn_scene *scene, int32_t index)
     if (index == NONE)
         return;
     mesh_release(&scene->meshes[index]);
-    scene->meshes[index].revision = scene_next_revision();
+    scene->meshes[index].revision = scene->meshes[index].topology = scene_next_revision();
     scene->meshes[index].spare = true;
     scene->spare_meshes++;
 }
@@ -113,7 +101,7 @@ static int32_t take_mesh(lmn_scene *scene, mesh *m)
         return NONE;
     }
     scene->meshes[at] = *m;
-    scene->meshes[at].revision = scene_next_revision();
+    scene->meshes[at].revision = scene->meshes[at].topology = scene_next_revision();
     memset(m, 0, sizeof *m);
     return (int32_t)at;
 }
@@ -455,7 +443,7 @@ static lmn_status rename_part(lmn_scene *scene, size_t index, const char *name, 
         if (name && !copy)
             return error_memory(error);
         scene->nodes[i].name = copy;
-        lmn_status status = list_parts(scene, error);
+        lmn_status status = scene_list_parts(scene, error);
         if (status != LMN_OK)
             scene->nodes[i].name = before;
         mem_free(status == LMN_OK ? before : copy);

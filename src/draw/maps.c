@@ -69,12 +69,12 @@ static void raw_texel(const void *source, size_t index, uint8_t out[4])
         out[k] = byte_of(((const float *)source)[4 * index + k]);
 }
 
-/* Linear premultiplied colour as sRGB, straight alpha. */
+/* Premultiplied colour, with straight alpha. */
 static void colour_texel(const void *source, size_t index, uint8_t out[4])
 {
     const float *v = &((const float *)source)[4 * index];
     for (size_t k = 0; k < 3; k++)
-        out[k] = byte_of(colour_from_linear(v[3] > 0 ? v[k] / v[3] : 0));
+        out[k] = byte_of(v[3] > 0 ? v[k] / v[3] : 0);
     out[3] = byte_of(v[3]);
 }
 

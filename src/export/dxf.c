@@ -31,9 +31,8 @@ static const float palette[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},  
 
 static int palette_index(colour ink)
 {
-    float own[3] = {colour_from_linear(ink.r), colour_from_linear(ink.g), colour_from_linear(ink.b)},
-          nearest = INFINITY;
-    int index = 7;
+    float own[3] = {ink.r, ink.g, ink.b}, nearest = INFINITY;
+    int   index = 7;
     for (int i = 1; i <= 9; i++) {
         float distance = 0;
         for (int k = 0; k < 3; k++)

@@ -52,9 +52,7 @@ static cairo_status_t give_bytes(void *user, unsigned char *to, unsigned int siz
 static void set_ink(cairo_t *c, colour ink)
 {
     double alpha = ink.a < 1 ? fmax((double)ink.a, 0) : 1;
-    double parts[3] = {(double)colour_from_linear(ink.r), (double)colour_from_linear(ink.g),
-                       (double)colour_from_linear(ink.b)};
-    cairo_set_source_rgba(c, parts[0], parts[1], parts[2], alpha);
+    cairo_set_source_rgba(c, (double)ink.r, (double)ink.g, (double)ink.b, alpha);
 }
 
 /* Text that pango takes: UTF-8 without control characters. NULL when memory is gone. */

@@ -139,10 +139,10 @@ static void put_base64(svg_writer *w, const unsigned char *data, size_t size)
     }
 }
 
-/* "#rrggbb" of a linear colour. */
+/* "#rrggbb". */
 static void print_colour(char out[10], colour ink)
 {
-    colour_print((colour){colour_from_linear(ink.r), colour_from_linear(ink.g), colour_from_linear(ink.b), 1}, out);
+    colour_print((colour){ink.r, ink.g, ink.b, 1}, out);
 }
 
 /* Opaque unless it says otherwise; what is no number is opaque too. */

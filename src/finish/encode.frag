@@ -1,15 +1,7 @@
-/* The page to sRGB with straight alpha, once, at the end; supersamples are averaged here, in linear light, and what differs from the ground, ink, is rubbed
- * onto the paper. */
+/* The page with straight alpha, once, at the end; supersamples are averaged here, and what differs from the ground, ink, is rubbed onto the paper. */
 uniform sampler2D t_page;
 uniform int u_samples; /* a side */
 layout(location = 0) out vec4 out_0;
-
-vec3 encoded(vec3 linear)
-{
-    vec3 low = linear * 12.92;
-    vec3 high = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
-    return mix(high, low, vec3(lessThanEqual(linear, vec3(0.0031308))));
-}
 
 #ifdef HAS_PAPER
 #include "finish/paper.glsl"
@@ -27,5 +19,5 @@ void main()
     sum = on_paper(sum, gl_FragCoord.xy);
 #endif
     vec3 straight = sum.a > 0.0 ? clamp(sum.rgb / sum.a, 0.0, 1.0) : vec3(0.0);
-    out_0 = vec4(encoded(straight), sum.a);
+    out_0 = vec4(straight, sum.a);
 }

@@ -41,7 +41,7 @@ typedef struct sheet_lie {
         pieces; /* from pixels to what tells pieces apart: those begin whose contact there is less than the fraction */
 } sheet_lie;
 
-/* What the strongest ink differs by from a ground (linear, premultiplied), where it takes away from it and where it
+/* What the strongest ink differs by from a ground (premultiplied), where it takes away from it and where it
  * adds to it. */
 void sheet_range(const sheet_values *values, const float ground[4], float less[4], float more[4]);
 

@@ -1,6 +1,6 @@
 /* Ink on a paper's grain. A position of contact c, of which each tenth covers a tenth of the sheet, gets (n + 1) cⁿ times its ink: for any n that is once on the
  * mean. Faint ink has a large n and stays on the hills; full ink has n = 0 and fills the valleys, or as much of them as its pressure does. */
-uniform vec4 u_sheet;         /* the ground, linear, premultiplied */
+uniform vec4 u_sheet;         /* the ground, premultiplied */
 uniform vec4 u_range_below;    /* what the strongest ink takes from it, */
 uniform vec4 u_range_above;    /* and what it adds */
 uniform vec4 u_paper_position;   /* from pixels to the paper: turn and size, shift */
@@ -52,7 +52,7 @@ vec4 on_paper(vec4 page, vec2 pixel)
     float n = u_paper_facts.w * min(1.0 / (ink * u_pressure) - 1.0, FAINTEST);
     page += more * min(u_grain * ((n + 1.0) * pow(here.x, n) - 1.0), 1.0 / ink - 1.0);
 #ifdef WITH_RELIEF
-    page.rgb *= 1.0 - u_relief * u_sheet.a * (1.0 - here.y);
+    page.rgb *= pow(1.0 - u_relief * u_sheet.a * (1.0 - here.y), 1.0 / 2.2); /* light, as it is shown */
 #endif
     return page;
 }

@@ -84,7 +84,7 @@ const kind kind_finish = {
 void sheet_range(const sheet_values *values, const float ground[4], float less[4], float more[4])
 {
     const colour c = values->ink;
-    const float  ink[4] = {colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), 1};
+    const float  ink[4] = {c.r, c.g, c.b, 1};
     for (int k = 0; k < 4; k++) {
         less[k] = isnan(c.r) ? ground[k] : fmaxf(ground[k] - ink[k], 0);
         more[k] = isnan(c.r) ? 1 - ground[k] : fmaxf(ink[k] - ground[k], 0);

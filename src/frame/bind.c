@@ -12,13 +12,10 @@
 static void set_cut(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
-    float               colour[4], fill[4] = {1, 1, 1, -1};
-    uniforms_linear(v->cut_colour, colour);
-    if (!isnan(v->cut_fill.r))
-        uniforms_linear(v->cut_fill, fill);
+    const colour        lines = v->cut_colour, fill = isnan(v->cut_fill.r) ? (colour){1, 1, 1, -1} : v->cut_fill;
     gpu_set_vec4(f->g, "u_cut_lines", (float[]){v->cut_hatch, v->cut_width, v->cut_angle * (3.14159265f / 180), 0});
-    gpu_set_vec4(f->g, "u_cut_colour", colour);
-    gpu_set_vec4(f->g, "u_cut_fill", fill);
+    gpu_set_vec4(f->g, "u_cut_colour", (float[]){lines.r, lines.g, lines.b, lines.a});
+    gpu_set_vec4(f->g, "u_cut_fill", (float[]){fill.r, fill.g, fill.b, fill.a});
 }
 
 solid_view frame_solid_view(frame *f)

@@ -106,7 +106,7 @@ static void merge_layer(layer_map *layer, size_t count, const figure_state *s, c
         memcpy(m->normal, &r->normal_depth[4 * i], sizeof m->normal);
         const float *shade = &r->shade[4 * i];
         for (size_t k = 0; k < 3; k++)
-            m->shade[k] = byte_of(colour_from_linear(shade[3] > 0 ? shade[k] / shade[3] : 0));
+            m->shade[k] = byte_of(shade[3] > 0 ? shade[k] / shade[3] : 0);
         m->shade[3] = byte_of(shade[3]);
     }
 }

@@ -68,7 +68,7 @@ struct frame_maps {
     float    *normal; /* 3 */
     uint32_t *id;
     float    *edge;        /* 4 */
-    float    *shade;       /* 4, linear premultiplied */
+    float    *shade;       /* 4, sRGB, premultiplied */
     float    *uncertainty; /* 3; NULL while nothing is perturbed */
     float    *velocity;    /* 3: pixels moved over the exposure, right, up, 0; NULL: the scene is at rest */
     float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks

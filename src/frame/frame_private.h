@@ -107,6 +107,8 @@ void frame_set_numbers(frame *f, const technique_use *use);
 void frame_set_common(frame *f, const figure_state *s);
 /* For programs that tie something to parts: from eye space to the part's frame (upload_part_frames). */
 void frame_set_rest(frame *f, size_t part_index);
+/* The ground as the page holds it, premultiplied: 4 floats. */
+void frame_ground(const frame *f, float out[4]);
 /* The program of these files with this prelude, which is used up; NULL after an error. */
 gpu_program         *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude);
 param_set            use_own_set(kind_id id, const technique_use *use);

@@ -106,9 +106,7 @@ void paper_set(frame *f)
     seen.grain_size /= (float)f->samples; /* samples are averaged before they meet the paper */
     sheet_lie lie = sheet_lay(&seen, &view);
     float     ground[4], less[4], more[4];
-    uniforms_linear(f->ground, ground);
-    for (int k = 0; k < 3; k++)
-        ground[k] *= f->ground.a;
+    frame_ground(f, ground);
     uniforms_set(f->g, use_own_set(KIND_FINISH, sheet));
     used_textures_set(f->g, sheet, f->sheet);
     sheet_range(sheet->values, ground, less, more);

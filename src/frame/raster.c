@@ -26,11 +26,11 @@ static const material *material_of(const frame *f, const figure *fig, const draw
     const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
     if (!(fig->highlight.a > 0))
         return own;
-    float linear[4];
-    uniforms_linear(fig->highlight, linear);
+    float light[4];
+    uniforms_light(fig->highlight, light);
     *capacity = *own;
     capacity->base_texture = standard.base_texture;
-    capacity->base_colour = (vec4){linear[0], linear[1], linear[2], linear[3]};
+    capacity->base_colour = (vec4){light[0], light[1], light[2], light[3]};
     return capacity;
 }
 
@@ -502,7 +502,7 @@ static void draw_solid(frame *f, const raster_job *job, const draw_item *item)
     gpu_set_vec2(f->g, "u_solid_size", (float)f->width, (float)f->height);
     float highlight[4] = {0, 0, 0, 0};
     if (s->figure->highlight.a > 0)
-        uniforms_linear(s->figure->highlight, highlight);
+        uniforms_light(s->figure->highlight, highlight);
     gpu_set_vec4(f->g, "u_solid_highlight", highlight);
     gpu_set_float(f->g, "u_alpha_cutoff", 0);
     gpu_set_int(f->g, "u_unlit", 0);

@@ -19,11 +19,6 @@ float lead_darkest(lead_grade grade)
     return 0.36f + 0.59f * (1 - (1 - soft) * sqrtf(1 - soft));
 }
 
-float lead_ink(lead_grade grade)
-{
-    return 1 - colour_to_linear(1 - lead_darkest(grade));
-}
-
 /* --- clouds --------------------------------------------------------------------------------------------- */
 
 /* Sixteen directions, so that nothing depends on a library's sine. */

@@ -32,9 +32,6 @@ extern const char *const lead_grade_names[LEAD_COUNT + 1]; /* NULL-terminated */
  * 8B. */
 float lead_darkest(lead_grade grade);
 
-/* The same as a fraction of light that is taken away from white paper, for mixing in linear light. */
-float lead_ink(lead_grade grade);
-
 /* Side of the pictures that graphite_grain makes, texels. */
 enum { GRAPHITE_SIDE = 256 };
 

@@ -1,6 +1,8 @@
 /* Cut faces: a flat colour, and the lines that hatch it. */
+#include "light/shown.glsl"
+
 uniform vec4  u_cut_lines;  /* distance and width in pixels, angle in radians */
-uniform vec4  u_cut_colour; /* of the lines, linear, straight alpha */
+uniform vec4  u_cut_colour; /* of the lines, straight alpha */
 uniform vec4  u_cut_fill;   /* w below 0: from the part's own colour */
 
 /* How much of the pixel the hatch covers, 0 where the id is no cut face's. As draughtsmen do, each part and body turns its lines,
@@ -23,6 +25,6 @@ float cut_hatch(ivec2 pixel, uvec2 id)
 /* The cut face's colour, opaque and unlit. */
 vec4 cut_colour(ivec2 pixel, uvec2 id, vec3 albedo)
 {
-    vec3 fill = u_cut_fill.w < 0.0 ? mix(albedo, vec3(1.0), 0.72) : mix(vec3(1.0), u_cut_fill.rgb, u_cut_fill.w);
+    vec3 fill = u_cut_fill.w < 0.0 ? shown(mix(albedo, vec3(1.0), 0.72)) : mix(vec3(1.0), u_cut_fill.rgb, u_cut_fill.w);
     return vec4(mix(fill, u_cut_colour.rgb, cut_hatch(pixel, id) * u_cut_colour.a), 1.0);
 }

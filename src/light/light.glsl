@@ -3,7 +3,7 @@
 
 /* The number of lights is a constant, so that loops over them are unrolled: on a software driver they cost twice as much. */
 uniform vec4 u_light_position[LIGHT_COUNT]; /* w 0: unit direction to the light; w 1: its position. Eye space. */
-uniform vec4 u_light_colour[LIGHT_COUNT];   /* linear */
+uniform vec4 u_light_colour[LIGHT_COUNT];   /* light */
 
 #include "light/shadow.glsl"
 #if defined(HAS_SOFT_SHADOW) || defined(HAS_OCCLUSION)

@@ -1,8 +1,10 @@
-/* What a surface technique knows about the place it colours. All vectors in eye space; colours linear. */
+/* What a surface technique knows about the place it colours. All vectors in eye space. What a technique answers is the colour that is shown, premultiplied. */
+#include "light/shown.glsl"
+
 struct surface_point {
     vec3 eye;     /* position */
     vec3 normal;  /* unit, towards the viewer's side */
-    vec4 albedo;  /* unlit colour of the model, straight alpha */
+    vec4 albedo;  /* unlit colour of the model, light, straight alpha */
     bool unlit;   /* the file asks for no light here */
     uint part;    /* its number, where shading comes after the geometry; else 0 */
 };

@@ -51,10 +51,10 @@ vec4 ink_of(vec4 edge, vec4 colour, vec4 inner_colour, vec4 id_colour)
 }
 
 #if CONTRAST >= 2
-/* How bright the eye takes a linear colour, 0 … 1. */
+/* How bright the eye takes a colour, 0 … 1. */
 float lightness(vec3 colour)
 {
-    return sqrt(clamp(dot(colour, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0));
+    return clamp(dot(colour, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
 }
 #endif
 

@@ -1,4 +1,5 @@
 /* A stroke's texture over its colour. Großmann 2011, sections 6.2.4 and 6.4.3: caps lie within the stroke and keep their shape. With DEPTH_ALONE its depth only. */
+#include "light/shown.glsl"
 #ifndef DEPTH_ALONE
 layout(location = 0) out vec4 out_0;
 #endif
@@ -67,7 +68,7 @@ void main()
 #ifndef DEPTH_ALONE
     vec3 colour = v_colour.rgb * texel.x;
 #ifdef WITH_ROUND
-    colour *= mix(1.0, roundness(v_stroke.y / half_width), u_round);
+    colour = shown(light_shown_as(colour) * mix(1.0, roundness(v_stroke.y / half_width), u_round));
 #endif
     out_0 = vec4(colour, 1.0) * alpha;
 #endif

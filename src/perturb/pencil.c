@@ -5,7 +5,7 @@
  *
  * Other than Müller: copies sample the finished edge map instead of repeating the detection; both factors of an edge
  * are clamped by the detection itself; amplitudes are held back where waves would fold the picture (Müller's do so
- * below 128 pixels); intensities are of displayed grey, as there, and become ink in linear light. */
+ * below 128 pixels); intensities are of displayed grey, as there. */
 #include <math.h>
 
 #include "halftone/graphite.h"

@@ -85,12 +85,6 @@ vec2 line_position(int i)
     return s_position + rest.z * sway - rest.xy;
 }
 
-/* Shown grey to light, the sRGB curve within 0.8/255 of what is shown; exact for white. */
-float light_of_grey(float grey)
-{
-    return grey * (0.05929177 + grey * (0.31961537 + grey * (1.23331372 + grey * (-0.96944738 + grey * 0.35722652))));
-}
-
 void read_graphite()
 {
     vec2 at = s_position / (u_perturb_grain * u_graphite_facts.x);
@@ -106,19 +100,13 @@ void read_graphite()
 vec4 averaged_at(vec2 position, int i);
 vec4 ink_of_mean(vec4 mean);
 
-/* Darkness of displayed grey to a fraction of light. */
-float fraction_of_darkness(float darkness)
-{
-    return 1.0 - light_of_grey(1.0 - darkness);
-}
-
 /* Row P34: coloured copies lie over each other, each takes its colour away from what comes through. As ink over white paper. */
 vec4 coloured_ink(float darkest)
 {
     vec3 through = vec3(1.0);
     for (int i = 0; i < DARK; i++) {
         vec4 pencil = u_perturb_colours[i % max(u_perturb_colours_count, 1)];
-        through *= 1.0 - (1.0 - pencil.rgb) * (fraction_of_darkness(ink_of_mean(averaged_at(line_position(i), i)).a * darkest) * pencil.a);
+        through *= 1.0 - (1.0 - pencil.rgb) * (ink_of_mean(averaged_at(line_position(i), i)).a * darkest * pencil.a);
     }
     float bare = min(through.r, min(through.g, through.b));
     return vec4(through - bare, 1.0 - bare);
@@ -136,7 +124,7 @@ vec4 joined_ink()
 #endif
     float darkest = u_numbers[2 * LINE_COPIES].x * force;
     vec4 ink = dark.a >= light.a ? dark : light;
-    ink *= fraction_of_darkness(ink.a * darkest) / max(ink.a, 1e-4);
+    ink *= darkest;
     int coloured = u_perturb_colours_count > 1 && dark.a >= light.a ? 1 : 0;
     for (int once = 0; once < coloured; once++)
         ink = coloured_ink(darkest);

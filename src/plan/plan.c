@@ -12,6 +12,7 @@
 #include "lines/lines.h"
 #include "plan/paper_look.h"
 #include "plan/refuse.h"
+#include "scene/content.h"
 
 const technique_use *rule_use(const rule *r, kind_id id)
 {
@@ -242,6 +243,8 @@ static void order_figures(plan *p)
 /* A ghost belongs to the part that it was taken away from, and can be selected by itself. */
 static bool is_selected(const plan *p, const selector *wanted, size_t part_index)
 {
+    if (scene_is_hidden(p->scene, p->scene->parts[part_index].node))
+        return false;
     if (!wanted || selector_matches(wanted, p->scene, part_index))
         return true;
     size_t owner = scene_part_of_ghost(p->scene, part_index);
@@ -258,6 +261,8 @@ static lmn_status select_parts(plan *p, const char *select, lmn_error *error)
     }
     selector_destroy(&wanted);
     if (status == LMN_OK && p->selected_count == 0) {
+        if (!select && p->scene->part_count > 0)
+            return error_set(error, LMN_USAGE, "all %zu parts are hidden", p->scene->part_count);
         if (!select) {
             error_in_file(error, LMN_FORMAT, refuse_file(p->scene), 0, "the scene has no parts to draw");
             /* What was left out while loading is why. */

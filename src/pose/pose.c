@@ -198,6 +198,10 @@ static lmn_status create(pose *out, const lmn_scene *scene, const moment *when, 
 
 lmn_status pose_create(pose *out, const lmn_scene *scene, const moment *when, lmn_error *error)
 {
+    if (scene->changes_open) {
+        *out = (pose){.scene = NULL};
+        return error_set(error, LMN_USAGE, "the scene is being changed: call lmn_scene_end_changes before it is drawn");
+    }
     return create(out, scene, when, true, NULL, error);
 }
 

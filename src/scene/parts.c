@@ -197,7 +197,7 @@ size_t scene_plain_node_count(const lmn_scene *s)
 {
     size_t count = 0;
     for (size_t i = 0; i < s->node_count; i++)
-        count += !s->nodes[i].ghost;
+        count += !s->nodes[i].ghost && !s->nodes[i].removed;
     return count;
 }
 

@@ -65,6 +65,8 @@ typedef struct mesh {
     float     *morph_weights; /* defaults, as many as the first primitive has morphs */
     size_t     morph_weight_count;
     uint64_t   revision; /* 0 as long as it is what was imported; another one for each content put here later */
+    uint64_t   topology; /* the same for its vertices and triangles, wherever they are */
+    bool       moved;    /* its vertices have other positions than those that it came with */
     bool       spare;    /* nothing uses it any longer; empty */
 } mesh;
 
@@ -137,6 +139,8 @@ typedef struct node {
     double     translation[3], rotation[4] /* x y z w */, scale[3];
     int32_t    mesh, skin, camera, light;
     int32_t    solid;     /* a node has a mesh or a solid */
+    bool       hidden;    /* with all below it, by who uses the library */
+    bool       removed;   /* taken out of the scene, and empty */
     bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
     size_t     instance_count; /* 0: the node itself is the one instance */
@@ -224,6 +228,7 @@ struct lmn_scene {
     uint64_t      revision; /* changes whenever the content does; no two scenes of a process ever share one */
     uint64_t      identity; /* the same as long as the scene lives; no other scene of the process ever has it */
     size_t        spare_meshes;
+    int           changes_open; /* above 0 the list of parts waits for changes to end, and nothing draws */
     char          up;           /* 'y', 'z', or 0 while empty */
     bool          may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
     bool          is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */

@@ -23,7 +23,7 @@ typedef struct sheet_path {
 typedef struct sheet_item {
     sheet_kind kind;
     uint32_t   group;        /* in the sheet's groups */
-    colour     ink;          /* linear, straight alpha */
+    colour     ink;          /* sRGB, straight alpha */
     uint64_t   id;           /* 0: none; in hexadecimal it names the item */
     uint32_t   first, count; /* paths */
     /* images: PNG bytes, owned; position and size */

@@ -60,7 +60,7 @@ void uniforms_declare(text *prelude, param_set set)
     }
 }
 
-void uniforms_linear(colour c, float out[4])
+void uniforms_light(colour c, float out[4])
 {
     out[0] = colour_to_linear(c.r);
     out[1] = colour_to_linear(c.g);
@@ -79,12 +79,20 @@ static colour colour_of(param_set set, const param *p)
     return c;
 }
 
-static void set_palette(gpu *g, const char *name, const palette *p)
+static void colour_values(colour c, bool as_light, float out[4])
+{
+    if (as_light)
+        uniforms_light(c, out);
+    else
+        memcpy(out, (float[]){c.r, c.g, c.b, c.a}, 4 * sizeof *out);
+}
+
+static void set_palette(gpu *g, const char *name, const palette *p, bool as_light)
 {
     float values[PALETTE_MAX][4];
     memset(values, 0, sizeof values);
     for (int i = 0; i < p->count; i++)
-        uniforms_linear(p->colours[i], values[i]);
+        colour_values(p->colours[i], as_light, values[i]);
     char count_name[80];
     snprintf(count_name, sizeof count_name, "%s_count", name);
     gpu_set_int(g, count_name, p->count);
@@ -111,7 +119,7 @@ void uniforms_set(gpu *g, param_set set)
         char name[72];
         snprintf(name, sizeof name, "%s%s", set.prefix, p->key);
         const void *field = param_field(p, set.values);
-        float       linear[4];
+        float       values[4];
         switch (p->type) {
         case PARAM_INT:
         case PARAM_ENUM: gpu_set_int(g, name, *(const int32_t *)field); break;
@@ -123,11 +131,11 @@ void uniforms_set(gpu *g, param_set set)
                 gpu_set_float(g, name, float_of(p, *(const float *)field));
             break;
         case PARAM_COLOUR:
-            uniforms_linear(colour_of(set, p), linear);
-            gpu_set_vec4(g, name, linear);
+            colour_values(colour_of(set, p), p->as_light, values);
+            gpu_set_vec4(g, name, values);
             break;
         case PARAM_DIRECTION: gpu_set_vec3(g, name, (const float *)field); break;
-        case PARAM_PALETTE: set_palette(g, name, field); break;
+        case PARAM_PALETTE: set_palette(g, name, field, p->as_light); break;
         case PARAM_TEXT: break;
         }
     }

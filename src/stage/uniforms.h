@@ -22,8 +22,8 @@ void uniforms_set(gpu *g, param_set set);
 enum { CAPITALS_SIZE = 64 };
 void uniforms_capitals(const char *key, char out[CAPITALS_SIZE]);
 
-/* A linear colour from the sRGB of a parameter, premultiplied by nothing. */
-void uniforms_linear(colour c, float out[4]);
+/* The light that a parameter's colour shows, straight alpha: what stands in for the model's own. */
+void uniforms_light(colour c, float out[4]);
 
 /* Declares a picture that is there: its sampler t_NAME, and HAS_NAME. Once is enough, more does no harm. */
 void target_declare(text *prelude, const target_row *row);

@@ -128,6 +128,7 @@ static bool make_room(upload_mesh *m, const mesh *source)
         m->lapped = mem_calloc(source->primitive_count, sizeof *m->lapped);
         m->count = source->primitive_count;
         m->revision = source->revision;
+        m->topology = source->topology;
     }
     return m->primitives && m->lapped;
 }
@@ -202,6 +203,16 @@ static void release_mesh(upload_mesh *m, gpu *g)
     }
 }
 
+/* The buffers of a mesh whose vertices are elsewhere now. */
+static void take_buffers(upload_mesh *to, upload_mesh *from, const mesh *m)
+{
+    if (!from->primitives || from->topology != m->topology)
+        return;
+    to->former = from->primitives;
+    to->count = from->count;
+    from->primitives = NULL;
+}
+
 /* What is deformed still holds at the same moment; at another one its buffers serve. */
 static void take_posed(upload *u, upload *earlier, const lmn_scene *scene)
 {
@@ -213,10 +224,8 @@ static void take_posed(upload *u, upload *earlier, const lmn_scene *scene)
         if (same) {
             *to = *from;
             *from = (upload_mesh){.primitives = NULL};
-        } else if (from->primitives && m != NONE && from->revision == scene->meshes[m].revision) {
-            to->former = from->primitives;
-            to->count = from->count;
-            from->primitives = NULL;
+        } else if (m != NONE) {
+            take_buffers(to, from, &scene->meshes[m]);
         }
     }
 }
@@ -242,6 +251,8 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         if (earlier->meshes[i].revision == scene->meshes[i].revision) {
             u->meshes[i] = earlier->meshes[i];
             earlier->meshes[i] = (upload_mesh){.primitives = NULL};
+        } else {
+            take_buffers(&u->meshes[i], &earlier->meshes[i], &scene->meshes[i]);
         }
         if (earlier->corners[i].revision == scene->meshes[i].revision) {
             u->corners[i] = earlier->corners[i];
@@ -251,6 +262,17 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
             u->shapes[i] = earlier->shapes[i];
             earlier->shapes[i] = (upload_shape){.vertices = NULL};
         }
+    }
+}
+
+/* Buffers that fitted nothing. */
+static void drop_former(upload_mesh *meshes, size_t count, gpu *g)
+{
+    for (size_t i = 0; i < count && meshes; i++) {
+        for (size_t k = 0; meshes[i].former && k < meshes[i].count; k++)
+            gpu_mesh_destroy(g, &meshes[i].former[k]);
+        mem_free(meshes[i].former);
+        meshes[i].former = NULL;
     }
 }
 
@@ -269,12 +291,8 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
         else if (status == LMN_OK)
             status = upload_part(out, g, i, error);
     }
-    for (size_t i = 0; i < out->node_count && out->posed; i++) { /* what fitted nothing */
-        for (size_t k = 0; out->posed[i].former && k < out->posed[i].count; k++)
-            gpu_mesh_destroy(g, &out->posed[i].former[k]);
-        mem_free(out->posed[i].former);
-        out->posed[i].former = NULL;
-    }
+    drop_former(out->posed, out->node_count, g);
+    drop_former(out->meshes, out->mesh_count, g);
     if (status == LMN_OK)
         status = upload_solids_close(out, g, error);
     return status;

@@ -37,13 +37,14 @@ typedef struct upload_solid {
     size_t       plane_count, planes_found; /* there may have been no room for all */
 } upload_solid;
 
-/* A mesh on the GPU. `revision`: of the scene's mesh, as it was then. */
+/* A mesh on the GPU. `revision`, `topology`: of the scene's mesh, as it was then. */
 typedef struct upload_mesh {
-    uint64_t   revision;
+    uint64_t   revision, topology;
     gpu_mesh **primitives; /* NULL, as each of them: not made yet */
     gpu_mesh **lapped;     /* the same covered with patches, where these are wished for */
-    gpu_mesh **former;     /* of another moment: their buffers are used again. NULL: none */
-    size_t     count;
+    gpu_mesh   *
+        *former; /* of another moment, or before its vertices were moved: their buffers are used again. NULL: none */
+    size_t count;
 } upload_mesh;
 
 /* What poses of a mesh without normals have in common. `revision`: as above. */

@@ -657,7 +657,7 @@ lmn_status edge_topology_create(edge_topology **out, const mesh *m, lmn_error *e
     if (!t)
         return error_memory(error);
     builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0, .angle = 1.5};
-    t->revision = m->revision;
+    t->revision = m->topology;
     lmn_status status = finish(&b, make_faces(&b, m, NULL, error), error);
     mem_free(t->mesh.positions); /* every pose has its own */
     mem_free(t->mesh.normals);

@@ -74,7 +74,7 @@ void       edge_mesh_release(edge_mesh *m);
 typedef struct edge_topology edge_topology;
 lmn_status                   edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error);
 void                         edge_topology_destroy(edge_topology **t);
-uint64_t                     edge_topology_revision(const edge_topology *t); /* of the mesh, as it was then */
+uint64_t edge_topology_revision(const edge_topology *t); /* of the mesh's topology, as it was then */
 
 /* edge_mesh_create for a pose, a few times as fast. *fits is false, and nothing is made, where vertices that were one
  * have come apart, or faces have no area in the pose or at rest. */

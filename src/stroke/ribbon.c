@@ -352,7 +352,7 @@ static colour ink_of(const ribbon_job *job, const stroke *s)
         ink = style->colours[s->kind];
     if (isnan(ink.r))
         ink = style->colours[STROKE_CONTOUR];
-    return (colour){colour_to_linear(ink.r), colour_to_linear(ink.g), colour_to_linear(ink.b), ink.a};
+    return ink;
 }
 
 static float opacity_of(const ribbon_job *job, const stroke *s)

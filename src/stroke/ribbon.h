@@ -43,7 +43,7 @@ typedef struct ribbon {
     stroke_class kind;
     uint32_t     part, hidden_by, chain;
     uint64_t     id;
-    colour       ink; /* straight alpha, linear */
+    colour       ink; /* straight alpha, sRGB */
     int32_t      brush;
     uint32_t     first, count; /* points */
     bool         closed,

@@ -70,7 +70,7 @@ static lmn_status pose_edges(scene_builder *b, edge_mesh *out, int32_t mesh_inde
     struct edge_topology **t = &b->kept->meshes[mesh_index];
     lmn_status             status = LMN_OK;
     bool                   fits = false;
-    if (*t && edge_topology_revision(*t) != m->revision)
+    if (*t && edge_topology_revision(*t) != m->topology)
         edge_topology_destroy(t);
     if (!*t)
         status = edge_topology_create(t, m, error);
@@ -93,7 +93,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     const node      *n = &b->scene->nodes[b->scene->parts[part_index].node];
     const part_pose *pose = &b->pose->parts[part_index];
     const mesh      *m = &b->scene->meshes[n->mesh];
-    bool             posed = is_deformed(m, pose);
+    bool             posed = is_deformed(m, pose) || m->moved;
     if (!posed && b->shared[n->mesh] != NONE) {
         *out = (uint32_t)b->shared[n->mesh];
         return LMN_OK;

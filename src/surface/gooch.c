@@ -9,9 +9,10 @@ typedef struct gooch {
 } gooch;
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1},
+    PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.32f, 0.40f, 0.66f, 1}, .as_light = true,
                      .doc = "Tone of places turned away from the light."),
-    PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.80f, 0.72f, 0.48f, 1}, .doc = "Tone of places turned to the light."),
+    PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.80f, 0.72f, 0.48f, 1}, .as_light = true,
+                     .doc = "Tone of places turned to the light."),
     PARAM_FLOAT_ROW(gooch, cool_fraction, .was = "cool_share", .def = 0.2, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much of the model's colour is added to the cool tone."),
     PARAM_FLOAT_ROW(gooch, warm_fraction, .was = "warm_share", .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,

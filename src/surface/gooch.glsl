@@ -7,5 +7,5 @@ vec4 surface_colour(surface_point p)
     vec3 cool = min(u_cool.rgb + u_cool_fraction * p.albedo.rgb, vec3(1.0));
     vec3 warm = min(u_warm.rgb + u_warm_fraction * p.albedo.rgb, vec3(1.0));
     vec3 colour = mix(cool, warm, tone) + u_specular * highlight(p, u_shininess);
-    return vec4(min(colour, vec3(1.0)), 1.0);
+    return vec4(shown(min(colour, vec3(1.0))), 1.0);
 }

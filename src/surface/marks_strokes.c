@@ -239,7 +239,7 @@ const technique surface_strokes = {
 
 static float luminance_of(colour c)
 {
-    return 0.2126f * colour_to_linear(c.r) + 0.7152f * colour_to_linear(c.g) + 0.0722f * colour_to_linear(c.b);
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
 bool surface_mark_style(mark_style *out, const technique_use *use)
@@ -247,14 +247,13 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
     if (!use || !use->technique->surface->marks)
         return false;
     const mark_values *v = use->values;
-    *out = (mark_style){
-        .fade = v->fade,
-        .most = 1,
-        .shadow = v->shadow,
-        .light = v->light,
-        .contrast = v->contrast,
-        .texture = v->texture,
-        .ink = {colour_to_linear(v->ink.r), colour_to_linear(v->ink.g), colour_to_linear(v->ink.b), v->ink.a}};
+    *out = (mark_style){.fade = v->fade,
+                        .most = 1,
+                        .shadow = v->shadow,
+                        .light = v->light,
+                        .contrast = v->contrast,
+                        .texture = v->texture,
+                        .ink = v->ink};
     colour paper = v->paper;
     if (!isnan(paper.r))
         out->white = luminance_of(v->ink) > luminance_of(paper) * paper.a + 1 - paper.a;

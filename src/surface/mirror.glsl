@@ -10,5 +10,5 @@ vec4 surface_colour(surface_point p)
     vec4 seen = vec4(0.0);
 #endif
     vec3 reflected = seen.rgb + u_tint.rgb * (1.0 - seen.a);
-    return vec4(mix(u_tint.rgb * p.albedo.rgb, reflected, u_reflectivity), 1.0);
+    return vec4(mix(shown(light_shown_as(u_tint.rgb) * p.albedo.rgb), reflected, u_reflectivity), 1.0);
 }

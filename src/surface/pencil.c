@@ -96,7 +96,7 @@ static size_t numbers_of(const void *values, uint32_t seed, int width, int heigh
 {
     const pencil_values *v = values;
     (void)seed, (void)width, (void)height;
-    out[0][0] = lead_ink((lead_grade)v->lead);
+    out[0][0] = lead_darkest((lead_grade)v->lead);
     out[0][1] = out[0][2] = out[0][3] = 0;
     return 1;
 }

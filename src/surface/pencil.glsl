@@ -61,7 +61,7 @@ float cover_of(float darkness, int overlay)
 float darkness_in(vec3 ink, float tone)
 {
     float paper = dot(mix(vec3(1.0), u_paper.rgb, u_paper.a), LUMINANCE);
-    bool light = paper < 0.2 && dot(ink, LUMINANCE) > paper;
+    bool light = paper < 0.48 && dot(ink, LUMINANCE) > paper;
     return u_ink_tint < 0.5 ? darkness_of(tone) : light ? tone : 1.0 - tone;
 }
 
@@ -73,7 +73,7 @@ vec4 surface_colour(surface_point p)
 #ifdef WITH_GLOSS
     tone += u_gloss * highlight(p, 24.0);
 #endif
-    vec3 own = mix(u_ink.rgb, p.albedo.rgb, u_ink_tint);
+    vec3 own = mix(u_ink.rgb, shown(p.albedo.rgb), u_ink_tint);
     float darkness = focused(p, clamp(darkness_in(own, tone), 0.0, 1.0));
     /* Every time over has its part, so that together they are as dark as wanted. */
     float part = darkness_of_fraction(darkness, 1.0 / float(OVERLAYS));

@@ -11,7 +11,7 @@ static const param params[] = {
     PARAM_PALETTE_ROW(
         tones, palette,
         .def_palette = {3, {{0.42f, 0.45f, 0.52f, 1}, {0.74f, 0.75f, 0.76f, 1}, {0.97f, 0.96f, 0.92f, 1}}},
-        .doc = "The tones, darkest first; light is split evenly between them."),
+        .as_light = true, .doc = "The tones, darkest first; light is split evenly between them."),
     PARAM_FLOAT_ROW(tones, tint, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far the model's own colour tints the tones."),
     PARAM_FLOAT_ROW(tones, bias, .def = 0, .min = -1, .max = 1,

@@ -22,7 +22,7 @@ float banded(float light)
 vec4 surface_colour(surface_point p)
 {
     if (p.unlit)
-        return p.albedo;
+        return vec4(shown(p.albedo.rgb), 1.0);
     float light = min(dot(diffuse_light(p), vec3(0.2126, 0.7152, 0.0722)), 1.0);
     float brightness = mix(u_shadow, u_light, u_bands > 1 ? banded(light) : 1.0);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
@@ -32,5 +32,5 @@ vec4 surface_colour(surface_point p)
         float width = max(u_softness * fwidth(spot), 1e-4);
         colour += u_highlight * smoothstep(0.5 - 0.5 * width, 0.5 + 0.5 * width, spot);
     }
-    return vec4(min(colour, vec3(1.0)), 1.0);
+    return vec4(shown(min(colour, vec3(1.0))), 1.0);
 }

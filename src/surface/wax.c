@@ -10,8 +10,9 @@ typedef struct wax {
 } wax;
 
 static const param params[] = {
-    PARAM_COLOUR_ROW(wax, colour, .def_colour = {0.97f, 0.92f, 0.80f, 1}, .doc = "Colour of the wax."),
-    PARAM_COLOUR_ROW(wax, glow, .def_colour = {1, 0.62f, 0.27f, 1},
+    PARAM_COLOUR_ROW(wax, colour, .def_colour = {0.97f, 0.92f, 0.80f, 1}, .as_light = true,
+                     .doc = "Colour of the wax."),
+    PARAM_COLOUR_ROW(wax, glow, .def_colour = {1, 0.62f, 0.27f, 1}, .as_light = true,
                      .doc = "Colour of light that has gone through the wax; its strongest channel goes deepest."),
     PARAM_FLOAT_ROW(wax, depth, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How deep light goes, and so how far it wraps around the form; 0 is an opaque surface."),

@@ -29,5 +29,5 @@ vec4 surface_colour(surface_point p)
 
     float lit = smoothstep(0.0, 0.4, dot(p.normal, towards_light(0, p.eye)));
     colour += u_shine * lit * highlight(p, 9.0);
-    return vec4(min(colour, vec3(1.0)), 1.0);
+    return vec4(shown(min(colour, vec3(1.0))), 1.0);
 }

@@ -31,7 +31,7 @@ typedef enum param_type {
     PARAM_FLOAT,     /* float    → uniform float; NaN inside means "auto" where can_auto */
     PARAM_BOOL,      /* bool     → uniform bool */
     PARAM_ENUM,      /* int32_t index into names → uniform int */
-    PARAM_COLOUR,    /* colour   → uniform vec4, linear, straight alpha */
+    PARAM_COLOUR,    /* colour   → uniform vec4, straight alpha, as it is shown or, `as_light`, as light */
     PARAM_DIRECTION, /* direction → uniform vec3, as given (not normalised); text "x,y,z" or a JSON array */
     PARAM_PALETTE,   /* palette  → uniform vec4 u_KEY[8] and int u_KEY_count; text "#a,#b,…" or a JSON array */
     PARAM_TEXT       /* param_words; no uniform */
@@ -63,7 +63,8 @@ typedef struct param {
     bool               logarithmic; /* slider curve */
     bool               as_cosine;   /* an angle in degrees of which the shader gets the cosine */
     bool               as_turn;     /* the same: cosine and sine, a vec2 */
-    bool               variant;     /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
+    bool               as_light; /* colours: the shader reckons with the light that they show, not with what is shown */
+    bool               variant;  /* a #define KEY_IN_CAPITALS value instead of a uniform (int, bool, enum only) */
     bool toggles; /* a number: WITH_KEY_IN_CAPITALS is defined where it is not 0, so that shaders leave out what it does
                    */
     bool        cpu_only;    /* no uniform */

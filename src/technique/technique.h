@@ -13,8 +13,8 @@
 typedef enum channel {
     CHANNEL_NORMAL_DEPTH = 1 << 0, /* eye-space unit normal, linear eye depth (−z, file units) */
     CHANNEL_ID = 1 << 1,           /* part id (0 = empty), surface id */
-    CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, linear */
-    CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour, linear, premultiplied */
+    CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, light */
+    CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour as it is shown, premultiplied */
     CHANNEL_REST = 1 << 4,         /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
     CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; window depth before; 1 */
 } channel;

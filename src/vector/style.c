@@ -131,7 +131,7 @@ bool vector_needs_pixels(const lmn_look *look)
     return false;
 }
 
-/* The mean colour of a picture, linear; white where there is none. */
+/* The mean colour of a picture, light; white where there is none. */
 static vec4 mean_colour(const lmn_scene *scene, int32_t index)
 {
     const image *picture = index >= 0 ? &scene->images[index] : NULL;
@@ -154,13 +154,14 @@ colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_ind
     const technique_use *surface = rule_use(r, KIND_SURFACE);
     colour               only;
     if (surface && only_colour(surface, &only) && only.a > 0)
-        return (colour){colour_to_linear(only.r), colour_to_linear(only.g), colour_to_linear(only.b), only.a};
+        return only;
     const node *n = &scene->nodes[scene->parts[part_index].node];
     int32_t     material =
         n->mesh >= 0 && scene->meshes[n->mesh].primitive_count ? scene->meshes[n->mesh].primitives[0].material : NONE;
     if (material < 0)
-        return (colour){0.6f, 0.6f, 0.6f, 1};
+        return (colour){0.797f, 0.797f, 0.797f, 1};
     vec4 c = scene->materials[material].base_colour,
          mean = mean_colour(scene, scene->materials[material].base_texture.image);
-    return (colour){c.x * mean.x, c.y * mean.y, c.z * mean.z, c.w};
+    return (colour){colour_from_linear(c.x * mean.x), colour_from_linear(c.y * mean.y),
+                    colour_from_linear(c.z * mean.z), c.w};
 }

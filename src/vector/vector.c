@@ -129,8 +129,7 @@ static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 static void lay_ground(vector_job *j)
 {
     const sheet_values *finish = j->look->wide[KIND_FINISH].values;
-    colour              c = j->plan.ground;
-    j->out->page.ground = (colour){colour_to_linear(c.r), colour_to_linear(c.g), colour_to_linear(c.b), c.a};
+    j->out->page.ground = j->plan.ground;
     if (finish->paper && !j->pixels)
         warnings_add(&j->out->warnings, WARNING_UNUSED,
                      "finish.paper: the grain of paper is left out of drawings of lines alone");

@@ -187,8 +187,7 @@ static void forms_agree(void)
     }
 }
 
-/* Half a step of a map of 8 bits, which is linear, is so many of the picture's beside black. */
-enum { HALF_STEP = 7 };
+enum { HALF_STEP = 1 }; /* of the map of 8 bits */
 
 /* The picture is the edge map inked onto the shade map, pixel by pixel, in each class's colour. */
 static void superimposed_colours(void)
@@ -317,7 +316,7 @@ static void measure_boundary(const shot *s, double boundary, double *outside, do
     *outside = *inside = 0;
     for (int y = s->height / 2 - 10; y < s->height / 2 + 10; y++)
         for (int x = (int)boundary - 24; x < (int)boundary + 24; x++) {
-            double ink = 1 - picture_linear(pixel(s, x, y)[0]);
+            double ink = 1 - picture_shown(pixel(s, x, y)[0]);
             *(x + 0.5 < boundary ? outside : inside) += ink / 20;
         }
 }
@@ -368,7 +367,7 @@ static void slanted_width(void)
                           changes, &view))
             for (int y = 100; y < 156; y++)
                 for (int x = 60; x < 196; x++) {
-                    double v = 1 - picture_linear(pixel(&drawing, x, y)[0]);
+                    double v = 1 - picture_shown(pixel(&drawing, x, y)[0]);
                     ink += v;
                     grey += v > 0.1 && v < 0.9;
                 }

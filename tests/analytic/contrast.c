@@ -60,7 +60,7 @@ static void double_contours(void)
                     int first = shot_ink(&s, x, y), second = shot_ink(&s, x - offsets[o][0], y - offsets[o][1]);
                     if (first == 0) {
                         black++;
-                        wrong += !is_grey(pixel(&s, x, y), 0, 7); /* half a step of a linear map, beside black */
+                        wrong += !is_grey(pixel(&s, x, y), 0, 1); /* half a step of the map */
                     } else if (first == 255 && second == 0) {
                         white++;
                         wrong += !is_grey(pixel(&s, x, y), 255, 1);
@@ -99,8 +99,7 @@ static const char *adaptive_look(double suppress, double blur, const char *groun
     return text;
 }
 
-/* How bright what lies under the lines is around a position: the mean light of shade map and ground, as a value of the
- * screen. */
+/* How bright what lies under the lines is around a position: the mean of shade map and ground. */
 static double ground_around(const shot *s, int x, int y, int radius, double page)
 {
     double sum = 0;
@@ -110,10 +109,10 @@ static double ground_around(const shot *s, int x, int y, int radius, double page
             if (i < 0 || j < 0 || i >= s->width || j >= s->height)
                 continue;
             const uint8_t *p = &s->shade[4 * (j * s->width + i)];
-            sum += picture_linear((uint8_t)lround(255 * (p[3] ? luma(p) : page)));
+            sum += p[3] ? luma(p) : page;
             count++;
         }
-    return picture_srgb(sum / count) / 255;
+    return sum / count;
 }
 
 static void colour_by_ground(void)
@@ -126,7 +125,7 @@ static void colour_by_ground(void)
         double least = 1;
         int    lines = 0, weak = 0, flips = 0;
         stripes(&s, 16);
-        if (shot_of_shape(&drawing, &s, "stripes.glb", adaptive_look(0, 6, grounds[g]), NULL, &front)) {
+        if (shot_of_shape(&drawing, &s, "stripes.glb", adaptive_look(0, 4, grounds[g]), NULL, &front)) {
             for (int y = 0; y < 240; y++)
                 for (int x = 0; x < 240; x++) {
                     if (shot_ink(&drawing, x, y) > 0)
@@ -249,7 +248,7 @@ static void outward(void)
                     if (is_grey(pixel(&s, x, y), 0, 60)) {
                         dark += r;
                         darks++;
-                    } else if (is_grey(pixel(&s, x, y), 255, 60)) {
+                    } else if (is_grey(pixel(&s, x, y), 255, 100)) {
                         light += r;
                         lights++;
                     }

@@ -86,14 +86,13 @@ static void a_corner_is_open(void)
     shape_release(&s);
 }
 
-/* Fraction of the middle that is ink: coverage is blended in linear light. */
+/* Fraction of the middle that is ink. */
 static double darkness(const shot *s)
 {
     double sum = 0, count = 0;
     for (int y = s->height / 4; y < s->height * 3 / 4; y++)
         for (int x = s->width / 4; x < s->width * 3 / 4; x++) {
-            double value = s->picture[4 * (y * s->width + x)] / 255.0;
-            sum += 1 - (value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4));
+            sum += 1 - s->picture[4 * (y * s->width + x)] / 255.0;
             count++;
         }
     return sum / count;

@@ -17,7 +17,7 @@ static const shot_view box_view = {
 static double darkness(const shot *s, int x, int y)
 {
     return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0
-                                                             : 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
+                                                             : 1 - picture_shown(s->picture[4 * (y * s->width + x)]);
 }
 
 static double ink_sum(const shot *s)

@@ -171,7 +171,7 @@ static bool mean_colour(double out[3], const char *surface, const float colour[3
     memset(out, 0, 3 * sizeof *out);
     for (int i = 0; ok && i < SIDE * SIDE; i++)
         for (int k = 0; k < 3; k++)
-            out[k] += picture_linear(s.picture[4 * i + k]) / (SIDE * SIDE);
+            out[k] += picture_shown(s.picture[4 * i + k]) / (SIDE * SIDE);
     shot_release(&s);
     halftone_release(&scene);
     return ok;
@@ -180,7 +180,7 @@ static bool mean_colour(double out[3], const char *surface, const float colour[3
 static void two_inks(void)
 {
     static const float white[3] = {1, 1, 1};
-    double paper[3] = {1, 1, 1}, second[3] = {picture_linear(0xc0), picture_linear(0x40), picture_linear(0x20)};
+    double paper[3] = {1, 1, 1}, second[3] = {picture_shown(0xc0), picture_shown(0x40), picture_shown(0x20)};
     for (int i = 0; i <= 4; i++) {
         double got[3], d = i / 4.0, light = fmin(2 * d, 1), dark = fmax(2 * d - 1, 0), worst = 0;
         char   surface[300];

@@ -34,7 +34,7 @@ static const char *even(double darkness, const char *settings)
 static int levels_apart(const shot *s, int x, int y, double cover)
 {
     double drawn = s->picture[4 * ((size_t)y * (size_t)s->width + (size_t)x)];
-    return (int)ceil(fabs(drawn - picture_srgb(1 - cover)) - 0.5);
+    return (int)ceil(fabs(drawn - picture_level(1 - cover)) - 0.5);
 }
 
 static void formulas(void)

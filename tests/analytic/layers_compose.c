@@ -33,7 +33,8 @@ static const uint8_t *pixel(const shot *s, int x, int y)
 static paint part_paint(const shape *s, uint16_t id, double opacity)
 {
     const float *c = s->parts[id - 1].colour;
-    return (paint){(double)c[0], (double)c[1], (double)c[2], (double)c[3] * opacity};
+    return (paint){picture_srgb((double)c[0]) / 255, picture_srgb((double)c[1]) / 255, picture_srgb((double)c[2]) / 255,
+                   (double)c[3] * opacity};
 }
 
 /* Surfaces of different parts that a rasteriser may order either way. */
@@ -650,7 +651,7 @@ static double ink_across(const shot *s, dvec position)
     double sum = 0;
     for (int x = -8; x < 8; x++)
         for (int y = (int)position.y - 5; y < (int)position.y + 5; y++)
-            sum += (1 - picture_linear(pixel(s, (int)position.x + x, y)[0]) / picture_linear(ground[0])) / 16;
+            sum += (1 - picture_shown(pixel(s, (int)position.x + x, y)[0]) / picture_shown(ground[0])) / 16;
     return sum;
 }
 
@@ -756,7 +757,7 @@ static void clutter(void)
                           changes, &views[0]))
             for (int i = 0; i < drawing.width * drawing.height; i++) {
                 double ink = drawing.layer_count > 1 ? ink_of(&drawing.layers[1].edge[4 * i]) : 0;
-                sum += 1 - picture_linear(drawing.picture[4 * i]) / picture_linear(ground[0]);
+                sum += 1 - picture_shown(drawing.picture[4 * i]) / picture_shown(ground[0]);
                 if (ink > 0.95 && drawing.layers[1].edge[4 * i] < 10) { /* an outline of the first hidden layer */
                     inked++;
                     gone += drawing.picture[4 * i] > ground[0] - 8;

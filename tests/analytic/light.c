@@ -794,7 +794,7 @@ static void outlines_lie_on_borders(void)
             hard_map_make(&perhaps, &l, &s, 0.04);
             for (int y = 0; y < s.height; y++)
                 for (int x = 0; x < s.width; x++) {
-                    if (s.picture[4 * (y * s.width + x)] < 128) {
+                    if (s.picture[4 * (y * s.width + x)] < 64) { /* three quarters ink */
                         ink++;
                         stray += !shadow_ends(&perhaps, x, y, 3);
                     }
@@ -934,7 +934,7 @@ static void dots_follow(void)
                             whole = whole && light.depth[at] < INFINITY &&
                                     light.id[at] == light.id[(size_t)y * (size_t)light.width + (size_t)x];
                             tone += picture_linear(light.picture[4 * at]) / (BLOCK * BLOCK);
-                            drawn += picture_linear(dots.picture[4 * at]) / (BLOCK * BLOCK);
+                            drawn += picture_shown(dots.picture[4 * at]) / (BLOCK * BLOCK);
                         }
                     if (!whole)
                         continue;

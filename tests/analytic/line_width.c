@@ -60,7 +60,7 @@ static void compare_side(profile_error *e, const shot *s, page_point a, page_poi
             if (along < away || along > size - away || fabs(across) > width / 2 + 3)
                 continue;
             double truth = band_in_pixel(a, b, x, y, width);
-            double ink = 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
+            double ink = 1 - picture_shown(s->picture[4 * (y * s->width + x)]);
             e->most = fmax(e->most, fabs(ink - truth));
             e->area += ink;
             e->truth_area += truth;

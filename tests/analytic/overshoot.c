@@ -57,7 +57,7 @@ static double darkness(const shot *s, double x, double y)
     int column = (int)floor(x), row = (int)floor(y);
     return column < 0 || row < 0 || column >= s->width || row >= s->height
                ? 0
-               : 1 - picture_linear(s->picture[4 * (row * s->width + column)]);
+               : 1 - picture_shown(s->picture[4 * (row * s->width + column)]);
 }
 
 static dvec corner_at(const shot *s, int i)

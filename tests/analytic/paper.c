@@ -50,16 +50,16 @@ static bool take(shot *out, wanted w)
     return ok;
 }
 
-/* A grey whose ink on white is this fraction, in linear light; its ink as it is rounded. */
+/* A grey whose ink on white is this fraction; its ink as it is rounded. */
 static const char *grey(double ink, double *rounded)
 {
     static char texts[8][8];
     static int  next;
-    int         byte = (int)(picture_srgb(1 - ink) + 0.5);
+    int         byte = (int)(picture_level(1 - ink) + 0.5);
     next = (next + 1) % 8;
     snprintf(texts[next], sizeof texts[next], "#%02x%02x%02x", byte, byte, byte);
     if (rounded)
-        *rounded = 1 - picture_linear((uint8_t)byte);
+        *rounded = 1 - picture_shown((uint8_t)byte);
     return texts[next];
 }
 
@@ -147,7 +147,7 @@ static void ink_stays_on_hills(void)
             compare(&s, paper_of(kind), 3, false);
             shot_release(&s);
         }
-        if (take(&s, (wanted){.paper = kind, .ink = "#bbbbbb", .ground = "#102018", .keys = ",\"grain_size\":3"})) {
+        if (take(&s, (wanted){.paper = kind, .ink = "#888888", .ground = "#102018", .keys = ",\"grain_size\":3"})) {
             compare(&s, paper_of(kind), 3, true);
             shot_release(&s);
         }
@@ -248,16 +248,16 @@ static void ink_keeps_its_hue(void)
                                     .keys = ",\"grain\":1,\"pressure\":0.8"})) {
             double wanted[3], ground[3], size = 0;
             for (int c = 0; c < 3; c++) {
-                ground[c] = picture_linear(plain.picture[4 * bare + c]);
-                wanted[c] = picture_linear(plain.picture[4 * at + c]) - ground[c];
+                ground[c] = picture_shown(plain.picture[4 * bare + c]);
+                wanted[c] = picture_shown(plain.picture[4 * at + c]) - ground[c];
                 size += wanted[c] * wanted[c];
             }
             for (int i = 0; i < SIDE * SIDE * 3 / 4; i++) {
                 double along = 0;
                 for (int c = 0; c < 3; c++)
-                    along += (picture_linear(grained.picture[4 * i + c]) - ground[c]) * wanted[c] / size;
+                    along += (picture_shown(grained.picture[4 * i + c]) - ground[c]) * wanted[c] / size;
                 for (int c = 0; c < 3; c++)
-                    off = fmax(off, fabs(picture_linear(grained.picture[4 * i + c]) - ground[c] - along * wanted[c]));
+                    off = fmax(off, fabs(picture_shown(grained.picture[4 * i + c]) - ground[c] - along * wanted[c]));
             }
             check_at_most("P28", off, 0.01, "%s on %s: how far a pixel is off the line from its ground through its ink",
                           cases[k].ink, cases[k].ground);

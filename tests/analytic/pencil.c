@@ -31,7 +31,7 @@ static double wall_ink(const char *keys, double darkness, lead_grade lead)
         return NAN;
     double ink = halftone_mean(&s, 0, 0, WALL, WALL);
     shot_release(&s);
-    return ink / (double)lead_ink(lead);
+    return ink / (double)lead_darkest(lead);
 }
 
 /* Row P20: plateaus against a steady ramp. */
@@ -454,9 +454,9 @@ static void grounds(void)
         int count = 0;
         for (int i = 0; i < WALL * WALL; i++)
             if (got.id[i]) {
-                ink[k] += k == 0   ? 1 - picture_linear(got.picture[4 * i])
+                ink[k] += k == 0   ? 1 - picture_shown(got.picture[4 * i])
                           : k == 1 ? got.picture[4 * i + 3] / 255.0
-                                   : picture_linear(got.picture[4 * i]);
+                                   : picture_shown(got.picture[4 * i]);
                 count++;
             }
         ink[k] /= fmax(count, 1);
@@ -501,7 +501,7 @@ static void light_on_a_ball(void)
                     if (!got.id[at])
                         continue;
                     wanted += 1 - (0.2 + 0.7 * fmax(dvec_dot(dvec_from(got.normal[at]), light), 0));
-                    ink += halftone_ink(&got, x + i % BLOCK, y + i / BLOCK) / (double)lead_ink(LEAD_6B);
+                    ink += halftone_ink(&got, x + i % BLOCK, y + i / BLOCK) / (double)lead_darkest(LEAD_6B);
                     count++;
                 }
                 sums[k] += ink;

@@ -248,7 +248,7 @@ static void slow_panel(void)
             break;
         double sum = 0, shown = 0;
         for (int k = 0; k < SIDE * SIDE; k++) {
-            double goal = picture_linear(s.picture[4 * k]), constant = goal > lag[k] ? 12 : 25;
+            double goal = picture_shown(s.picture[4 * k]), constant = goal > lag[k] ? 12 : 25;
             lag[k] = i ? goal + (lag[k] - goal) * exp(-16.67 / constant) : goal;
             sum += goal;
             shown += lag[k];

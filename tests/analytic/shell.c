@@ -25,7 +25,7 @@ static const char *look_of(double width)
 
 static bool is_inked(const shot *s, int x, int y)
 {
-    return picture_linear(s->picture[4 * (y * s->width + x)]) < 0.5;
+    return picture_shown(s->picture[4 * (y * s->width + x)]) < 0.5;
 }
 
 /* How far the nearest pixel is that is nearer to the eye by more than `step`; INFINITY beyond `reach`. */

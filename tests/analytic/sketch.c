@@ -689,8 +689,8 @@ static void product(void)
                 if (shade.a < 1)
                     continue;
                 double intensity = edge[0] * edge[1] * edge[3],
-                       error = fabs(picture_linear(sketch_pixel(&drawn, x, y)[0]) - intensity * shade.r);
-                error = fmax(error, fabs(picture_linear(sketch_pixel(&drawn, x, y)[1]) - intensity * shade.g));
+                       error = fabs(picture_shown(sketch_pixel(&drawn, x, y)[0]) - intensity * shade.r);
+                error = fmax(error, fabs(picture_shown(sketch_pixel(&drawn, x, y)[1]) - intensity * shade.g));
                 judged++;
                 inked += intensity > 0.1 && intensity < 0.9;
                 wrong += error > 1 / 255.0 + 0.0045; /* half a level of the brightest sRGB byte, once in the shade map

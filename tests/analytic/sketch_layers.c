@@ -408,7 +408,7 @@ static void inked_once(void)
                  k < 3 ? "true" : "false", perturbs[k % 3]);
         if (shot_of_shape(&drawn, &s, "once.glb", look, NULL, &views[0]))
             for (int i = 0; i < drawn.width * drawn.height; i++)
-                *(k < 3 ? &dark[k] : &twice[k - 3]) += drawn.picture[4 * i] < 150; /* one layer of ink: 174 */
+                *(k < 3 ? &dark[k] : &twice[k - 3]) += drawn.picture[4 * i] < 95; /* one layer of ink: 127 */
         shot_release(&drawn);
     }
     for (int k = 0; k < 3; k++) {

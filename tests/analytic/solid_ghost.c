@@ -161,13 +161,11 @@ static void check_tint(const char *name, const truth *t, const shot *plain, cons
                   same_range ? "at the same depth range" : "rounded otherwise");
 }
 
-/* 255 after no layer, then what sRGB makes of halves; −1: none of these. */
+/* 255 after no layer, then halves; −1: none of these. */
 static int layers_of(const uint8_t *p)
 {
     for (int n = 0; n < 12; n++) {
-        double linear = pow(0.5, n),
-               wanted = 255 * (linear > 0.0031308 ? 1.055 * pow(linear, 1 / 2.4) - 0.055 : 12.92 * linear);
-        if (fabs(p[1] - wanted) <= 1.5)
+        if (fabs(p[1] - 255 * pow(0.5, n)) <= 1.5)
             return n;
     }
     return -1;

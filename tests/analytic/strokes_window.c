@@ -32,7 +32,7 @@ static const char *look_of(const char *mode, double width, const char *more)
 static double darkness(const shot *s, int x, int y)
 {
     return x < 0 || y < 0 || x >= s->width || y >= s->height ? 0
-                                                             : 1 - picture_linear(s->picture[4 * (y * s->width + x)]);
+                                                             : 1 - picture_shown(s->picture[4 * (y * s->width + x)]);
 }
 
 /* Between the middles of pixels. */

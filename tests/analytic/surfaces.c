@@ -195,12 +195,12 @@ static void blur_is_a_box(void)
                 for (int k = 0; k < 9; k++) {
                     int i = (y + k / 3 - 1) * 256 + x + k % 3 - 1;
                     inside = inside && !isinf(sharp.depth[i]);
-                    mean += picture_linear(sharp.picture[4 * i]) / 9;
+                    mean += picture_shown(sharp.picture[4 * i]) / 9;
                 }
                 int i = y * 256 + x;
                 if (!inside)
                     continue;
-                worst = fmax(worst, fabs(picture_linear(blurred.picture[4 * i]) - mean));
+                worst = fmax(worst, fabs(picture_shown(blurred.picture[4 * i]) - mean));
                 changed += blurred.picture[4 * i] != sharp.picture[4 * i];
             }
     check_at_least("E02", changed, 200, "pixels that the blur changes");

@@ -39,8 +39,8 @@ static double fraction_of(double value, double paper, double ink)
     return fmin(fmax((paper - value) / (paper - ink), 0), 1);
 }
 
-/* The fraction of each pixel that ink covers. Limner mixes light, other programs mix bytes. */
-static double *cover_of(const char *path, int finer, bool linear)
+/* The fraction of each pixel that ink covers. */
+static double *cover_of(const char *path, int finer)
 {
     static const uint8_t ink = 0x17;
     int                  width, height;
@@ -53,9 +53,7 @@ static double *cover_of(const char *path, int finer, bool linear)
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             uint8_t v = p[4 * ((size_t)y * (size_t)width + (size_t)x)];
-            double  fraction =
-                linear ? fraction_of(picture_linear(v), 1, picture_linear(ink)) : fraction_of(v, 255, ink);
-            out[y / finer * SIDE + x / finer] += fraction / (finer * finer);
+            out[y / finer * SIDE + x / finer] += fraction_of(v, 255, ink) / (finer * finer);
         }
     free(p);
     return out;
@@ -122,7 +120,7 @@ static void same_as_pictures(void)
                                 draw(models[m], look, "", svg) && run(command),
                             "%s is drawn as %s", models[m], looks[l]))
                 continue;
-            double *own = cover_of(png, 1, true), *other = cover_of(shown, FINER, false);
+            double *own = cover_of(png, 1), *other = cover_of(shown, FINER);
             if (own && other) {
                 check_at_most("EX-07", tone_off(own, other), 0.03,
                               "%s, %s: tone of %dx%d pixels off, mean of those with ink", models[m], looks[l], BLOCK,

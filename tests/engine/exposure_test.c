@@ -1,4 +1,4 @@
-/* The motion technique `accumulate`: the mean, in linear light, of the pictures that are drawn of single times; what
+/* The motion technique `accumulate`: the mean of the pictures that are drawn of single times; what
  * does not move keeps every bit. */
 #include "checked.h"
 
@@ -67,17 +67,6 @@ static void draw(const fixture *f, const lmn_scene *s, const char *rules, const 
     DO(try_draw(f, s, rules, wanted, out));
 }
 
-static double to_linear(uint8_t value)
-{
-    double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
-static double from_linear(double v)
-{
-    return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055);
-}
-
 /* The weighted mean of single pictures, against one that is exposed; the greatest difference in steps of 8 bits. */
 static double worst_difference(const fixture *f, const char *plain, const char *exposed, double seconds, int times,
                                const double *weights)
@@ -94,10 +83,10 @@ static double worst_difference(const fixture *f, const char *plain, const char *
         draw(f, f->fox, plain, &desc, one);
         total += weights[i];
         for (size_t k = 0; k < 4 * PIXELS; k++)
-            sum[k] += weights[i] * to_linear(one[k]);
+            sum[k] += weights[i] * one[k];
     }
     for (size_t k = 0; k < 4 * PIXELS; k++)
-        worst = fmax(worst, fabs(from_linear(sum[k] / total) - whole[k]));
+        worst = fmax(worst, fabs(sum[k] / total - whole[k]));
     free(sum);
     return worst;
 }

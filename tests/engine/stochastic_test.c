@@ -35,12 +35,6 @@ static int tear_down(void **state)
     return 0;
 }
 
-static double linear(uint8_t value)
-{
-    double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
 /* How dark each pixel is, 0 to 1, and on the mean each column within the bar. */
 static void draw(const char *motion, uint32_t seed, double *pixels, double columns[SIDE])
 {
@@ -64,7 +58,7 @@ static void draw(const char *motion, uint32_t seed, double *pixels, double colum
     const uint8_t *bytes = lmn_drawing_pixels(d, NULL, NULL);
     memset(columns, 0, SIDE * sizeof *columns);
     for (int i = 0; i < PIXELS; i++) {
-        pixels[i] = 1 - linear(bytes[4 * i]);
+        pixels[i] = 1 - bytes[4 * i] / 255.0;
         if (i / SIDE >= SIDE / 4 && i / SIDE < 3 * SIDE / 4)
             columns[i % SIDE] += pixels[i] / (SIDE / 2);
     }

@@ -76,9 +76,7 @@ static void draw(const char *path, const char *motion, double seconds, uint8_t (
 
 static double cover(const uint8_t p[4])
 {
-    double v = p[0] / 255.;
-    v = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-    return 1 - v;
+    return 1 - p[0] / 255.;
 }
 
 static const char *path_of(const char *name)

@@ -334,7 +334,7 @@ const char *halftone_look(const char *surface)
 
 double halftone_ink(const shot *s, int x, int y)
 {
-    return 1 - picture_linear(s->picture[4 * (y * s->width + x) + 1]);
+    return 1 - picture_shown(s->picture[4 * (y * s->width + x) + 1]);
 }
 
 double halftone_mean(const shot *s, int x, int y, int width, int height)
@@ -350,7 +350,7 @@ double halftone_difference(const shot *a, const shot *b)
 {
     double sum = 0;
     for (int i = 0; i < a->width * a->height; i++)
-        sum += fabs(picture_linear(a->picture[4 * i]) - picture_linear(b->picture[4 * i]));
+        sum += fabs(picture_shown(a->picture[4 * i]) - picture_shown(b->picture[4 * i]));
     return sum / (a->width * a->height);
 }
 

@@ -119,7 +119,7 @@ shot_view hatch_front(int side, double half)
 
 double hatch_ink(const shot *s, int x, int y)
 {
-    return 1 - picture_linear(s->picture[4 * ((size_t)y * (size_t)s->width + (size_t)x)]);
+    return 1 - picture_shown(s->picture[4 * ((size_t)y * (size_t)s->width + (size_t)x)]);
 }
 
 double hatch_mean(const shot *s, int x0, int y0, int x1, int y1)

@@ -8,12 +8,12 @@
 #include "shot.h"
 
 typedef struct paint {
-    double r, g, b, a; /* linear, straight */
+    double r, g, b, a; /* as shown, straight */
 } paint;
 
 static inline paint paint_of(const uint8_t srgb[3], double alpha)
 {
-    return (paint){picture_linear(srgb[0]), picture_linear(srgb[1]), picture_linear(srgb[2]), alpha};
+    return (paint){picture_shown(srgb[0]), picture_shown(srgb[1]), picture_shown(srgb[2]), alpha};
 }
 
 static inline void put_over(paint *under, paint p)
@@ -25,8 +25,8 @@ static inline void put_over(paint *under, paint p)
 
 static inline int levels_off(const uint8_t *drawn, paint wanted)
 {
-    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)),
-                      fmax(fabs(drawn[1] - picture_srgb(wanted.g)), fabs(drawn[2] - picture_srgb(wanted.b))));
+    double off = fmax(fabs(drawn[0] - picture_level(wanted.r)),
+                      fmax(fabs(drawn[1] - picture_level(wanted.g)), fabs(drawn[2] - picture_level(wanted.b))));
     return (int)ceil(off - 0.5);
 }
 

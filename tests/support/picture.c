@@ -117,6 +117,16 @@ uint8_t *picture_encode_rgba(const uint8_t *rgba, int width, int height, size_t 
     return out;
 }
 
+double picture_shown(uint8_t level)
+{
+    return level / 255.0;
+}
+
+double picture_level(double shown)
+{
+    return 255 * fmin(fmax(shown, 0), 1);
+}
+
 double picture_linear(uint8_t srgb)
 {
     static double known[256]; /* whole pictures are asked for, some hundred times */

@@ -21,7 +21,10 @@ bool picture_write_rgba(const char *path, const uint8_t *rgba, int width, int he
 /* PNG bytes in memory, for textures inside model files. Free with free. */
 uint8_t *picture_encode_rgba(const uint8_t *rgba, int width, int height, size_t *size);
 
-/* sRGB byte to linear 0…1, and back to 0…255 without rounding. */
+/* What a byte shows, 0 … 1, in which inks, papers and samples are mixed, and back to 0…255 without rounding. */
+double picture_shown(uint8_t level);
+double picture_level(double shown);
+/* sRGB byte to light 0…1, and back to 0…255 without rounding. */
 double picture_linear(uint8_t srgb);
 double picture_srgb(double linear);
 

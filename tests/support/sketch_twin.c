@@ -116,8 +116,8 @@ sketch_paint sketch_shade(const sketch_maps *m, sketch_position p)
 
 sketch_paint sketch_colour(const uint8_t srgb[3], double alpha)
 {
-    return (sketch_paint){alpha * picture_linear(srgb[0]), alpha * picture_linear(srgb[1]),
-                          alpha * picture_linear(srgb[2]), alpha};
+    return (sketch_paint){alpha * picture_shown(srgb[0]), alpha * picture_shown(srgb[1]),
+                          alpha * picture_shown(srgb[2]), alpha};
 }
 
 sketch_paint sketch_fraction(sketch_paint p, double fraction)
@@ -181,8 +181,8 @@ const uint8_t *sketch_pixel(const shot *s, int x, int y)
 
 double sketch_levels_off(const uint8_t *drawn, sketch_paint wanted)
 {
-    double off = fmax(fabs(drawn[0] - picture_srgb(wanted.r)), fabs(drawn[1] - picture_srgb(wanted.g)));
-    return fmax(0, fmax(off, fabs(drawn[2] - picture_srgb(wanted.b))) - 0.5);
+    double off = fmax(fabs(drawn[0] - picture_level(wanted.r)), fabs(drawn[1] - picture_level(wanted.g)));
+    return fmax(0, fmax(off, fabs(drawn[2] - picture_level(wanted.b))) - 0.5);
 }
 
 void sketch_judge(sketch_tally *t, const shot *s, int x, int y, sketch_paint wanted, double levels)

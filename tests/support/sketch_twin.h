@@ -10,7 +10,7 @@ typedef struct sketch_position {
     double x, y;
 } sketch_position;
 
-/* Linear, premultiplied. */
+/* As shown, premultiplied. */
 typedef struct sketch_paint {
     double r, g, b, a;
 } sketch_paint;

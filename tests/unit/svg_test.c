@@ -407,7 +407,7 @@ static void check_colours(const char *model, const lmn_scene *scene, const lmn_l
             if (border)
                 continue;
             colour      c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1);
-            const float own[3] = {colour_from_linear(c.r), colour_from_linear(c.g), colour_from_linear(c.b)};
+            const float own[3] = {c.r, c.g, c.b};
             bool        same = true;
             for (int k = 0; k < 3; k++)
                 same = same && fabsf(own[k] * 255 - colours[y * SIDE + x][k]) < 4;

@@ -13,19 +13,18 @@ vec4 inked(surface_point p, float tone)
     vec4 paper = paper_of(p);
 #if INKS == 2
     /* What each ink must take away from white; black takes what the others have in common. */
-    /* Ink covers fractions of an area, and areas mix as light does. */
     float light = tone / max(mix(1.0, seen_brightness(p.albedo.rgb), u_texture), 0.01);
-    vec3 wanted = clamp(mix(vec3(1.0), p.albedo.rgb, u_texture) * clamp(light, 0.0, 1.0), vec3(0.0), vec3(1.0));
+    vec3 wanted = mix(vec3(1.0), shown(p.albedo.rgb), u_texture) * clamp(light, 0.0, 1.0);
     vec3 taken = 1.0 - wanted;
     float black = min(taken.r, min(taken.g, taken.b));
     vec3 rest = black < 1.0 ? (taken - black) / (1.0 - black) : vec3(0.0);
-    const vec3 inks[3] = vec3[3](vec3(0.0, 0.42, 0.83), vec3(0.80, 0.0, 0.30), vec3(1.0, 0.85, 0.0));
+    const vec3 inks[3] = vec3[3](vec3(0.0, 0.68, 0.92), vec3(0.91, 0.0, 0.58), vec3(1.0, 0.93, 0.0));
     vec4 colour = paper;
     for (int i = 0; i < 3; i++)
         colour.rgb *= mix(vec3(1.0), inks[i], cover_of(focused(p, rest[i]), i));
     return laid_over(colour, vec4(u_ink.rgb, 1.0) * u_ink.a, cover_of(focused(p, black), 3));
 #else
-    vec4 ink = vec4(mix(u_ink.rgb, p.albedo.rgb, u_ink_tint), 1.0) * u_ink.a;
+    vec4 ink = vec4(mix(u_ink.rgb, shown(p.albedo.rgb), u_ink_tint), 1.0) * u_ink.a;
     float darkness = focused(p, clamp(darkness_of(tone), 0.0, 1.0));
 #if INKS == 1
     vec4 second = vec4(u_second_ink.rgb, 1.0) * u_second_ink.a;

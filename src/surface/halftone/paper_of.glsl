@@ -6,7 +6,7 @@ vec4 paper_of(surface_point p)
     vec4 paper = vec4(u_paper.rgb * u_paper.a, u_paper.a);
 #ifdef WITH_PAPER_TINT
     vec3 own = p.unlit ? p.albedo.rgb : p.albedo.rgb * min(0.25 + 0.75 * diffuse_light(p), vec3(1.0));
-    paper = mix(paper, vec4(own, 1.0), u_paper_tint);
+    paper = mix(paper, vec4(shown(own), 1.0), u_paper_tint);
 #endif
     return paper;
 }

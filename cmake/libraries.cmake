@@ -1,0 +1,61 @@
+# What Limner is linked with (docs/DEPENDENCIES.md). The targets are PkgConfig::LIMNER_NAME, so that they are not taken for those of a project
+# around this one, and seen from there, since who links the static library links these too.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED GLOBAL)
+
+set(LIMNER_MODULES "") # NAME=module of all that were found
+macro(limner_find name module)
+  pkg_check_modules(LIMNER_${name} ${ARGN} QUIET IMPORTED_TARGET GLOBAL ${module})
+  if(LIMNER_${name}_FOUND)
+    list(APPEND LIMNER_MODULES ${name}=${module})
+  endif()
+endmacro()
+
+# Without it other people's decoders are fenced by limits alone.
+limner_find(SECCOMP libseccomp)
+# Without it there are no films of animated WebP.
+limner_find(WEBPMUX libwebpmux)
+limner_find(EPOXY epoxy REQUIRED)
+limner_find(JANSSON jansson REQUIRED)
+limner_find(PNG libpng REQUIRED)
+limner_find(JPEG libjpeg REQUIRED)
+limner_find(WEBP libwebp REQUIRED)
+limner_find(ZLIB zlib REQUIRED)
+limner_find(DEFLATE libdeflate REQUIRED)
+limner_find(ASSIMP assimp REQUIRED)
+limner_find(GLU glu REQUIRED)
+limner_find(XML libxml-2.0 REQUIRED)
+limner_find(GEOS geos REQUIRED)
+limner_find(QHULL qhull_r REQUIRED)
+limner_find(FREETYPE freetype2 REQUIRED)
+limner_find(FONTCONFIG fontconfig REQUIRED)
+limner_find(HARFBUZZ harfbuzz REQUIRED)
+limner_find(CAIRO cairo-pdf REQUIRED)
+limner_find(PANGO pangocairo REQUIRED)
+find_library(MESHOPTIMIZER_LIBRARY meshoptimizer REQUIRED)
+
+# Draco is C++ only; its one C++ file is built when the library is there, without it such models are refused by name.
+find_path(DRACO_INCLUDE draco/compression/decode.h)
+find_library(DRACO_LIBRARY draco)
+if(DRACO_INCLUDE AND DRACO_LIBRARY)
+  set(draco_found ON)
+endif()
+option(LIMNER_DRACO "Read KHR_draco_mesh_compression" ${draco_found})
+if(LIMNER_DRACO)
+  enable_language(CXX)
+endif()
+
+# What has no module: where it is here, and by its name wherever the installed library is used.
+set(LIMNER_LIBRARIES "")
+set(LIMNER_PLAIN_LIBRARIES -lmeshoptimizer)
+list(APPEND LIMNER_LIBRARIES $<BUILD_INTERFACE:${MESHOPTIMIZER_LIBRARY}> $<INSTALL_INTERFACE:-lmeshoptimizer>)
+if(LIMNER_DRACO)
+  list(APPEND LIMNER_LIBRARIES $<BUILD_INTERFACE:${DRACO_LIBRARY}> $<INSTALL_INTERFACE:-ldraco> -lstdc++)
+  list(APPEND LIMNER_PLAIN_LIBRARIES -ldraco -lstdc++)
+endif()
+foreach(pair IN LISTS LIMNER_MODULES)
+  string(REGEX REPLACE "=.*" "" name ${pair})
+  list(APPEND LIMNER_LIBRARIES PkgConfig::LIMNER_${name})
+endforeach()
+list(APPEND LIMNER_LIBRARIES Threads::Threads m ${CMAKE_DL_LIBS})
+list(APPEND LIMNER_PLAIN_LIBRARIES ${CMAKE_THREAD_LIBS_INIT} -lm)
