@@ -61,7 +61,7 @@ static void put_on_target(session *s, const gpu_host_target *host, const lmn_tar
         gpu_set_texture(g, "t_depth", f->kept_depth, false);
         gpu_set_texture(g, "t_seen", f->seen_depth, false);
         gpu_set_int(g, "u_samples", f->samples);
-        gpu_set_int(g, "u_reach", f->seen_depth && f->ground.a <= 0 ? f->seen_reach : 0);
+        gpu_set_int(g, "u_beside", f->seen_depth && f->ground.a <= 0 ? f->seen_reach : 0);
         gpu_set_vec3(g, "u_depth_line", (float[]){(float)line.factor, (float)line.summand, (float)line.farthest});
     }
     gpu_draw_screen(g);

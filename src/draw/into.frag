@@ -7,7 +7,7 @@ uniform sampler2D t_depth; /* of the page, supersamples counted */
 uniform sampler2D t_seen;  /* of what is seen through, which the page's leaves out */
 #endif
 uniform int u_samples;     /* a side */
-uniform int u_reach;       /* how far ink lies beside what has depth, samples */
+uniform int u_beside;       /* how far ink lies beside what has depth, samples */
 uniform vec3 u_depth_line; /* the host's depth: factor, summand; and of where nothing is */
 #endif
 layout(location = 0) out vec4 out_0;
@@ -46,8 +46,8 @@ void main()
 #ifdef WITH_DEPTH
     ivec2 corner = pixel * u_samples;
     float depth = nearest_within(corner, corner + u_samples - 1);
-    if (depth >= 1.0 && u_reach > 0)
-        depth = nearest_within(corner - u_reach, corner + u_samples - 1 + u_reach);
+    if (depth >= 1.0 && u_beside > 0)
+        depth = nearest_within(corner - u_beside, corner + u_samples - 1 + u_beside);
     gl_FragDepth = depth < 1.0 ? clamp(depth * u_depth_line.x + u_depth_line.y, 0.0, 1.0) : u_depth_line.z;
 #endif
 }

@@ -236,6 +236,7 @@ lmn_status gpu_enter(gpu *g, lmn_error *error)
     }
     lmn_status status = LMN_OK;
     g->before = current_get();
+    g->failed = false; /* what an earlier call has said */
     if (g->gone) {
         status = say_lost(g, error);
     } else if (g->adopted) {

@@ -507,6 +507,10 @@ static void restore_transfer(gpu *g, GLenum what, const host_value *saved)
         group, #name, on ? "on" : "off", desktop, es, extension, false, name, on, save_switch, set_switch,             \
             restore_switch                                                                                             \
     }
+#define TOGGLED(group, name, desktop, es, extension)                                                                   \
+    {                                                                                                                  \
+        group, #name, "off and on", desktop, es, extension, false, name, 0, save_switch, set_switch, restore_switch    \
+    }
 #define OLD_SWITCH(name)                                                                                               \
     {                                                                                                                  \
         "Compatibility profiles", #name, "off", 33, 0, NULL, true, name, 0, save_switch, set_switch, restore_switch    \
@@ -558,18 +562,18 @@ const host_row host_rows[] = {
      save_scissor_tests, set_switch, restore_scissor_tests},
     {"Page and depth", "GL_DEPTH_RANGE, all", "0 … 1", 33, 30, NULL, false, GL_DEPTH_RANGE, 0, save_depth_ranges,
      set_depth_range, restore_depth_ranges},
-    SWITCH("Page and depth", GL_DEPTH_TEST, 0, 33, 30, NULL),
+    TOGGLED("Page and depth", GL_DEPTH_TEST, 33, 30, NULL),
     {"Page and depth", "GL_DEPTH_WRITEMASK", "off and on", 33, 30, NULL, false, GL_DEPTH_WRITEMASK, 1, save_number,
      set_depth_mask, restore_depth_mask},
     {"Page and depth", "GL_DEPTH_FUNC", "several", 33, 30, NULL, false, GL_DEPTH_FUNC, GL_LESS, save_number,
      set_depth_function, restore_depth_function},
-    SWITCH("Page and depth", GL_DEPTH_CLAMP, 0, 33, 0, "GL_EXT_depth_clamp"),
+    TOGGLED("Page and depth", GL_DEPTH_CLAMP, 33, 0, "GL_EXT_depth_clamp"),
     SWITCH("Page and depth", GL_DEPTH_BOUNDS_TEST_EXT, 0, 0, 0, "GL_EXT_depth_bounds_test"),
     {"Page and depth", "glClipControl", "GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE", 45, 0, "GL_EXT_clip_control", false, 0,
      0, save_clip_control, set_clip_control, restore_clip_control},
     {"Page and depth", "GL_CLIP_DISTANCE0 … 7", "off", 33, 0, "GL_EXT_clip_cull_distance", false, GL_CLIP_DISTANCE0, 0,
      save_clip_distances, set_clip_distances, restore_clip_distances},
-    SWITCH("Page and depth", GL_STENCIL_TEST, 0, 33, 30, NULL),
+    TOGGLED("Page and depth", GL_STENCIL_TEST, 33, 30, NULL),
     {"Page and depth", "stencil functions, operations and masks, front and back", "several", 33, 30, NULL, false, 0, 0,
      save_stencil, set_stencil, restore_stencil},
 
@@ -585,7 +589,7 @@ const host_row host_rows[] = {
     {"Colour", "GL_CLAMP_READ_COLOR", "GL_FIXED_ONLY", 33, 0, NULL, false, GL_CLAMP_READ_COLOR, GL_FIXED_ONLY,
      save_number, set_clamp_colour, restore_clamp_colour},
 
-    SWITCH("Triangles and samples", GL_CULL_FACE, 0, 33, 30, NULL),
+    TOGGLED("Triangles and samples", GL_CULL_FACE, 33, 30, NULL),
     {"Triangles and samples", "GL_CULL_FACE_MODE", "several", 33, 30, NULL, false, GL_CULL_FACE_MODE, GL_BACK,
      save_number, set_cull_mode, restore_cull_mode},
     {"Triangles and samples", "GL_FRONT_FACE", "GL_CCW", 33, 30, NULL, false, GL_FRONT_FACE, GL_CCW, save_number,
@@ -599,7 +603,7 @@ const host_row host_rows[] = {
     SWITCH("Triangles and samples", GL_PRIMITIVE_RESTART_FIXED_INDEX, 0, 43, 30, NULL),
     {"Triangles and samples", "GL_PROVOKING_VERTEX", "GL_LAST_VERTEX_CONVENTION", 33, 0, NULL, false,
      GL_PROVOKING_VERTEX, GL_LAST_VERTEX_CONVENTION, save_number, set_provoking_vertex, restore_provoking_vertex},
-    SWITCH("Triangles and samples", GL_PROGRAM_POINT_SIZE, 0, 33, 0, NULL),
+    TOGGLED("Triangles and samples", GL_PROGRAM_POINT_SIZE, 33, 0, NULL),
     {"Triangles and samples", "GL_FRAGMENT_SHADER_DERIVATIVE_HINT", "GL_DONT_CARE", 33, 30, NULL, false,
      GL_FRAGMENT_SHADER_DERIVATIVE_HINT, GL_DONT_CARE, save_number, set_derivative_hint, restore_derivative_hint},
     SWITCH("Triangles and samples", GL_MULTISAMPLE, 1, 33, 0, NULL),

@@ -30,7 +30,7 @@ void must_be(bool good, const char *what)
 int frames_wanted(void)
 {
     const char *given = getenv("LIMNER_HOST_FRAMES");
-    return given ? atoi(given) : 100;
+    return given ? (int)strtol(given, NULL, 10) : 100;
 }
 
 static lmn_draw_desc description(void)

@@ -199,13 +199,18 @@ static void refused(const arguments *a, const lmn_draw_desc *desc, const lmn_tar
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-static void open_arguments(arguments *a)
+static void open_arguments_in(arguments *a, context_kind kind)
 {
-    assert_true(context_open(&a->context, CONTEXT_CORE, 3, 3));
+    assert_true(context_open(&a->context, kind, 3, kind == CONTEXT_ES ? 0 : 3));
     picture_open(&a->picture, SIDE, SIDE, PICTURE_DEPTH_24);
     a->renderer = adopt();
     a->scene = load("box.glb");
     a->look = look("plain");
+}
+
+static void open_arguments(arguments *a)
+{
+    open_arguments_in(a, CONTEXT_CORE);
 }
 
 static void close_arguments(arguments *a)
@@ -308,6 +313,46 @@ static void running_queries_are_in_the_way(void **unused)
     close_arguments(&a);
 }
 
+/* Feedback that a host has begun goes on after the call, into the same place. */
+static void feedback_waits(void **unused)
+{
+    (void)unused;
+    arguments     a;
+    state_objects o;
+    GLuint        buffer;
+    GLint         active = 0, paused = 1;
+    float         got[4][4] = {{0}};
+    open_arguments(&a);
+    lmn_draw_desc desc = description();
+    lmn_target    target = target_of(&a.picture);
+    state_objects_create(&o);
+    glTransformFeedbackVaryings(o.program, 1, (const char *const[]){"gl_Position"}, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(o.program);
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer);
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, sizeof got, NULL, GL_STATIC_READ);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+    glUseProgram(o.program);
+    glBindVertexArray(o.array);
+    glBindFramebuffer(GL_FRAMEBUFFER, a.picture.framebuffer);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, 2);
+    DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
+    glGetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+    glGetIntegerv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+    assert_true(active && !paused);
+    glDrawArrays(GL_POINTS, 2, 2);
+    glEndTransformFeedback();
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, sizeof got, got);
+    const float expected[4][2] = {{-0.9f, -0.9f}, {0.7f, -0.6f}, {-0.2f, 0.9f}, {0.9f, 0.9f}};
+    for (int i = 0; i < 4; i++)
+        assert_memory_equal(got[i], expected[i], sizeof expected[i]);
+    glDeleteBuffers(1, &buffer);
+    state_objects_destroy(&o);
+    close_arguments(&a);
+}
+
 typedef struct again {
     arguments *a;
     int        asked;
@@ -338,6 +383,47 @@ static void one_call_at_a_time(void **unused)
     DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
     assert_true(g.asked > 0);
     assert_int_equal(g.status, LMN_USAGE);
+    close_arguments(&a);
+}
+
+static bool cancel_later(double fraction, const char *stage, void *user)
+{
+    (void)fraction, (void)stage;
+    int *left = user;
+    return --*left > 0;
+}
+
+/* Wherever a call ends, the state is as before, and the next call is a good one. */
+static void cancelled_calls_give_back(void **unused)
+{
+    (void)unused;
+    arguments     a;
+    state_objects o;
+    static state  before, after;
+    int           cancelled = 0;
+    open_arguments(&a);
+    lmn_look_destroy(&a.look);
+    a.look = look("pencil");
+    state_objects_create(&o);
+    lmn_target target = target_of(&a.picture);
+    for (int k = 1; k <= 4; k++) {
+        lmn_draw_desc desc = description();
+        int           left = k;
+        desc.progress = cancel_later;
+        desc.progress_user = &left;
+        state_upset(&o, STATE_DEADLY);
+        state_take(&before);
+        lmn_status status = lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error);
+        state_take(&after);
+        assert_true(status == LMN_OK || status == LMN_CANCELLED);
+        cancelled += status == LMN_CANCELLED;
+        assert_true(state_same(&before, &after));
+        desc.progress = NULL;
+        DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
+    }
+    assert_true(cancelled > 0);
+    state_calm();
+    state_objects_destroy(&o);
     close_arguments(&a);
 }
 
@@ -426,7 +512,6 @@ static void matrices_are_a_camera(void **unused)
     lmn_scene    *scene = load("box.glb");
     lmn_look     *line = look("line");
     lmn_drawing  *drawings[2];
-    plane         p = {.orthographic = false};
     DO(lmn_renderer_create(&r, NULL, &error));
     for (int parallel = 0; parallel < 2; parallel++) {
         lmn_draw_desc by_eye = description(), by_matrix = description();
@@ -448,7 +533,6 @@ static void matrices_are_a_camera(void **unused)
         lmn_drawing_destroy(&drawings[0]);
         lmn_drawing_destroy(&drawings[1]);
     }
-    (void)p;
     lmn_renderer_destroy(&r);
     lmn_look_destroy(&line);
     lmn_scene_destroy(&scene);
@@ -507,29 +591,36 @@ static void check_rays(const plane *p, const uint8_t *pixels)
         fail_msg("%d of %d pixels are not what rays meet, %d lie on borders", wrong, SIDE * SIDE, unsure);
 }
 
+static void check_depth(arguments *a, plane_depth depth, picture_depth kind, bool parallel)
+{
+    static uint8_t pixels[2][SIDE * SIDE * 4];
+    plane          p;
+    picture        before = a->picture;
+    picture_open(&a->picture, SIDE, SIDE, kind);
+    plane_open(&p, depth, parallel, 0.05);
+    draw_both(a, &p, true, pixels[0]);
+    check_rays(&p, pixels[0]);
+    draw_both(a, &p, false, pixels[1]);
+    check_rays(&p, pixels[1]);
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    plane_close(&p);
+    picture_close(&a->picture);
+    a->picture = before;
+}
+
 static void depth_interleaves(void **unused)
 {
     (void)unused;
-    arguments      a;
-    static uint8_t pixels[2][SIDE * SIDE * 4];
-    open_arguments(&a);
-    for (int depth = 0; depth < PLANE_DEPTHS; depth++)
-        for (int kind = PICTURE_DEPTH_24; kind <= PICTURE_DEPTH_32F; kind++)
-            for (int parallel = 0; parallel < 2; parallel++) {
-                plane   p;
-                picture before = a.picture;
-                picture_open(&a.picture, SIDE, SIDE, (picture_depth)kind);
-                plane_open(&p, (plane_depth)depth, parallel, 0.05);
-                draw_both(&a, &p, true, pixels[0]);
-                check_rays(&p, pixels[0]);
-                draw_both(&a, &p, false, pixels[1]);
-                check_rays(&p, pixels[1]);
-                assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
-                plane_close(&p);
-                picture_close(&a.picture);
-                a.picture = before;
-            }
-    close_arguments(&a);
+    for (int api = CONTEXT_CORE; api <= CONTEXT_ES; api++) {
+        arguments a;
+        open_arguments_in(&a, (context_kind)api);
+        for (int depth = 0; depth < PLANE_DEPTHS; depth++)
+            for (int kind = PICTURE_DEPTH_24; kind <= PICTURE_DEPTH_32F; kind++)
+                for (int parallel = 0; parallel < 2; parallel++)
+                    if (api != CONTEXT_ES || depth != PLANE_REVERSED) /* which ES has by an extension alone */
+                        check_depth(&a, (plane_depth)depth, (picture_depth)kind, parallel);
+        close_arguments(&a);
+    }
 }
 
 /* Seen through, the cube shows what is behind it and is hidden by what is in front of it. */
@@ -696,7 +787,9 @@ int main(int count, char **arguments)
         cmocka_unit_test(targets_are_checked),
         cmocka_unit_test(own_contexts_have_no_targets),
         cmocka_unit_test(running_queries_are_in_the_way),
+        cmocka_unit_test(feedback_waits),
         cmocka_unit_test(one_call_at_a_time),
+        cmocka_unit_test(cancelled_calls_give_back),
         cmocka_unit_test(renderers_on_two_threads),
         cmocka_unit_test(matrices_are_a_camera),
         cmocka_unit_test(depth_interleaves),

@@ -164,10 +164,11 @@ static const named numbers[] = {
 };
 
 static const named old[] = {
-    N(GL_ALPHA_TEST, 33, 0, 1),   N(GL_POLYGON_STIPPLE, 33, 0, 1),
-    N(GL_POINT_SMOOTH, 33, 0, 1), N(GL_MAP_COLOR, 33, 0, 1),
-    N(GL_RED_SCALE, 33, 0, 1),    N(GL_GREEN_BIAS, 33, 0, 1),
-    N(GL_DEPTH_SCALE, 33, 0, 1),  N(GL_CLAMP_FRAGMENT_COLOR, 33, 0, 1),
+    N(GL_ALPHA_TEST, 33, 0, 1),   N(GL_POLYGON_STIPPLE, 33, 0, 1), N(GL_POINT_SMOOTH, 33, 0, 1),
+    N(GL_MAP_COLOR, 33, 0, 1),    N(GL_GREEN_SCALE, 33, 0, 1),     N(GL_BLUE_SCALE, 33, 0, 1),
+    N(GL_ALPHA_SCALE, 33, 0, 1),  N(GL_RED_BIAS, 33, 0, 1),        N(GL_BLUE_BIAS, 33, 0, 1),
+    N(GL_ALPHA_BIAS, 33, 0, 1),   N(GL_DEPTH_BIAS, 33, 0, 1),      N(GL_RED_SCALE, 33, 0, 1),
+    N(GL_GREEN_BIAS, 33, 0, 1),   N(GL_DEPTH_SCALE, 33, 0, 1),     N(GL_CLAMP_FRAGMENT_COLOR, 33, 0, 1),
     N(GL_POLYGON_MODE, 33, 0, 2),
 };
 
@@ -406,6 +407,9 @@ static void upset_stencil(GLenum function)
     glEnable(GL_STENCIL_TEST);
 }
 
+static const GLenum scales[] = {GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE, GL_DEPTH_SCALE},
+                    biases[] = {GL_RED_BIAS, GL_GREEN_BIAS, GL_BLUE_BIAS, GL_ALPHA_BIAS, GL_DEPTH_BIAS};
+
 static void upset_transfer(void)
 {
     glPixelStorei(GL_PACK_ALIGNMENT, 8);
@@ -429,9 +433,11 @@ static void upset_transfer(void)
     glClampColor(GL_CLAMP_READ_COLOR, GL_TRUE);
     if (!is_compatibility())
         return;
-    glPixelTransferf(GL_RED_SCALE, 0.5f);
-    glPixelTransferf(GL_GREEN_BIAS, 0.25f);
-    glPixelTransferf(GL_DEPTH_SCALE, 0.25f);
+    glPixelTransferf(GL_MAP_COLOR, 1);
+    for (GLenum k = 0; k < 5; k++) {
+        glPixelTransferf(scales[k], 0.5f);
+        glPixelTransferf(biases[k], 0.25f);
+    }
     glClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);
 }
 
@@ -562,7 +568,9 @@ void state_calm(void)
         return;
     glDisable(GL_ALPHA_TEST);
     glDisable(GL_POLYGON_STIPPLE);
-    glPixelTransferf(GL_RED_SCALE, 1);
-    glPixelTransferf(GL_GREEN_BIAS, 0);
-    glPixelTransferf(GL_DEPTH_SCALE, 1);
+    glPixelTransferf(GL_MAP_COLOR, 0);
+    for (GLenum k = 0; k < 5; k++) {
+        glPixelTransferf(scales[k], 1);
+        glPixelTransferf(biases[k], 0);
+    }
 }
