@@ -4,11 +4,17 @@
 #include "stroke/stroke_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
+/* Faces of one surface that two pieces have turn against each other by no more than the first, radians, whatever the
+ * second is; they lie no farther apart than this fraction of the smaller piece. */
+#define TURN_MOST  0.44
+#define TURN_LEAST 0.03
+#define AWAY_MOST  6e-3
 
 /* A face that may cross another one. */
 typedef struct near_face {
@@ -29,6 +35,7 @@ typedef struct crossing_search {
     uint32_t           *pieces; /* per near face, of all items */
     size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
+    float             **turns; /* per mesh: of each face, see beside.c; NULL: not needed yet */
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -267,6 +274,65 @@ static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face
     return least > margin || most < -margin;
 }
 
+/* By how much a mesh's surface turns beside each face, from one face to the next, where it is smooth; NULL when memory
+ * is gone. */
+static const float *turns_of(crossing_search *s, uint32_t mesh)
+{
+    const edge_mesh *m = &s->scene->meshes[mesh];
+    if (!s->turns)
+        s->turns = mem_calloc(s->scene->mesh_count + 1, sizeof *s->turns);
+    if (!s->turns || s->turns[mesh])
+        return s->turns ? s->turns[mesh] : NULL;
+    float *out = s->turns[mesh] = mem_calloc((size_t)m->face_count + 1, sizeof *out);
+    for (uint32_t i = 0; i < m->edge_count && out; i++) {
+        const mesh_edge *e = &m->edges[i];
+        if (e->flags & (EDGE_CREASE | EDGE_BORDER | EDGE_TWISTED))
+            continue;
+        vec3  p = m->normals[e->face[0]], q = m->normals[e->face[1]];
+        float turn = acosf(smaller(1, larger(-1, p.x * q.x + p.y * q.y + p.z * q.z)));
+        for (int k = 0; k < 2; k++)
+            out[e->face[k]] = larger(out[e->face[k]], turn);
+    }
+    return out;
+}
+
+/* Are two faces that cross so nearly one surface, tessellated twice, that where they cross means nothing? They turn
+ * against each other no more than each surface does from face to face, and lie close together all over. */
+static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, const world_face *a,
+                           const world_face *b)
+{
+    const near_face *n = &s->faces[first], *m = &s->faces[second];
+    double           cosine = fabs(double3_dot(a->normal, b->normal)), away = 0;
+    if (cosine < cos(TURN_MOST))
+        return false;
+    double size =
+        fmin(box3_diagonal(s->piece_boxes[s->pieces[first]]), box3_diagonal(s->piece_boxes[s->pieces[second]]));
+    for (int k = 0; k < 3; k++)
+        away = fmax(away, fmax(fabs(a->heights[k]), fabs(b->heights[k])));
+    if (away > AWAY_MOST * size)
+        return false;
+    const float *turns[2] = {turns_of(s, s->scene->items[n->item].mesh), turns_of(s, s->scene->items[m->item].mesh)};
+    if (!turns[0] || !turns[1])
+        return false;
+    return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
+}
+
+/* Keeps that two pieces change places, once after the other. */
+static bool put_beside(crossing_search *s, uint32_t a, uint32_t b)
+{
+    crossing_list *l = s->out;
+    if (l->beside_count && l->beside[l->beside_count - 2][0] == a && l->beside[l->beside_count - 2][1] == b)
+        return true;
+    if (!mem_grow((void **)&l->beside, &l->beside_capacity, l->beside_count + 2, sizeof *l->beside)) {
+        s->failed = true;
+        return false;
+    }
+    const uint32_t pairs[2][2] = {{a, b}, {b, a}};
+    memcpy(l->beside + l->beside_count, pairs, sizeof pairs);
+    l->beside_count += 2;
+    return true;
+}
+
 static bool cross_faces(void *user, uint32_t first, uint32_t second)
 {
     crossing_search *s = user;
@@ -298,6 +364,8 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     double3 length = double3_minus(end, begin);
     if (double3_dot(along, length) <= 0 || double3_dot(length, length) <= s->same * s->same)
         return true;
+    if (is_one_surface(s, first, second, &a, &b))
+        return put_beside(s, s->pieces[first], s->pieces[second]);
     if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
         s->failed = true;
         return false;
@@ -334,6 +402,24 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     return s->failed ? error_memory(error) : LMN_OK;
 }
 
+static int compare_pairs(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : p[1] < q[1] ? -1 : p[1] > q[1];
+}
+
+/* Each once. */
+static void sort_beside(crossing_list *c)
+{
+    size_t kept = 0;
+    if (c->beside_count)
+        qsort(c->beside, c->beside_count, sizeof *c->beside, compare_pairs);
+    for (size_t i = 0; i < c->beside_count; i++)
+        if (kept == 0 || compare_pairs(c->beside[kept - 1], c->beside[i]) != 0)
+            memmove(c->beside[kept++], c->beside[i], sizeof *c->beside);
+    c->beside_count = kept;
+}
+
 lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
                           lmn_error *error)
 {
@@ -353,11 +439,53 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     mem_free(s.faces);
     mem_free(s.boxes);
     mem_free(s.pieces);
-    if (status != LMN_OK) {
-        mem_free(out->crossings);
-        memset(out, 0, sizeof *out);
-    }
+    for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
+        mem_free(s.turns[i]);
+    mem_free(s.turns);
+    sort_beside(out);
+    if (status != LMN_OK)
+        crossings_release(out);
     return status;
+}
+
+void crossings_release(crossing_list *c)
+{
+    mem_free(c->crossings);
+    mem_free(c->beside);
+    memset(c, 0, sizeof *c);
+}
+
+/* The first of all pairs of a piece, or where it would be. */
+static size_t first_beside(const crossing_list *c, uint32_t piece)
+{
+    size_t low = 0, high = c->beside_count;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (c->beside[middle][0] < piece)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+bool beside_link(view_lines *out, const stroke_view *v, const crossing_list *c)
+{
+    if (!c->beside_count)
+        return true;
+    out->beside = mem_alloc(c->beside_count * sizeof *out->beside);
+    for (size_t i = 0; i < c->beside_count && out->beside; i++)
+        out->beside[i] = c->beside[i][1];
+    for (size_t i = 0; i < out->count && out->beside; i++) {
+        window_segment *s = &out->segments[i];
+        if (s->faces[0] == EDGE_NO_FACE)
+            continue;
+        uint32_t piece = v->face_pieces[s->faces[0]];
+        size_t   first = first_beside(c, piece);
+        s->beside = out->beside + first;
+        s->beside_count = (uint32_t)(first_beside(c, piece + 1) - first);
+    }
+    return out->beside != NULL;
 }
 
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)

@@ -9,6 +9,11 @@
  * near plane is close to the eye (a viewer inside the model), smaller differences of window depth are noise. */
 const float DEPTH_NOISE = 16.0 * 5.96e-8;
 
+/* Normals that differ by less go on smoothly: cosine. */
+const float GOES_ON = 0.5;
+/* Slopes that differ by less than this fraction are those of one surface. */
+const float EVEN = 0.5;
+
 /* Part of the step `across` that the slopes before and behind it do not explain. */
 float unexplained(float before, float across, float behind)
 {
@@ -17,13 +22,25 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
+/* Does depth go on evenly over this pixel and its neighbour? */
+bool goes_on(vec2 side)
+{
+    vec4 along = vec4(neighbour(t_depth, -side).r, neighbour(t_depth, vec2(0.0)).r, neighbour(t_depth, side).r, neighbour(t_depth, 2.0 * side).r);
+    vec3 slopes = along.yzw - along.xyz;
+    float low = min(slopes.x, min(slopes.y, slopes.z)), high = max(slopes.x, max(slopes.y, slopes.z));
+    return high - low <= EVEN * max(abs(low), abs(high)) + DEPTH_NOISE;
+}
+
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`. `turned`: the normal was turned to the viewer. */
 vec2 inner_and_id(vec2 side, vec3 normal, bool turned, vec3 ray, uvec2 id)
 {
     vec3 other = neighbour(t_normal_depth, side).xyz;
-    float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
-    /* Interpolated normals may pass the rim of what is seen within a face: turned to the viewer, neighbours there are opposite. */
-    cosine = turned != (dot(other, ray) > 0.0) ? abs(cosine) : cosine;
+    bool other_turned = dot(other, ray) > 0.0;
+    float cosine = dot(normal, other) * (other_turned ? -1.0 : 1.0);
+    /* Interpolated normals may pass the rim of what is seen within a face: turned to the viewer, neighbours are opposite there. */
+    int opposite = turned != other_turned && cosine < -GOES_ON ? 1 : 0;
+    for (int once = 0; once < opposite; once++)
+        cosine *= goes_on(side) ? -1.0 : 1.0;
     float between = 0.0, faint = u_line_faint, crease = u_line_crease;
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
