@@ -312,7 +312,8 @@ static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, 
     if (away > AWAY_MOST * size)
         return false;
     const float *turns[2] = {turns_of(s, s->scene->items[n->item].mesh), turns_of(s, s->scene->items[m->item].mesh)};
-    if (!turns[0] || !turns[1])
+    s->failed = s->failed || !turns[0] || !turns[1];
+    if (s->failed)
         return false;
     return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
 }
