@@ -4,7 +4,6 @@
 #include "stroke/stroke_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -35,7 +34,7 @@ typedef struct crossing_search {
     uint32_t           *pieces; /* per near face, of all items */
     size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
-    float             **turns; /* per mesh: of each face, see beside.c; NULL: not needed yet */
+    float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -318,22 +317,6 @@ static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, 
     return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
 }
 
-/* Keeps that two pieces change places, once after the other. */
-static bool put_beside(crossing_search *s, uint32_t a, uint32_t b)
-{
-    crossing_list *l = s->out;
-    if (l->beside_count && l->beside[l->beside_count - 2][0] == a && l->beside[l->beside_count - 2][1] == b)
-        return true;
-    if (!mem_grow((void **)&l->beside, &l->beside_capacity, l->beside_count + 2, sizeof *l->beside)) {
-        s->failed = true;
-        return false;
-    }
-    const uint32_t pairs[2][2] = {{a, b}, {b, a}};
-    memcpy(l->beside + l->beside_count, pairs, sizeof pairs);
-    l->beside_count += 2;
-    return true;
-}
-
 static bool cross_faces(void *user, uint32_t first, uint32_t second)
 {
     crossing_search *s = user;
@@ -365,13 +348,15 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     double3 length = double3_minus(end, begin);
     if (double3_dot(along, length) <= 0 || double3_dot(length, length) <= s->same * s->same)
         return true;
-    if (is_one_surface(s, first, second, &a, &b))
-        return put_beside(s, s->pieces[first], s->pieces[second]);
     if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
         s->failed = true;
         return false;
     }
-    s->out->crossings[s->out->count++] = (face_crossing){{begin, end}, {n->item, m->item}, {n->face, m->face}};
+    s->out->crossings[s->out->count++] = (face_crossing){{begin, end},
+                                                         {n->item, m->item},
+                                                         {n->face, m->face},
+                                                         {s->pieces[first], s->pieces[second]},
+                                                         is_one_surface(s, first, second, &a, &b)};
     return true;
 }
 
@@ -403,24 +388,6 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     return s->failed ? error_memory(error) : LMN_OK;
 }
 
-static int compare_pairs(const void *a, const void *b)
-{
-    const uint32_t *p = a, *q = b;
-    return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : p[1] < q[1] ? -1 : p[1] > q[1];
-}
-
-/* Each once. */
-static void sort_beside(crossing_list *c)
-{
-    size_t kept = 0;
-    if (c->beside_count)
-        qsort(c->beside, c->beside_count, sizeof *c->beside, compare_pairs);
-    for (size_t i = 0; i < c->beside_count; i++)
-        if (kept == 0 || compare_pairs(c->beside[kept - 1], c->beside[i]) != 0)
-            memmove(c->beside[kept++], c->beside[i], sizeof *c->beside);
-    c->beside_count = kept;
-}
-
 lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
                           lmn_error *error)
 {
@@ -443,7 +410,8 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);
     mem_free(s.turns);
-    sort_beside(out);
+    if (status == LMN_OK && !crossings_settle(out))
+        status = error_memory(error);
     if (status != LMN_OK)
         crossings_release(out);
     return status;
@@ -454,39 +422,6 @@ void crossings_release(crossing_list *c)
     mem_free(c->crossings);
     mem_free(c->beside);
     memset(c, 0, sizeof *c);
-}
-
-/* The first of all pairs of a piece, or where it would be. */
-static size_t first_beside(const crossing_list *c, uint32_t piece)
-{
-    size_t low = 0, high = c->beside_count;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (c->beside[middle][0] < piece)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-bool beside_link(view_lines *out, const stroke_view *v, const crossing_list *c)
-{
-    if (!c->beside_count)
-        return true;
-    out->beside = mem_alloc(c->beside_count * sizeof *out->beside);
-    for (size_t i = 0; i < c->beside_count && out->beside; i++)
-        out->beside[i] = c->beside[i][1];
-    for (size_t i = 0; i < out->count && out->beside; i++) {
-        window_segment *s = &out->segments[i];
-        if (s->faces[0] == EDGE_NO_FACE)
-            continue;
-        uint32_t piece = v->face_pieces[s->faces[0]];
-        size_t   first = first_beside(c, piece);
-        s->beside = out->beside + first;
-        s->beside_count = (uint32_t)(first_beside(c, piece + 1) - first);
-    }
-    return out->beside != NULL;
 }
 
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)

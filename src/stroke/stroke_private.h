@@ -189,6 +189,8 @@ bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin,
 typedef struct face_crossing {
     double3  ends[2];
     uint32_t items[2], faces[2]; /* faces: of the items' meshes */
+    uint32_t pieces[2];          /* of all in the scene */
+    bool     one_surface;        /* the faces are nearly one */
 } face_crossing;
 struct crossing_list {
     face_crossing *crossings;
@@ -234,6 +236,10 @@ typedef struct view_lines {
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
     uint32_t       *beside;    /* … and those of pieces */
 } view_lines;
+/* --- beside.c --- */
+/* Leaves out crossings of pieces that nearly coincide, by what most of the length of those that hang together is, and
+ * keeps which pieces these are. False when memory is gone. */
+bool crossings_settle(crossing_list *list);
 /* Says which pieces change places with those that segments are of. False when memory is gone. */
 bool       beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,

@@ -153,6 +153,47 @@ static void balls_that_coincide_are_one(void **state)
     shot_release(&shot);
 }
 
+/* A pipe around an axis, in so many rings. */
+static void add_pipe(lmn_scene *s, int axis, uint32_t rings)
+{
+    enum { AROUND = 48 };
+    vec3     *positions = mem_alloc((size_t)(rings + 1) * AROUND * sizeof *positions);
+    uint32_t *corners = mem_alloc((size_t)rings * AROUND * 6 * sizeof *corners), k = 0;
+    for (uint32_t r = 0; r <= rings; r++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            double      turn = 2 * stroke_pi * (i + 0.37 * axis) / AROUND, along = -1.5 + 3.0 * r / rings;
+            const float at[3] = {(float)along, (float)(0.5 * cos(turn)), (float)(0.5 * sin(turn))};
+            positions[r * AROUND + i] = (vec3){at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]};
+        }
+    for (uint32_t r = 0; r < rings; r++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            uint32_t       a = r * AROUND + i, b = r * AROUND + (i + 1) % AROUND;
+            const uint32_t quad[6] = {a, b, b + AROUND, a, b + AROUND, a + AROUND};
+            memcpy(corners + k, quad, sizeof quad);
+            k += 6;
+        }
+    add_part(s, positions, (rings + 1) * AROUND, corners, k);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Pipes of one width that cross touch in two places without an angle: their line goes on there. */
+static void pipes_that_cross_have_whole_lines(void **state)
+{
+    (void)state;
+    for (uint32_t rings = 1; rings <= 40; rings += 39) {
+        lmn_scene *s = stroke_scene_begin();
+        add_pipe(s, 0, rings);
+        add_pipe(s, 1, rings);
+        stroke_shot shot = shoot(s, look_along(0.5, 0.4, -1, origin, 20, 2, true, 900, 900), all_lines());
+        double      length;
+        size_t      count = count_strokes(&shot.set, STROKE_INTERSECTION, 0, &length);
+        assert_in_range(count, 1, 8);
+        assert_true(length > 400);
+        shot_release(&shot);
+    }
+}
+
 /* A plate of half a per cent keeps both of its rims, and hides what is below it. */
 static void thin_plates_hide(void **state)
 {
@@ -573,6 +614,7 @@ int main(void)
         cmocka_unit_test(rims_hide_where_they_are),
         cmocka_unit_test(shells_that_coincide_are_one),
         cmocka_unit_test(balls_that_coincide_are_one),
+        cmocka_unit_test(pipes_that_cross_have_whole_lines),
         cmocka_unit_test(thin_plates_hide),
         cmocka_unit_test(pieces_that_cross_have_a_line),
         cmocka_unit_test(flush_parts_are_calm),

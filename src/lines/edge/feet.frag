@@ -109,7 +109,7 @@ vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, v
 
 #if defined(HAS_BARE) && defined(HAS_ID) && PARTS
 /* Surfaces that turn less against each other are one where they meet: cosine. */
-const float ONE_SURFACE = 0.9945;
+const float ONE_SURFACE = 0.9976;
 
 /* 1 where a border between parts may be drawn, for the four neighbours. Shells that nearly coincide change places from pixel to pixel, so where surfaces go on smoothly, borders
  * are where records say. What has no records is left alone: solids and cut faces. */
