@@ -2,6 +2,7 @@
 #include "frame/frame_private.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "finish/finish.h"
 
