@@ -234,21 +234,23 @@ static bool decides_passes(const param *p, const kind *k, const technique *t)
     return does || (t->compose && decides(p, t->compose->map_when));
 }
 
+/* A row may leave one end at 0 although that is out of its range. */
+static void put_slider(lmn_param_info *out, const param *p)
+{
+    bool soft = p->soft_min != 0 || p->soft_max != 0;
+    out->soft_min = soft && p->soft_min > p->min ? p->soft_min : p->min;
+    out->soft_max = soft && p->soft_max < p->max ? p->soft_max : p->max;
+}
+
 void typed_info(lmn_param_info *out, const kind *k, const technique *t, const param *p)
 {
-    bool soft = p->soft_min != 0 || p->soft_max != 0, ranged = p->type == PARAM_INT || p->type == PARAM_FLOAT;
+    bool ranged = p->type == PARAM_INT || p->type == PARAM_FLOAT;
     *out = (lmn_param_info){.key = p->key,
                             .doc = p->doc ? p->doc : "",
                             .type = type_of(p->type),
                             .unit = unit_of(p->unit),
                             .min = ranged ? p->min : 0,
                             .max = ranged ? p->max : 0,
-                            .soft_min = !ranged ? 0
-                                        : soft  ? p->soft_min
-                                                : p->min,
-                            .soft_max = !ranged ? 0
-                                        : soft  ? p->soft_max
-                                                : p->max,
                             .logarithmic = p->logarithmic,
                             .can_auto = p->can_auto,
                             .names = p->type == PARAM_ENUM ? p->names : NULL,
@@ -258,6 +260,8 @@ void typed_info(lmn_param_info *out, const kind *k, const technique *t, const pa
                             .is_file = p->is_file,
                             .is_selector = p->is_selector,
                             .compiles = param_compiles(p) || decides_passes(p, k, t)};
+    if (ranged)
+        put_slider(out, p);
     while (out->names && out->names[out->name_count])
         out->name_count++;
     put_default(out, p);
