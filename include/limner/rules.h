@@ -92,8 +92,9 @@ typedef struct lmn_param_info {
     const char *auto_from;      /* of COLOUR: "auto" takes the value of this key; NULL: of none */
     bool        common;         /* all techniques of the kind have it: a group of its own in a user interface */
     bool        is_file, is_selector; /* of TEXT: may be the path of a file; selects parts */
-    bool compiles; /* some change of it makes other programs for the GPU; else at most one to, from or past a limit that
-                      a condition names (0 above all) does. lmn_look_changes says what one change did. */
+    bool compiles; /* some change of it may make other programs for the GPU. Numbers of which this is not true may still
+                      do so once when they become 0 or "auto", or are so no longer. lmn_look_changes says it of each
+                      change. */
 } lmn_param_info;
 
 /* One of a technique's parameters, those of the kind first; false when there is no such kind, technique or index. */

@@ -43,10 +43,10 @@ static bool same_text(const char *a, const char *b)
     return !a || !b ? a == b : strcmp(a, b) == 0;
 }
 
-/* Numbers that shaders leave something out for: 0, and "auto". */
-static int class_of_number(float value)
+/* Numbers that something is left out for: "auto", and for some 0. */
+static int class_of_number(float value, bool left_out_at_0)
 {
-    return isnan(value) ? 2 : value != 0;
+    return isnan(value) ? 2 : left_out_at_0 && value != 0;
 }
 
 static int class_of_colour(colour c)
@@ -62,8 +62,9 @@ bool param_compiles(const param *p)
 
 /* Does a change from one to the other mean other work, not only other numbers? What C code makes of values cannot be
  * told from a row: whatever looks like a switch is one. */
-static bool switches(const param *p, const void *a, const void *b)
+static bool switches(const kind *k, const param *p, const void *a, const void *b)
 {
+    bool        left_out = p->toggles || p->cpu_only || k->id == KIND_SCENE; /* where it is 0 */
     const void *one = param_field(p, a), *other = param_field(p, b);
     if (same_field(p, a, b))
         return false;
@@ -71,7 +72,8 @@ static bool switches(const param *p, const void *a, const void *b)
         return true;
     switch (p->type) {
     case PARAM_INT: return !*(const int32_t *)one != !*(const int32_t *)other;
-    case PARAM_FLOAT: return class_of_number(*(const float *)one) != class_of_number(*(const float *)other);
+    case PARAM_FLOAT:
+        return class_of_number(*(const float *)one, left_out) != class_of_number(*(const float *)other, left_out);
     case PARAM_COLOUR: return class_of_colour(*(const colour *)one) != class_of_colour(*(const colour *)other);
     case PARAM_DIRECTION: return param_is_auto(p, a) != param_is_auto(p, b);
     case PARAM_TEXT: return true;
@@ -91,10 +93,32 @@ static bool condition_differs(const char *condition, const kind *k, const techni
                params_condition(condition, k->common, k->common_count, b);
 }
 
+/* Does the condition compare a length that is different? What it is compared with are pixels of a drawing. */
+static bool compares_length(const char *condition, const param *p)
+{
+    size_t length = strlen(p->key);
+    for (const char *at = condition; p->unit == UNIT_PT && at && *at; at += strcspn(at, "&"), at += *at == '&') {
+        const char *key = at + (*at == '!');
+        if (strncmp(key, p->key, length) == 0 && (key[length] == '>' || key[length] == '<'))
+            return true;
+    }
+    return false;
+}
+
+static bool length_decides(const char *condition, const kind *k, const technique *t, const void *a, const void *b)
+{
+    for (size_t i = 0; i < kind_param_count(k, t); i++) {
+        const param *p = kind_param_at(k, t, i);
+        if (compares_length(condition, p) && !same_field(p, a, b))
+            return true;
+    }
+    return false;
+}
+
 static bool conditions_differ(const kind *k, const technique *t, const void *a, const void *b)
 {
     for (size_t i = 0; i < t->pass_count; i++)
-        if (condition_differs(t->passes[i].when, k, t, a, b))
+        if (condition_differs(t->passes[i].when, k, t, a, b) || length_decides(t->passes[i].when, k, t, a, b))
             return true;
     if (t->surface && (condition_differs(t->surface->light_map_when, k, t, a, b) ||
                        condition_differs(t->surface->forward_when, k, t, a, b) ||
@@ -219,7 +243,7 @@ unsigned use_changes(const kind *k, const technique_use *before, const technique
         changes |= LMN_CHANGE_VALUES;
         if (p->is_selector)
             changes |= LMN_CHANGE_PLAN | LMN_CHANGE_PROGRAMS;
-        if (switches(p, a, b))
+        if (switches(k, p, a, b))
             changes |= LMN_CHANGE_PLAN | LMN_CHANGE_PROGRAMS;
     }
     if (!changes)

@@ -526,15 +526,21 @@ static void test_changes(void **state)
     lmn_look *look = parse("{\"version\": 2, \"rules\": [{\"surface\": \"pencil\", \"lines\": \"discontinuity\"}]}");
     assert_int_equal(news(look), all);
     assert_int_equal(news(look), 0);
-    DO(lmn_look_set_number(look, 0, "lines", 0, "width", 1.75, &error));
+    DO(lmn_look_set_number(look, 0, "lines", 0, "gain", 1.75, &error));
     assert_int_equal(news(look), values);
     uint64_t revision = lmn_look_revision(look);
-    DO(lmn_look_set_number(look, 0, "lines", 0, "width", 1.75, &error));
-    DO(lmn_look_set(look, "lines.width", "1.75", &error));
+    DO(lmn_look_set_number(look, 0, "lines", 0, "gain", 1.75, &error));
+    DO(lmn_look_set(look, "lines.gain", "1.75", &error));
     assert_int_equal(lmn_look_revision(look), revision);
-    DO(lmn_look_set(look, "lines.width", "2", &error));
+    DO(lmn_look_set(look, "lines.gain", "2", &error));
     assert_true(lmn_look_revision(look) > revision);
     assert_int_equal(news(look), values);
+    DO(lmn_look_set_technique(look, 0, "lines", 0, "four-tap", &error)); /* passes for lines of several pixels */
+    news(look);
+    DO(lmn_look_set_number(look, 0, "lines", 0, "width", 2, &error));
+    assert_int_equal(news(look), values | LMN_CHANGE_PLAN | LMN_CHANGE_PROGRAMS);
+    DO(lmn_look_set_technique(look, 0, "lines", 0, "discontinuity", &error));
+    news(look);
     DO(lmn_look_set_number(look, 0, "lines", 0, "parts", 0, &error)); /* a variant */
     assert_true(news(look) & LMN_CHANGE_PROGRAMS);
     assert_false(last & (LMN_CHANGE_MESHES | LMN_CHANGE_TEXTURES));

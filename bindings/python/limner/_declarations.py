@@ -5,6 +5,9 @@ from typing import Any, Callable
 
 VERSION = "0.1.0"
 
+LMN_LIGHT_DIRECTIONAL = 0
+LMN_LIGHT_POINT = 1
+LMN_LIGHT_SPOT = 2
 LMN_VIEW_ISO = 0
 LMN_VIEW_FRONT = 1
 LMN_VIEW_BACK = 2
@@ -25,6 +28,32 @@ LMN_CANCELLED = 9
 LMN_INTERNAL = 10
 LMN_TARGET_DEPTH_IGNORE = 0
 LMN_TARGET_DEPTH_TEST_AND_WRITE = 1
+LMN_MAP_DEPTH = 0
+LMN_MAP_NORMAL = 1
+LMN_MAP_ID = 2
+LMN_MAP_EDGE = 3
+LMN_MAP_SHADE = 4
+LMN_MAP_UNCERTAINTY = 5
+LMN_MAP_VELOCITY = 6
+LMN_MAP_DIRECTION = 7
+LMN_PARAM_BOOL = 0
+LMN_PARAM_INT = 1
+LMN_PARAM_FLOAT = 2
+LMN_PARAM_ENUM = 3
+LMN_PARAM_COLOUR = 4
+LMN_PARAM_PALETTE = 5
+LMN_PARAM_DIRECTION = 6
+LMN_PARAM_TEXT = 7
+LMN_UNIT_NONE = 0
+LMN_UNIT_POINTS = 1
+LMN_UNIT_DEGREES = 2
+LMN_UNIT_COUNT = 3
+LMN_UNIT_FRACTION = 4
+LMN_CHANGE_VALUES = 1
+LMN_CHANGE_PLAN = 2
+LMN_CHANGE_MESHES = 4
+LMN_CHANGE_TEXTURES = 8
+LMN_CHANGE_PROGRAMS = 16
 LMN_UP_AUTO = 0
 LMN_UP_Y = 1
 LMN_UP_Z = 2
@@ -60,11 +89,78 @@ LMN_PERSPECTIVE_LAYERS = 3
 LMN_FILES_NEAR = 0
 LMN_FILES_FOLDER = 1
 LMN_FILES_ANY = 2
+LMN_PALETTE_MAX = 8
+LMN_VALUE_TEXT_MAX = 512
 LMN_SOLID_ROOT = 1
 
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
+
+
+class lmn_mesh_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("positions", POINTER(c_float)),
+        ("normals", POINTER(c_float)),
+        ("uvs", POINTER(c_float)),
+        ("colours", POINTER(c_float)),
+        ("joints", POINTER(c_uint16)),
+        ("weights", POINTER(c_float)),
+        ("vertex_count", c_size_t),
+        ("indices", POINTER(c_uint32)),
+        ("index_count", c_size_t),
+        ("lines", POINTER(c_uint32)),
+        ("line_index_count", c_size_t),
+        ("material", c_uint32),
+    ]
+
+
+class lmn_material_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("colour", c_float * 4),
+        ("texture", c_uint32),
+        ("alpha_cutoff", c_float),
+        ("unlit", c_bool),
+    ]
+
+
+class lmn_camera_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("orthographic", c_bool),
+        ("fov_deg", c_double),
+        ("half_height", c_double),
+    ]
+
+
+class lmn_light_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("type", c_int),
+        ("colour", c_float * 3),
+        ("intensity", c_float),
+        ("inner_cone", c_float),
+        ("outer_cone", c_float),
+    ]
+
+
+class lmn_node_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("parent", c_uint32),
+        ("mesh", c_uint32),
+        ("camera", c_uint32),
+        ("light", c_uint32),
+        ("skin", c_uint32),
+        ("matrix", c_double * 16),
+    ]
 
 
 class lmn_renderer_desc(Structure):
@@ -174,6 +270,70 @@ class lmn_limit_info(Structure):
         ("doc", c_char_p),
         ("standard", c_char * 32),
         ("safe", c_char * 32),
+    ]
+
+
+class lmn_pick(Structure):
+    _fields_ = [
+        ("part", c_uint32),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+        ("depth", c_double),
+    ]
+
+
+class lmn_kind_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("technique_count", c_size_t),
+        ("standard", c_char_p),
+        ("whole_look", c_bool),
+        ("several", c_bool),
+        ("optional", c_bool),
+    ]
+
+
+class lmn_technique_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("param_count", c_size_t),
+        ("common_count", c_size_t),
+    ]
+
+
+class lmn_param_info(Structure):
+    _fields_ = [
+        ("key", c_char_p),
+        ("doc", c_char_p),
+        ("type", c_int),
+        ("unit", c_int),
+        ("min", c_double),
+        ("max", c_double),
+        ("soft_min", c_double),
+        ("soft_max", c_double),
+        ("logarithmic", c_bool),
+        ("can_auto", c_bool),
+        ("default_auto", c_bool),
+        ("default_number", c_double),
+        ("default_text", c_char * 96),
+        ("names", POINTER(c_char_p)),
+        ("name_count", c_size_t),
+        ("only_if", c_char_p),
+        ("auto_from", c_char_p),
+        ("common", c_bool),
+        ("is_file", c_bool),
+        ("is_selector", c_bool),
+        ("compiles", c_bool),
+    ]
+
+
+class lmn_param_state(Structure):
+    _fields_ = [
+        ("is_default", c_bool),
+        ("is_auto", c_bool),
+        ("applies", c_bool),
     ]
 
 
@@ -353,6 +513,11 @@ class lmn_task_desc(Structure):
 
 # What the macros LMN_…_INIT make.
 STANDARDS: dict[type, Callable[[], Any]] = {
+    lmn_mesh_desc: lambda: lmn_mesh_desc(sizeof(lmn_mesh_desc), None, None, None, None, None, None, None, 0, None, 0, None, 0, 0),
+    lmn_material_desc: lambda: lmn_material_desc(sizeof(lmn_material_desc), None, (1, 1, 1, 1,), 0, 0, False),
+    lmn_camera_desc: lambda: lmn_camera_desc(sizeof(lmn_camera_desc), None, False, 30, 1),
+    lmn_light_desc: lambda: lmn_light_desc(sizeof(lmn_light_desc), None, LMN_LIGHT_DIRECTIONAL, (1, 1, 1,), 1, 0, 45),
+    lmn_node_desc: lambda: lmn_node_desc(sizeof(lmn_node_desc), None, 0, 0, 0, 0, 0, ( 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 ,)),
     lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
@@ -365,6 +530,25 @@ STANDARDS: dict[type, Callable[[], Any]] = {
 }
 
 FUNCTIONS = {
+    "lmn_scene_add_mesh": (c_int, [c_void_p, POINTER(lmn_mesh_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_set_mesh": (c_int, [c_void_p, c_uint32, POINTER(lmn_mesh_desc), POINTER(lmn_error)]),
+    "lmn_scene_set_positions": (c_int, [c_void_p, c_uint32, POINTER(c_float), POINTER(c_float), c_size_t, POINTER(lmn_error)]),
+    "lmn_scene_add_texture": (c_int, [c_void_p, c_char_p, c_int, c_int, POINTER(c_uint8), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_material": (c_int, [c_void_p, POINTER(lmn_material_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_set_material": (c_int, [c_void_p, c_uint32, POINTER(lmn_material_desc), POINTER(lmn_error)]),
+    "lmn_scene_add_camera": (c_int, [c_void_p, POINTER(lmn_camera_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_light": (c_int, [c_void_p, POINTER(lmn_light_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_skin": (c_int, [c_void_p, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_node": (c_int, [c_void_p, POINTER(lmn_node_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_node_of_part": (c_uint32, [c_void_p, c_uint32]),
+    "lmn_scene_set_matrix": (c_int, [c_void_p, c_uint32, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_scene_set_instances": (c_int, [c_void_p, c_uint32, POINTER(c_double), c_size_t, POINTER(lmn_error)]),
+    "lmn_scene_set_visible": (c_int, [c_void_p, c_uint32, c_bool, POINTER(lmn_error)]),
+    "lmn_scene_set_attribute": (c_int, [c_void_p, c_uint32, c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_scene_remove_node": (c_int, [c_void_p, c_uint32, POINTER(lmn_error)]),
+    "lmn_scene_set_up": (c_int, [c_void_p, c_int, POINTER(lmn_error)]),
+    "lmn_scene_begin_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
+    "lmn_scene_end_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
     "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),
     "lmn_renderer_json": (c_void_p, [c_void_p]),
@@ -402,6 +586,50 @@ FUNCTIONS = {
     "lmn_look_count": (c_size_t, []),
     "lmn_look_name_at": (c_char_p, [c_size_t]),
     "lmn_look_reference_json": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_error)]),
+    "lmn_map_components": (c_int, [c_int]),
+    "lmn_drawing_copy_map": (c_int, [c_void_p, c_int, c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_drawing_pick": (c_int, [c_void_p, c_int, c_int, POINTER(lmn_pick), POINTER(lmn_error)]),
+    "lmn_drawing_pick_parts": (c_int, [c_void_p, c_int, c_int, c_int, c_int, POINTER(c_uint32), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
+    "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
+    "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
+    "lmn_kind_count": (c_size_t, []),
+    "lmn_kind_at": (c_bool, [c_size_t, POINTER(lmn_kind_info)]),
+    "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
+    "lmn_param_at": (c_bool, [c_char_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
+    "lmn_param_find": (c_int, [c_char_p, c_char_p, c_char_p, POINTER(lmn_param_info), POINTER(lmn_error)]),
+    "lmn_look_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_look_copy": (c_int, [POINTER(c_void_p), c_void_p, POINTER(lmn_error)]),
+    "lmn_look_set_name": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_doc": (c_char_p, [c_void_p]),
+    "lmn_look_set_doc": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_revision": (c_uint64, [c_void_p]),
+    "lmn_look_changes": (c_uint, [c_void_p, c_uint64]),
+    "lmn_look_rule_count": (c_size_t, [c_void_p]),
+    "lmn_look_add_rule": (c_int, [c_void_p, c_char_p, c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_look_remove_rule": (c_int, [c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_move_rule": (c_int, [c_void_p, c_size_t, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_rule_selector": (c_char_p, [c_void_p, c_size_t]),
+    "lmn_look_set_rule_selector": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_rule_name": (c_char_p, [c_void_p, c_size_t]),
+    "lmn_look_set_rule_name": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_technique_count": (c_size_t, [c_void_p, c_size_t, c_char_p]),
+    "lmn_look_technique": (c_char_p, [c_void_p, c_size_t, c_char_p, c_size_t]),
+    "lmn_look_set_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_add_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_char_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_remove_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_move_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_param_state": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_param_state), POINTER(lmn_error)]),
+    "lmn_look_get_text": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_set_text": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_get_number": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_number": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_double, POINTER(lmn_error)]),
+    "lmn_look_get_colours": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_float), POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_look_set_colours": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_float), c_size_t, POINTER(lmn_error)]),
+    "lmn_look_get_direction": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_direction": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_auto": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_reset": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
     "lmn_scene_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_scene_destroy": (None, [POINTER(c_void_p)]),
     "lmn_scene_add_file": (c_int, [c_void_p, c_char_p, POINTER(lmn_load_desc), POINTER(lmn_error)]),
