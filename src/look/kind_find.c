@@ -41,6 +41,24 @@ const kind *kind_find(const char *name)
     return NULL;
 }
 
+lmn_status kind_unknown(const char *name, const char *key, lmn_error *error)
+{
+    const char *names[KIND_COUNT];
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        names[i] = kinds[i]->name;
+    lmn_status  status = error_set(error, LMN_USAGE, "there is no kind '%.60s'", name);
+    const char *near = text_nearest(name, names, KIND_COUNT);
+    text        list = {0};
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        text_append(&list, "%s%s", i == 0 ? "" : i + 1 < KIND_COUNT ? ", " : " and ", names[i]);
+    if (near)
+        error_hint(error, "did you mean '%s%s%s'?", near, key ? "." : "", key ? key : "");
+    else
+        error_hint(error, "the kinds are %s", list.data ? list.data : "few");
+    text_release(&list);
+    return status;
+}
+
 bool kind_may_be_none(const kind *k)
 {
     return !k->look_wide && (!k->standard || k->array);

@@ -3,6 +3,7 @@
 #define LIMNER_LOOK_LOOK_H
 
 #include "limner/look.h"
+#include "limner/rules.h"
 #include "look/selector.h"
 #include "technique/technique.h"
 
@@ -14,11 +15,15 @@ typedef struct rule {
     size_t         use_counts[KIND_COUNT];
 } rule;
 
+enum { LOOK_CHANGE_BITS = 5, LOOK_CHANGE_ALL = (1 << LOOK_CHANGE_BITS) - 1 };
+
 struct lmn_look {
     char         *name, *doc;
     technique_use wide[KIND_COUNT]; /* technique NULL for kinds that are not look-wide */
     rule         *rules;
     size_t        rule_count;
+    uint64_t      revision; /* changes whenever the content does; no two looks of a process share one */
+    uint64_t      changed[LOOK_CHANGE_BITS]; /* the revision at which each of lmn_look_change was last so */
 };
 
 /* All kinds in drawing order, KIND_COUNT of them, index = kind_id. */
@@ -29,6 +34,8 @@ extern const kind *const kinds[KIND_COUNT];
 const param     *kind_find_param(const kind *k, const technique *t, const char *key);
 const technique *kind_find_technique(const kind *k, const char *name);
 const kind      *kind_find(const char *name);
+/* LMN_USAGE with the nearest name; `key` (may be NULL) makes the hint "KIND.KEY". */
+lmn_status kind_unknown(const char *name, const char *key, lmn_error *error);
 
 /* Are this kind's uses optional, so that "none" may be said? */
 bool kind_may_be_none(const kind *k);
@@ -47,6 +54,13 @@ void kind_hint_techniques(const kind *k, lmn_error *error);
 /* Makes a use with default values; false when memory is gone. */
 bool use_create(technique_use *out, const kind *k, const technique *t);
 void use_release(technique_use *use);
+bool use_copy(technique_use *out, const kind *k, const technique_use *from);
+/* Another technique; values that both have in common stay. False when memory is gone; then nothing changed. */
+bool use_exchange(technique_use *use, const kind *k, const technique *t);
+
+/* Gives a new rule the standard techniques of the kinds that it has none of yet. Errors: LMN_MEMORY. */
+lmn_status rule_add_standards(rule *r, lmn_error *error);
+void       rule_release(rule *r);
 
 enum { LOOK_VERSION = 2 }; /* src/look/look_version.c reads older ones */
 
@@ -54,6 +68,7 @@ enum { LOOK_VERSION = 2 }; /* src/look/look_version.c reads older ones */
 lmn_status  look_load(lmn_look **out, const char *name_or_path, lmn_error *error);
 lmn_status  look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error);
 void        look_destroy(lmn_look **look);
+lmn_status  look_copy(lmn_look **out, const lmn_look *look, lmn_error *error);
 lmn_status  look_set(lmn_look *look, const char *key, const char *value, lmn_error *error);
 char       *look_json(const lmn_look *look);
 const char *look_name_at(size_t index);

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "look/locate.h"
+#include "look/look_change.h"
 #include "look/look_version.h"
 #include "look/value.h"
 
@@ -251,21 +252,6 @@ static lmn_status read_select(reader *r, rule *out)
     return status == LMN_OK ? LMN_OK : fail_with(r, "select", &inner);
 }
 
-/* Kinds that the rule does not mention get their standard technique. */
-static lmn_status add_standards(reader *r, rule *out)
-{
-    for (size_t i = 0; i < KIND_COUNT; i++) {
-        const kind *k = kinds[i];
-        if (k->look_wide || out->uses[i] || !k->standard)
-            continue;
-        out->uses[i] = mem_calloc(1, sizeof *out->uses[i]);
-        if (!out->uses[i] || !use_create(out->uses[i], k, k->standard))
-            return error_memory(r->error);
-        out->use_counts[i] = 1;
-    }
-    return LMN_OK;
-}
-
 static lmn_status read_rule_member(reader *r, const char *key, json_t *value, rule *out)
 {
     static const char *const words[] = {"name", "select"};
@@ -297,7 +283,7 @@ static lmn_status read_rule(reader *r, json_t *json, rule *out)
     if (!out->select && !(out->select = mem_copy_text("*")))
         return error_memory(r->error);
     lmn_status status = read_select(r, out);
-    return status == LMN_OK ? add_standards(r, out) : status;
+    return status == LMN_OK ? rule_add_standards(out, r->error) : status;
 }
 
 static lmn_status read_rules(reader *r, json_t *json, lmn_look *look)
@@ -457,7 +443,9 @@ lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char 
     if (status == LMN_OK && !look->name && !(look->name = stem_of(name)))
         status = error_memory(error);
     json_decref(root);
-    if (status != LMN_OK)
+    if (status == LMN_OK)
+        look_mark_changed(look, LOOK_CHANGE_ALL);
+    else
         look_destroy(&look);
     *out = look;
     return status;

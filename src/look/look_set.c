@@ -1,5 +1,7 @@
 /* Setting one parameter of a look from text: "KIND.PARAM", "KIND[i].PARAM" or "RULE:KIND.PARAM". */
 #include "look/look.h"
+#include "look/look_change.h"
+#include "look/look_edit.h"
 #include "look/value.h"
 
 #include <string.h>
@@ -48,18 +50,7 @@ static lmn_status parse_address(address *a, const char *given, lmn_error *error)
     if (bracket && (dot[-1] != ']' || text_parse_int(bracket + 1, dot - 1, &a->index) != dot - 1 || a->index < 0))
         return wrong_form(a, error);
     a->kind = kind_find(a->kind_name);
-    if (a->kind)
-        return LMN_OK;
-    const char *names[KIND_COUNT];
-    for (size_t i = 0; i < KIND_COUNT; i++)
-        names[i] = kinds[i]->name;
-    lmn_status  status = error_set(error, LMN_USAGE, "'%.120s': there is no kind '%.60s'", given, a->kind_name);
-    const char *near = text_nearest(a->kind_name, names, KIND_COUNT);
-    if (near)
-        error_hint(error, "did you mean '%s.%s'?", near, a->key);
-    else
-        error_hint(error, "the kinds are scene, layers, lines, surface, compose and finish");
-    return status;
+    return a->kind ? LMN_OK : kind_unknown(a->kind_name, a->key, error);
 }
 
 static bool rule_is_meant(const lmn_look *look, const address *a, size_t index)
@@ -96,25 +87,6 @@ static lmn_status check_rule(const lmn_look *look, const address *a, lmn_error *
 
 /* --- exchanging techniques ------------------------------------------------------------------------------ */
 
-/* Values that both techniques have in common keep their text. */
-static bool exchange(technique_use *use, const kind *k, const technique *t)
-{
-    technique_use fresh;
-    if (!use_create(&fresh, k, t))
-        return false;
-    for (size_t i = 0; use->technique && i < kind_param_count(k, t); i++) {
-        const param *to = kind_param_at(k, t, i), *from = kind_find_param(k, use->technique, to->key);
-        char         printed[PARAM_TEXT_MAX];
-        if (!from || from->type != to->type || param_is_default(from, use->values))
-            continue;
-        param_print(from, use->values, printed, sizeof printed);
-        param_set_text(to, fresh.values, printed, NULL); /* refused: outside the new range, so the default stays */
-    }
-    use_release(use);
-    *use = fresh;
-    return true;
-}
-
 static void remove_uses(rule *r, const kind *k, long long index)
 {
     technique_use *uses = r->uses[k->id];
@@ -143,7 +115,7 @@ static lmn_status put_use(rule *r, const kind *k, long long index, const techniq
         r->use_counts[k->id]++;
         return LMN_OK;
     }
-    if (!exchange(&r->uses[k->id][at], k, t))
+    if (!use_exchange(&r->uses[k->id][at], k, t))
         return error_memory(error);
     while (index == ALL && r->use_counts[k->id] > 1)
         use_release(&r->uses[k->id][--r->use_counts[k->id]]);
@@ -174,7 +146,7 @@ static lmn_status set_technique(lmn_look *look, const address *a, const char *va
     if (!t && !none)
         return kind_unknown_technique(k, value, error);
     if (k->look_wide)
-        return exchange(&look->wide[k->id], k, t) ? LMN_OK : error_memory(error);
+        return use_exchange(&look->wide[k->id], k, t) ? LMN_OK : error_memory(error);
     lmn_status status = a->index == ALL ? LMN_OK : check_index(look, a, !none, error);
     /* A rule without the kind is left alone as long as another rule has it. */
     for (size_t i = 0; i < look->rule_count; i++)
@@ -243,14 +215,7 @@ static lmn_status set_value(lmn_look *look, const address *a, const char *value,
             return status;
     }
     lmn_status status = set_in_all(look, a, value, true, &w, error);
-    if (status == LMN_USAGE && error) { /* the row knows only its key: say where it is */
-        char hint[sizeof error->hint], message[sizeof error->message];
-        memcpy(hint, error->hint, sizeof hint);
-        memcpy(message, error->message, sizeof message);
-        error_set(error, LMN_USAGE, "%s.%.400s", a->kind->name, message);
-        if (hint[0])
-            error_hint(error, "%s", hint);
-    }
+    error_name_kind(a->kind, status, error);
     if (status != LMN_OK)
         return status;
     if (w.met)
@@ -262,7 +227,7 @@ static lmn_status set_value(lmn_look *look, const address *a, const char *value,
     return status;
 }
 
-lmn_status look_set(lmn_look *look, const char *key, const char *value, lmn_error *error)
+static lmn_status set_anywhere(lmn_look *look, const char *key, const char *value, lmn_error *error)
 {
     address    a;
     lmn_status status = parse_address(&a, key, error);
@@ -281,4 +246,13 @@ lmn_status look_set(lmn_look *look, const char *key, const char *value, lmn_erro
     if (strcmp(a.key, "technique") == 0 || strcmp(a.key, a.kind->selector_key) == 0)
         return set_technique(look, &a, value, error);
     return set_value(look, &a, value, error);
+}
+
+lmn_status look_set(lmn_look *look, const char *key, const char *value, lmn_error *error)
+{
+    lmn_look  *before;
+    lmn_status status = look_edit_begin(&before, look, error);
+    if (status != LMN_OK)
+        return status;
+    return look_edit_end(look, &before, set_anywhere(look, key, value, error));
 }
