@@ -36,6 +36,24 @@ LMN_MAP_SHADE = 4
 LMN_MAP_UNCERTAINTY = 5
 LMN_MAP_VELOCITY = 6
 LMN_MAP_DIRECTION = 7
+LMN_PARAM_BOOL = 0
+LMN_PARAM_INT = 1
+LMN_PARAM_FLOAT = 2
+LMN_PARAM_ENUM = 3
+LMN_PARAM_COLOUR = 4
+LMN_PARAM_PALETTE = 5
+LMN_PARAM_DIRECTION = 6
+LMN_PARAM_TEXT = 7
+LMN_UNIT_NONE = 0
+LMN_UNIT_POINTS = 1
+LMN_UNIT_DEGREES = 2
+LMN_UNIT_COUNT = 3
+LMN_UNIT_FRACTION = 4
+LMN_CHANGE_VALUES = 1
+LMN_CHANGE_PLAN = 2
+LMN_CHANGE_MESHES = 4
+LMN_CHANGE_TEXTURES = 8
+LMN_CHANGE_PROGRAMS = 16
 LMN_UP_AUTO = 0
 LMN_UP_Y = 1
 LMN_UP_Z = 2
@@ -71,6 +89,8 @@ LMN_PERSPECTIVE_LAYERS = 3
 LMN_FILES_NEAR = 0
 LMN_FILES_FOLDER = 1
 LMN_FILES_ANY = 2
+LMN_PALETTE_MAX = 8
+LMN_VALUE_TEXT_MAX = 512
 LMN_SOLID_ROOT = 1
 
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
@@ -259,6 +279,61 @@ class lmn_pick(Structure):
         ("position", c_double * 3),
         ("normal", c_double * 3),
         ("depth", c_double),
+    ]
+
+
+class lmn_kind_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("technique_count", c_size_t),
+        ("standard", c_char_p),
+        ("whole_look", c_bool),
+        ("several", c_bool),
+        ("optional", c_bool),
+    ]
+
+
+class lmn_technique_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("param_count", c_size_t),
+        ("common_count", c_size_t),
+    ]
+
+
+class lmn_param_info(Structure):
+    _fields_ = [
+        ("key", c_char_p),
+        ("doc", c_char_p),
+        ("type", c_int),
+        ("unit", c_int),
+        ("min", c_double),
+        ("max", c_double),
+        ("soft_min", c_double),
+        ("soft_max", c_double),
+        ("logarithmic", c_bool),
+        ("can_auto", c_bool),
+        ("default_auto", c_bool),
+        ("default_number", c_double),
+        ("default_text", c_char * 96),
+        ("names", POINTER(c_char_p)),
+        ("name_count", c_size_t),
+        ("only_if", c_char_p),
+        ("auto_from", c_char_p),
+        ("common", c_bool),
+        ("is_file", c_bool),
+        ("is_selector", c_bool),
+        ("compiles", c_bool),
+    ]
+
+
+class lmn_param_state(Structure):
+    _fields_ = [
+        ("is_default", c_bool),
+        ("is_auto", c_bool),
+        ("applies", c_bool),
     ]
 
 
@@ -518,6 +593,43 @@ FUNCTIONS = {
     "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
     "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
+    "lmn_kind_count": (c_size_t, []),
+    "lmn_kind_at": (c_bool, [c_size_t, POINTER(lmn_kind_info)]),
+    "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
+    "lmn_param_at": (c_bool, [c_char_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
+    "lmn_param_find": (c_int, [c_char_p, c_char_p, c_char_p, POINTER(lmn_param_info), POINTER(lmn_error)]),
+    "lmn_look_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_look_copy": (c_int, [POINTER(c_void_p), c_void_p, POINTER(lmn_error)]),
+    "lmn_look_set_name": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_doc": (c_char_p, [c_void_p]),
+    "lmn_look_set_doc": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_revision": (c_uint64, [c_void_p]),
+    "lmn_look_changes": (c_uint, [c_void_p, c_uint64]),
+    "lmn_look_rule_count": (c_size_t, [c_void_p]),
+    "lmn_look_add_rule": (c_int, [c_void_p, c_char_p, c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_look_remove_rule": (c_int, [c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_move_rule": (c_int, [c_void_p, c_size_t, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_rule_selector": (c_char_p, [c_void_p, c_size_t]),
+    "lmn_look_set_rule_selector": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_rule_name": (c_char_p, [c_void_p, c_size_t]),
+    "lmn_look_set_rule_name": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_technique_count": (c_size_t, [c_void_p, c_size_t, c_char_p]),
+    "lmn_look_technique": (c_char_p, [c_void_p, c_size_t, c_char_p, c_size_t]),
+    "lmn_look_set_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_add_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_char_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_remove_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_move_technique": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_param_state": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_param_state), POINTER(lmn_error)]),
+    "lmn_look_get_text": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_look_set_text": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_get_number": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_number": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, c_double, POINTER(lmn_error)]),
+    "lmn_look_get_colours": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_float), POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_look_set_colours": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_float), c_size_t, POINTER(lmn_error)]),
+    "lmn_look_get_direction": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_direction": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_auto": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_reset": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
     "lmn_scene_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_scene_destroy": (None, [POINTER(c_void_p)]),
     "lmn_scene_add_file": (c_int, [c_void_p, c_char_p, POINTER(lmn_load_desc), POINTER(lmn_error)]),
