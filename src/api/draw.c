@@ -18,6 +18,11 @@
 #include "export/export.h"
 #include "limner/version.h"
 
+static lmn_status missing(const char *caller, const char *what, lmn_error *error)
+{
+    return error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, what);
+}
+
 const char *lmn_version(void)
 {
     return LMN_VERSION;
@@ -26,6 +31,8 @@ const char *lmn_version(void)
 lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error)
 {
     static const lmn_renderer_desc standard = LMN_RENDERER_DESC_INIT;
+    if (!out)
+        return missing("lmn_renderer_create", "out", error);
     *out = NULL;
     if (!desc)
         desc = &standard;
@@ -114,6 +121,8 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
 lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                     const lmn_draw_desc *desc, lmn_error *error)
 {
+    if (!out)
+        return missing("lmn_draw", "out", error);
     *out = NULL;
     if (!renderer || !scene || !look)
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
@@ -139,17 +148,19 @@ void lmn_drawing_destroy(lmn_drawing **drawing)
 const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height)
 {
     if (width)
-        *width = drawing->width;
+        *width = drawing ? drawing->width : 0;
     if (height)
-        *height = drawing->height;
-    return drawing->pixels;
+        *height = drawing ? drawing->height : 0;
+    return drawing ? drawing->pixels : NULL;
 }
 
 lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
                              lmn_error *error)
 {
     const export_format *chosen = NULL;
-    lmn_status           status = export_choose(&chosen, path, format, false, error);
+    if (!drawing || !path || !*path)
+        return missing("lmn_drawing_write", drawing ? "path" : "drawing", error);
+    lmn_status status = export_choose(&chosen, path, format, false, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -166,6 +177,8 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
 
 lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error)
 {
+    if (!drawing || !directory)
+        return missing("lmn_drawing_write_maps", drawing ? "directory" : "drawing", error);
     if (!drawing->maps.depth)
         return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
     work w;
@@ -181,12 +194,12 @@ char *lmn_drawing_report_json(const lmn_drawing *drawing)
 
 size_t lmn_drawing_warning_count(const lmn_drawing *drawing)
 {
-    return drawing->warnings.count;
+    return drawing ? drawing->warnings.count : 0;
 }
 
 const char *lmn_drawing_warning_at(const lmn_drawing *drawing, size_t index, const char **code, size_t *count)
 {
-    if (index >= drawing->warnings.count)
+    if (!drawing || index >= drawing->warnings.count)
         return NULL;
     const warning *w = &drawing->warnings.items[index];
     if (code)
@@ -227,7 +240,11 @@ static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scen
 lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
                           size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
+    if (!out)
+        return missing("lmn_bench_json", "out", error);
     *out = NULL;
+    if (!looks && look_count)
+        return missing("lmn_bench_json", "looks", error);
     if (!renderer || !scene)
         return error_set(error, LMN_USAGE, "a renderer and a scene are needed to measure");
     lmn_status status = check_draw_desc(desc, error);
