@@ -5,6 +5,9 @@ from typing import Any, Callable
 
 VERSION = "0.1.0"
 
+LMN_LIGHT_DIRECTIONAL = 0
+LMN_LIGHT_POINT = 1
+LMN_LIGHT_SPOT = 2
 LMN_VIEW_ISO = 0
 LMN_VIEW_FRONT = 1
 LMN_VIEW_BACK = 2
@@ -25,6 +28,14 @@ LMN_CANCELLED = 9
 LMN_INTERNAL = 10
 LMN_TARGET_DEPTH_IGNORE = 0
 LMN_TARGET_DEPTH_TEST_AND_WRITE = 1
+LMN_MAP_DEPTH = 0
+LMN_MAP_NORMAL = 1
+LMN_MAP_ID = 2
+LMN_MAP_EDGE = 3
+LMN_MAP_SHADE = 4
+LMN_MAP_UNCERTAINTY = 5
+LMN_MAP_VELOCITY = 6
+LMN_MAP_DIRECTION = 7
 LMN_UP_AUTO = 0
 LMN_UP_Y = 1
 LMN_UP_Z = 2
@@ -65,6 +76,71 @@ LMN_SOLID_ROOT = 1
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
+
+
+class lmn_mesh_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("positions", POINTER(c_float)),
+        ("normals", POINTER(c_float)),
+        ("uvs", POINTER(c_float)),
+        ("colours", POINTER(c_float)),
+        ("joints", POINTER(c_uint16)),
+        ("weights", POINTER(c_float)),
+        ("vertex_count", c_size_t),
+        ("indices", POINTER(c_uint32)),
+        ("index_count", c_size_t),
+        ("lines", POINTER(c_uint32)),
+        ("line_index_count", c_size_t),
+        ("material", c_uint32),
+    ]
+
+
+class lmn_material_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("colour", c_float * 4),
+        ("texture", c_uint32),
+        ("alpha_cutoff", c_float),
+        ("unlit", c_bool),
+    ]
+
+
+class lmn_camera_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("orthographic", c_bool),
+        ("fov_deg", c_double),
+        ("half_height", c_double),
+    ]
+
+
+class lmn_light_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("type", c_int),
+        ("colour", c_float * 3),
+        ("intensity", c_float),
+        ("inner_cone", c_float),
+        ("outer_cone", c_float),
+    ]
+
+
+class lmn_node_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("parent", c_uint32),
+        ("mesh", c_uint32),
+        ("camera", c_uint32),
+        ("light", c_uint32),
+        ("skin", c_uint32),
+        ("matrix", c_double * 16),
+    ]
 
 
 class lmn_renderer_desc(Structure):
@@ -174,6 +250,15 @@ class lmn_limit_info(Structure):
         ("doc", c_char_p),
         ("standard", c_char * 32),
         ("safe", c_char * 32),
+    ]
+
+
+class lmn_pick(Structure):
+    _fields_ = [
+        ("part", c_uint32),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+        ("depth", c_double),
     ]
 
 
@@ -353,6 +438,11 @@ class lmn_task_desc(Structure):
 
 # What the macros LMN_…_INIT make.
 STANDARDS: dict[type, Callable[[], Any]] = {
+    lmn_mesh_desc: lambda: lmn_mesh_desc(sizeof(lmn_mesh_desc), None, None, None, None, None, None, None, 0, None, 0, None, 0, 0),
+    lmn_material_desc: lambda: lmn_material_desc(sizeof(lmn_material_desc), None, (1, 1, 1, 1,), 0, 0, False),
+    lmn_camera_desc: lambda: lmn_camera_desc(sizeof(lmn_camera_desc), None, False, 30, 1),
+    lmn_light_desc: lambda: lmn_light_desc(sizeof(lmn_light_desc), None, LMN_LIGHT_DIRECTIONAL, (1, 1, 1,), 1, 0, 45),
+    lmn_node_desc: lambda: lmn_node_desc(sizeof(lmn_node_desc), None, 0, 0, 0, 0, 0, ( 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 ,)),
     lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
@@ -365,6 +455,25 @@ STANDARDS: dict[type, Callable[[], Any]] = {
 }
 
 FUNCTIONS = {
+    "lmn_scene_add_mesh": (c_int, [c_void_p, POINTER(lmn_mesh_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_set_mesh": (c_int, [c_void_p, c_uint32, POINTER(lmn_mesh_desc), POINTER(lmn_error)]),
+    "lmn_scene_set_positions": (c_int, [c_void_p, c_uint32, POINTER(c_float), POINTER(c_float), c_size_t, POINTER(lmn_error)]),
+    "lmn_scene_add_texture": (c_int, [c_void_p, c_char_p, c_int, c_int, POINTER(c_uint8), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_material": (c_int, [c_void_p, POINTER(lmn_material_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_set_material": (c_int, [c_void_p, c_uint32, POINTER(lmn_material_desc), POINTER(lmn_error)]),
+    "lmn_scene_add_camera": (c_int, [c_void_p, POINTER(lmn_camera_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_light": (c_int, [c_void_p, POINTER(lmn_light_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_skin": (c_int, [c_void_p, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_add_node": (c_int, [c_void_p, POINTER(lmn_node_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_scene_node_of_part": (c_uint32, [c_void_p, c_uint32]),
+    "lmn_scene_set_matrix": (c_int, [c_void_p, c_uint32, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_scene_set_instances": (c_int, [c_void_p, c_uint32, POINTER(c_double), c_size_t, POINTER(lmn_error)]),
+    "lmn_scene_set_visible": (c_int, [c_void_p, c_uint32, c_bool, POINTER(lmn_error)]),
+    "lmn_scene_set_attribute": (c_int, [c_void_p, c_uint32, c_char_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_scene_remove_node": (c_int, [c_void_p, c_uint32, POINTER(lmn_error)]),
+    "lmn_scene_set_up": (c_int, [c_void_p, c_int, POINTER(lmn_error)]),
+    "lmn_scene_begin_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
+    "lmn_scene_end_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
     "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),
     "lmn_renderer_json": (c_void_p, [c_void_p]),
@@ -402,6 +511,13 @@ FUNCTIONS = {
     "lmn_look_count": (c_size_t, []),
     "lmn_look_name_at": (c_char_p, [c_size_t]),
     "lmn_look_reference_json": (c_int, [POINTER(c_void_p), c_char_p, POINTER(lmn_error)]),
+    "lmn_map_components": (c_int, [c_int]),
+    "lmn_drawing_copy_map": (c_int, [c_void_p, c_int, c_void_p, c_size_t, POINTER(lmn_error)]),
+    "lmn_drawing_pick": (c_int, [c_void_p, c_int, c_int, POINTER(lmn_pick), POINTER(lmn_error)]),
+    "lmn_drawing_pick_parts": (c_int, [c_void_p, c_int, c_int, c_int, c_int, POINTER(c_uint32), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
+    "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
+    "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
     "lmn_scene_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_scene_destroy": (None, [POINTER(c_void_p)]),
     "lmn_scene_add_file": (c_int, [c_void_p, c_char_p, POINTER(lmn_load_desc), POINTER(lmn_error)]),
