@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/complete.h"
 #include "api/content_mesh.h"
 #include "base/colour.h"
 #include "base/error.h"
@@ -19,22 +20,6 @@ static const double pi = 3.14159265358979323846;
 static lmn_status check_scene(const lmn_scene *scene, const char *caller, lmn_error *error)
 {
     return scene ? LMN_OK : error_set(error, LMN_USAGE, "%s: `scene` is NULL", caller);
-}
-
-/* What is described, whole: a caller built against an older header hands over less of it, which keeps its default. */
-static lmn_status complete(void *full, size_t size, const void *given, const char *caller, lmn_error *error)
-{
-    size_t given_size = 0;
-    if (!given)
-        return error_set(error, LMN_USAGE, "%s: the description is NULL", caller);
-    memcpy(&given_size, given, sizeof given_size);
-    if (given_size < sizeof given_size || given_size > size) {
-        error_set(error, LMN_USAGE, "%s: the description's struct_size is %zu, not %zu", caller, given_size, size);
-        error_hint(error, "initialise it with the macro beside it, and use the header of this library");
-        return LMN_USAGE;
-    }
-    memcpy(full, given, given_size);
-    return LMN_OK;
 }
 
 static lmn_status check_range(double value, double least, double most, const char *what, const char *caller,
@@ -108,7 +93,7 @@ static lmn_status make_mesh(primitive *out, const lmn_scene *scene, int32_t inde
                             const char *caller, lmn_error *error)
 {
     lmn_mesh_desc full = LMN_MESH_DESC_INIT;
-    lmn_status    status = complete(&full, sizeof full, desc, caller, error);
+    lmn_status    status = desc_complete(&full, sizeof full, desc, "LMN_MESH_DESC_INIT", error);
     if (status == LMN_OK)
         status = content_mesh_make(out, scene, &full, caller, error);
     if (status != LMN_OK)
@@ -237,7 +222,7 @@ static lmn_status make_material(material *out, const lmn_scene *scene, const lmn
                                 const char *caller, lmn_error *error)
 {
     lmn_material_desc full = LMN_MATERIAL_DESC_INIT;
-    lmn_status        status = complete(&full, sizeof full, desc, caller, error);
+    lmn_status        status = desc_complete(&full, sizeof full, desc, "LMN_MATERIAL_DESC_INIT", error);
     for (int i = 0; i < 4 && status == LMN_OK; i++)
         status = check_range((double)full.colour[i], 0, 1, "a number of the colour", caller, error);
     if (status == LMN_OK)
@@ -305,7 +290,7 @@ lmn_status lmn_scene_add_camera(lmn_scene *scene, const lmn_camera_desc *desc, u
     char           *name = NULL;
     lmn_status      status = check_scene(scene, caller, error);
     if (status == LMN_OK)
-        status = complete(&full, sizeof full, desc, caller, error);
+        status = desc_complete(&full, sizeof full, desc, "LMN_CAMERA_DESC_INIT", error);
     if (status == LMN_OK && !full.orthographic)
         status = check_range(full.fov_deg, 1, 170, "fov_deg", caller, error);
     if (status == LMN_OK && full.orthographic)
@@ -348,7 +333,7 @@ lmn_status lmn_scene_add_light(lmn_scene *scene, const lmn_light_desc *desc, uin
     char          *name = NULL;
     lmn_status     status = check_scene(scene, caller, error);
     if (status == LMN_OK)
-        status = complete(&full, sizeof full, desc, caller, error);
+        status = desc_complete(&full, sizeof full, desc, "LMN_LIGHT_DESC_INIT", error);
     if (status == LMN_OK)
         status = check_light(&full, caller, error);
     if (status != LMN_OK)
@@ -452,7 +437,7 @@ lmn_status lmn_scene_add_node(lmn_scene *scene, const lmn_node_desc *desc, uint3
     lmn_node_desc full = LMN_NODE_DESC_INIT;
     lmn_status    status = check_scene(scene, caller, error);
     if (status == LMN_OK)
-        status = complete(&full, sizeof full, desc, caller, error);
+        status = desc_complete(&full, sizeof full, desc, "LMN_NODE_DESC_INIT", error);
     if (status == LMN_OK)
         status = check_node_desc(scene, &full, caller, error);
     if (status != LMN_OK)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "api/check_desc.h"
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/file_store.h"
@@ -30,17 +31,15 @@ const char *lmn_version(void)
 
 lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error)
 {
-    static const lmn_renderer_desc standard = LMN_RENDERER_DESC_INIT;
+    lmn_renderer_desc full = LMN_RENDERER_DESC_INIT;
+    const char       *wish = getenv("LIMNER_GL");
     if (!out)
         return missing("lmn_renderer_create", "out", error);
     *out = NULL;
-    if (!desc)
-        desc = &standard;
-    if (desc->struct_size != sizeof *desc)
-        return error_set(error, LMN_USAGE, "the renderer description was not initialised with LMN_RENDERER_DESC_INIT");
-    lmn_renderer_desc full = *desc;
-    const char       *wish = getenv("LIMNER_GL");
-    full.es = desc->es || (wish && strcmp(wish, "es") == 0);
+    lmn_status status = desc ? desc_complete(&full, sizeof full, desc, "LMN_RENDERER_DESC_INIT", error) : LMN_OK;
+    if (status != LMN_OK)
+        return status;
+    full.es = full.es || (wish && strcmp(wish, "es") == 0);
     return renderer_create(out, &full, error);
 }
 
@@ -61,10 +60,8 @@ static lmn_status check_range(lmn_error *error, const char *name, double value, 
     return error_set(error, LMN_USAGE, "%s is %g, it must be between %g and %g", name, value, low, high);
 }
 
-lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
+static lmn_status check_numbers(const lmn_draw_desc *d, lmn_error *error)
 {
-    if (!d || d->struct_size != sizeof *d)
-        return error_set(error, LMN_USAGE, "the drawing description was not initialised with LMN_DRAW_DESC_INIT");
     lmn_status status = check_range(error, "the width", d->width, 1, LIMIT_PICTURE_SIDE);
     if (status == LMN_OK)
         status = check_range(error, "the height", d->height, 1, LIMIT_PICTURE_SIDE);
@@ -94,6 +91,13 @@ lmn_status check_draw_desc(const lmn_draw_desc *d, lmn_error *error)
     return status;
 }
 
+lmn_status check_draw_desc(lmn_draw_desc *full, const lmn_draw_desc *given, lmn_error *error)
+{
+    *full = (lmn_draw_desc)LMN_DRAW_DESC_INIT;
+    lmn_status status = desc_complete(full, sizeof *full, given, "LMN_DRAW_DESC_INIT", error);
+    return status == LMN_OK ? check_numbers(full, error) : status;
+}
+
 lmn_status check_pixels(const lmn_draw_desc *d, lmn_error *error)
 {
     int      side = samples_side(d), samples = side * side;
@@ -110,12 +114,13 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
 {
     if (!scene || !look)
         return error_set(error, LMN_USAGE, "a scene and a look are needed to draw");
-    lmn_status status = check_draw_desc(desc, error);
-    refusal    r = {scene, status == LMN_OK && desc->lenient, NULL, error};
-    moment     when;
+    lmn_draw_desc full;
+    lmn_status    status = check_draw_desc(&full, desc, error);
+    refusal       r = {scene, status == LMN_OK && full.lenient, NULL, error};
+    moment        when;
     if (status == LMN_OK)
-        status = time_moment(&when, scene, desc, NULL, error);
-    return status == LMN_OK ? refuse_time(&r, look, desc->time_s, !vectors) : status;
+        status = time_moment(&when, scene, &full, NULL, error);
+    return status == LMN_OK ? refuse_time(&r, look, full.time_s, !vectors) : status;
 }
 
 lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
@@ -126,14 +131,15 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
     *out = NULL;
     if (!renderer || !scene || !look)
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
-    lmn_status status = check_draw_desc(desc, error);
+    lmn_draw_desc full;
+    lmn_status    status = check_draw_desc(&full, desc, error);
     if (status != LMN_OK)
         return status;
     work w;
-    work_begin(&w, desc->progress, desc->progress_user);
-    status = check_pixels(desc, error);
+    work_begin(&w, full.progress, full.progress_user);
+    status = check_pixels(&full, error);
     if (status == LMN_OK)
-        status = renderer_draw(out, renderer, scene, look, &(draw_options){.desc = desc}, error);
+        status = renderer_draw(out, renderer, scene, look, &(draw_options){.desc = &full}, error);
     status = work_end(&w, status, error);
     if (status != LMN_OK)
         drawing_destroy(out);
@@ -247,16 +253,17 @@ lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *s
         return missing("lmn_bench_json", "looks", error);
     if (!renderer || !scene)
         return error_set(error, LMN_USAGE, "a renderer and a scene are needed to measure");
-    lmn_status status = check_draw_desc(desc, error);
+    lmn_draw_desc full;
+    lmn_status    status = check_draw_desc(&full, desc, error);
     if (status == LMN_OK)
         status = check_range(error, "the number of repeats", repeat, 1, 10000);
     if (status != LMN_OK)
         return status;
     work w;
-    work_begin(&w, desc->progress, desc->progress_user);
-    status = check_pixels(desc, error);
+    work_begin(&w, full.progress, full.progress_user);
+    status = check_pixels(&full, error);
     if (status == LMN_OK)
-        status = bench_looks(out, renderer, scene, looks, look_count, desc, repeat, error);
+        status = bench_looks(out, renderer, scene, looks, look_count, &full, repeat, error);
     status = work_end(&w, status, error);
     if (status != LMN_OK) {
         mem_free(*out);

@@ -2,14 +2,13 @@
 #include "limner/host.h"
 
 #include "api/check_desc.h"
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/work.h"
 #include "draw/into.h"
 
 static lmn_status check_target(const lmn_target *t, const lmn_draw_desc *d, lmn_error *error)
 {
-    if (!t || t->struct_size != sizeof *t)
-        return error_set(error, LMN_USAGE, "the target was not initialised with LMN_TARGET_INIT");
     if (t->depth != LMN_TARGET_DEPTH_IGNORE && t->depth != LMN_TARGET_DEPTH_TEST_AND_WRITE)
         return error_set(error, LMN_USAGE, "the target's depth is %d, which is nothing of lmn_target_depth",
                          (int)t->depth);
@@ -33,22 +32,24 @@ lmn_status lmn_draw_into(lmn_renderer *renderer, const lmn_scene *scene, const l
         error_hint(error, "set `adopt` of its description; lmn_draw draws a picture with any renderer");
         return LMN_USAGE;
     }
-    lmn_draw_desc sized;
-    lmn_status    status = desc->struct_size == sizeof sized ? LMN_OK : check_draw_desc(desc, error);
+    lmn_draw_desc given = LMN_DRAW_DESC_INIT, sized;
+    lmn_target    into = LMN_TARGET_INIT;
+    lmn_status    status = desc_complete(&into, sizeof into, target, "LMN_TARGET_INIT", error);
     if (status == LMN_OK)
-        status = check_target(target, desc, error);
+        status = desc_complete(&given, sizeof given, desc, "LMN_DRAW_DESC_INIT", error);
+    if (status == LMN_OK)
+        status = check_target(&into, &given, error);
     if (status != LMN_OK)
         return status;
-    sized = *desc;
-    sized.width = target->width;
-    sized.height = target->height;
-    status = check_draw_desc(&sized, error);
+    given.width = into.width;
+    given.height = into.height;
+    status = check_draw_desc(&sized, &given, error);
     if (status != LMN_OK)
         return status;
     work w;
     work_begin(&w, sized.progress, sized.progress_user);
     status = check_pixels(&sized, error);
     if (status == LMN_OK)
-        status = renderer_draw_into(renderer, scene, look, &sized, target, error);
+        status = renderer_draw_into(renderer, scene, look, &sized, &into, error);
     return work_end(&w, status, error);
 }

@@ -55,21 +55,22 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
                           const lmn_draw_desc *desc, const lmn_sheet_desc *sheet, lmn_error *error)
 {
     lmn_sheet_desc full = LMN_SHEET_DESC_INIT;
+    lmn_draw_desc  wanted;
     if (!out)
         return missing("lmn_draw_sheet", "out", error);
     *out = NULL;
     if (!scene || !look)
         return missing("lmn_draw_sheet", scene ? "look" : "scene", error);
-    lmn_status status = check_draw_desc(desc, error);
+    lmn_status status = check_draw_desc(&wanted, desc, error);
     if (status == LMN_OK)
         status = complete(&full, sheet, error);
-    if (status == LMN_OK && desc->matrices_given)
+    if (status == LMN_OK && wanted.matrices_given)
         status = error_set(error, LMN_UNSUPPORTED, "a sheet's camera is given by eye and target, not by matrices");
     if (status != LMN_OK)
         return status;
     work w;
-    work_begin(&w, desc->progress, desc->progress_user);
-    status = work_end(&w, sheet_draw(out, renderer, scene, look, desc, &full, error), error);
+    work_begin(&w, wanted.progress, wanted.progress_user);
+    status = work_end(&w, sheet_draw(out, renderer, scene, look, &wanted, &full, error), error);
     if (status != LMN_OK)
         vector_destroy(out);
     return status;

@@ -8,9 +8,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/paper.h"
 #include "base/work.h"
 
-static const double points_per_mm = 72 / 25.4;
+static const double points_per_mm = POINTS_PER_INCH / MM_PER_INCH;
 static const char   fixed_date[] = "2000-01-01T00:00:00Z";
 
 typedef struct pdf_writer {

@@ -14,12 +14,6 @@ static void release_targets(frame *f, figure_state *s)
     solids_release(f->g, &s->solids);
 }
 
-void frame_ground(const frame *f, float out[4])
-{
-    const colour c = f->ground;
-    memcpy(out, (float[]){c.r * c.a, c.g * c.a, c.b * c.a, c.a}, 4 * sizeof *out);
-}
-
 static void clear_page(frame *f)
 {
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};

@@ -2,6 +2,7 @@
 #include "frame/frame_private.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "finish/finish.h"
 
@@ -94,6 +95,12 @@ static void set_position(gpu *g, const char *name, sheet_position position)
 static float level_of(sheet_position position, float side)
 {
     return (float)fmax(log2(fmax(hypot((double)position.a, (double)position.b) * (double)side, 1e-30)), 0);
+}
+
+void frame_ground(const frame *f, float out[4])
+{
+    const colour c = f->ground;
+    memcpy(out, (float[]){c.r * c.a, c.g * c.a, c.b * c.a, c.a}, 4 * sizeof *out);
 }
 
 void paper_set(frame *f)

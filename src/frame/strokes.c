@@ -206,19 +206,12 @@ static void keep_layer(stroke_set *set, uint32_t layer)
     set->stroke_count = kept;
 }
 
-static void divide_lengths(const param *params, size_t count, void *values, double pixels)
-{
-    for (size_t i = 0; i < count; i++)
-        if (params[i].unit == UNIT_PT && params[i].type == PARAM_FLOAT)
-            *(float *)((char *)values + params[i].offset) /= (float)pixels;
-}
-
 /* A drawing's lengths are in samples; here in units of the sheet. */
 static strokes_values values_on_sheet(const strokes_values *v, double pixels)
 {
     strokes_values out = *v;
-    divide_lengths(lines_strokes.params, lines_strokes.param_count, &out, pixels);
-    divide_lengths(kind_lines.common, kind_lines.common_count, &out, pixels);
+    params_scale_lengths(lines_strokes.params, lines_strokes.param_count, &out, 1 / pixels);
+    params_scale_lengths(kind_lines.common, kind_lines.common_count, &out, 1 / pixels);
     return out;
 }
 

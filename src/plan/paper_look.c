@@ -4,15 +4,6 @@
 
 #include "base/memory.h"
 
-static void scale_lengths(const param *params, size_t count, void *values, double factor)
-{
-    for (size_t i = 0; i < count; i++)
-        if (params[i].unit == UNIT_PT && params[i].type == PARAM_FLOAT) {
-            float *length = (float *)((char *)values + params[i].offset);
-            *length = (float)((double)*length * factor);
-        }
-}
-
 static bool copy_use(technique_use *out, const technique_use *from, const kind *k, double factor)
 {
     const technique *t = from->technique;
@@ -21,8 +12,8 @@ static bool copy_use(technique_use *out, const technique_use *from, const kind *
         return true;
     if (!out->values)
         return false;
-    scale_lengths(t->params, t->param_count, out->values, factor);
-    scale_lengths(k->common, k->common_count, out->values, factor);
+    params_scale_lengths(t->params, t->param_count, out->values, factor);
+    params_scale_lengths(k->common, k->common_count, out->values, factor);
     return true;
 }
 

@@ -519,6 +519,12 @@ static uint32_t piece_of(const chainer *c, uint32_t line)
     return item->first_piece + (face < m->face_count ? m->pieces[face] : 0);
 }
 
+static float lift_of(const chainer *c, uint32_t line)
+{
+    const window_segment *s = &c->lines->segments[line];
+    return s->beside_count ? fmaxf(s->lift, (float)(BESIDE_LIFT * c->v->scene->extent)) : s->lift;
+}
+
 static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool closed, double length)
 {
     stroke s = {.kind = line->kind,
@@ -530,7 +536,7 @@ static bool put_strokes(chainer *c, const view_line *line, uint64_t id, bool clo
                 .smooth = c->lines->segments[c->path[0] / 2].ignored_count > 0};
     size_t before = c->out->stroke_count;
     for (size_t i = 0; i < c->path_count; i++)
-        s.lift = fmaxf(s.lift, c->lines->segments[c->path[i] / 2].lift);
+        s.lift = fmaxf(s.lift, lift_of(c, c->path[i] / 2));
     for (size_t begin = 0, end; begin + 1 < c->point_count; begin = end) {
         end = stretch_end(c, begin);
         int32_t count = c->points[begin].count;

@@ -45,7 +45,11 @@
  * beside such edges, over one like the second. */
 #define NEVER_SMOOTH  (60 * DEGREE)
 #define HARDLY_SMOOTH (45 * DEGREE)
-enum { SIDE_RINGS = 3, STEPS_MOST = 6, FACES_MOST = 24, SIDE_FACES_MOST = 64 };
+/* A rounding ends in a face that is so many times as wide as its widest strip. */
+#define ENDS_IN_FACE 1.75
+/* Edges in smooth surroundings turn by this many times as much as those next to them. */
+#define STANDS_ALONE 2.0
+enum { SIDE_RINGS = 3, STEPS_MOST = 10, FACES_MOST = 24, SIDE_FACES_MOST = 64 };
 
 typedef struct vector {
     double x, y, z;
@@ -280,30 +284,55 @@ static bool is_rounding(const judge *j, uint32_t half, double own)
     return p == 2 && is_run((const double[3]){own, before[0].turn, before[1].turn}, before[0].width, before[1].width);
 }
 
-/* By how much the surface turns on to one side, the same way, within so much; `count` grows by the steps. */
-static double turn_within(const judge *j, uint32_t half, double own, double width, int *count)
+/* One side of a rounding: by how much it turns on the same way, over how many steps, its widest strip, and the strip of
+ * the face that it ends in. */
+typedef struct turning {
+    double turn, widest, beyond;
+    int    count;
+} turning;
+
+static turning turn_within(const judge *j, uint32_t half, double own, double width)
 {
-    step   steps[STEPS_MOST];
-    double sum = 0;
-    int    found = find_steps(j, half, own, steps, STEPS_MOST);
+    step    steps[STEPS_MOST];
+    turning out = {0, 0, INFINITY, 0};
+    int     found = find_steps(j, half, own, steps, STEPS_MOST);
     for (int i = 0; i < found; i++) {
         width -= steps[i].width;
-        if (width < 0 || (steps[i].turn < 0) != (own < 0))
-            break;
-        sum += fabs(steps[i].turn);
-        *count += 1;
+        if (width < 0 || (steps[i].turn < 0) != (own < 0)) {
+            out.beyond = (steps[i].turn < 0) != (own < 0) ? INFINITY : steps[i].width;
+            return out;
+        }
+        out.turn += fabs(steps[i].turn);
+        out.widest = fmax(out.widest, steps[i].width);
+        out.count++;
     }
-    return sum;
+    if (found == STEPS_MOST)
+        out.beyond = 0;
+    return out;
 }
 
-/* Is the edge the middle of a rounding that is too narrow to be seen as one? */
+/* Is the edge the middle of a rounding that is too narrow to be seen as one? It ends on both sides in faces that are
+ * wider than its strips: thin rods do not. */
 static bool is_narrow_middle(const judge *j, uint32_t half, double own)
 {
-    int    count = 0;
-    double width = NARROW * j->size, before = turn_within(j, j->facts->opposite[half], own, width, &count),
-           after = turn_within(j, half, own, width, &count), whole = before + fabs(own) + after,
-           middle = (0.5 + MIDDLE_SLACK) * whole;
-    return count > 0 && whole > fmax(NARROW_TURN, j->facts->angle) && before <= middle && after <= middle;
+    double  width = NARROW * j->size;
+    turning before = turn_within(j, j->facts->opposite[half], own, width), after = turn_within(j, half, own, width);
+    double  whole = before.turn + fabs(own) + after.turn, middle = (0.5 + MIDDLE_SLACK) * whole,
+           face = ENDS_IN_FACE * fmax(before.widest, after.widest);
+    return before.count + after.count > 0 && whole > fmax(NARROW_TURN, j->facts->angle) && before.turn <= middle &&
+           after.turn <= middle && before.beyond > face && after.beyond > face;
+}
+
+/* Does hardly anything beside the edge turn? */
+static bool stands_alone(const judge *j, uint32_t half, double own)
+{
+    const uint32_t sides[2] = {half, j->facts->opposite[half]};
+    for (int k = 0; k < 2; k++) {
+        step next[STEPS_MOST];
+        if (find_steps(j, sides[k], own, next, 1) && fabs(next[0].turn) * STANDS_ALONE > fabs(own))
+            return false;
+    }
+    return true;
 }
 
 /* --- samplings ------------------------------------------------------------------------------------------- */
@@ -522,13 +551,19 @@ static bool is_said(const edge_mesh *m, uint32_t half, uint32_t other)
     return m->said && (m->said[half] != SAID_NOTHING || m->said[other] != SAID_NOTHING);
 }
 
+/* Does an edge turn where faces around it do not, in a file that tells nothing of which are sharp? */
+static bool is_lone(const judge *j, uint32_t half, double own)
+{
+    return j->noise < 0 && !j->facts->mixed && fabs(own) > j->facts->angle && stands_alone(j, half, own);
+}
+
 /* Is it part of a rounding, by what the file says or else by its shape? */
 static bool is_round(const judge *j, uint32_t half, double own)
 {
     const crease_facts *f = j->facts;
     edge_shading        shading = f->shading ? (edge_shading)f->shading[half] : SHADED_UNKNOWN;
     if (shading == SHADED_SMOOTH && (f->mixed || fabs(own) < HARDLY_SMOOTH))
-        return true;
+        return f->mixed || !is_lone(j, half, own);
     return shading != SHADED_SPLIT && is_rounding(j, half, own);
 }
 
@@ -541,7 +576,8 @@ static crease_verdict judge_edge(judge *j, const mesh_edge *e, uint32_t half)
     if (j->noise < 0 && (weak || is_round(j, half, own)))
         return fabs(own) > NARROW_STEP && is_narrow_middle(j, half, own) ? IS_NARROW : NO_CREASE;
     bool smooth = j->facts->shading && j->facts->shading[half] == SHADED_SMOOTH && fabs(own) < NEVER_SMOOTH;
-    return sharp && !smooth ? IS_CREASE : MAY_BELONG;
+    bool meant = !smooth || (fabs(own) > STEP_MOST && is_lone(j, half, own));
+    return sharp && meant ? IS_CREASE : MAY_BELONG;
 }
 
 /* Flags by verdict; what is no crease may be an outline. */

@@ -26,6 +26,7 @@
 #define LIKE_WIDTH       0.9 /* a line does not give way to finer ones */
 #define MOST_OF_IT       0.5
 #define MOST_OF_OUTLINES 0.9
+#define BARE_OUTLINE     MM /* so much of an outline may go without another line beside it */
 #define OUTERMOST        1.1
 #define OUTLINE_ALONE    (4 * MM)
 #define INNER_WIDTH      0.7 /* of lines that are no outlines, as techniques have it */
@@ -231,7 +232,8 @@ static bool is_crowded(const density *d, const stroke *s, double width)
         parallel += runs_beside(d, p, reach, width) ? (double)p->length : 0;
         dense += ink_around(d, p) > most ? (double)p->length : 0;
     }
-    return parallel > limit * all || dense > limit * all;
+    bool bare = is_outline(s) && all - parallel > BARE_OUTLINE;
+    return (parallel > limit * all && !bare) || dense > limit * all;
 }
 
 static bool lay(density *d, double width)

@@ -9,6 +9,11 @@
 #include "base/memory.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
+/* Faces of one surface that two pieces have turn against each other by no more than the first, radians, whatever the
+ * second is; they lie no farther apart than this fraction of the smaller piece. */
+#define TURN_MOST  0.44
+#define TURN_LEAST 0.03
+#define AWAY_MOST  6e-3
 
 /* A face that may cross another one. */
 typedef struct near_face {
@@ -29,6 +34,7 @@ typedef struct crossing_search {
     uint32_t           *pieces; /* per near face, of all items */
     size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
+    float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -267,6 +273,50 @@ static bool is_clear(const crossing_search *s, const edge_mesh *m, uint32_t face
     return least > margin || most < -margin;
 }
 
+/* By how much a mesh's surface turns beside each face, from one face to the next, where it is smooth; NULL when memory
+ * is gone. */
+static const float *turns_of(crossing_search *s, uint32_t mesh)
+{
+    const edge_mesh *m = &s->scene->meshes[mesh];
+    if (!s->turns)
+        s->turns = mem_calloc(s->scene->mesh_count + 1, sizeof *s->turns);
+    if (!s->turns || s->turns[mesh])
+        return s->turns ? s->turns[mesh] : NULL;
+    float *out = s->turns[mesh] = mem_calloc((size_t)m->face_count + 1, sizeof *out);
+    for (uint32_t i = 0; i < m->edge_count && out; i++) {
+        const mesh_edge *e = &m->edges[i];
+        if (e->flags & (EDGE_CREASE | EDGE_BORDER | EDGE_TWISTED))
+            continue;
+        vec3  p = m->normals[e->face[0]], q = m->normals[e->face[1]];
+        float turn = acosf(smaller(1, larger(-1, p.x * q.x + p.y * q.y + p.z * q.z)));
+        for (int k = 0; k < 2; k++)
+            out[e->face[k]] = larger(out[e->face[k]], turn);
+    }
+    return out;
+}
+
+/* Are two faces that cross so nearly one surface, tessellated twice, that where they cross means nothing? They turn
+ * against each other no more than each surface does from face to face, and lie close together all over. */
+static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, const world_face *a,
+                           const world_face *b)
+{
+    const near_face *n = &s->faces[first], *m = &s->faces[second];
+    double           cosine = fabs(double3_dot(a->normal, b->normal)), away = 0;
+    if (cosine < cos(TURN_MOST))
+        return false;
+    double size =
+        fmin(box3_diagonal(s->piece_boxes[s->pieces[first]]), box3_diagonal(s->piece_boxes[s->pieces[second]]));
+    for (int k = 0; k < 3; k++)
+        away = fmax(away, fmax(fabs(a->heights[k]), fabs(b->heights[k])));
+    if (away > AWAY_MOST * size)
+        return false;
+    const float *turns[2] = {turns_of(s, s->scene->items[n->item].mesh), turns_of(s, s->scene->items[m->item].mesh)};
+    s->failed = s->failed || !turns[0] || !turns[1];
+    if (s->failed)
+        return false;
+    return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
+}
+
 static bool cross_faces(void *user, uint32_t first, uint32_t second)
 {
     crossing_search *s = user;
@@ -302,7 +352,11 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
         s->failed = true;
         return false;
     }
-    s->out->crossings[s->out->count++] = (face_crossing){{begin, end}, {n->item, m->item}, {n->face, m->face}};
+    s->out->crossings[s->out->count++] = (face_crossing){{begin, end},
+                                                         {n->item, m->item},
+                                                         {n->face, m->face},
+                                                         {s->pieces[first], s->pieces[second]},
+                                                         is_one_surface(s, first, second, &a, &b)};
     return true;
 }
 
@@ -353,11 +407,21 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     mem_free(s.faces);
     mem_free(s.boxes);
     mem_free(s.pieces);
-    if (status != LMN_OK) {
-        mem_free(out->crossings);
-        memset(out, 0, sizeof *out);
-    }
+    for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
+        mem_free(s.turns[i]);
+    mem_free(s.turns);
+    if (status == LMN_OK && !crossings_settle(out))
+        status = error_memory(error);
+    if (status != LMN_OK)
+        crossings_release(out);
     return status;
+}
+
+void crossings_release(crossing_list *c)
+{
+    mem_free(c->crossings);
+    mem_free(c->beside);
+    memset(c, 0, sizeof *c);
 }
 
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)

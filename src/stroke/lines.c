@@ -263,24 +263,17 @@ static bool collect_crossings(collector *c, const crossing_list *crossings)
 
 /* --- all ------------------------------------------------------------------------------------------------ */
 
-static lmn_status collect_intersections(collector *c, lmn_progress_fn progress, void *user, lmn_error *error)
-{
-    crossing_list        own = {NULL, 0, 0};
-    const crossing_list *crossings = c->v->scene->crossings;
-    lmn_status           status = crossings ? LMN_OK : crossings_find(&own, c->v->scene, progress, user, error);
-    if (status == LMN_OK && !collect_crossings(c, crossings ? crossings : &own))
-        status = error_memory(error);
-    mem_free(own.crossings);
-    return status;
-}
-
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                          lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     collector c = {.out = out, .v = v, .options = options, .parts = parts};
     out->end_count = v->vertex_count;
-    lmn_status status = options->intersections ? collect_intersections(&c, progress, user, error) : LMN_OK;
+    crossing_list        own = {0};
+    const crossing_list *crossings = !options->intersections ? NULL : v->scene->crossings ? v->scene->crossings : &own;
+    lmn_status           status = crossings == &own ? crossings_find(&own, v->scene, progress, user, error) : LMN_OK;
+    if (status == LMN_OK && crossings && !collect_crossings(&c, crossings))
+        status = error_memory(error);
     for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
         if (parts && !parts[v->scene->items[i].part_index])
             continue;
@@ -290,6 +283,9 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_opt
     }
     if (status == LMN_OK)
         status = form_collect(out, v, options, parts, progress, user, error);
+    if (status == LMN_OK && crossings && !beside_link(out, v, crossings))
+        status = error_memory(error);
+    crossings_release(&own);
     mem_free(c.outline);
     mem_free(c.positions);
     mem_free(c.slots);
@@ -303,6 +299,7 @@ void lines_release(view_lines *l)
     mem_free(l->lines);
     mem_free(l->segments);
     mem_free(l->ignored);
+    mem_free(l->beside);
     mem_free(l->lifts);
     memset(l, 0, sizeof *l);
 }

@@ -316,8 +316,16 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
     v->points = mem_alloc(points * sizeof *v->points);
     v->outside = mem_alloc(points + 1);
     v->fronts = mem_calloc(faces / 8 + 1, 1);
+    v->face_pieces = mem_alloc((faces + 1) * sizeof *v->face_pieces);
     v->triangles = mem_alloc(faces * sizeof *v->triangles);
-    return v->points && v->outside && v->fronts && v->triangles ? LMN_OK : error_memory(error);
+    if (!v->points || !v->outside || !v->fronts || !v->triangles || !v->face_pieces)
+        return error_memory(error);
+    for (size_t i = 0; i < s->item_count; i++) {
+        const edge_mesh *m = &s->meshes[s->items[i].mesh];
+        for (uint32_t f = 0; f < m->face_count; f++)
+            v->face_pieces[v->items[i].first_face + f] = v->items[i].first_piece + m->pieces[f];
+    }
+    return LMN_OK;
 }
 
 static double units_of(const stroke_camera *c)
@@ -378,6 +386,7 @@ void stroke_view_destroy(stroke_view **view)
     mem_free(v->points);
     mem_free(v->outside);
     mem_free(v->fronts);
+    mem_free(v->face_pieces);
     mem_free(v->triangles);
     mem_free(v->boxes);
     grid_release(&v->grid);

@@ -275,7 +275,7 @@ void stroke_scene_release(stroke_scene *s)
     for (size_t i = 0; i < s->mesh_count; i++)
         edge_mesh_release(&s->meshes[i]);
     if (s->crossings)
-        mem_free(s->crossings->crossings);
+        crossings_release(s->crossings);
     mem_free(s->crossings);
     mem_free(s->meshes);
     mem_free(s->items);

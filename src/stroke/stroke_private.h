@@ -92,6 +92,7 @@ struct stroke_view {
     window_box         *boxes; /* per triangle */
     window_grid         grid;
     uint32_t            face_count, piece_count, vertex_count;
+    uint32_t           *face_pieces; /* per face: of all pieces in the view */
 };
 
 /* A straight line whose visibility is asked for. */
@@ -101,8 +102,10 @@ typedef struct window_segment {
     uint32_t        faces[2]; /* that it lies on; EDGE_NO_FACE: none */
     const uint32_t *ignored;  /* faces that do not count, ascending */
     uint32_t        ignored_count;
-    uint32_t        least; /* as many surfaces lie in front at least */
-    float           lift;  /* what lies no farther in front, at right angles, does not count: file units */
+    uint32_t        least;  /* as many surfaces lie in front at least */
+    float           lift;   /* what lies no farther in front, at right angles, does not count: file units */
+    const uint32_t *beside; /* pieces that change places with its own, ascending: they have a lift of their own */
+    uint32_t        beside_count;
 } window_segment;
 
 /* From `from` on (fraction of the segment) this many surfaces lie in front. */
@@ -186,11 +189,19 @@ bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin,
 typedef struct face_crossing {
     double3  ends[2];
     uint32_t items[2], faces[2]; /* faces: of the items' meshes */
+    uint32_t pieces[2];          /* of all in the scene */
+    bool     one_surface;        /* the faces are nearly one */
 } face_crossing;
 struct crossing_list {
     face_crossing *crossings;
     size_t         count, capacity;
+    uint32_t (*beside)[2]; /* pieces, of all in the scene, that nearly coincide, so that one is in front here and the
+                              other one there; each pair both ways, ascending */
+    size_t beside_count, beside_capacity;
 };
+void crossings_release(crossing_list *c);
+/* So far pieces that nearly coincide may lie in front of each other: fraction of the scene's diagonal. */
+#define BESIDE_LIFT 1.5e-3
 /* All of them, in an order that depends on the scene alone. */
 lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
                           lmn_error *error);
@@ -223,7 +234,14 @@ typedef struct view_lines {
     size_t          lift_count, lift_capacity;
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
+    uint32_t       *beside;    /* … and those of pieces */
 } view_lines;
+/* --- beside.c --- */
+/* Leaves out crossings of pieces that nearly coincide, by what most of the length of those that hang together is, and
+ * keeps which pieces these are. False when memory is gone. */
+bool crossings_settle(crossing_list *list);
+/* Says which pieces change places with those that segments are of. False when memory is gone. */
+bool       beside_link(view_lines *out, const stroke_view *v, const crossing_list *crossings);
 lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                          lmn_progress_fn progress, void *user, lmn_error *error);
 void       lines_release(view_lines *l);

@@ -169,6 +169,21 @@ static double depth_of_lift(const stroke_view *v, const window_point p[3], doubl
     return lift * fabs(z) * sqrt(steep + middle * middle);
 }
 
+/* Is the triangle of a piece that changes places with the segment's own? */
+static bool is_beside(const worker *w, uint32_t face)
+{
+    const window_segment *s = w->segment;
+    uint32_t              low = 0, high = s->beside_count, piece = s->beside_count ? w->v->face_pieces[face] : 0;
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        if (s->beside[middle] < piece)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < s->beside_count && s->beside[low] == piece;
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -211,7 +226,8 @@ static void compare(worker *w, uint32_t number)
         before = 0;
     if (to == 1 && has_corner(t, s->ends[1]))
         after = 0;
-    double same = view_tolerance(v, z0) + box->slope + (s->lift > 0 ? depth_of_lift(v, p, z0, s->lift) : 0);
+    double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
+    double same = view_tolerance(v, z0) + box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
     if (!s->ignored_count || !is_ignored(s, t->face))
         cover_nearer(w, from, to, before, after, same);
 }

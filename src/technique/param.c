@@ -572,6 +572,15 @@ static lmn_status check_number(condition_term term, const param *p, const char *
     return LMN_OK;
 }
 
+void params_scale_lengths(const param *params, size_t count, void *values, double factor)
+{
+    for (size_t i = 0; i < count; i++)
+        if (params[i].unit == UNIT_PT && params[i].type == PARAM_FLOAT) {
+            float *length = (float *)((char *)values + params[i].offset);
+            *length = (float)((double)*length * factor);
+        }
+}
+
 lmn_status params_condition_check(const char *condition, const param *params, size_t count, lmn_error *error)
 {
     for (const char *at = condition; at; at++) {

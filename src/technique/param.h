@@ -144,6 +144,9 @@ bool param_is_auto(const param *p, const void *values);
 /* Reads as numbers whatever the type: the field's address. */
 const void *param_field(const param *p, const void *values);
 
+/* Multiplies all lengths on paper (UNIT_PT) in these values. */
+void params_scale_lengths(const param *params, size_t count, void *values, double factor);
+
 /* Conditions on parameters: passes, textures and rows have them, and whole techniques. Terms joined by '&', all of
  * which must hold: key               is set: not 0, false, the first word of an enum, transparent, empty or auto
  *   key=word,word     prints as one of these words (param_print)

@@ -222,6 +222,71 @@ static void creases(void)
         }
 }
 
+/* Normals that a file interpolates past the rim of what is seen, within one flat face: no line. */
+static void normals_past_the_rim(void)
+{
+    shape s = {0};
+    shot  drawing;
+    shape_quad(&s, "quad", 1, 0);
+    shape_part *p = &s.parts[0];
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        p->normals[i][0] = 0.9F;
+        p->normals[i][1] = 0;
+        p->normals[i][2] = p->positions[i][0] < 0 ? 0.44F : -0.44F;
+    }
+    if (shot_of_shape(&drawing, &s, "past.glb", shot_line_look("{\"operator\":\"discontinuity\"}"), NULL, &front)) {
+        int ink = 0;
+        for (int y = 60; y < 68; y++)
+            for (int x = 54; x < 74; x++)
+                ink += shot_ink(&drawing, x, y) <= 200;
+        check_at_most("edges", ink, 0, "pixels with ink in the middle of a face whose normals turn away");
+        shot_release(&drawing);
+    }
+    shape_release(&s);
+}
+
+/* Is there ink within a pixel of a position? */
+static bool inked(const shot *s, dvec at)
+{
+    dvec p = shot_project(s, at);
+    for (int k = 0; k < 9; k++) {
+        int x = (int)p.x + k % 3 - 1, y = (int)p.y + k / 3 - 1;
+        if (x >= 0 && y >= 0 && x < s->width && y < s->height && shot_ink(s, x, y) <= 127)
+            return true;
+    }
+    return false;
+}
+
+/* Two parts with a face in one plane, where either may be in front: the rim of the smaller one is a line, what is
+ * within is none. The same with one of them a plate that is thin, but there. */
+static void parts_in_one_plane(void)
+{
+    const shot_view view = {.width = 400, .height = 400, .eye = {2, 1.5, 6}, .up = {0, 1, 0}};
+    const double    turn = 23 * pi / 180, lift = 0.005 * 3;
+    for (int plate = 0; plate < 2; plate++) {
+        shape s = {0};
+        shot  drawing;
+        shape_box(&s, "large", dvec_of(-1, -1, -1), dvec_of(1, 1, 0));
+        shape_box(&s, "small", dvec_of(-0.5, -0.5, -0.7), dvec_of(0.5, 0.5, plate ? lift : 0));
+        shape_place(&s, dvec_of(0, 0, 1), turn * 180 / pi, dvec_of(0, 0, 0));
+        if (shot_of_shape(&drawing, &s, "plane.glb", shot_line_look("{\"operator\":\"discontinuity\"}"), NULL, &view)) {
+            int rim = 0, within = 0;
+            for (int i = 0; i < 400; i++) {
+                double along = (i % 100 + 0.5) / 100 - 0.5, x = i < 200 ? along : (i < 300 ? 0.5 : -0.5),
+                       y = i >= 200 ? along : (i < 100 ? 0.5 : -0.5), z = plate ? lift : 0;
+                dvec at = {x * cos(turn) - y * sin(turn), x * sin(turn) + y * cos(turn), z};
+                rim += inked(&drawing, at);
+                within += inked(&drawing, dvec_of(0.85 * at.x, 0.85 * at.y, z)) +
+                          inked(&drawing, dvec_of(0.5 * at.x, 0.5 * at.y, z));
+            }
+            check_at_least("edges", rim, 398, "positions of 400 of the rim of a part that is flush, plate %d", plate);
+            check_at_most("edges", within, 0, "positions within it that have ink");
+            shot_release(&drawing);
+        }
+        shape_release(&s);
+    }
+}
+
 /* A step of 1/1000 of the range: found by the engine's own operator, seen by the four-tap operator with gain, lost
  * in 8 bits. */
 static void thousandth(void)
@@ -577,6 +642,8 @@ int main(int argc, char **argv)
         {"steps", steps},
         {"creases", creases},
         {"thousandth", thousandth},
+        {"past-the-rim", normals_past_the_rim},
+        {"one-plane", parts_in_one_plane},
         {"prefilter", prefilter},
         {"ids", id_edges},
         {"windows", painted_windows},

@@ -681,13 +681,64 @@ static void samples_and_dialects(void)
     shape_release(&s);
 }
 
+/* --- valleys -------------------------------------------------------------------------------------------- */
+
+/* A valley between two steep walls that are so broad on the page and bend once, as between two columns. */
+static void valley_of(shape *s, double left, double right, double height)
+{
+    const float x[7] = {-3, (float)(-2 * left), (float)-left, 0, (float)right, (float)(2 * right), 3},
+                h = (float)height, z[7] = {1.5F * h, 1.5F * h, h, 0, h, 1.5F * h, 1.5F * h};
+    shape_part *p = shape_add(s, "valley", 14, 36, false, false);
+    for (uint32_t i = 0; i < 7; i++)
+        for (uint32_t k = 0; k < 2; k++) {
+            const float at[3] = {x[i], k ? 3 : -3, z[i]};
+            memcpy(p->positions[2 * i + k], at, sizeof at);
+        }
+    for (uint32_t i = 0; i < 6; i++) {
+        const uint32_t a = 2 * i, quad[6] = {a, a + 2, a + 3, a, a + 3, a + 1};
+        memcpy(p->indices + 6 * i, quad, sizeof quad);
+    }
+}
+
+/* The line at the bottom of narrow walls is whole, whatever its slant. */
+static void valleys(void)
+{
+    const shot_view view = {.width = 300, .height = 300, .eye = {0, 0, 10}, .up = {0.12, 1, 0}, .orthographic = true};
+    for (int k = 1; k <= 8; k++) {
+        shape  s = {0};
+        shot   drawing;
+        double pixels = 0.4 * k, pixel = 2 * 10 * tan(15 * PI / 180) / 300;
+        valley_of(&s, pixels * pixel, 0.7 * pixels * pixel, 1);
+        if (shot_of_shape(&drawing, &s, "valley.ply", look_of("sampled", 1.5, ""), NULL, &view)) {
+            int seen = 0, all = 0;
+            for (double y = -2; y < 2; y += pixel) {
+                dvec at = shot_project(&drawing, dvec_of(0, y, 0));
+                all++;
+                seen += width_at(&drawing, at, dvec_of(0, 1, 0), 1.5) > 0.4;
+            }
+            check_at_least("EX-14", (double)seen / all, 0.995, "of a valley's line beside walls of %.1f px", pixels);
+            shot_release(&drawing);
+        }
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"widths", widths},  {"rims", rims},           {"near", near_plane},
-        {"joints", joints},  {"whole", whole_lines},   {"full", full_width},
-        {"ways", both_ways}, {"crossings", crossings}, {"lines-of-files", lines_of_files},
-        {"limits", limits},  {"figures", figures},     {"samples", samples_and_dialects},
+        {"widths", widths},
+        {"rims", rims},
+        {"near", near_plane},
+        {"joints", joints},
+        {"whole", whole_lines},
+        {"full", full_width},
+        {"ways", both_ways},
+        {"crossings", crossings},
+        {"lines-of-files", lines_of_files},
+        {"valleys", valleys},
+        {"limits", limits},
+        {"figures", figures},
+        {"samples", samples_and_dialects},
     };
     int status = check_main(argc, argv, "strokes_window", cases, sizeof cases / sizeof *cases);
     shot_end();

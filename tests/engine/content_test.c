@@ -3,6 +3,7 @@
 #include "checked.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -400,6 +401,32 @@ static void changes_together(void **state)
     lmn_scene_destroy(&wanted);
 }
 
+/* A program that was built before a description grew: what it does not know has its standard value. */
+static void older_programs(void **state)
+{
+    (void)state;
+    lmn_scene    *s = pair(0, 1.5);
+    lmn_drawing  *drawing = NULL;
+    lmn_look     *look = NULL;
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    int           width = 0;
+    DO(lmn_look_load(&look, "plain", &error));
+    desc.width = desc.height = 64;
+    desc.fov_deg = 500;
+    desc.struct_size = offsetof(lmn_draw_desc, fov_deg);
+    DO(lmn_draw(&drawing, renderer, s, look, &desc, &error));
+    lmn_drawing_pixels(drawing, &width, NULL);
+    assert_int_equal(width, 64);
+    lmn_drawing_destroy(&drawing);
+    for (int i = 0; i < 3; i++) {
+        desc.struct_size = (const size_t[]){0, 7, sizeof desc + 8}[i];
+        assert_int_equal(lmn_draw(&drawing, renderer, s, look, &desc, &error), LMN_USAGE);
+        assert_true(error.hint[0] != 0);
+    }
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&s);
+}
+
 /* --- what is refused ------------------------------------------------------------------------------------ */
 
 static void wrong_meshes(void **state)
@@ -531,6 +558,7 @@ int main(void)
                                        cmocka_unit_test(changes_together),
                                        cmocka_unit_test(wrong_meshes),
                                        cmocka_unit_test(wrong_nodes),
-                                       cmocka_unit_test(wrong_others)};
+                                       cmocka_unit_test(wrong_others),
+                                       cmocka_unit_test(older_programs)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -233,7 +233,7 @@ static void targets_are_checked(void **unused)
     lmn_target    good = target_of(&a.picture), bad = good;
     refused(&a, &desc, NULL, LMN_USAGE, "LMN_TARGET_INIT");
     refused(&a, NULL, &good, LMN_USAGE, "description");
-    bad.struct_size--;
+    bad.struct_size = 1;
     refused(&a, &desc, &bad, LMN_USAGE, "LMN_TARGET_INIT");
     bad = good, bad.depth = (lmn_target_depth)7;
     refused(&a, &desc, &bad, LMN_USAGE, "depth");

@@ -143,6 +143,19 @@ static void narrow_fillets_are_one_line(void **state)
     }
 }
 
+/* Thin rods are narrow and round, but end in no faces: none of their edges is a line. */
+static void thin_rods_have_no_creases(void **state)
+{
+    static const double radii[] = {0.02, 0.06, 0.1, 0.2, 0.4};
+    (void)state;
+    for (uint32_t k = 0; k < sizeof radii / sizeof *radii; k++)
+        for (uint32_t steps = 12; steps <= 36; steps += 4) {
+            profile o = {0};
+            add_arc(&o, 0, 0, radii[k], 0, 360 - 360.0 / steps, steps - 1);
+            assert_int_equal(lines_of(&o, 5), 0);
+        }
+}
+
 /* --- scans ----------------------------------------------------------------------------------------------- */
 
 static double jitter(uint32_t n)
@@ -285,6 +298,39 @@ static void normals_of_files_are_believed(void **state)
     assert_int_equal(walls(false, false), 3); /* all are split: nothing is said */
 }
 
+/* A strip of quads over these corners, with normals that are smooth everywhere. */
+static uint32_t smooth_strip(const profile *o)
+{
+    primitive p = extrude(o, 3, 1);
+    p.normals = mem_alloc(p.vertex_count * sizeof *p.normals);
+    for (uint32_t i = 0; i < o->count; i++) {
+        uint32_t before = (i + o->count - 1) % o->count, after = (i + 1) % o->count;
+        double   along_x = o->at[after][0] - o->at[before][0], along_y = o->at[after][1] - o->at[before][1],
+               length = sqrt(along_x * along_x + along_y * along_y);
+        p.normals[i] = p.normals[o->count + i] = (vec3){(float)(along_y / length), (float)(-along_x / length), 0};
+    }
+    edge_mesh e = sort(&p, 30);
+    uint32_t  count = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++)
+        count += (e.edges[i].flags & EDGE_CREASE) != 0;
+    edge_mesh_release(&e);
+    primitive_release(&p);
+    return count;
+}
+
+/* Where all normals are means over all faces, shape tells: what turns alone is sharp, what turns like its neighbours is
+ * round. */
+static void sharp_edges_stand_alone(void **state)
+{
+    profile tube = {0}, drop = {0};
+    (void)state;
+    add_arc(&tube, 0, 0, 2, 0, 360 - 360.0 / 7, 6); /* steps of 51 degrees */
+    assert_int_equal(smooth_strip(&tube), 0);
+    add_arc(&drop, 0, 0, 4, -65, 245, 62);
+    add(&drop, 0, -4 / cos(25 * degree)); /* tangents that meet at 50 */
+    assert_int_equal(smooth_strip(&drop), 1);
+}
+
 /* Where a crease runs out, it goes on to half of the angle. */
 static void creases_fade_out_whole(void **state)
 {
@@ -316,12 +362,11 @@ static void creases_fade_out_whole(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tessellated_cylinders_are_round),
-                                       cmocka_unit_test(fillets_are_round_and_chamfers_are_not),
-                                       cmocka_unit_test(narrow_fillets_are_one_line),
-                                       cmocka_unit_test(noise_of_scans_is_no_crease),
-                                       cmocka_unit_test(edges_of_scans_stay),
-                                       cmocka_unit_test(normals_of_files_are_believed),
-                                       cmocka_unit_test(creases_fade_out_whole)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tessellated_cylinders_are_round), cmocka_unit_test(fillets_are_round_and_chamfers_are_not),
+        cmocka_unit_test(narrow_fillets_are_one_line),     cmocka_unit_test(thin_rods_have_no_creases),
+        cmocka_unit_test(noise_of_scans_is_no_crease),     cmocka_unit_test(edges_of_scans_stay),
+        cmocka_unit_test(normals_of_files_are_believed),   cmocka_unit_test(sharp_edges_stand_alone),
+        cmocka_unit_test(creases_fade_out_whole)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void test_refused(void **state)
     desc = good, desc.unit = "ell";
     refuse(f, &how, &desc, "the unit is 'ell'");
     other.struct_size = 1;
-    refuse(f, &other, &good, "not initialised with LMN_DRAW_DESC_INIT");
+    refuse(f, &other, &good, "LMN_DRAW_DESC_INIT");
     other = how, other.background = "blu";
     refuse(f, &other, &good, "'blu' is not a colour");
     other = how, other.select = "nothing";

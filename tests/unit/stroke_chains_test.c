@@ -150,6 +150,22 @@ static void parallels_fuse(void **state)
     shot_release(&wide);
 }
 
+/* A slat below a plate, a pixel beside its rim for nine tenths of its own: what reaches beyond the plate is not lost.
+ */
+static void outlines_that_reach_beyond_others_stay(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_plate(s, -3, 0, 3, 1, 0);
+    add_plate(s, -3, -0.01, 3.2, 0.04, -0.5);
+    stroke_options w = STROKE_OPTIONS_INIT;
+    w.detail = 0.75f;
+    w.crowd = 0;
+    stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+    assert_true(has_part(&shot.set, 1) && has_part(&shot.set, 2));
+    shot_release(&shot);
+}
+
 /* A box of 5 px keeps its outline, drawn finer; one of 100 px its creases too. */
 static void small_pieces_keep_their_outlines(void **state)
 {
@@ -175,8 +191,11 @@ static void small_pieces_keep_their_outlines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_count_as_a_whole),          cmocka_unit_test(strangers_are_not_linked),
-        cmocka_unit_test(thin_bars_do_not_end_a_line),      cmocka_unit_test(parallels_fuse),
+        cmocka_unit_test(pieces_count_as_a_whole),
+        cmocka_unit_test(strangers_are_not_linked),
+        cmocka_unit_test(thin_bars_do_not_end_a_line),
+        cmocka_unit_test(parallels_fuse),
+        cmocka_unit_test(outlines_that_reach_beyond_others_stay),
         cmocka_unit_test(small_pieces_keep_their_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

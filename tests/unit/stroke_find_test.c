@@ -93,6 +93,121 @@ static void rims_hide_where_they_are(void **state)
     shot_release(&shot);
 }
 
+/* A vault over a rectangle, open, of so many cells. */
+static void add_vault(lmn_scene *s, const double from[2], const double to[2], uint32_t columns, uint32_t rows, double z)
+{
+    vec3     *positions = mem_alloc((size_t)(columns + 1) * (rows + 1) * sizeof *positions);
+    uint32_t *corners = mem_alloc((size_t)columns * rows * 6 * sizeof *corners), k = 0;
+    for (uint32_t r = 0; r <= rows; r++)
+        for (uint32_t c = 0; c <= columns; c++) {
+            double x = from[0] + (to[0] - from[0]) * c / columns, y = from[1] + (to[1] - from[1]) * r / rows;
+            positions[r * (columns + 1) + c] =
+                (vec3){(float)x, (float)y, (float)(z + 0.5 * cos(x) + 0.3 * cos(1.3 * y))};
+        }
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t c = 0; c < columns; c++) {
+            uint32_t       a = r * (columns + 1) + c, up = columns + 1;
+            const uint32_t quad[6] = {a, a + 1, a + up + 1, a, a + up + 1, a + up};
+            memcpy(corners + k, quad, sizeof quad);
+            k += 6;
+        }
+    add_part(s, positions, (columns + 1) * (rows + 1), corners, k);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* A patch that lies on a vault, tessellated otherwise, is now in front and now behind: its rim is whole, and where the
+ * two cross is no line. */
+static void shells_that_coincide_are_one(void **state)
+{
+    static const double low[2] = {-1, -1}, high[2] = {1, 1}, from[2] = {-0.6, -0.7}, to[2] = {0.8, 0.5};
+    static const double lifts[] = {0, 0.0003, -0.0003};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        lmn_scene *s = stroke_scene_begin();
+        add_vault(s, low, high, 40, 33, 0);
+        add_vault(s, from, to, 33, 27, lifts[k]);
+        stroke_shot shot = shoot(s, look_along(0.1, 0.2, -1, origin, 20, 2, true, 900, 900), all_lines());
+        double      crossing, visible, hidden;
+        count_strokes(&shot.set, STROKE_INTERSECTION, -1, &crossing);
+        count_strokes(&shot.set, STROKE_BORDER, 0, &visible);
+        count_strokes(&shot.set, STROKE_BORDER, 1, &hidden);
+        assert_true(crossing < 1);
+        assert_true(visible > 2500 && hidden < 1);
+        assert_int_equal(shot.check.wrong, 0);
+        shot_release(&shot);
+    }
+}
+
+/* Balls that are one, twice, have the outline of one. */
+static void balls_that_coincide_are_one(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_ball(s, 0, 0, 0, 1, 60, 40);
+    add_ball(s, 0, 0, 0, 1.0003, 53, 37);
+    stroke_shot shot = shoot(s, look_along(0.3, 0.2, -1, origin, 20, 2, true, 900, 900), all_lines());
+    double      crossing;
+    count_strokes(&shot.set, STROKE_INTERSECTION, -1, &crossing);
+    assert_true(crossing < 1);
+    shot_release(&shot);
+}
+
+/* A pipe around an axis, in so many rings. */
+static void add_pipe(lmn_scene *s, int axis, uint32_t rings)
+{
+    enum { AROUND = 48 };
+    vec3     *positions = mem_alloc((size_t)(rings + 1) * AROUND * sizeof *positions);
+    uint32_t *corners = mem_alloc((size_t)rings * AROUND * 6 * sizeof *corners), k = 0;
+    for (uint32_t r = 0; r <= rings; r++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            double      turn = 2 * stroke_pi * (i + 0.37 * axis) / AROUND, along = -1.5 + 3.0 * r / rings;
+            const float at[3] = {(float)along, (float)(0.5 * cos(turn)), (float)(0.5 * sin(turn))};
+            positions[r * AROUND + i] = (vec3){at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]};
+        }
+    for (uint32_t r = 0; r < rings; r++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            uint32_t       a = r * AROUND + i, b = r * AROUND + (i + 1) % AROUND;
+            const uint32_t quad[6] = {a, b, b + AROUND, a, b + AROUND, a + AROUND};
+            memcpy(corners + k, quad, sizeof quad);
+            k += 6;
+        }
+    add_part(s, positions, (rings + 1) * AROUND, corners, k);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Pipes of one width that cross touch in two places without an angle: their line goes on there. */
+static void pipes_that_cross_have_whole_lines(void **state)
+{
+    (void)state;
+    for (uint32_t rings = 1; rings <= 40; rings += 39) {
+        lmn_scene *s = stroke_scene_begin();
+        add_pipe(s, 0, rings);
+        add_pipe(s, 1, rings);
+        stroke_shot shot = shoot(s, look_along(0.5, 0.4, -1, origin, 20, 2, true, 900, 900), all_lines());
+        double      length;
+        size_t      count = count_strokes(&shot.set, STROKE_INTERSECTION, 0, &length);
+        assert_in_range(count, 1, 8);
+        assert_true(length > 400);
+        shot_release(&shot);
+    }
+}
+
+/* A plate of half a per cent keeps both of its rims, and hides what is below it. */
+static void thin_plates_hide(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_vault(s, (const double[2]){-1, -1}, (const double[2]){1, 1}, 40, 33, 0);
+    add_vault(s, (const double[2]){-0.5, -0.5}, (const double[2]){0.5, 0.5}, 33, 27, -0.015);
+    stroke_shot shot = shoot(s, look_along(0.1, 0.2, -1, origin, 20, 2, true, 900, 900), all_lines());
+    double      hidden;
+    count_strokes(&shot.set, STROKE_BORDER, 1, &hidden);
+    assert_true(hidden > 800);
+    shot_release(&shot);
+}
+
 /* A ball cut by a plate: the crossing is a circle of √(r² − h²). */
 static void pieces_that_cross_have_a_line(void **state)
 {
@@ -497,6 +612,10 @@ int main(void)
         cmocka_unit_test(cube_has_six_nine_twelve),
         cmocka_unit_test(plates_are_counted),
         cmocka_unit_test(rims_hide_where_they_are),
+        cmocka_unit_test(shells_that_coincide_are_one),
+        cmocka_unit_test(balls_that_coincide_are_one),
+        cmocka_unit_test(pipes_that_cross_have_whole_lines),
+        cmocka_unit_test(thin_plates_hide),
         cmocka_unit_test(pieces_that_cross_have_a_line),
         cmocka_unit_test(flush_parts_are_calm),
         cmocka_unit_test(coplanar_plates_do_not_hide),

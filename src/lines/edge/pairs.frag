@@ -9,6 +9,11 @@
  * near plane is close to the eye (a viewer inside the model), smaller differences of window depth are noise. */
 const float DEPTH_NOISE = 16.0 * 5.96e-8;
 
+/* Normals that differ by less go on smoothly: cosine. */
+const float GOES_ON = 0.5;
+/* Slopes that differ by less than this fraction are those of one surface. */
+const float EVEN = 0.5;
+
 /* Part of the step `across` that the slopes before and behind it do not explain. */
 float unexplained(float before, float across, float behind)
 {
@@ -17,11 +22,25 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
-/* x: inner ink, y: id ink between this pixel and the neighbour at `side`, which is `across` deeper. */
-vec2 inner_and_id(vec2 side, vec3 normal, vec3 ray, uvec2 id)
+/* Does depth go on evenly over this pixel and its neighbour? */
+bool goes_on(vec2 side)
+{
+    vec4 along = vec4(neighbour(t_depth, -side).r, neighbour(t_depth, vec2(0.0)).r, neighbour(t_depth, side).r, neighbour(t_depth, 2.0 * side).r);
+    vec3 slopes = along.yzw - along.xyz;
+    float low = min(slopes.x, min(slopes.y, slopes.z)), high = max(slopes.x, max(slopes.y, slopes.z));
+    return high - low <= EVEN * max(abs(low), abs(high)) + DEPTH_NOISE;
+}
+
+/* x: inner ink, y: id ink between this pixel and the neighbour at `side`. `turned`: the normal was turned to the viewer. */
+vec2 inner_and_id(vec2 side, vec3 normal, bool turned, vec3 ray, uvec2 id)
 {
     vec3 other = neighbour(t_normal_depth, side).xyz;
-    float cosine = dot(normal, other) * (dot(other, ray) > 0.0 ? -1.0 : 1.0);
+    bool other_turned = dot(other, ray) > 0.0;
+    float cosine = dot(normal, other) * (other_turned ? -1.0 : 1.0);
+    /* Interpolated normals may pass the rim of what is seen within a face: turned to the viewer, neighbours are opposite there. */
+    int opposite = turned != other_turned && cosine < -GOES_ON ? 1 : 0;
+    for (int once = 0; once < opposite; once++)
+        cosine *= goes_on(side) ? -1.0 : 1.0;
     float between = 0.0, faint = u_line_faint, crease = u_line_crease;
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
@@ -70,7 +89,8 @@ void main()
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         /* Normals count as turned to the viewer, so that models of mixed winding show no lines where only the winding changes. */
         vec3 ray = vec3((2.0 * gl_FragCoord.xy * u_texel - 1.0) * u_unproject * u_perspective, -1.0);
-        vec3 normal = normal_depth.xyz * (dot(normal_depth.xyz, ray) > 0.0 ? -1.0 : 1.0);
+        bool turned = dot(normal_depth.xyz, ray) > 0.0;
+        vec3 normal = normal_depth.xyz * (turned ? -1.0 : 1.0);
         float z = normal_depth.w;
         float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
         tolerance = max(tolerance, DEPTH_NOISE);
@@ -78,8 +98,8 @@ void main()
 #ifdef HAS_ID
         id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
-        to_right = inner_and_id(vec2(1.0, 0.0), normal, ray, id);
-        to_up = inner_and_id(vec2(0.0, 1.0), normal, ray, id);
+        to_right = inner_and_id(vec2(1.0, 0.0), normal, turned, ray, id);
+        to_up = inner_and_id(vec2(0.0, 1.0), normal, turned, ray, id);
         float left = depth_at(-1.0, 0.0), down = depth_at(0.0, -1.0);
         /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
         float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));

@@ -4,7 +4,9 @@
 uniform vec2 u_far_corner; /* the last pixel */
 
 /* What surfaces and lines may differ by on the same plane: rounding, and a fraction of how steep the surface is in a pixel. */
-const float ROUNDING = 2e-6, SLOPE = 0.05;
+const float ROUNDING = 2e-6, SLOPE = 0.35;
+/* So much deeper than a pixel at the bottom of a valley may it be in truth, steps of the lesser wall. */
+const float VALLEY = 1.0;
 
 float depth_at(vec2 pixel)
 {
@@ -14,6 +16,13 @@ float depth_at(vec2 pixel)
 float smaller(float a, float b)
 {
     return abs(a) < abs(b) ? a : b;
+}
+
+/* At the bottom of a valley along one axis of the picture, how steep the lesser of its walls is from pixel to pixel; 0 elsewhere. The bottom lies between pixels, so that these are
+ * less deep. */
+float least_wall(float here, float before, float behind, vec2 pixel, vec2 way)
+{
+    return max(0.0, min(max(here - before, before - depth_at(pixel - 2.0 * way)), max(here - behind, behind - depth_at(pixel + 2.0 * way))));
 }
 
 /* One pixel a turn, the middle one first, so that most positions are decided after one; software drivers run the first turn in any case. `wanted`: whether the answer
@@ -33,6 +42,11 @@ bool is_visible(vec3 axis, bool wanted)
         /* What lies farther behind than any of these reach is hidden. */
         float far = max(max(max(left, right), max(below, above)), here), near = min(min(min(left, right), min(below, above)), here);
         bool hidden = axis.z > far + 4.0 * (far - near) + ROUNDING;
+        int valley = seen || hidden ? 0 : 1;
+        for (int once = 0; once < valley; once++) {
+            float bottom = max(least_wall(here, left, right, pixel, X), least_wall(here, below, above, pixel, Y));
+            seen = nearer <= ROUNDING + VALLEY * bottom;
+        }
         turns = seen || hidden ? 0 : turns;
         beside = next;
         next = vec2(sign(next.x - next.y), sign(next.x + next.y));
