@@ -973,7 +973,8 @@ static void descriptions_of_every_size(void **state)
             for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
                 lmn_status status = run(w, r, 0, i, sizes[k]);
                 bool       small = sizes[k] < sizeof(size_t);
-                if (status != LMN_USAGE && (small || status != LMN_OK) && r->answer != FILM)
+                /* What a short description lacks keeps its standard, with which the scene may be refused. */
+                if (status != LMN_USAGE && (small || status == LMN_INTERNAL) && r->answer != FILM)
                     fail_msg("%s with struct_size %zu gives %d '%s'", r->name, sizes[k], (int)status, w->error.message);
                 if (status != LMN_OK && !w->error.message[0])
                     fail_msg("%s with struct_size %zu gives no message", r->name, sizes[k]);
