@@ -19,7 +19,7 @@ if(TARGET limner_static)
   install(EXPORT limner-static-targets NAMESPACE limner:: DESTINATION ${LIMNER_CONFIG_DIR} COMPONENT development)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/limner DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN *.h)
+        FILES_MATCHING PATTERN *.h PATTERN *.hpp)
 
 # --- CMake package ---
 if(BUILD_SHARED_LIBS)

@@ -76,6 +76,7 @@ typedef struct lmn_material_desc {
         sizeof(lmn_material_desc), NULL, {1, 1, 1, 1}, 0, 0, false                                                     \
     }
 
+/* Adds a material; meshes name it. *material gets its number. */
 LMN_API lmn_status lmn_scene_add_material(lmn_scene *scene, const lmn_material_desc *desc, uint32_t *material,
                                           lmn_error *error);
 
@@ -98,6 +99,7 @@ typedef struct lmn_camera_desc {
         sizeof(lmn_camera_desc), NULL, false, 30, 1                                                                    \
     }
 
+/* Adds a camera; it is where a node with it is. *camera gets its number. */
 LMN_API lmn_status lmn_scene_add_camera(lmn_scene *scene, const lmn_camera_desc *desc, uint32_t *camera,
                                         lmn_error *error);
 
@@ -118,6 +120,7 @@ typedef struct lmn_light_desc {
         sizeof(lmn_light_desc), NULL, LMN_LIGHT_DIRECTIONAL, {1, 1, 1}, 1, 0, 45                                       \
     }
 
+/* Adds a light; it shines where a node with it is. *light gets its number. */
 LMN_API lmn_status lmn_scene_add_light(lmn_scene *scene, const lmn_light_desc *desc, uint32_t *light, lmn_error *error);
 
 /* Adds a skin: nodes that move the vertices of skinned meshes, and for each the matrix from the mesh to the joint as

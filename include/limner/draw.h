@@ -117,7 +117,8 @@ LMN_API lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn
 /* Frees a drawing and sets the handle to NULL; NULL and a pointer to NULL are accepted. */
 LMN_API void lmn_drawing_destroy(lmn_drawing **drawing);
 
-/* The picture: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, width·4 bytes a row; borrowed from the drawing. */
+/* The picture: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, width·4 bytes a row; borrowed from the drawing.
+ * `width` and `height` may be NULL. NULL, and sizes of 0, without a drawing. */
 LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height);
 
 /* Writes the picture. The format comes from `format` (".png") or, when that is NULL, from the path's ending; path

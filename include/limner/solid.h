@@ -172,6 +172,7 @@ static inline lmn_shape lmn_shape_revolution(const double (*profile)[2], size_t 
 LMN_API lmn_status lmn_scene_add_solid(lmn_scene *scene, const char *name, lmn_operation root, uint32_t *solid,
                                        lmn_error *error);
 
+/* Adds an operation without operands yet. */
 LMN_API lmn_status lmn_solid_add_operation(lmn_scene *scene, uint32_t solid, uint32_t parent, lmn_operation operation,
                                            uint32_t *node, lmn_error *error);
 

@@ -19,6 +19,11 @@
 #include "export/export.h"
 #include "limner/version.h"
 
+static lmn_status missing(const char *caller, const char *what, lmn_error *error)
+{
+    return error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, what);
+}
+
 const char *lmn_version(void)
 {
     return LMN_VERSION;
@@ -28,6 +33,8 @@ lmn_status lmn_renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc
 {
     lmn_renderer_desc full = LMN_RENDERER_DESC_INIT;
     const char       *wish = getenv("LIMNER_GL");
+    if (!out)
+        return missing("lmn_renderer_create", "out", error);
     *out = NULL;
     lmn_status status = desc ? desc_complete(&full, sizeof full, desc, "LMN_RENDERER_DESC_INIT", error) : LMN_OK;
     if (status != LMN_OK)
@@ -119,6 +126,8 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
 lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                     const lmn_draw_desc *desc, lmn_error *error)
 {
+    if (!out)
+        return missing("lmn_draw", "out", error);
     *out = NULL;
     if (!renderer || !scene || !look)
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
@@ -145,17 +154,19 @@ void lmn_drawing_destroy(lmn_drawing **drawing)
 const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height)
 {
     if (width)
-        *width = drawing->width;
+        *width = drawing ? drawing->width : 0;
     if (height)
-        *height = drawing->height;
-    return drawing->pixels;
+        *height = drawing ? drawing->height : 0;
+    return drawing ? drawing->pixels : NULL;
 }
 
 lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
                              lmn_error *error)
 {
     const export_format *chosen = NULL;
-    lmn_status           status = export_choose(&chosen, path, format, false, error);
+    if (!drawing || !path || !*path)
+        return missing("lmn_drawing_write", drawing ? "path" : "drawing", error);
+    lmn_status status = export_choose(&chosen, path, format, false, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -172,6 +183,8 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
 
 lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error)
 {
+    if (!drawing || !directory)
+        return missing("lmn_drawing_write_maps", drawing ? "directory" : "drawing", error);
     if (!drawing->maps.depth)
         return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
     work w;
@@ -187,12 +200,12 @@ char *lmn_drawing_report_json(const lmn_drawing *drawing)
 
 size_t lmn_drawing_warning_count(const lmn_drawing *drawing)
 {
-    return drawing->warnings.count;
+    return drawing ? drawing->warnings.count : 0;
 }
 
 const char *lmn_drawing_warning_at(const lmn_drawing *drawing, size_t index, const char **code, size_t *count)
 {
-    if (index >= drawing->warnings.count)
+    if (!drawing || index >= drawing->warnings.count)
         return NULL;
     const warning *w = &drawing->warnings.items[index];
     if (code)
@@ -233,7 +246,11 @@ static lmn_status bench_looks(char **out, lmn_renderer *renderer, const lmn_scen
 lmn_status lmn_bench_json(char **out, lmn_renderer *renderer, const lmn_scene *scene, const char *const *looks,
                           size_t look_count, const lmn_draw_desc *desc, int repeat, lmn_error *error)
 {
+    if (!out)
+        return missing("lmn_bench_json", "out", error);
     *out = NULL;
+    if (!looks && look_count)
+        return missing("lmn_bench_json", "looks", error);
     if (!renderer || !scene)
         return error_set(error, LMN_USAGE, "a renderer and a scene are needed to measure");
     lmn_draw_desc full;

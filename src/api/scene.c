@@ -45,6 +45,10 @@ lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, c
     full->struct_size = sizeof *full;
     if (full->up_axis != LMN_UP_AUTO && full->up_axis != LMN_UP_Y && full->up_axis != LMN_UP_Z)
         return error_set(error, LMN_USAGE, "%s: up_axis %d is none of AUTO, Y, Z", caller, (int)full->up_axis);
+    for (size_t i = 0; i < full->define_count; i++)
+        if (!full->defines || !full->defines[i])
+            return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,
+                             full->define_count);
     return LMN_OK;
 }
 

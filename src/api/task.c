@@ -44,6 +44,10 @@ lmn_status lmn_task_begin(lmn_task **out, const lmn_task_desc *desc, lmn_error *
         return error_set(error, LMN_USAGE, "the task description was not initialised with lmn_task_desc_standard");
     if (desc->files != LMN_FILES_NEAR && desc->files != LMN_FILES_FOLDER && desc->files != LMN_FILES_ANY)
         return error_set(error, LMN_USAGE, "lmn_task_begin: files %d is none of NEAR, FOLDER, ANY", (int)desc->files);
+    for (size_t i = 0; i < desc->allow_path_count; i++)
+        if (!desc->allow_paths || !desc->allow_paths[i])
+            return error_set(error, LMN_USAGE, "lmn_task_begin: `allow_paths` has a NULL among the first %zu",
+                             desc->allow_path_count);
     lmn_task *t = mem_calloc(1, sizeof *t);
     if (!t)
         return error_memory(error);
