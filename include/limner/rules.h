@@ -6,7 +6,7 @@
  * parameter's place is rule, kind, index (which of the kind's techniques, from 0 on) and key, for example
  *     lmn_look_set_number(look, 0, "lines", 0, "width", 1.5, &error);
  *
- * On any error the look is unchanged. All functions that return an lmn_status can fail with LMN_USAGE: a NULL, a rule,
+ * On any error the look is unchanged. Every function can fail that returns an lmn_status: with LMN_USAGE, a NULL, a rule,
  * kind, technique or parameter that is not there (the hint names the nearest), a value of another type or out of its
  * range (the message names it); those that make something also with LMN_LIMIT (docs/reference/limits.md) and
  * LMN_MEMORY. What is lent stays until the look's next change. A look is changed by one thread at a time and never

@@ -428,9 +428,9 @@ static void test_one_look_by_calls(void **state)
 static void assert_order(const lmn_look *look, const char *expected)
 {
     char   order[64] = "";
-    size_t count = lmn_look_rule_count(look), length = 0;
-    for (size_t i = 0; i < count; i++)
-        length += (size_t)snprintf(order + length, sizeof order - length, "%s", lmn_look_rule_selector(look, i));
+    size_t used = 0;
+    for (size_t i = 0; i < lmn_look_rule_count(look); i++)
+        used += (size_t)snprintf(order + used, sizeof order - used, "%s", lmn_look_rule_selector(look, i));
     assert_string_equal(order, expected);
 }
 
