@@ -6,9 +6,9 @@
  * parameter's place is rule, kind, index (which of the kind's techniques, from 0 on) and key, for example
  *     lmn_look_set_number(look, 0, "lines", 0, "width", 1.5, &error);
  *
- * On any error the look is unchanged. Every function can fail that returns an lmn_status: with LMN_USAGE, a NULL, a rule,
- * kind, technique or parameter that is not there (the hint names the nearest), a value of another type or out of its
- * range (the message names it); those that make something also with LMN_LIMIT (docs/reference/limits.md) and
+ * On any error the look is unchanged. Every function can fail that returns an lmn_status: with LMN_USAGE, a NULL, a
+ * rule, kind, technique or parameter that is not there (the hint names the nearest), a value of another type or out of
+ * its range (the message names it); those that make something also with LMN_LIMIT (docs/reference/limits.md) and
  * LMN_MEMORY. What is lent stays until the look's next change. A look is changed by one thread at a time and never
  * while it is drawn; different looks by different threads. The tables of kinds, techniques and parameters never change:
  * any thread, at any time. No GL context needed. All since 0.1. */
@@ -113,6 +113,7 @@ LMN_API lmn_status lmn_look_create(lmn_look **out, lmn_error *error);
 /* Makes a look that is the same, and from then on a look of its own. End it with lmn_look_destroy. */
 LMN_API lmn_status lmn_look_copy(lmn_look **out, const lmn_look *look, lmn_error *error);
 
+/* Gives it a name, by which messages and reports call it. */
 LMN_API lmn_status lmn_look_set_name(lmn_look *look, const char *name, lmn_error *error);
 
 /* One line on what it is for. NULL: none. Borrowed. */
@@ -197,6 +198,7 @@ typedef struct lmn_param_state {
     bool applies; /* its condition (only_if) holds now */
 } lmn_param_state;
 
+/* Whether it is the default, auto, and matters now. */
 LMN_API lmn_status lmn_look_param_state(const lmn_look *look, size_t rule, const char *kind, size_t index,
                                         const char *key, lmn_param_state *out, lmn_error *error);
 

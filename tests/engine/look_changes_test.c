@@ -220,9 +220,9 @@ static void try_technique(const fixture *f, const lmn_kind_info *k, const char *
     for (size_t i = 0; drawn && lmn_param_at(k->name, technique, i, &p); i++) {
         if ((p.type != LMN_PARAM_FLOAT && p.type != LMN_PARAM_INT) || takes_long(&p) || (p.common && !with_common))
             continue;
-        const double values[] = {p.soft_min, p.soft_min + (p.soft_max - p.soft_min) / 2, p.min};
-        for (size_t v = 0; v < 3; v++)
-            try_value(f, look, k, technique, p.key, p.type == LMN_PARAM_INT ? floor(values[v]) : values[v], t);
+        /* One of three values each, in turn: every one takes a drawing. */
+        const double values[] = {p.soft_min, p.soft_min + (p.soft_max - p.soft_min) / 2, p.min}, value = values[i % 3];
+        try_value(f, look, k, technique, p.key, p.type == LMN_PARAM_INT ? floor(value) : value, t);
     }
     lmn_look_destroy(&look);
 }
@@ -240,7 +240,7 @@ static void test_what_is_not_said_is_not_made(void **state)
         "%zu drawings: %zu changes said that nothing is made, %zu that something is, %zu of them needlessly\n", t.draws,
         t.silent, t.said, t.needless);
     assert_int_equal(t.mistakes, 0);
-    assert_true(t.silent > 400 && t.silent > t.said);
+    assert_true(t.silent > 130 && t.silent > t.said);
 }
 
 /* --- rules and techniques ------------------------------------------------------------------------------- */
