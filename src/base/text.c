@@ -170,6 +170,18 @@ const char *text_parse_int(const char *from, const char *end, long long *out)
     return from;
 }
 
+void text_with_point(char *out, const char *printed)
+{
+    size_t length = 0;
+    for (const char *c = printed; *c; c++) {
+        if (strchr("0123456789+-e", *c))
+            out[length++] = *c;
+        else if (length && out[length - 1] != '.')
+            out[length++] = '.';
+    }
+    out[length] = '\0';
+}
+
 bool text_is_double(const char *whole, double *out)
 {
     const char *end = whole + strlen(whole);

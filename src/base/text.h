@@ -25,6 +25,9 @@ const char *text_parse_int(const char *from, const char *end, long long *out);
 /* The whole string must be the number. */
 bool text_is_double(const char *whole, double *out);
 bool text_is_int(const char *whole, long long *out);
+/* A number that printf has printed, with a point as C has it: the host's decimal point may be any bytes, and all that
+ * is no part of a C number is that point. `out` has room for as many characters. */
+void text_with_point(char *out, const char *printed);
 
 /* Shell-like match: '*' any run, '?' one character. Case-sensitive. */
 bool text_glob(const char *pattern, const char *subject);

@@ -27,8 +27,7 @@ static lmn_status other_type(const param *p, const char *wanted, lmn_error *erro
 /* printf writes the host's decimal point, whatever bytes that is. */
 static void print_number(double value, char out[NUMBER_SIZE])
 {
-    char   raw[NUMBER_SIZE];
-    size_t length = 0;
+    char raw[NUMBER_SIZE];
     if (!isfinite(value)) {
         snprintf(out, NUMBER_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
         return;
@@ -36,14 +35,7 @@ static void print_number(double value, char out[NUMBER_SIZE])
     for (int digits = 6; digits <= 17; digits++) { /* messages show it */
         double again;
         snprintf(raw, sizeof raw, "%.*g", digits, value);
-        length = 0;
-        for (const char *c = raw; *c; c++) {
-            if (strchr("0123456789+-e", *c))
-                out[length++] = *c;
-            else if (length && out[length - 1] != '.')
-                out[length++] = '.';
-        }
-        out[length] = '\0';
+        text_with_point(out, raw);
         if (text_is_double(out, &again) && again == value)
             return;
     }

@@ -47,8 +47,7 @@ size_t param_size(param_type type)
     return 0;
 }
 
-/* The shortest decimal that gives the same float again. printf writes the host's decimal point, which may be any
- * bytes; everything that is no part of a C number is that point. */
+/* The shortest decimal that gives the same float again. */
 static void print_float(float value, char out[NUMBER_SIZE])
 {
     if (value == truncf(value) && fabsf(value) < 1e7f) {
@@ -58,14 +57,7 @@ static void print_float(float value, char out[NUMBER_SIZE])
     for (int digits = 1; digits <= 9; digits++) {
         char raw[NUMBER_SIZE];
         snprintf(raw, sizeof raw, "%.*g", digits, (double)value);
-        size_t length = 0;
-        for (const char *c = raw; *c; c++) {
-            if (strchr("0123456789+-e", *c))
-                out[length++] = *c;
-            else if (length && out[length - 1] != '.')
-                out[length++] = '.';
-        }
-        out[length] = '\0';
+        text_with_point(out, raw);
         double again;
         if (text_is_double(out, &again) && (float)again == value)
             return;
