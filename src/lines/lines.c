@@ -111,6 +111,7 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
     {"t_thin", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
     {"t_whole", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
     {"t_styled", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
+    {"t_crowd", TEXEL_RGBA16F, SCALE_APART, .filtered = true},
 };
 
 static const technique *const techniques[] = {

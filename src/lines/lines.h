@@ -56,7 +56,8 @@ enum { LINES_FOUND_WIDTH = 2 };
 #define LINES_THIN       TARGET_OWN(9) /* the edge map, two pixels wide, of what is not drawn already */
 #define LINES_WHOLE      TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
 #define LINES_STYLED     TARGET_OWN(11) /* the same, run on and cut short */
-enum { LINES_TARGET_COUNT = 12 };
+#define LINES_CROWD      TARGET_OWN(12) /* r: length of lines around, pixels in a square pixel */
+enum { LINES_TARGET_COUNT = 13 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 #define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
 

@@ -5,6 +5,7 @@ flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
 #include "lines/cover.glsl"
+#include "lines/room.glsl"
 layout(location = 0) out vec4 out_edge;
 layout(location = 1) out vec4 out_bare;
 
@@ -51,7 +52,7 @@ float step_at(vec2 axis, vec2 normal)
 void main()
 {
     vec2 along = v_end.xy - v_begin.xy, from = gl_FragCoord.xy - v_begin.xy;
-    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0), half_width = 0.5 * u_line_width;
+    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0), half_width = 0.5 * line_width_at(gl_FragCoord.xy);
     vec3 axis = mix(v_begin.xyz, v_end.xyz, at);
     vec2 way = gl_FragCoord.xy - axis.xy;
     float d = length(way);

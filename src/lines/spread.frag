@@ -3,6 +3,7 @@
  * nearest. */
 #include "lines/reach.glsl"
 #include "lines/cover.glsl"
+#include "lines/room.glsl"
 #ifdef HAS_SEEDS
 #include "lines/seed.glsl"
 #endif
@@ -59,7 +60,7 @@ void look_around(ivec2 middle, inout nearest_edge outer, inout nearest_edge inne
 
 vec2 ink_of(nearest_edge found)
 {
-    float half_width = 0.5 * u_line_width, d = sqrt(found.square), share = abs(found.across) / max(d, 1e-4);
+    float half_width = 0.5 * line_width_at(gl_FragCoord.xy), d = sqrt(found.square), share = abs(found.across) / max(d, 1e-4);
     /* Beyond the end the way there is what the band is measured along. */
     vec2 along = vec2(-found.normal.y, found.normal.x), way = found.normal * share + along * sqrt(max(1.0 - share * share, 0.0));
     float cover = found.normal == vec2(0.0) ? clamp(max(half_width, 1.0) - d, 0.0, 1.0) : line_cover(d, d > 0.01 ? way : found.normal, half_width);

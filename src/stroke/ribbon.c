@@ -216,6 +216,7 @@ typedef struct line {
     bool               thins[2];      /* the line runs out at its beginning, its end: nothing else is there */
     float              thin[2];       /* what is left of the width then, fraction */
     bool               varies, moves; /* width or opacity; position */
+    bool               yields;        /* to other lines: its width varies */
     uint64_t           keys[NOISE_ENDS + 1];
 } line;
 
@@ -243,6 +244,8 @@ static float step_of(const builder *b, const line *l)
         step = fminf(step, pressure_wave / 8);
     if (l->varies && style->taper > 0)
         step = fminf(step, fmaxf(style->taper / 6, 1));
+    if (l->yields)
+        step = fminf(step, 2 * b->job.room.cell);
     return step;
 }
 
@@ -330,6 +333,8 @@ static void weigh(const builder *b, const line *l, ribbon_point *p, span where, 
         return;
     if (!soft)
         p->half *= weight;
+    if (l->yields)
+        p->half *= line_room_at(&b->job.room, p->x, p->y);
     p->half *= taper_at(b, l, p->arc, where);
     if (style->pressure > 0)
         p->half *= 1 + 0.5f * style->pressure *
@@ -482,7 +487,8 @@ static line line_of(const builder *b, uint32_t index, int repeat)
         l.thins[end] = may && (!m->meets || m->half > 0);
         l.thin[end] = m->meets ? m->half / (ribbon_width(&b->job, s) / 2) : taper_end;
     }
-    l.varies = style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
+    l.yields = line_room_yields(&b->job.room, set, s);
+    l.varies = l.yields || style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
     for (int i = 0; i <= NOISE_ENDS; i++)
         l.keys[i] = noise_key(&b->job, s, repeat, i);
     return l;
@@ -530,7 +536,7 @@ static bool look_round(ribbon_job *job, stroke_set *whole, gap_list *gaps)
     bool         good = ribbon_make_whole(whole, job);
     job->strokes = whole;
     good = good && find_chains(job) && ribbon_find_corners(job) && segment_grid_build(&grid, job) &&
-           ribbon_find_meetings(job, &grid);
+           ribbon_find_meetings(job, &grid) && line_room_find(&job->room, job);
     if (good) {
         ribbon_find_halos(gaps, job, &grid);
         ribbon_find_crowds(gaps, job);
@@ -562,6 +568,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     mem_free(b.job.drawn);
     mem_free(b.job.meetings);
     mem_free(b.job.corners);
+    line_room_release(&b.job.room);
     stroke_set_release(&whole);
     if (!b.failed)
         return LMN_OK;

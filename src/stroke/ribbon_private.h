@@ -43,6 +43,14 @@ typedef struct chain_facts {
     size_t   first_corner, corner_count; /* in the job's */
 } chain_facts;
 
+/* How much of the page is inked around each position. Zero-initialise. */
+typedef struct line_room {
+    float *ink;             /* fraction, of cells; NULL: lines do not yield */
+    float  left, top, cell; /* pixels */
+    int    columns, rows;
+    float  cover; /* the most of it */
+} line_room;
+
 typedef struct ribbon_job {
     const stroke_set      *strokes;
     const stroke_style    *style;
@@ -54,6 +62,7 @@ typedef struct ribbon_job {
     struct stroke_meeting *meetings; /* of both ends of each stroke */
     float                 *corners;  /* of chains that are dashed: arcs at which they turn */
     size_t                 corner_count, corner_capacity;
+    line_room              room;
 } ribbon_job;
 
 /* What an end of a stroke comes to. */
@@ -98,6 +107,13 @@ void ribbon_find_halos(gap_list *out, const ribbon_job *job, const segment_grid 
 
 /* Where hidden strokes are left out because more important lines are too near. */
 void ribbon_find_crowds(gap_list *out, const ribbon_job *job);
+
+/* What is left of the width of lines at a position: 0 … 1. */
+float line_room_at(const line_room *room, float x, float y);
+/* Is a stroke finer anywhere than it would be alone? */
+bool line_room_yields(const line_room *room, const stroke_set *set, const stroke *s);
+bool line_room_find(line_room *room, const ribbon_job *job); /* false: out of memory */
+void line_room_release(line_room *room);
 
 /* Finds the corners of all chains, if dashes are wanted. False: out of memory. */
 bool ribbon_find_corners(ribbon_job *job);

@@ -4,10 +4,11 @@
  * depth is affine in screen space on any plane, so a plane gives exactly nothing. Rows E19, E22, and the edge-set
  * test. */
 #include "lines/lines.h"
+#include "stroke/ribbon.h"
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, slope, crease, faint, meet;
+    float        step, slope, crease, faint, meet, cover;
     bool         parts;
 } discontinuity;
 
@@ -29,8 +30,18 @@ static const param params[] = {
                     .unit = UNIT_DEGREES, .as_cosine = true,
                     .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
                            "are two by construction is no accident of facets."),
+    PARAM_FLOAT_ROW(discontinuity, cover, .def = 0.3, .min = 0.02, .max = 1, .soft_min = 0.1, .soft_max = 1,
+                    .unit = UNIT_FRACTION,
+                    .doc = "Lines that crowd get finer, so that they cover no more than this of the page around them; "
+                           "at 1 all keep their width."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
+
+static void own_strokes(stroke_options *options, stroke_style *style, const void *values)
+{
+    lines_as_strokes(options, style, values);
+    style->cover = ((const discontinuity *)values)->cover;
+}
 
 static const pass passes[] = {
     LINES_PASSES_BEFORE,
@@ -38,9 +49,20 @@ static const pass passes[] = {
      .shader = "lines/edge/pairs.frag",
      .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
      .writes = LINES_PAIRS},
+    {.name = "crowd",
+     .shader = "lines/edge/crowd.frag",
+     .reads = {LINES_PAIRS},
+     .writes = LINES_CROWD,
+     .when = "cover<1"},
+    {.name = "blur crowd",
+     .shader = "lines/edge/crowd_blur.frag",
+     .reads = {LINES_CROWD},
+     .writes = LINES_CROWD,
+     .repeat = 2,
+     .when = "cover<1"},
     {.name = "records",
      .records = true,
-     .reads = {TARGET_DEPTH, LINES_PAIRS},
+     .reads = {TARGET_DEPTH, LINES_PAIRS, LINES_CROWD},
      .writes = TARGET_EDGE,
      .writes_too = LINES_BARE},
     {.name = "tiles of pairs",
@@ -57,7 +79,7 @@ static const pass passes[] = {
     LINES_PASSES_FLOOD(LINES_THIN, LINES_FEET),
     {.name = "spread",
      .shader = "lines/spread.frag",
-     .reads = {LINES_THIN, LINES_FEET, LINES_TILES, LINES_SEEDS},
+     .reads = {LINES_THIN, LINES_FEET, LINES_TILES, LINES_SEEDS, LINES_CROWD},
      .writes = TARGET_EDGE,
      .tiles = LINES_TILES,
      .onto = true,
@@ -65,7 +87,7 @@ static const pass passes[] = {
      .with = LINES_BARE},
     {.name = "spread all",
      .shader = "lines/spread.frag",
-     .reads = {LINES_THIN, LINES_FEET, LINES_TILES, LINES_SEEDS},
+     .reads = {LINES_THIN, LINES_FEET, LINES_TILES, LINES_SEEDS, LINES_CROWD},
      .writes = TARGET_EDGE,
      .tiles = LINES_TILES,
      .without = LINES_BARE},
@@ -99,5 +121,5 @@ const technique lines_discontinuity = {
     .passes = passes,
     .pass_count = PARAM_COUNT(passes),
     LINES_TARGETS,
-    .lines = &(const lines_row){.detect = NULL},
+    .lines = &(const lines_row){.as_strokes = own_strokes},
 };

@@ -56,6 +56,10 @@ static const param params[] = {
            .doc = "How far points of lines may move so that fewer are needed."),
     NUMBER("crease_width", style.crease_width, .def = 0.7, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
            .doc = "Width of all lines that are no outlines, fraction of the width."),
+    NUMBER("cover", style.cover, .def = 0.3, .min = 0.02, .max = 1, .soft_min = 0.1, .soft_max = 1,
+           .unit = UNIT_FRACTION,
+           .doc = "Lines that crowd get finer, so that they cover no more than this of the page around them, with "
+                  "visibility exact; at 1 all keep their width."),
     CHOICE("brush", style.brush, .names = brush_names, .doc = "What the lines are drawn with."),
     NUMBER("taper", style.taper, .def = 0, .min = 0, .max = 150, .soft_max = 45, .unit = UNIT_PT, .along = true,
            .doc = "Length over which lines thin out towards their ends; 0 leaves them as wide as they are."),
