@@ -216,7 +216,7 @@ typedef struct line {
     bool               thins[2];      /* the line runs out at its beginning, its end: nothing else is there */
     float              thin[2];       /* what is left of the width then, fraction */
     bool               varies, moves; /* width or opacity; position */
-    bool               yields;        /* to other lines: its width varies */
+    float              pen;           /* what crowding leaves of the width, where it does not vary */
     uint64_t           keys[NOISE_ENDS + 1];
 } line;
 
@@ -244,7 +244,7 @@ static float step_of(const builder *b, const line *l)
         step = fminf(step, pressure_wave / 8);
     if (l->varies && style->taper > 0)
         step = fminf(step, fmaxf(style->taper / 6, 1));
-    if (l->yields)
+    if (l->varies && l->pen < 1)
         step = fminf(step, 2 * b->job.room.cell);
     return step;
 }
@@ -327,14 +327,12 @@ static void weigh(const builder *b, const line *l, ribbon_point *p, span where, 
     const stroke_style *style = b->job.style;
     float               weight = isfinite(p->alpha) ? fminf(fmaxf(p->alpha, 0), 1) : 1;
     bool                soft = style->brush == BRUSH_PENCIL || style->brush == BRUSH_CHARCOAL;
-    p->half = half;
+    p->half = half * (l->varies ? line_room_at(&b->job.room, p->x, p->y) : l->pen);
     p->alpha = soft ? alpha * weight : alpha;
     if (!l->varies)
         return;
     if (!soft)
         p->half *= weight;
-    if (l->yields)
-        p->half *= line_room_at(&b->job.room, p->x, p->y);
     p->half *= taper_at(b, l, p->arc, where);
     if (style->pressure > 0)
         p->half *= 1 + 0.5f * style->pressure *
@@ -487,8 +485,8 @@ static line line_of(const builder *b, uint32_t index, int repeat)
         l.thins[end] = may && (!m->meets || m->half > 0);
         l.thin[end] = m->meets ? m->half / (ribbon_width(&b->job, s) / 2) : taper_end;
     }
-    l.yields = line_room_yields(&b->job.room, set, s);
-    l.varies = l.yields || style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
+    l.pen = line_room_pen(&b->job.room, set, s);
+    l.varies = style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
     for (int i = 0; i <= NOISE_ENDS; i++)
         l.keys[i] = noise_key(&b->job, s, repeat, i);
     return l;

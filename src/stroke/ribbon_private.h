@@ -110,10 +110,10 @@ void ribbon_find_crowds(gap_list *out, const ribbon_job *job);
 
 /* What is left of the width of lines at a position: 0 … 1. */
 float line_room_at(const line_room *room, float x, float y);
-/* Is a stroke finer anywhere than it would be alone? */
-bool line_room_yields(const line_room *room, const stroke_set *set, const stroke *s);
-bool line_room_find(line_room *room, const ribbon_job *job); /* false: out of memory */
-void line_room_release(line_room *room);
+/* The same for a line of one width: of a few pens the one that half of the stroke has room for. */
+float line_room_pen(const line_room *room, const stroke_set *set, const stroke *s);
+bool  line_room_find(line_room *room, const ribbon_job *job); /* false: out of memory */
+void  line_room_release(line_room *room);
 
 /* Finds the corners of all chains, if dashes are wanted. False: out of memory. */
 bool ribbon_find_corners(ribbon_job *job);

@@ -4,7 +4,8 @@
  * found in pixels (lines/edge/crowd_blur.frag).
  *
  * Around is a Gaussian with a deviation of two widths: one line alone has a share of 0.2 in its middle, and three that
- * meet in a corner 0.3.
+ * meet in a corner 0.3. Lines whose width varies anyway yield along them; those of one width keep one all along, so
+ * that they stay lines for plotters and CAD programs.
  */
 #include "stroke/ribbon_private.h"
 
@@ -12,7 +13,7 @@
 
 #include "base/memory.h"
 
-enum { CELLS_MOST = 2048, REACH = 5 /* cells */ };
+enum { CELLS_MOST = 2048, REACH = 5 /* cells */, PENS_AN_OCTAVE = 4, PENS = 24 };
 static const float  deviation_cells = 2; /* of one width each */
 static const float  hidden_share = 0.5f; /* of hidden lines: most are dashed */
 static const double least_ink = 1e-6;
@@ -143,16 +144,33 @@ float line_room_at(const line_room *room, float x, float y)
     return (float)fmin((double)room->cover / fmax((1 - t) * above + t * below, least_ink), 1);
 }
 
-bool line_room_yields(const line_room *room, const stroke_set *set, const stroke *s)
+/* Pens from the whole width down: each finer than the last by the same factor. */
+static float pen(int number)
 {
+    return exp2f(-(float)number / PENS_AN_OCTAVE);
+}
+
+static int pen_for(float share)
+{
+    int number = (int)roundf(-PENS_AN_OCTAVE * log2f(fmaxf(share, 1e-6f)));
+    return number < PENS ? number : PENS - 1;
+}
+
+float line_room_pen(const line_room *room, const stroke_set *set, const stroke *s)
+{
+    size_t taken[PENS] = {0}, count = 0, so_far = 0;
     for (uint32_t k = 0; room->ink && k + 1 < s->count; k++) {
         const stroke_point *p = &set->points[s->first + k], *q = p + 1;
         int                 steps = is_usable(p, q) ? (int)(hypotf(q->x - p->x, q->y - p->y) / room->cell) + 1 : 0;
-        for (int i = 0; i <= steps; i++) {
-            float t = (float)i / (float)(steps > 0 ? steps : 1);
-            if (line_room_at(room, p->x + t * (q->x - p->x), p->y + t * (q->y - p->y)) < 1)
-                return true;
+        for (int i = 0; i < steps; i++, count++) {
+            float t = ((float)i + 0.5f) / (float)steps;
+            taken[pen_for(line_room_at(room, p->x + t * (q->x - p->x), p->y + t * (q->y - p->y)))]++;
         }
     }
-    return false;
+    for (int i = 0; i < PENS; i++) {
+        so_far += taken[i];
+        if (2 * so_far > count)
+            return pen(i);
+    }
+    return 1;
 }

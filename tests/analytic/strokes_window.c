@@ -262,7 +262,7 @@ static void joints(void)
         for (size_t w = 0; w < sizeof wanted / sizeof *wanted; w++) {
             double least = 1;
             shot   t;
-            if (shot_of_shape(&t, &s, "star.ply", look_of(modes[mode], wanted[w], ""), NULL, &view))
+            if (shot_of_shape(&t, &s, "star.ply", look_of(modes[mode], wanted[w], ",\"cover\":1"), NULL, &view))
                 for (uint32_t i = 0; i < s.parts[0].vertex_count - 1; i++)
                     least =
                         fmin(least, least_ink(&t, shot_project(&t, shape_point(&s.parts[0], i)), wanted[w] / 2 - 0.5));
