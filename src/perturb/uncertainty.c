@@ -93,8 +93,9 @@ static const param params[] = {
     PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much the weight of lines varies along them."),
     PARAM_FLOAT_ROW(uncertainty, narrow, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lock=object",
-                    .doc = "Lines and fill of a narrow part are moved by no more than this fraction of its width on the "
-                           "sheet, so that both stay together; 0: as far as those of wide ones."),
+                    .doc =
+                        "Lines and fill of a narrow part are moved by no more than this fraction of its width on the "
+                        "sheet, so that both stay together; 0: as far as those of wide ones."),
     PARAM_COLOUR_ROW(uncertainty, fallback, .can_auto = true, .def_auto = true, .auto_ground = true,
                      .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the "
                             "page's, none shows what "

@@ -1,7 +1,7 @@
 /* gooch: tone from cool to warm, so that shadow stays readable and lines stay the darkest, highlights the lightest
  * thing. Nienhaus 2005, section 4.6 and listings 3-1, 3-2; Großmann 2011, section 3.2.2; rows E10, Großmann 2. The
- * sources leave the colours open; these are far apart as in Gooch's paper (1998, section 4): a pure blue, a pure yellow, and 0.25 and
- * 0.6 of the model's own. */
+ * sources leave the colours open; these are far apart as in Gooch's paper (1998, section 4): a pure blue, a pure
+ * yellow, and 0.25 and 0.6 of the model's own. */
 #include "surface/surface.h"
 
 typedef struct gooch {

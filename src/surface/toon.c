@@ -22,9 +22,10 @@ static const param params[] = {
     PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2,
                     .doc = "Saturation of the tones; cartoons like more than nature."),
     PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 24, .soft_max = 9, .unit = UNIT_PT,
-                    .doc = "Light and textures are smoothed over this radius before tones are told apart, within a part "
-                           "and not across creases: borders of tones no longer follow the faces of a mesh; 0 leaves "
-                           "both as they are. Not in what is seen through."),
+                    .doc =
+                        "Light and textures are smoothed over this radius before tones are told apart, within a part "
+                        "and not across creases: borders of tones no longer follow the faces of a mesh; 0 leaves "
+                        "both as they are. Not in what is seen through."),
     PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
                     .doc = "No fill is shown darker than this, so that ink stays legible on it."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,

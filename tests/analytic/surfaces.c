@@ -209,6 +209,66 @@ static void blur_is_a_box(void)
     shot_release(&blurred);
 }
 
+/* How much the border of the lightest tone turns from row to row on a ball of few faces: mean square of its second
+ * difference. */
+static double border_kinks(double smoothing, double *rows)
+{
+    char   surface[160];
+    shape  s = {0};
+    shot   ball;
+    double sum = 0;
+    int    last[3] = {-1, -1, -1};
+    enum { STEP = 6 };
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"smoothing\":%g}", smoothing);
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 10, 16, true);
+    *rows = 0;
+    if (shot_of_shape(&ball, &s, "coarse.glb", surface_look(surface, "1,0.3,0.5", 0), NULL, &front))
+        for (int y = 80; y < 180; y += STEP) {
+            int border = -1;
+            for (int x = 60; x < 220 && border < 0; x++) {
+                const uint8_t *p = &ball.picture[4 * (y * 256 + x)];
+                border =
+                    p[0] > 1.05 * ball.picture[4 * (y * 256 + x - 1)] && !isinf(ball.depth[y * 256 + x - 1]) ? x : -1;
+            }
+            last[0] = last[1];
+            last[1] = last[2];
+            last[2] = border;
+            if (last[0] >= 0 && last[1] >= 0 && border >= 0) {
+                sum += pow(last[0] - 2 * last[1] + border, 2);
+                ++*rows;
+            }
+        }
+    shot_release(&ball);
+    shape_release(&s);
+    return *rows > 0 ? sum / *rows : 0;
+}
+
+static void tones_leave_the_faces(void)
+{
+    double rows, smooth_rows, faces = border_kinks(0, &rows), smooth = border_kinks(10, &smooth_rows);
+    check_at_least("E12", fmin(rows, smooth_rows), 8, "rows with a border of tone");
+    check_at_least("E12", faces, 1, "square of the border's turns on a coarse ball, px²");
+    check_at_most("E12", smooth / faces, 0.6, "  smoothed, over that");
+}
+
+static void dark_fill_is_legible(void)
+{
+    for (int k = 0; k < 4; k++) {
+        char   surface[160];
+        double darkest = 1, floor = k & 1 ? 0.3 : 0;
+        shot   s;
+        snprintf(surface, sizeof surface,
+                 "{\"technique\":\"toon\",\"shadow\":0,\"highlight\":0,\"smoothing\":%d,\"darkest\":%g}", k & 2, floor);
+        if (take_ball(&s, surface_look(surface, "1,0.1,0.3", 0), NULL))
+            for (int i = 0; i < 256 * 256; i++)
+                if (!isinf(s.depth[i]))
+                    darkest = fmin(darkest, s.picture[4 * i] / 255.0);
+        check_near("E12", darkest, floor, 0.005, "the darkest fill shown, smoothed over %d", k & 2);
+        shot_release(&s);
+    }
+}
+
 /* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
@@ -245,6 +305,24 @@ static void gooch_ramp(void)
     check_at_most("E10", worst, 1.5, "levels between Gooch's shading and its closed form");
     check_at_most("G2", back, 0, "steps at which the hue goes back towards cool while n.l rises");
     check_at_least("G2", darkest, 0.05, "luminance of the darkest place");
+    shot_release(&s);
+}
+
+/* Gooch et al. 1998: blue on the one side, yellow on the other, on grey. */
+static void gooch_colours_are_apart(void)
+{
+    dvec light = dvec_unit(dvec_of(1, 0, 0.2));
+    int  coolest = 0, warmest = 0;
+    shot s;
+    if (take_ball(&s, surface_look("{\"technique\":\"gooch\",\"specular\":0}", "1,0,0.2", 0), NULL))
+        for (int i = 0; i < 256 * 256; i++) {
+            const uint8_t *p = &s.picture[4 * i];
+            double         turned = isinf(s.depth[i]) ? 0 : dvec_dot(light, dvec_from(s.normal[i]));
+            coolest = turned < -0.7 && p[2] - p[0] > coolest ? p[2] - p[0] : coolest;
+            warmest = turned > 0.7 && p[0] - p[2] > warmest ? p[0] - p[2] : warmest;
+        }
+    check_at_least("E10", coolest, 60, "levels by which blue is above red on the cool side");
+    check_at_least("E10", warmest, 30, "levels by which red is above blue on the warm side");
     shot_release(&s);
 }
 
@@ -384,6 +462,9 @@ int main(int argc, char **argv)
         {"blur", blur_is_a_box},
         {"gooch", gooch_ramp},
         {"gooch-lines", gooch_lines},
+        {"gooch-apart", gooch_colours_are_apart},
+        {"faces", tones_leave_the_faces},
+        {"legible", dark_fill_is_legible},
         {"wax", wax_wraps},
         {"light", light_comes_from_where_it_is_said},
         {"texture", texture_stands_upright},
