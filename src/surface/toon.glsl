@@ -40,8 +40,8 @@ vec3 eye_at(vec2 pixel, float depth)
  * Fermat's spiral, the same at each pixel, so that what comes out is as smooth as the weights are. */
 surroundings surroundings_of(surface_point p)
 {
-    const int TAPS = 48;
-    vec3 sum = p.normal, across = vec3(0.0), up = vec3(0.0), own = shown(p.albedo.rgb), colours = own;
+    const int TAPS = 32;
+    vec3 sum = p.normal, across = vec3(0.0), up = vec3(0.0), own = sqrt(p.albedo.rgb), colours = own; /* as near to what is shown as it takes */
     vec2 offsets = vec2(0.0), squares = vec2(0.0);
     float weights = 1.0, colour_weights = 1.0;
     for (int i = 0; i < TAPS; i++) {
@@ -54,9 +54,9 @@ surroundings surroundings_of(surface_point p)
         vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -found.xyz : found.xyz;
         vec3 away = eye_at(vec2(pixel) + 0.5, found.w) - p.eye;
         float step = abs(dot(p.normal, away)) / max(length(away), 1e-12);
-        float weight = (1.0 - distance * distance) * smoothstep(0.5, 0.8, dot(normal, p.normal)) * (1.0 - smoothstep(0.4, 0.7, step));
+        float weight = (1.0 - distance * distance) * smoothstep(0.3, 0.6, dot(normal, p.normal)) * (1.0 - smoothstep(0.65, 0.9, step));
         weight = id.r == p.part ? weight : 0.0;
-        vec3 colour = shown(texelFetch(t_albedo, pixel, 0).rgb);
+        vec3 colour = sqrt(texelFetch(t_albedo, pixel, 0).rgb);
         float alike = weight * exp(-30.0 * dot(colour - own, colour - own));
         sum += weight * normal;
         across += weight * offset.x * normal;
@@ -70,7 +70,7 @@ surroundings surroundings_of(surface_point p)
     vec3 mean = sum / weights;
     vec2 spread = max(squares - offsets * offsets / weights, vec2(1e-3));
     return surroundings(normalize(mean), (across - offsets.x * mean) / spread.x, (up - offsets.y * mean) / spread.y,
-                        light_shown_as(colours / colour_weights));
+                        pow(colours / colour_weights, vec3(2.0)));
 }
 #endif
 
