@@ -142,6 +142,19 @@ float say_of(vec2 pixel, vec4 surface)
 }
 #endif
 
+#ifdef HAS_WIDTHS
+/* What the narrowest part around a texel leaves of displacements. Beyond a narrow part's border too, where its lines and its fill are looked up. */
+float width_fraction()
+{
+    ivec2 last = textureSize(t_widths, 0) - 1;
+    float least = 1.0;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            least = min(least, texelFetch(t_widths, clamp(ivec2(gl_FragCoord.xy) + ivec2(x, y), ivec2(0), last), 0).r);
+    return least;
+}
+#endif
+
 void main()
 {
     vec2 pixel = min(floor(gl_FragCoord.xy * u_cell), u_size - 1.0);
@@ -154,6 +167,10 @@ void main()
         /* A surface without a say still counts where there is no other. */
         say = max(say_of(pixel, surface), 0.002);
 #endif
-        out_0 = vec4(trace_of(pixel, surface) * say, say);
+        vec3 trace = trace_of(pixel, surface);
+#ifdef HAS_WIDTHS
+        trace.xy *= width_fraction();
+#endif
+        out_0 = vec4(trace * say, say);
     }
 }

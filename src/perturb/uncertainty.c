@@ -21,7 +21,7 @@ typedef struct uncertainty {
     float   edges_xx, edges_xy, edges_yx, edges_yy, shades_xx, shades_xy, shades_yx, shades_yy;
     float   rough, tooth, grain;
     int32_t repeat;
-    float   repeat_degree, pressure;
+    float   repeat_degree, pressure, narrow;
     palette repeat_colours;
     colour  fallback;
 } uncertainty;
@@ -92,6 +92,10 @@ static const param params[] = {
                       .doc = "Colours of the repetitions, in turn; the first time lines have their own."),
     PARAM_FLOAT_ROW(uncertainty, pressure, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much the weight of lines varies along them."),
+    PARAM_FLOAT_ROW(uncertainty, narrow, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lock=object",
+                    .doc =
+                        "Lines and fill of a narrow part are moved by no more than this fraction of its width on the "
+                        "sheet, so that both stay together; 0: as far as those of wide ones."),
     PARAM_COLOUR_ROW(uncertainty, fallback, .can_auto = true, .def_auto = true, .auto_ground = true,
                      .doc = "Ground inside the outline where the fill fell short or left grains bare; auto takes the "
                             "page's, none shows what "
@@ -169,10 +173,13 @@ static const perturbation perturbs = {
 /* Uncertainty of the surfaces, times how sure it is; a: how sure. And on the way to the next. */
 #define TRACES     TARGET_OWN(1)
 #define TRACES_ROW TARGET_OWN(2)
+/* How far a surface may move anything, fraction of the most, by how wide its part is. */
+#define WIDTHS TARGET_OWN(3)
 static const target_row targets[] = {
     {"t_enlarged", TEXEL_RGBA32F},
     {"t_traces", TEXEL_RGBA32F, SCALE_CELL},
     {"t_traces_row", TEXEL_RGBA32F, SCALE_CELL},
+    {"t_widths", TEXEL_RGBA32F, SCALE_CELL},
 };
 
 static const pass passes[] = {
@@ -182,9 +189,14 @@ static const pass passes[] = {
      .enlarge = "enlarge",
      .writes = ENLARGED,
      .when = "lock=object&outward=enlarged"},
+    {.name = "widths",
+     .shader = "perturb/widths.frag",
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID},
+     .writes = WIDTHS,
+     .when = "lock=object&narrow>0"},
     {.name = "traces",
      .shader = "perturb/traces.frag",
-     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_REST, ENLARGED},
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_REST, ENLARGED, WIDTHS},
      .writes = TRACES,
      .when = "lock=object"},
     {.name = "spread across",

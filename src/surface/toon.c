@@ -4,7 +4,7 @@
 
 typedef struct toon {
     int32_t bands;
-    float   softness, shadow, light, highlight, saturation;
+    float   softness, shadow, light, highlight, saturation, smoothing, darkest;
     bool    seed_blur;
 } toon;
 
@@ -21,6 +21,13 @@ static const param params[] = {
                     .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
     PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2,
                     .doc = "Saturation of the tones; cartoons like more than nature."),
+    PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 24, .soft_max = 9, .unit = UNIT_PT,
+                    .doc =
+                        "Light and textures are smoothed over this radius before tones are told apart, within a part "
+                        "and not across creases: borders of tones no longer follow the faces of a mesh; 0 leaves "
+                        "both as they are. Not in what is seen through."),
+    PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
+                    .doc = "No fill is shown darker than this, so that ink stays legible on it."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
                    .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
                           "border's own distance."),
@@ -44,6 +51,8 @@ const technique surface_toon = {
     .channels = CHANNEL_ID,
     .passes = passes,
     .pass_count = PARAM_COUNT(passes),
-    /* Borders are measured by derivatives, which a G-buffer does not have where two surfaces meet. */
-    .surface = &(const surface_row){.shader = "surface/toon.glsl", .forward = true},
+    /* Unsmoothed, borders are measured by derivatives, which a G-buffer does not have where two surfaces meet. */
+    .surface = &(const surface_row){.shader = "surface/toon.glsl",
+                                    .forward_when = "smoothing=0",
+                                    .deferred_when = "smoothing>0"},
 };

@@ -1,14 +1,14 @@
 #include "light/light.glsl"
 
 /* Brightness of the summed light in steps; a step's border is blended over u_softness pixels, measured by how fast the light
- * changes on the screen. */
-float banded(float light)
+ * changes on the screen: by `slope` a pixel. */
+float banded(float light, float slope)
 {
     float bands = float(u_bands);
     float scaled = clamp(light, 0.0, 0.9999) * bands;
     float band = floor(scaled);
     float to_border = scaled - band;
-    float width = u_softness * fwidth(light) * bands;
+    float width = u_softness * slope * bands;
     float lower = band / max(bands - 1.0, 1.0);
     float upper = min(band + 1.0, bands - 1.0) / max(bands - 1.0, 1.0);
     float before = max(band - 1.0, 0.0) / max(bands - 1.0, 1.0);
@@ -19,17 +19,92 @@ float banded(float light)
     return lower + (upper - lower) * rise - (lower - before) * fall;
 }
 
+float tone_light(surface_point p)
+{
+    return min(dot(diffuse_light(p), vec3(0.2126, 0.7152, 0.0722)), 1.0);
+}
+
+#ifdef SHADED_LATER
+/* What a surface is like around a position of the page: its mean normal, by how much that turns a pixel to the right and up, and its colour
+ * without detail. */
+struct surroundings {
+    vec3 normal, across, up, albedo;
+};
+
+vec3 eye_at(vec2 pixel, float depth)
+{
+    return vec3((2.0 * pixel / u_size - 1.0) * u_unproject * (u_perspective > 0.5 ? depth : 1.0), -depth);
+}
+
+/* Over a disc of u_smoothing pixels: not across borders of parts, creases and steps of depth, and of colours only those that are alike. Taps lie on
+ * Fermat's spiral, the same at each pixel, so that what comes out is as smooth as the weights are. */
+surroundings surroundings_of(surface_point p)
+{
+    const int TAPS = 32;
+    vec3 sum = p.normal, across = vec3(0.0), up = vec3(0.0), own = sqrt(p.albedo.rgb), colours = own; /* as near to what is shown as it takes */
+    vec2 offsets = vec2(0.0), squares = vec2(0.0);
+    float weights = 1.0, colour_weights = 1.0;
+    for (int i = 0; i < TAPS; i++) {
+        float distance = sqrt((float(i) + 0.5) / float(TAPS)), angle = 2.39996323 * float(i);
+        vec2 at = floor(gl_FragCoord.xy + u_smoothing * distance * vec2(cos(angle), sin(angle)));
+        ivec2 pixel = ivec2(clamp(at, vec2(0.0), u_size - 1.0));
+        vec2 offset = vec2(pixel) + 0.5 - gl_FragCoord.xy;
+        uvec2 id = texelFetch(t_id, pixel, 0).rg;
+        vec4 found = texelFetch(t_normal_depth, pixel, 0);
+        vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -found.xyz : found.xyz;
+        vec3 away = eye_at(vec2(pixel) + 0.5, found.w) - p.eye;
+        float step = abs(dot(p.normal, away)) / max(length(away), 1e-12);
+        float weight = (1.0 - distance * distance) * smoothstep(0.3, 0.6, dot(normal, p.normal)) * (1.0 - smoothstep(0.65, 0.9, step));
+        weight = id.r == p.part ? weight : 0.0;
+        vec3 colour = sqrt(texelFetch(t_albedo, pixel, 0).rgb);
+        float alike = weight * exp(-30.0 * dot(colour - own, colour - own));
+        sum += weight * normal;
+        across += weight * offset.x * normal;
+        up += weight * offset.y * normal;
+        offsets += weight * offset;
+        squares += weight * offset * offset;
+        weights += weight;
+        colours += alike * colour;
+        colour_weights += alike;
+    }
+    vec3 mean = sum / weights;
+    vec2 spread = max(squares - offsets * offsets / weights, vec2(1e-3));
+    return surroundings(normalize(mean), (across - offsets.x * mean) / spread.x, (up - offsets.y * mean) / spread.y,
+                        pow(colours / colour_weights, vec3(2.0)));
+}
+#endif
+
+/* The colour that is shown, and no fill is darker than u_darkest: ink stays legible on it. What is darker still keeps its order. */
+vec3 legible(vec3 colour)
+{
+    float left = 1.0 - clamp(dot(colour, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
+    return colour + u_darkest * left * left * left;
+}
+
 vec4 surface_colour(surface_point p)
 {
     if (p.unlit)
         return vec4(shown(p.albedo.rgb), 1.0);
-    float light = min(dot(diffuse_light(p), vec3(0.2126, 0.7152, 0.0722)), 1.0);
-    float brightness = mix(u_shadow, u_light, u_bands > 1 ? banded(light) : 1.0);
+#ifdef SHADED_LATER
+    surroundings around = surroundings_of(p);
+    surface_point right = p, above = p;
+    p.normal = around.normal;
+    p.albedo.rgb = around.albedo;
+    right.normal = normalize(around.normal + around.across);
+    above.normal = normalize(around.normal + around.up);
+    float light = tone_light(p), spot = highlight(p, 40.0);
+    float slope = length(vec2(tone_light(right), tone_light(above)) - light);
+    float spot_slope = length(vec2(highlight(right, 40.0), highlight(above, 40.0)) - spot);
+#else
+    float light = tone_light(p), spot = highlight(p, 40.0);
+    float slope = fwidth(light), spot_slope = fwidth(spot);
+#endif
+    float brightness = mix(u_shadow, u_light, u_bands > 1 ? banded(light, slope) : 1.0);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
     vec3 colour = max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0)) * brightness;
+    colour = light_shown_as(min(legible(shown(min(colour, vec3(1.0)))), vec3(1.0)));
     if (u_highlight > 0.0) {
-        float spot = highlight(p, 40.0);
-        float width = max(u_softness * fwidth(spot), 1e-4);
+        float width = max(u_softness * spot_slope, 1e-4);
         colour += u_highlight * smoothstep(0.5 - 0.5 * width, 0.5 + 0.5 * width, spot);
     }
     return vec4(shown(min(colour, vec3(1.0))), 1.0);

@@ -978,6 +978,44 @@ static void by_curvature(void)
     shape_release(&s);
 }
 
+/* --- narrow parts ----------------------------------------------------------------------------------------- */
+
+/* Greatest displacement on a bar, pixels, and the bar's width. */
+static double bar_moves(const char *settings, double amount, int *width)
+{
+    shape  s = {0};
+    shot   field;
+    double worst = 0;
+    shape_box(&s, "bar", dvec_of(-0.06, -1, -0.1), dvec_of(0.06, 1, 0.1));
+    *width = 0;
+    if (field_of(&field, &s, settings, &front))
+        for (int y = 0; y < field.height; y++)
+            for (int x = 0; x < field.width; x++)
+                if (!isinf(field.depth[y * field.width + x])) {
+                    *width += y == field.height / 2;
+                    worst = fmax(worst, amount * fmax(fabs(at(&field, x, y, 0)), fabs(at(&field, x, y, 1))));
+                }
+    shot_release(&field);
+    shape_release(&s);
+    return worst;
+}
+
+static void narrow_parts(void)
+{
+    int    width, same;
+    double freely = bar_moves("\"amount\":20", 20, &width), held = bar_moves("\"amount\":20,\"narrow\":0.2", 20, &same);
+    check_at_least("S02", width, 4, "pixels across the bar");
+    check_at_least("S02", freely, 0.5 * width, "pixels that the bar is moved by freely");
+    check_at_most("S02", held, 0.2 * width + 0.5, "  and by with a fifth of its width allowed");
+    check_at_least("S02", held, 0.02 * width, "  which is not nothing");
+    shot wall, same_wall;
+    bool ok = wall_field(&wall, "\"seed\":1", &front);
+    if (wall_field(&same_wall, "\"seed\":1,\"narrow\":0.2", &front) && ok)
+        check_at_most("S02", largest_difference(&wall, &same_wall), 0, "change of the field on a wide wall");
+    shot_release(&wall);
+    shot_release(&same_wall);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -998,6 +1036,7 @@ int main(int argc, char **argv)
         {"outside", outside},
         {"normal", by_normal},
         {"curvature", by_curvature},
+        {"narrow", narrow_parts},
     };
     int status = check_main(argc, argv, "sketch_field", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -209,6 +209,57 @@ static void blur_is_a_box(void)
     shot_release(&blurred);
 }
 
+/* Pairs of neighbouring pixels of different tones on a ball whose normals are scanned with noise. */
+static int tone_changes(double smoothing)
+{
+    char     surface[160];
+    shape    s = {0};
+    shot     ball;
+    int      changes = 0;
+    uint32_t noise = 1;
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"smoothing\":%g}", smoothing);
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
+    for (uint32_t i = 0; i < s.parts[0].vertex_count; i++)
+        for (int k = 0; k < 3; k++) {
+            noise = noise * 1664525u + 1013904223u;
+            s.parts[0].normals[i][k] += 0.2f * ((float)(noise >> 8) / 8388608.0f - 1);
+        }
+    if (shot_of_shape(&ball, &s, "noisy.glb", surface_look(surface, "1,0.3,0.5", 0), NULL, &front))
+        for (int y = 80; y < 176; y++)
+            for (int x = 81; x < 176; x++)
+                changes += ball.picture[4 * (y * 256 + x)] != ball.picture[4 * (y * 256 + x - 1)];
+    shot_release(&ball);
+    shape_release(&s);
+    return changes;
+}
+
+/* Each row crosses each border between tones once where there are no islands and borders are smooth. */
+static void tones_leave_the_faces(void)
+{
+    int noisy = tone_changes(0), smooth = tone_changes(12);
+    check_at_least("E12", noisy, 350, "changes of tone along rows of a noisy scan");
+    check_at_least("E12", smooth, 96, "  smoothed");
+    check_at_most("E12", smooth, 230, "  smoothed: hardly more than two a row");
+}
+
+static void dark_fill_is_legible(void)
+{
+    for (int k = 0; k < 4; k++) {
+        char   surface[160];
+        double darkest = 1, floor = k & 1 ? 0.3 : 0;
+        shot   s;
+        snprintf(surface, sizeof surface,
+                 "{\"technique\":\"toon\",\"shadow\":0,\"highlight\":0,\"smoothing\":%d,\"darkest\":%g}", k & 2, floor);
+        if (take_ball(&s, surface_look(surface, "1,0.1,0.3", 0), NULL))
+            for (int i = 0; i < 256 * 256; i++)
+                if (!isinf(s.depth[i]))
+                    darkest = fmin(darkest, s.picture[4 * i] / 255.0);
+        check_near("E12", darkest, floor, 0.005, "the darkest fill shown, smoothed over %d", k & 2);
+        shot_release(&s);
+    }
+}
+
 /* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
@@ -245,6 +296,24 @@ static void gooch_ramp(void)
     check_at_most("E10", worst, 1.5, "levels between Gooch's shading and its closed form");
     check_at_most("G2", back, 0, "steps at which the hue goes back towards cool while n.l rises");
     check_at_least("G2", darkest, 0.05, "luminance of the darkest place");
+    shot_release(&s);
+}
+
+/* Gooch et al. 1998: blue on the one side, yellow on the other, on grey. */
+static void gooch_colours_are_apart(void)
+{
+    dvec light = dvec_unit(dvec_of(1, 0, 0.2));
+    int  coolest = 0, warmest = 0;
+    shot s;
+    if (take_ball(&s, surface_look("{\"technique\":\"gooch\",\"specular\":0}", "1,0,0.2", 0), NULL))
+        for (int i = 0; i < 256 * 256; i++) {
+            const uint8_t *p = &s.picture[4 * i];
+            double         turned = isinf(s.depth[i]) ? 0 : dvec_dot(light, dvec_from(s.normal[i]));
+            coolest = turned < -0.7 && p[2] - p[0] > coolest ? p[2] - p[0] : coolest;
+            warmest = turned > 0.7 && p[0] - p[2] > warmest ? p[0] - p[2] : warmest;
+        }
+    check_at_least("E10", coolest, 60, "levels by which blue is above red on the cool side");
+    check_at_least("E10", warmest, 30, "levels by which red is above blue on the warm side");
     shot_release(&s);
 }
 
@@ -384,6 +453,9 @@ int main(int argc, char **argv)
         {"blur", blur_is_a_box},
         {"gooch", gooch_ramp},
         {"gooch-lines", gooch_lines},
+        {"gooch-apart", gooch_colours_are_apart},
+        {"faces", tones_leave_the_faces},
+        {"legible", dark_fill_is_legible},
         {"wax", wax_wraps},
         {"light", light_comes_from_where_it_is_said},
         {"texture", texture_stands_upright},
