@@ -25,6 +25,9 @@ enum { SURFACE_INDEX_BITS = 20, SURFACE_FIGURE_BITS = 8, FIGURES_TOGETHER_MAX = 
 #define SURFACE_BACK       0x10000000u /* back-facing by winding */
 #define SURFACE_OPERAND    0x00080000u /* of a solid: what is below this bit is the operand's number */
 
+/* Alpha of the albedo where the file asks for no light; elsewhere it is the material's. */
+enum { ALBEDO_UNLIT = 2 };
+
 /* What a technique says of a figure's surfaces; those of figures that are not composed layer by layer are asked for
  * the first line alone. */
 typedef struct layering {

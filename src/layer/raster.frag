@@ -45,6 +45,8 @@ vec4 out_shade;
 #else
 layout(location = AT_SHADE) out vec4 out_shade;
 #endif
+#endif
+#if defined(AT_SHADE) || defined(AT_ALBEDO)
 uniform int u_unlit;
 #endif
 #ifdef PEELED
@@ -168,7 +170,7 @@ void main()
 #endif
 #endif
 #ifdef AT_ALBEDO
-    out_albedo = albedo;
+    out_albedo = vec4(albedo.rgb, u_unlit != 0 ? ALBEDO_UNLIT : albedo.a);
 #endif
 #ifdef AT_VELOCITY
     write_moved(v_eye);

@@ -78,6 +78,7 @@ static void declare_id_bits(text *prelude)
                 "SURFACE_BACK %uu\n"
                 "#define SURFACE_OPERAND %uu\n",
                 SURFACE_COMPLEMENT, SURFACE_TURNED, SURFACE_CUT, SURFACE_BACK, SURFACE_OPERAND);
+    text_append(prelude, "#define ALBEDO_UNLIT %d.0\n", ALBEDO_UNLIT);
 }
 
 /* Before each shader: what frame_set_common and its kin set. */

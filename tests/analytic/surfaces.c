@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "boxes.h"
 #include "check.h"
 #include "picture.h"
 #include "shape.h"
@@ -445,6 +446,33 @@ static void texture_stands_upright(void)
     shape_release(&s);
 }
 
+/* What the file asks no light for has its own colour and nothing else, shaded with its geometry or from the G-buffer.
+ */
+static void unlit_stays_unlit(void)
+{
+    const moving_box  box = {.name = "box", .half = {3, 3, 3}, .colour = {0.4, 0.4, 0.4}, .parent = -1};
+    shot_view         view = {.width = 128, .height = 128, .eye = {9, 6, 14}, .up = {0, 1, 0}, .fov_deg = 40};
+    const char *const forms[] = {"{\"technique\":\"toon\",\"highlight\":0}",
+                                 "{\"technique\":\"toon\",\"highlight\":0,\"smoothing\":6}"};
+    char              path[512];
+    snprintf(path, sizeof path, "%s", check_path("unlit.glb"));
+    boxes_write(path, &box, 1);
+    for (int f = 0; f < 2; f++) {
+        double worst = 0;
+        int    pixels = 0;
+        shot   drawing;
+        if (shot_take(&drawing, path, surface_look(forms[f], "1,0.1,0.3", 0), NULL, &view))
+            for (int i = 0; i < 128 * 128; i++)
+                if (!isinf(drawing.depth[i])) {
+                    worst = fmax(worst, fabs(picture_linear(drawing.picture[4 * i]) - box.colour[0]));
+                    pixels++;
+                }
+        check_at_least("G2", pixels, 1000, "pixels of an unlit box");
+        check_at_most("G2", worst, 0.01, "light on it, %s", f ? "shaded later" : "shaded with its geometry");
+        shot_release(&drawing);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -456,6 +484,7 @@ int main(int argc, char **argv)
         {"gooch-apart", gooch_colours_are_apart},
         {"faces", tones_leave_the_faces},
         {"legible", dark_fill_is_legible},
+        {"unlit", unlit_stays_unlit},
         {"wax", wax_wraps},
         {"light", light_comes_from_where_it_is_said},
         {"texture", texture_stands_upright},
