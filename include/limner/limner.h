@@ -40,6 +40,7 @@
 #include "limner/solid.h"
 #include "limner/strokes.h"
 #include "limner/task.h"
+#include "limner/techniques.h"
 #include "limner/version.h"
 
 #endif

@@ -304,6 +304,7 @@ static void release_objects(gpu *g)
         glDeleteVertexArrays(1, &g->boxes_array);
         glDeleteBuffers(1, &g->boxes_buffer);
     }
+    gpu_sources_release(g);
     mem_free(g->programs);
     mem_free(g->targets);
     mem_free(g->buffers);

@@ -384,6 +384,7 @@ CALL(lmn_look_name_at)
 {
     return neutral(w->null != 0 || !lmn_look_name_at(0) || lmn_look_name_at(SIZE_MAX));
 }
+#include "null_calls_host.h"
 #include "null_calls_rules.h"
 CALL(lmn_look_reference_json)
 {
@@ -756,6 +757,12 @@ static const row rows[] = {
     ROW(lmn_look_name, 1, 0, VALUE),
     ROW(lmn_look_count, 0, 0, VALUE),
     ROW(lmn_look_name_at, 0, 0, VALUE),
+    ROW(lmn_techniques_create, 2, B),
+    ROW(lmn_techniques_destroy, 1, A, NEUTRAL),
+    ROW(lmn_techniques_add, 3, C, STATUS, {DESC(technique_desc)}),
+    ROW(lmn_techniques_at, 2, 0, VALUE),
+    ROW(lmn_techniques_param_at, 3, 0, VALUE),
+    ROW(lmn_look_open, 3, C, STATUS, {DESC(look_desc)}),
     ROW(lmn_kind_count, 0, 0, VALUE),
     ROW(lmn_kind_at, 1, 0, VALUE),
     ROW(lmn_technique_at, 2, 0, VALUE),

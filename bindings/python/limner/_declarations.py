@@ -511,6 +511,49 @@ class lmn_task_desc(Structure):
     ]
 
 
+class lmn_param_desc(Structure):
+    _fields_ = [
+        ("key", c_char_p),
+        ("type", c_int),
+        ("standard", c_char_p),
+        ("min", c_double),
+        ("max", c_double),
+        ("soft_min", c_double),
+        ("soft_max", c_double),
+        ("unit", c_int),
+        ("logarithmic", c_bool),
+        ("as_light", c_bool),
+        ("names", POINTER(c_char_p)),
+        ("name_count", c_size_t),
+        ("only_if", c_char_p),
+        ("doc", c_char_p),
+    ]
+
+
+class lmn_technique_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("param_size", c_size_t),
+        ("kind", c_char_p),
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("params", POINTER(lmn_param_desc)),
+        ("param_count", c_size_t),
+        ("glsl", c_char_p),
+        ("file", c_char_p),
+    ]
+
+
+class lmn_look_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name_or_path", c_char_p),
+        ("json", c_char_p),
+        ("name", c_char_p),
+        ("techniques", c_void_p),
+    ]
+
+
 # What the macros LMN_…_INIT make.
 STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_mesh_desc: lambda: lmn_mesh_desc(sizeof(lmn_mesh_desc), None, None, None, None, None, None, None, 0, None, 0, None, 0, 0),
@@ -527,6 +570,8 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
     lmn_strokes_view: lambda: lmn_strokes_view(sizeof(lmn_strokes_view), 512, 0, 0, 0),
+    lmn_technique_desc: lambda: lmn_technique_desc(sizeof(lmn_technique_desc), sizeof(lmn_param_desc), "surface", None, None, None, 0, None, None),
+    lmn_look_desc: lambda: lmn_look_desc(sizeof(lmn_look_desc), None, None, None, None),
 }
 
 FUNCTIONS = {
@@ -677,5 +722,11 @@ FUNCTIONS = {
     "lmn_task_end": (None, [POINTER(c_void_p)]),
     "lmn_fence_kind": (c_char_p, []),
     "lmn_file_alloc": (c_void_p, [c_size_t]),
+    "lmn_techniques_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_techniques_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_techniques_add": (c_int, [c_void_p, POINTER(lmn_technique_desc), POINTER(lmn_error)]),
+    "lmn_techniques_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_technique_info)]),
+    "lmn_techniques_param_at": (c_bool, [c_void_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
+    "lmn_look_open": (c_int, [POINTER(c_void_p), POINTER(lmn_look_desc), POINTER(lmn_error)]),
     "lmn_version": (c_char_p, []),
 }
