@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "api/complete.h"
 #include "api/load_desc.h"
 #include "base/error.h"
 #include "base/file_store.h"
@@ -33,16 +34,9 @@ void lmn_scene_destroy(lmn_scene **scene)
 lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, const char *caller, lmn_error *error)
 {
     *full = (lmn_load_desc)LMN_LOAD_DESC_INIT;
-    if (!given)
-        return LMN_OK;
-    if (given->struct_size < sizeof given->struct_size) {
-        error_set(error, LMN_USAGE, "%s: the description's struct_size is not set", caller);
-        error_hint(error, "initialise it with LMN_LOAD_DESC_INIT");
-        return LMN_USAGE;
-    }
-    size_t size = given->struct_size < sizeof *full ? given->struct_size : sizeof *full;
-    memcpy(full, given, size);
-    full->struct_size = sizeof *full;
+    lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_LOAD_DESC_INIT", error);
+    if (status != LMN_OK)
+        return status;
     if (full->up_axis != LMN_UP_AUTO && full->up_axis != LMN_UP_Y && full->up_axis != LMN_UP_Z)
         return error_set(error, LMN_USAGE, "%s: up_axis %d is none of AUTO, Y, Z", caller, (int)full->up_axis);
     for (size_t i = 0; i < full->define_count; i++)

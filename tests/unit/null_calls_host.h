@@ -10,6 +10,27 @@ static const lmn_technique_desc technique_desc = {sizeof(lmn_technique_desc),
                                                   NULL};
 static const lmn_look_desc      look_desc = LMN_LOOK_DESC_INIT;
 
+CALL(lmn_sheet_encode)
+{
+    uint8_t   *bytes = NULL;
+    size_t     size;
+    lmn_status status = lmn_sheet_encode(P(0, w->sheet), P(1, ".svg"), P(2, &bytes), P(3, &size), P(4, &w->error));
+    lmn_bytes_free(bytes);
+    return status;
+}
+CALL(lmn_drawing_encode)
+{
+    uint8_t   *bytes = NULL;
+    size_t     size;
+    lmn_status status = lmn_drawing_encode(P(0, w->drawing), P(1, "png"), P(2, &bytes), P(3, &size), P(4, &w->error));
+    lmn_bytes_free(bytes);
+    return status;
+}
+CALL(lmn_bytes_free)
+{
+    lmn_bytes_free(NULL);
+    return neutral(w->null == 0 || w->null == 1);
+}
 CALL(lmn_techniques_create)
 {
     lmn_techniques *made = NULL;
