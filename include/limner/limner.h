@@ -34,6 +34,7 @@
 #include "limner/limits.h"
 #include "limner/look.h"
 #include "limner/maps.h"
+#include "limner/memory.h"
 #include "limner/rules.h"
 #include "limner/scene.h"
 #include "limner/sheet.h"

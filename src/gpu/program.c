@@ -7,6 +7,7 @@
 #include "base/embedded.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/work.h"
 
 enum { FILES_MAX = 32, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
 
@@ -280,6 +281,17 @@ static void explain(gpu *g, const source *s, const char *path, const char *log)
     text_release(&out);
 }
 
+/* What the driver says of a shader that it takes. */
+static void tell_warnings(gpu *g, const source *s, GLuint shader)
+{
+    char log[1024] = "";
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    text out = explained(g, s, log);
+    if (out.data && out.size)
+        work_log(LMN_LOG_DRIVER, "driver", out.data);
+    text_release(&out);
+}
+
 static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *path, const char *prelude)
 {
     source s = {0};
@@ -302,6 +314,8 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
             explain(g, &s, path, log);
             glDeleteShader(shader);
             shader = 0;
+        } else if (work_listens()) {
+            tell_warnings(g, &s, shader);
         }
     } else {
         gpu_fail(g, LMN_MEMORY, "out of memory"); /* where it was something else, that was said first */

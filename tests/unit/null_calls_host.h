@@ -10,6 +10,27 @@ static const lmn_technique_desc technique_desc = {sizeof(lmn_technique_desc),
                                                   NULL};
 static const lmn_look_desc      look_desc = LMN_LOOK_DESC_INIT;
 
+static void *some_alloc(size_t size, void *user)
+{
+    (void)user;
+    return malloc(size);
+}
+static void *some_resize(void *block, size_t size, void *user)
+{
+    (void)user;
+    return realloc(block, size);
+}
+static void some_release(void *block, void *user)
+{
+    (void)user;
+    free(block);
+}
+static const lmn_allocator allocator = {sizeof(lmn_allocator), some_alloc, some_resize, some_release, NULL};
+
+CALL(lmn_allocator_set)
+{
+    return lmn_allocator_set(P(0, w->desc[0]), P(1, &w->error)); /* too late */
+}
 CALL(lmn_sheet_encode)
 {
     uint8_t   *bytes = NULL;

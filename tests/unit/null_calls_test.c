@@ -820,6 +820,7 @@ static const row rows[] = {
     ROW(lmn_page_size, 4, D),
     ROW(lmn_draw_sheet, 7, B | F | G, STATUS, {DESC(draw_desc), DESC(sheet_desc)}),
     ROW(lmn_sheet_write, 5, C | D | E),
+    ROW(lmn_allocator_set, 2, B, REFUSED, {DESC(allocator)}),
     ROW(lmn_sheet_encode, 5, E),
     ROW(lmn_drawing_encode, 5, E),
     ROW(lmn_bytes_free, 1, A, NEUTRAL),

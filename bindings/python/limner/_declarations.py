@@ -89,13 +89,19 @@ LMN_PERSPECTIVE_LAYERS = 3
 LMN_FILES_NEAR = 0
 LMN_FILES_FOLDER = 1
 LMN_FILES_ANY = 2
+LMN_LOG_WARNING = 0
+LMN_LOG_DRIVER = 1
 LMN_PALETTE_MAX = 8
 LMN_VALUE_TEXT_MAX = 512
 LMN_SOLID_ROOT = 1
 
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
+lmn_release_fn = CFUNCTYPE(None, c_void_p, c_void_p)
+
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
+
+lmn_log_fn = CFUNCTYPE(None, c_int, c_char_p, c_char_p, c_void_p)
 
 
 class lmn_mesh_desc(Structure):
@@ -279,6 +285,16 @@ class lmn_pick(Structure):
         ("position", c_double * 3),
         ("normal", c_double * 3),
         ("depth", c_double),
+    ]
+
+
+class lmn_allocator(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("alloc", None),
+        ("resize", None),
+        ("release", lmn_release_fn),
+        ("user", c_void_p),
     ]
 
 
@@ -507,6 +523,8 @@ class lmn_task_desc(Structure):
         ("allow_path_count", c_size_t),
         ("read_file", lmn_read_fn),
         ("read_user", c_void_p),
+        ("log", lmn_log_fn),
+        ("log_user", c_void_p),
         ("in_process", c_bool),
     ]
 
@@ -565,6 +583,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
+    lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), None, None, lmn_release_fn(), None),
     lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
@@ -640,6 +659,7 @@ FUNCTIONS = {
     "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
     "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
+    "lmn_allocator_set": (c_int, [POINTER(lmn_allocator), POINTER(lmn_error)]),
     "lmn_kind_count": (c_size_t, []),
     "lmn_kind_at": (c_bool, [c_size_t, POINTER(lmn_kind_info)]),
     "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
