@@ -99,6 +99,10 @@ lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
 lmn_release_fn = CFUNCTYPE(None, c_void_p, c_void_p)
 
+lmn_probe_fn = CFUNCTYPE(c_bool, c_void_p, c_size_t, c_void_p)
+
+lmn_import_fn = CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p, c_size_t, c_void_p, POINTER(lmn_error))
+
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
 
 lmn_log_fn = CFUNCTYPE(None, c_int, c_char_p, c_char_p, c_void_p)
@@ -353,6 +357,17 @@ class lmn_param_state(Structure):
     ]
 
 
+class lmn_importer(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("endings", c_char_p),
+        ("probe", lmn_probe_fn),
+        ("read", lmn_import_fn),
+        ("user", c_void_p),
+    ]
+
+
 class lmn_load_desc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -362,6 +377,8 @@ class lmn_load_desc(Structure):
         ("defines", POINTER(c_char_p)),
         ("define_count", c_size_t),
         ("strict", c_bool),
+        ("importers", POINTER(POINTER(lmn_importer))),
+        ("importer_count", c_size_t),
     ]
 
 
@@ -584,7 +601,8 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
     lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), None, None, lmn_release_fn(), None),
-    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False),
+    lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
+    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
