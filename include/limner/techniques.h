@@ -66,7 +66,7 @@ typedef struct lmn_param_desc {
 typedef struct lmn_technique_desc {
     size_t                struct_size;
     size_t                param_size; /* of one row */
-    const char           *kind;       /* "surface" */
+    const char           *kind;       /* "surface", the only one so far; NULL: that */
     const char           *name;       /* a-z, 0-9, _ and -, at most 40; none that the kind has */
     const char           *doc;        /* one line; NULL: none */
     const lmn_param_desc *params;
@@ -76,7 +76,7 @@ typedef struct lmn_technique_desc {
 } lmn_technique_desc;
 #define LMN_TECHNIQUE_DESC_INIT                                                                                        \
     {                                                                                                                  \
-        sizeof(lmn_technique_desc), sizeof(lmn_param_desc), "surface", NULL, NULL, NULL, 0, NULL, NULL                 \
+        sizeof(lmn_technique_desc), sizeof(lmn_param_desc), NULL, NULL, NULL, NULL, 0, NULL, NULL                      \
     }
 
 /* Makes an empty set. End it with lmn_techniques_destroy. Errors: LMN_USAGE (NULL), LMN_MEMORY. */

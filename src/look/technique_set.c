@@ -367,13 +367,12 @@ static lmn_status put_shader(own_technique *own, const lmn_technique_desc *desc,
 
 static lmn_status check_desc(const lmn_techniques *set, const lmn_technique_desc *desc, lmn_error *error)
 {
-    if (!desc->kind || !desc->name || !desc->glsl || (!desc->params && desc->param_count))
+    if (!desc->name || !desc->glsl || (!desc->params && desc->param_count))
         return error_set(error, LMN_USAGE, "a technique needs a %s",
-                         !desc->kind   ? "kind"
-                         : !desc->name ? "name"
+                         !desc->name   ? "name"
                          : !desc->glsl ? "shader (`glsl`)"
                                        : "table of parameters");
-    const kind *k = kind_find(desc->kind);
+    const kind *k = kind_find(desc->kind ? desc->kind : "surface");
     if (!k)
         return kind_unknown(desc->kind, NULL, error);
     if (k->id != KIND_SURFACE)

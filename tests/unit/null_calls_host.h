@@ -1,7 +1,7 @@
 /* Calls by which a program brings what Limner uses, for null_calls_test.c, which this is a part of. */
 static const lmn_technique_desc technique_desc = {sizeof(lmn_technique_desc),
                                                   sizeof(lmn_param_desc),
-                                                  "surface",
+                                                  NULL,
                                                   "white",
                                                   NULL,
                                                   NULL,

@@ -97,9 +97,24 @@ LMN_SOLID_ROOT = 1
 
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
+lmn_alloc_fn = CFUNCTYPE(c_void_p, c_size_t, c_void_p)
+
+lmn_resize_fn = CFUNCTYPE(c_void_p, c_void_p, c_size_t, c_void_p)
+
 lmn_release_fn = CFUNCTYPE(None, c_void_p, c_void_p)
 
 lmn_probe_fn = CFUNCTYPE(c_bool, c_void_p, c_size_t, c_void_p)
+
+
+class lmn_error(Structure):
+    _fields_ = [
+        ("status", c_int),
+        ("message", c_char * 512),
+        ("file", c_char * 512),
+        ("line", c_int),
+        ("column", c_int),
+        ("hint", c_char * 256),
+    ]
 
 lmn_import_fn = CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p, c_size_t, c_void_p, POINTER(lmn_error))
 
@@ -217,17 +232,6 @@ class lmn_draw_desc(Structure):
     ]
 
 
-class lmn_error(Structure):
-    _fields_ = [
-        ("status", c_int),
-        ("message", c_char * 512),
-        ("file", c_char * 512),
-        ("line", c_int),
-        ("column", c_int),
-        ("hint", c_char * 256),
-    ]
-
-
 class lmn_film_desc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -295,8 +299,8 @@ class lmn_pick(Structure):
 class lmn_allocator(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
-        ("alloc", None),
-        ("resize", None),
+        ("alloc", lmn_alloc_fn),
+        ("resize", lmn_resize_fn),
         ("release", lmn_release_fn),
         ("user", c_void_p),
     ]
@@ -600,14 +604,14 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
-    lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), None, None, lmn_release_fn(), None),
+    lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
     lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
     lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
     lmn_strokes_view: lambda: lmn_strokes_view(sizeof(lmn_strokes_view), 512, 0, 0, 0),
-    lmn_technique_desc: lambda: lmn_technique_desc(sizeof(lmn_technique_desc), sizeof(lmn_param_desc), "surface", None, None, None, 0, None, None),
+    lmn_technique_desc: lambda: lmn_technique_desc(sizeof(lmn_technique_desc), sizeof(lmn_param_desc), None, None, None, None, 0, None, None),
     lmn_look_desc: lambda: lmn_look_desc(sizeof(lmn_look_desc), None, None, None, None),
 }
 
