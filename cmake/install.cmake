@@ -1,5 +1,5 @@
 # What `cmake --install` puts where. Everything finds everything else from where it is itself, so that the tree can be moved.
-# Components: command, library, development, documentation; cmake/packages.cmake makes a package of each.
+# Components: command, library, development, documentation, and for Debian python; cmake/packages.cmake makes a package of each.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -121,12 +121,19 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/SECURITY.md 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${folder} COMPONENT documentation PATTERN make_images EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${folder} COMPONENT documentation PATTERN CMakeLists.txt EXCLUDE)
 
+# --- the Python package, which pip installs elsewhere ---
+if(LIMNER_DEBIAN)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/python/limner DESTINATION lib/python3/dist-packages COMPONENT python
+          FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  install(FILES ${PROJECT_SOURCE_DIR}/bindings/python/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-limner COMPONENT python)
+endif()
+
 # --- what Debian wants in each package ---
 if(LIMNER_DEBIAN)
   execute_process(COMMAND date -u -R -d ${LIMNER_DATE} OUTPUT_VARIABLE LIMNER_DATE_LONG OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   configure_file(${PROJECT_SOURCE_DIR}/packaging/debian/changelog.in ${made}/changelog.Debian @ONLY)
   execute_process(COMMAND ${LIMNER_GZIP} -9nkf ${made}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-  foreach(pair IN ITEMS command=limner library=liblimner${LIMNER_ABI} development=liblimner-dev documentation=limner-doc)
+  foreach(pair IN ITEMS command=limner library=liblimner${LIMNER_ABI} development=liblimner-dev documentation=limner-doc python=python3-limner)
     string(REGEX REPLACE "=.*" "" component ${pair})
     string(REGEX REPLACE ".*=" "" package ${pair})
     install(FILES ${PROJECT_SOURCE_DIR}/packaging/debian/copyright ${made}/changelog.Debian.gz

@@ -6,7 +6,7 @@ set(CPACK_PACKAGE_NAME limner)
 set(CPACK_PACKAGE_VENDOR "Limner")
 set(CPACK_PACKAGE_CONTACT "${LIMNER_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
-set(CPACK_COMPONENTS_ALL command library development documentation)
+set(CPACK_COMPONENTS_ALL command library development documentation python)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -22,6 +22,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 # Whoever installs the command gets its library, whatever dpkg-shlibdeps finds.
 set(CPACK_COMPONENT_COMMAND_DEPENDS library)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
+set(CPACK_COMPONENT_PYTHON_DEPENDS library)
 
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME limner)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
@@ -67,6 +68,20 @@ Outlines and hatching, blueprints, sketches, engravings and cartoons of
 .
 This package has guides, the reference of looks and files, theory, and
 example models with the programs that made them.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-limner)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3:any (>= 3.9)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-numpy, limner-doc")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst
+    ${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "draw 3D models the way people draw (Python)
+Outlines and hatching, blueprints, sketches, engravings and cartoons of
+3D models and of meshes in memory, as pictures that NumPy and notebooks
+show, and as vectors.
+.
+This package has the Python module limner.")
 
 # The static library, and pkg-config for either, take the development packages of all that Limner is linked with: those that have its modules here.
 set(files "")

@@ -32,7 +32,7 @@ class Headers:
         self.enums = {name: body for body, name in re.findall(r"typedef enum \w+\s*\{([^}]*)\}\s*(\w+);", self.text)}
         self.structs = {name: body for body, name in re.findall(r"typedef struct \w+\s*\{([^}]*)\}\s*(\w+);", self.text)}
         self.callbacks = {name: (kind, body) for kind, name, body in
-                          re.findall(r"typedef ([\w ]+?)\s*\(\*(\w+)\)\(([^)]*)\);", self.text)}
+                          re.findall(r"typedef ([\w ]+?(?:\s*\*)*)\s*\(\*(\w+)\)\(([^)]*)\);", self.text)}
         self.functions = re.findall(r"LMN_API\s+([\w\s]+?[\s*]+)(lmn_\w+)\(((?:[^()]|\([^()]*\))*)\);", self.text)
 
     def values(self):
@@ -114,18 +114,23 @@ class Headers:
 
 
 def ordered(headers):
-    """Structs, those that are held by others first."""
+    """Callbacks and structs, those that others name first."""
     done = []
 
+    def kinds_of(name):
+        if name in headers.callbacks:
+            return headers.parameters(headers.callbacks[name][1])
+        return (kind for _, kind in headers.members(headers.structs[name]))
+
     def visit(name):
-        for _, kind in headers.members(headers.structs[name]):
+        for kind in kinds_of(name):
             for other in re.findall(r"\w+", kind):
-                if other in headers.structs and other != name:
+                if (other in headers.structs or other in headers.callbacks) and other != name:
                     visit(other)
         if name not in done:
             done.append(name)
 
-    for name in headers.structs:
+    for name in [*headers.callbacks, *headers.structs]:
         visit(name)
     return done
 
@@ -135,11 +140,13 @@ def write(headers):
            "# mypy: ignore-errors", "from ctypes import *  # noqa: F403", "from typing import Any, Callable", "", f'VERSION = "{headers.version}"', ""]
     out += [f"{name} = {value}" for name, value in headers.values().items()]
     out += [f"{name} = {value}" for name, value in headers.numbers.items()]
-    for name, (kind, body) in headers.callbacks.items():
-        types = [headers.type_of(kind, 0), *headers.parameters(body)]
-        out += ["", f"{name} = CFUNCTYPE({', '.join(types)})"]
     standards = []
     for name in ordered(headers):
+        if name in headers.callbacks:
+            kind, body = headers.callbacks[name]
+            types = [headers.type_of(kind.replace("*", ""), kind.count("*")), *headers.parameters(body)]
+            out += ["", f"{name} = CFUNCTYPE({', '.join(types)})"]
+            continue
         out += ["", "", f"class {name}(Structure):", "    _fields_ = ["]
         out += [f'        ("{field}", {kind}),' for field, kind in headers.members(headers.structs[name])]
         out += ["    ]"]

@@ -127,6 +127,14 @@ LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width
 LMN_API lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
                                      lmn_error *error);
 
+/* The same bytes in memory instead of a file: *bytes gets them, *size how many. `format` is as for lmn_drawing_write
+ * and not NULL. Free them with lmn_bytes_free. Errors: LMN_USAGE (unknown format), LMN_MEMORY. Since 0.1. */
+LMN_API lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *format, uint8_t **bytes, size_t *size,
+                                      lmn_error *error);
+
+/* Frees bytes that Limner returned. NULL is accepted. Since 0.1. */
+LMN_API void lmn_bytes_free(uint8_t *bytes);
+
 /* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing), uncertainty.pfm
  * where something is perturbed, direction.pfm where strokes follow the form on the page, velocity.pfm of scenes that
  * are drawn at a time, and for looks that are

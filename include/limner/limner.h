@@ -34,12 +34,14 @@
 #include "limner/limits.h"
 #include "limner/look.h"
 #include "limner/maps.h"
+#include "limner/memory.h"
 #include "limner/rules.h"
 #include "limner/scene.h"
 #include "limner/sheet.h"
 #include "limner/solid.h"
 #include "limner/strokes.h"
 #include "limner/task.h"
+#include "limner/techniques.h"
 #include "limner/version.h"
 
 #endif

@@ -13,6 +13,29 @@ typedef struct lmn_scene lmn_scene;
 /* Which of the file's axes points up. AUTO takes the convention of the format. */
 typedef enum lmn_up_axis { LMN_UP_AUTO = 0, LMN_UP_Y, LMN_UP_Z } lmn_up_axis;
 
+/* Is this the importer's format? Asked with the file's bytes, of which there is one at least. */
+typedef bool (*lmn_probe_fn)(const void *bytes, size_t size, void *user);
+
+/* Fills an empty scene from the file's bytes, by calls of limner/content.h and limner/solid.h; `path` is for messages.
+ * It neither draws nor destroys the scene nor keeps anything of it. On failure it answers another status than LMN_OK
+ * and best fills the error (lmn_error.line, too); then the scene's content does not matter. `error` is never NULL. */
+typedef lmn_status (*lmn_import_fn)(lmn_scene *scene, const char *path, const void *bytes, size_t size, void *user,
+                                    lmn_error *error);
+
+/* A format that the program reads itself. Initialise with LMN_IMPORTER_INIT. Since 0.1. */
+typedef struct lmn_importer {
+    size_t        struct_size;
+    const char   *name;    /* in messages */
+    const char   *endings; /* ".off .coff": without `probe`, files with one of these are its own */
+    lmn_probe_fn  probe;   /* says which files are, whatever their ending; NULL: the endings do */
+    lmn_import_fn read;
+    void         *user;
+} lmn_importer;
+#define LMN_IMPORTER_INIT                                                                                              \
+    {                                                                                                                  \
+        sizeof(lmn_importer), NULL, NULL, NULL, NULL, NULL                                                             \
+    }
+
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
     size_t          struct_size; /* set by LMN_LOAD_DESC_INIT */
@@ -23,10 +46,13 @@ typedef struct lmn_load_desc {
     const char *const *defines; /* "NAME=VALUE": variables that replace those of the program */
     size_t             define_count;
     bool               strict; /* openscad's warnings are errors */
+    /* Formats of the caller's, asked in this order before Limner's own; not for files that models name. Since 0.1. */
+    const lmn_importer *const *importers;
+    size_t                     importer_count;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false                                                 \
+        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0                                        \
     }
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */

@@ -61,6 +61,11 @@ LMN_API lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const
 LMN_API lmn_status lmn_sheet_write(const lmn_sheet *sheet, const char *path, const char *format, uint64_t *bytes,
                                    lmn_error *error);
 
+/* The same bytes in memory instead of a file: *bytes gets them, *size how many. `format` is as for lmn_sheet_write and
+ * not NULL. Free them with lmn_bytes_free. Errors: LMN_USAGE (unknown format), LMN_MEMORY. Since 0.1. */
+LMN_API lmn_status lmn_sheet_encode(const lmn_sheet *sheet, const char *format, uint8_t **bytes, size_t *size,
+                                    lmn_error *error);
+
 /* A format of drawings, and what it has room for. Texts last. */
 typedef struct lmn_format_info {
     const char *ending;   /* ".svg" */

@@ -23,6 +23,17 @@ typedef enum lmn_file_access {
  * frees, and *size; false when there is none. */
 typedef bool (*lmn_read_fn)(const char *path, const char *what, void **bytes, size_t *size, void *user);
 
+/* What a message is about. */
+typedef enum lmn_log_kind {
+    LMN_LOG_WARNING = 0, /* something was ignored, repaired or reduced; also among the warnings of what is made */
+    LMN_LOG_DRIVER       /* OpenGL's driver about a shader, or, with lmn_renderer_desc.debug, about a call */
+} lmn_log_kind;
+
+/* Told of what does not fail, as it happens, on the thread that called; of the same thing perhaps more than once.
+ * `code` is short and stays ("bad-texture"; of drivers "driver"), `text` for people; both are borrowed for the call.
+ * Makes no calls of the library but those of text and status. */
+typedef void (*lmn_log_fn)(lmn_log_kind kind, const char *code, const char *text, void *user);
+
 /* Conditions of a task. Initialise with lmn_task_desc_standard. Texts are copied. */
 typedef struct lmn_task_desc {
     size_t     struct_size;
@@ -35,6 +46,8 @@ typedef struct lmn_task_desc {
     size_t             allow_path_count;
     lmn_read_fn        read_file; /* NULL: the file system; otherwise `files` and `allow_paths` do not matter */
     void              *read_user;
+    lmn_log_fn         log; /* NULL: that of the task around this one, if any */
+    void              *log_user;
     bool in_process; /* run other people's decoders in this process; the standard is a fenced child process */
 } lmn_task_desc;
 

@@ -25,3 +25,8 @@ lmn_status desc_complete(void *full, size_t size, const void *given, const char 
     memcpy(full, &size, sizeof size);
     return LMN_OK;
 }
+
+lmn_status desc_complete_given(void *full, size_t size, const void *given, const char *macro, lmn_error *error)
+{
+    return given ? desc_complete(full, size, given, macro, error) : LMN_OK;
+}

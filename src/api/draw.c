@@ -181,6 +181,40 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 
+lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *format, uint8_t **bytes, size_t *size,
+                              lmn_error *error)
+{
+    const export_format *chosen = NULL;
+    export_bytes         data = {0};
+    if (bytes)
+        *bytes = NULL;
+    if (!drawing || !format || !bytes || !size)
+        return missing("lmn_drawing_encode",
+                       !drawing  ? "drawing"
+                       : !format ? "format"
+                       : !bytes  ? "bytes"
+                                 : "size",
+                       error);
+    lmn_status status = export_choose(&chosen, "-", format, false, error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, NULL, NULL);
+    status = chosen->write_pixels(&data, drawing->pixels, drawing->width, drawing->height, error);
+    if (status != LMN_OK) {
+        mem_free(data.data);
+        return work_end(&w, status, error);
+    }
+    *bytes = data.data;
+    *size = data.size;
+    return work_end_done(&w);
+}
+
+void lmn_bytes_free(uint8_t *bytes)
+{
+    mem_free(bytes);
+}
+
 lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *directory, lmn_error *error)
 {
     if (!drawing || !directory)

@@ -1,8 +1,7 @@
 /* Films: checks arguments and forwards. */
 #include "limner/film.h"
 
-#include <string.h>
-
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
@@ -29,20 +28,12 @@ bool lmn_film_format_at(size_t index, lmn_film_format_info *out)
 static lmn_status choose(lmn_film_desc *full, const film_format **format, const char *path, const lmn_film_desc *given,
                          lmn_error *error)
 {
-    size_t size = 0;
     *full = (lmn_film_desc)LMN_FILM_DESC_INIT;
     if (!path)
         return error_set(error, LMN_USAGE, "a film needs a path");
-    if (given)
-        memcpy(&size, given, sizeof size);
-    if (given && size < sizeof size) {
-        error_set(error, LMN_USAGE, "the film description's struct_size is not set");
-        error_hint(error, "initialise it with LMN_FILM_DESC_INIT");
-        return LMN_USAGE;
-    }
-    if (given)
-        memcpy(full, given, size < sizeof *full ? size : sizeof *full);
-    lmn_status status = film_choose(format, path, full->format, error);
+    lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_FILM_DESC_INIT", error);
+    if (status == LMN_OK)
+        status = film_choose(format, path, full->format, error);
     return status == LMN_OK ? film_check(*format, path, full, error) : status;
 }
 

@@ -16,14 +16,14 @@ lmn_status lmn_look_load(lmn_look **out, const char *name_or_path, lmn_error *er
 {
     if (!out || !name_or_path)
         return missing(out ? "name_or_path" : "out", error);
-    return look_load(out, name_or_path, error);
+    return look_load(out, name_or_path, NULL, error);
 }
 
 lmn_status lmn_look_parse(lmn_look **out, const char *json, const char *name, lmn_error *error)
 {
     if (!out || !json)
         return missing(out ? "json" : "out", error);
-    return look_parse(out, json, strlen(json), name ? name : "look", error);
+    return look_parse(out, json, strlen(json), name ? name : "look", NULL, error);
 }
 
 void lmn_look_destroy(lmn_look **look)

@@ -68,7 +68,7 @@ lmn_status lmn_param_find(const char *kind_name, const char *technique_name, con
         return kind_unknown(kind_name, NULL, error);
     const technique *t = kind_find_technique(k, technique_name);
     if (!t)
-        return kind_unknown_technique(k, technique_name, error);
+        return kind_unknown_technique(k, NULL, technique_name, error);
     const param *p = kind_find_param(k, t, key);
     if (!p)
         return kind_missing_param(k, t, key, error);
@@ -80,9 +80,8 @@ lmn_status lmn_param_find(const char *kind_name, const char *technique_name, con
 
 lmn_status lmn_look_create(lmn_look **out, lmn_error *error)
 {
-    static const char empty[] = "{\"version\": 2, \"rules\": [{\"select\": \"*\"}]}";
     CHECK(out);
-    return look_parse(out, empty, sizeof empty - 1, "look", error);
+    return look_create(out, NULL, error);
 }
 
 lmn_status lmn_look_copy(lmn_look **out, const lmn_look *look, lmn_error *error)

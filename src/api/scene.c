@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "api/complete.h"
 #include "api/load_desc.h"
 #include "base/error.h"
 #include "base/file_store.h"
@@ -29,22 +30,32 @@ void lmn_scene_destroy(lmn_scene **scene)
     *scene = NULL;
 }
 
+/* The pointers are what there has been from the first version on. */
+static lmn_status check_importer(const lmn_importer *given, const char *caller, lmn_error *error)
+{
+    lmn_importer full = LMN_IMPORTER_INIT;
+    lmn_status   status = desc_complete(&full, sizeof full, given, "LMN_IMPORTER_INIT", error);
+    if (status != LMN_OK)
+        return status;
+    if (given->struct_size < sizeof full || !full.name || !full.read || (!full.probe && !full.endings))
+        return error_set(error, LMN_USAGE, "%s: an importer needs a name, `read`, and `probe` or endings", caller);
+    return LMN_OK;
+}
+
 /* A caller built against an older header hands over a shorter description; what it lacks keeps its default. */
 lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, const char *caller, lmn_error *error)
 {
     *full = (lmn_load_desc)LMN_LOAD_DESC_INIT;
-    if (!given)
-        return LMN_OK;
-    if (given->struct_size < sizeof given->struct_size) {
-        error_set(error, LMN_USAGE, "%s: the description's struct_size is not set", caller);
-        error_hint(error, "initialise it with LMN_LOAD_DESC_INIT");
-        return LMN_USAGE;
-    }
-    size_t size = given->struct_size < sizeof *full ? given->struct_size : sizeof *full;
-    memcpy(full, given, size);
-    full->struct_size = sizeof *full;
+    lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_LOAD_DESC_INIT", error);
+    if (status != LMN_OK)
+        return status;
     if (full->up_axis != LMN_UP_AUTO && full->up_axis != LMN_UP_Y && full->up_axis != LMN_UP_Z)
         return error_set(error, LMN_USAGE, "%s: up_axis %d is none of AUTO, Y, Z", caller, (int)full->up_axis);
+    for (size_t i = 0; i < full->importer_count; i++) {
+        status = check_importer(full->importers ? full->importers[i] : NULL, caller, error);
+        if (status != LMN_OK)
+            return status;
+    }
     for (size_t i = 0; i < full->define_count; i++)
         if (!full->defines || !full->defines[i])
             return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,

@@ -1,9 +1,8 @@
 /* Sheets: checks arguments and forwards. */
 #include "limner/sheet.h"
 
-#include <string.h>
-
 #include "api/check_desc.h"
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/file_store.h"
@@ -17,27 +16,25 @@ static lmn_status missing(const char *caller, const char *what, lmn_error *error
     return error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, what);
 }
 
+/* Whatever went wrong, it was this file that could not be written. */
+static lmn_status name_file(lmn_status status, const char *path, lmn_error *error)
+{
+    if (status != LMN_OK && error && !error->file[0])
+        error_file(error, path);
+    return status;
+}
+
 bool lmn_look_needs_pixels(const lmn_look *look)
 {
     return look && vector_needs_pixels(look);
 }
 
-/* What was given, as far as its caller knows the struct. */
 static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lmn_error *error)
 {
-    size_t size = 0;
-    if (!given)
-        return LMN_OK;
-    memcpy(&size, given, sizeof size);
-    if (size < sizeof size) {
-        error_set(error, LMN_USAGE, "lmn_draw_sheet: the sheet description's struct_size is not set");
-        error_hint(error, "initialise it with LMN_SHEET_DESC_INIT");
-        return LMN_USAGE;
-    }
-    memcpy(full, given, size < sizeof *full ? size : sizeof *full);
-    if ((int)full->angle < 0 || full->angle > LMN_FIRST_ANGLE)
+    lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_SHEET_DESC_INIT", error);
+    if (status == LMN_OK && ((int)full->angle < 0 || full->angle > LMN_FIRST_ANGLE))
         return error_set(error, LMN_USAGE, "lmn_draw_sheet: there is no angle %d", (int)full->angle);
-    return LMN_OK;
+    return status;
 }
 
 lmn_status lmn_page_size(const char *page, double *width_mm, double *height_mm, lmn_error *error)
@@ -98,7 +95,7 @@ lmn_status lmn_sheet_write(const lmn_sheet *s, const char *path, const char *for
         return missing("lmn_sheet_write", s ? "path" : "sheet", error);
     lmn_status status = export_choose(&chosen, path, format, true, error);
     if (status != LMN_OK)
-        return status;
+        return name_file(status, path, error);
     work w;
     work_begin(&w, NULL, NULL);
     export_bytes data = {0};
@@ -108,7 +105,30 @@ lmn_status lmn_sheet_write(const lmn_sheet *s, const char *path, const char *for
     if (bytes)
         *bytes = data.size;
     mem_free(data.data);
-    return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
+    return status == LMN_OK ? work_end_done(&w) : name_file(work_end(&w, status, error), path, error);
+}
+
+lmn_status lmn_sheet_encode(const lmn_sheet *s, const char *format, uint8_t **bytes, size_t *size, lmn_error *error)
+{
+    const export_format *chosen = NULL;
+    export_bytes         data = {0};
+    if (bytes)
+        *bytes = NULL;
+    if (!s || !format || !bytes || !size)
+        return missing("lmn_sheet_encode", !s ? "sheet" : !format ? "format" : !bytes ? "bytes" : "size", error);
+    lmn_status status = export_choose(&chosen, "-", format, true, error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, NULL, NULL);
+    status = chosen->write_sheet(&data, &s->page, error);
+    if (status != LMN_OK) {
+        mem_free(data.data);
+        return work_end(&w, status, error);
+    }
+    *bytes = data.data;
+    *size = data.size;
+    return work_end_done(&w);
 }
 
 char *lmn_sheet_report_json(const lmn_sheet *s)

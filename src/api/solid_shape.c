@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/memory.h"
@@ -287,9 +288,7 @@ static lmn_status complete(lmn_shape *full, const lmn_shape *given, const char *
         return LMN_USAGE;
     }
     *full = lmn_shape_of(given->kind);
-    memcpy(full, given, given->struct_size < sizeof *full ? given->struct_size : sizeof *full);
-    full->struct_size = sizeof *full;
-    return LMN_OK;
+    return desc_complete(full, sizeof *full, given, "lmn_shape_of", error);
 }
 
 lmn_status solid_shape_make(mesh *out, const lmn_shape *shape, const char *caller, lmn_error *error)

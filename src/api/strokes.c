@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/complete.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/file_store.h"
@@ -27,23 +28,6 @@ _Static_assert((int)LMN_PATTERN_RANDOM == (int)PATTERN_RANDOM && (int)LMN_ORDER_
 static lmn_status missing(const char *caller, const char *what, lmn_error *error)
 {
     return error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, what);
-}
-
-/* What was given, as far as its caller knows the struct. */
-static lmn_status complete(void *full, size_t full_size, const void *given, const char *caller, const char *initialiser,
-                           lmn_error *error)
-{
-    size_t size = 0;
-    if (!given)
-        return LMN_OK;
-    memcpy(&size, given, sizeof size);
-    if (size < sizeof size) {
-        error_set(error, LMN_USAGE, "%s: the description's struct_size is not set", caller);
-        error_hint(error, "initialise it with %s", initialiser);
-        return LMN_USAGE;
-    }
-    memcpy(full, given, size < full_size ? size : full_size);
-    return LMN_OK;
 }
 
 static lmn_strokes *allocate(void)
@@ -71,7 +55,7 @@ lmn_status lmn_strokes_create(lmn_strokes **out, const lmn_pattern_desc *desc, l
     if (!out)
         return missing("lmn_strokes_create", "out", error);
     *out = NULL;
-    lmn_status status = complete(&full, sizeof full, desc, "lmn_strokes_create", "LMN_PATTERN_DESC_INIT", error);
+    lmn_status status = desc_complete_given(&full, sizeof full, desc, "LMN_PATTERN_DESC_INIT", error);
     if (status == LMN_OK)
         status = check_pattern(&full, error);
     if (status != LMN_OK)
@@ -265,8 +249,7 @@ lmn_status lmn_strokes_write(const lmn_strokes *s, const char *path, const char 
         error_hint(error, "strokes are written as .stx, .svg or .png");
         return LMN_USAGE;
     }
-    lmn_status status =
-        complete(&full, sizeof full, png ? view : NULL, "lmn_strokes_write", "LMN_STROKES_VIEW_INIT", error);
+    lmn_status status = desc_complete_given(&full, sizeof full, png ? view : NULL, "LMN_STROKES_VIEW_INIT", error);
     if (status == LMN_OK && png)
         status = check_view(&full, error);
     if (status != LMN_OK)

@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,16 +31,124 @@ static bool must_fail(void)
     return false;
 }
 
+/* --- where it comes from -------------------------------------------------------------------------------- */
+
+/* Settled by the first block, or by the caller before; then never changed but in child processes. */
+typedef enum memory_source { SOURCE_OPEN = 0, SOURCE_MALLOC, SOURCE_CALLER, SOURCE_CHILD } memory_source;
+static atomic_int    source;
+static lmn_allocator caller; /* from SOURCE_CALLER on */
+
+/* Stands before blocks that may be the caller's, who does not tell how large they are. */
+typedef union head {
+    struct {
+        size_t size;
+        bool   plain; /* malloc's, of a child process */
+    };
+    max_align_t alignment;
+} head;
+
+static memory_source where(void)
+{
+    int now = atomic_load_explicit(&source, memory_order_acquire);
+    if (now != SOURCE_OPEN)
+        return (memory_source)now;
+    return atomic_compare_exchange_strong(&source, &now, SOURCE_MALLOC) ? SOURCE_MALLOC : (memory_source)now;
+}
+
+bool mem_use(const lmn_allocator *allocator)
+{
+    int open = SOURCE_OPEN;
+    if (atomic_load(&source) != SOURCE_OPEN)
+        return false;
+    caller = *allocator;
+    return atomic_compare_exchange_strong(&source, &open, SOURCE_CALLER);
+}
+
+void mem_enter_child(void)
+{
+    int from = SOURCE_CALLER;
+    atomic_compare_exchange_strong(&source, &from, SOURCE_CHILD);
+}
+
+static size_t size_of(void *block)
+{
+    return where() == SOURCE_MALLOC ? malloc_usable_size(block) : ((head *)block - 1)->size;
+}
+
+static void *take(size_t size)
+{
+    memory_source from = where();
+    size_t        whole;
+    if (from == SOURCE_MALLOC)
+        return malloc(size);
+    if (!size_add(size, sizeof(head), &whole))
+        return NULL;
+    head *made = from == SOURCE_CHILD ? malloc(whole) : caller.alloc(whole, caller.user);
+    if (!made)
+        return NULL;
+    made->size = size;
+    made->plain = from == SOURCE_CHILD;
+    return made + 1;
+}
+
+/* In a child process the caller's blocks stay: its allocator may be in the middle of something there. */
+static void give(void *block)
+{
+    memory_source from = where();
+    if (from == SOURCE_MALLOC || !block) {
+        free(block);
+        return;
+    }
+    head *made = (head *)block - 1;
+    if (made->plain)
+        free(made);
+    else if (from == SOURCE_CALLER)
+        caller.release(made, caller.user);
+}
+
+static void *resize(void *block, size_t size)
+{
+    memory_source from = where();
+    size_t        whole;
+    if (from == SOURCE_MALLOC)
+        return realloc(block, size);
+    if (!block)
+        return take(size);
+    if (!size_add(size, sizeof(head), &whole))
+        return NULL;
+    head *before = (head *)block - 1;
+    if (from == SOURCE_CHILD && !before->plain) {
+        void *moved = take(size);
+        return moved ? memcpy(moved, block, before->size < size ? before->size : size) : NULL;
+    }
+    head *made = before->plain ? realloc(before, whole) : caller.resize(before, whole, caller.user);
+    if (!made)
+        return NULL;
+    made->size = size;
+    return made + 1;
+}
+
+/* --- what is counted and may fail ----------------------------------------------------------------------- */
+
 static void *counted(void *block)
 {
     if (block)
-        work_count((long long)malloc_usable_size(block));
+        work_count((long long)size_of(block));
     return block;
 }
 
 void *mem_alloc(size_t size)
 {
-    return must_fail() || !work_has_memory(size) ? NULL : counted(malloc(size ? size : 1));
+    return must_fail() || !work_has_memory(size) ? NULL : counted(take(size ? size : 1));
+}
+
+/* Fresh pages of malloc are 0 without being touched. */
+static void *take_cleared(size_t bytes)
+{
+    if (where() == SOURCE_MALLOC)
+        return calloc(1, bytes);
+    void *block = take(bytes);
+    return block ? memset(block, 0, bytes) : NULL;
 }
 
 void *mem_calloc(size_t count, size_t size)
@@ -47,25 +156,25 @@ void *mem_calloc(size_t count, size_t size)
     size_t bytes;
     if (must_fail() || !size_mul(count, size, &bytes) || !work_has_memory(bytes))
         return NULL;
-    return counted(calloc(count ? count : 1, size ? size : 1));
+    return counted(take_cleared(bytes ? bytes : 1));
 }
 
 void *mem_realloc(void *block, size_t size)
 {
     if (must_fail() || !work_has_memory(size))
         return NULL;
-    long long before = block ? (long long)malloc_usable_size(block) : 0;
-    void     *moved = realloc(block, size ? size : 1);
+    long long before = block ? (long long)size_of(block) : 0;
+    void     *moved = resize(block, size ? size : 1);
     if (moved)
-        work_count((long long)malloc_usable_size(moved) - before);
+        work_count((long long)size_of(moved) - before);
     return moved;
 }
 
 void mem_free(void *block)
 {
     if (block)
-        work_count(-(long long)malloc_usable_size(block));
-    free(block);
+        work_count(-(long long)size_of(block));
+    give(block);
 }
 
 void *mem_copy(const void *block, size_t size)

@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "limner/memory.h"
+
 /* All return NULL when memory is gone; size 0 gives a pointer that can be freed. mem_calloc checks the product. */
 void *mem_alloc(size_t size);
 void *mem_calloc(size_t count, size_t size);
@@ -19,6 +21,11 @@ bool mem_grow(void **array, size_t *capacity, size_t count, size_t element_size)
 /* False on overflow, and then *out is SIZE_MAX. */
 bool size_mul(size_t a, size_t b, size_t *out);
 bool size_add(size_t a, size_t b, size_t *out);
+
+/* All blocks come from here; a copy is kept. False when one was made before, or this was called before. */
+bool mem_use(const lmn_allocator *allocator);
+/* In a child process: malloc from here on, whoever gave memory in the parent. */
+void mem_enter_child(void);
 
 /* For tests: the n-th allocation from now fails, as do all later ones until 0 is set. */
 void mem_fail_at(long n);

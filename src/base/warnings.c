@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/work.h"
 
 enum { WARNINGS_MAX = 256, WARNING_TEXT_SIZE = 512 };
 
@@ -18,13 +19,21 @@ const char *warning_code_text(warning_code code)
     return (unsigned)code < WARNING_CODE_COUNT ? names[code] : "unknown";
 }
 
-static void add(warnings *list, warning_code code, const char *message, size_t count)
+/* True when the list had no such warning. */
+static bool count_again(warnings *list, warning_code code, const char *message, size_t count)
 {
     for (size_t i = 0; i < list->count; i++)
         if (list->items[i].code == code && strcmp(list->items[i].text, message) == 0) {
             list->items[i].count += count;
-            return;
+            return false;
         }
+    return true;
+}
+
+static void add(warnings *list, warning_code code, const char *message, size_t count)
+{
+    if (!count_again(list, code, message, count))
+        return;
     if (list->count >= WARNINGS_MAX ||
         !mem_grow((void **)&list->items, &list->capacity, list->count + 1, sizeof *list->items))
         return;
@@ -40,8 +49,10 @@ void warnings_add(warnings *list, warning_code code, const char *format, ...)
     va_start(arguments, format);
     int length = vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    if (list && length >= 0)
-        add(list, code, message, 1);
+    if (!list || length < 0 || !count_again(list, code, message, 1))
+        return;
+    work_log(LMN_LOG_WARNING, warning_code_text(code), message);
+    add(list, code, message, 1);
 }
 
 void warnings_append(warnings *list, const warnings *more)

@@ -44,7 +44,8 @@ typedef struct warnings {
 } warnings;
 
 const char *warning_code_text(warning_code code);
-/* Adds a warning or counts it again. When memory is gone it is dropped: a warning is never worth an error. */
+/* Adds a warning, of which the log is told, or counts it again. When memory is gone it is dropped: a warning is never
+ * worth an error. */
 void warnings_add(warnings *list, warning_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void warnings_append(warnings *list, const warnings *more);
 void warnings_release(warnings *list);

@@ -181,6 +181,26 @@ const lmn_task_desc *work_conditions(void)
     return current ? current->conditions : NULL;
 }
 
+static const lmn_task_desc *listener(void)
+{
+    for (const work *w = current; w && !adopted; w = w->outer)
+        if (w->conditions && w->conditions->log)
+            return w->conditions;
+    return NULL;
+}
+
+bool work_listens(void)
+{
+    return listener() != NULL;
+}
+
+void work_log(lmn_log_kind kind, const char *code, const char *text)
+{
+    const lmn_task_desc *to = listener();
+    if (to)
+        to->log(kind, code, text, to->log_user);
+}
+
 lmn_status work_exceeded(lmn_error *error, const char *name, const char *format, ...)
 {
     char    message[512];

@@ -64,6 +64,9 @@ lmn_status work_progress(double fraction, const char *stage, lmn_error *error);
 /* The limits and conditions that hold now; the standard ones outside of any work. */
 lmn_limits           work_limits(void);
 const lmn_task_desc *work_conditions(void); /* NULL: standard */
+/* Tells the innermost task that listens; nothing on threads that work for another. */
+void work_log(lmn_log_kind kind, const char *code, const char *text);
+bool work_listens(void); /* is there one? */
 /* A limit is exceeded: fills the error, with the hint how to raise it. LMN_LIMIT. */
 lmn_status work_exceeded(lmn_error *error, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -88,8 +88,10 @@ static lmn_status measure(char **out, series *all, size_t count, const lmn_look 
     for (size_t k = 1; k < count; k++)
         json_object_set_new(table, looks[k - 1]->name, series_json(&all[k], &all[0], repeat));
     json_object_set_new(root, "looks", table);
-    *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    char *dumped = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
     json_decref(root);
+    *out = mem_copy_text(dumped);
+    free(dumped);
     return *out ? gpu_check(r->g, error) : error_memory(error);
 }
 

@@ -175,6 +175,18 @@ static lmn_status split_movers(session *s, const draw_options *options, int side
     return options->maps || options->surfaces_only ? LMN_OK : plan_split_movers(&s->plan, &view, warnings, error);
 }
 
+/* Shaders of techniques from outside of the library. */
+static lmn_status give_sources(gpu *g, const lmn_look *look, lmn_error *error)
+{
+    for (size_t i = 0; i < look->rule_count; i++)
+        for (size_t u = 0; u < look->rules[i].use_counts[KIND_SURFACE]; u++) {
+            const surface_row *row = look->rules[i].uses[KIND_SURFACE][u].technique->surface;
+            if (row->outside && !gpu_give_source(g, strrchr(row->shader, '+') + 1, row->label, row->outside))
+                return error_memory(error);
+        }
+    return LMN_OK;
+}
+
 /* The plan, and on the GPU what it needs. */
 static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *look, const draw_options *w, int side,
                           warnings *warnings, lmn_error *error)
@@ -187,6 +199,8 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .as_sprites = w->maps,
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
+    if (status == LMN_OK)
+        status = give_sources(r->g, look, error);
     if (status == LMN_OK)
         status = bring_pose(r, scene, look, w, warnings, error);
     if (status == LMN_OK)

@@ -123,6 +123,7 @@ static void run_child(int channel, size_t address_space)
 {
     work_adopt(NULL);
     mem_fail_at(0);
+    mem_enter_child();
     if (fence_lock(channel, address_space) && has_memory() && send_all(&READY, sizeof READY))
         while (answer_one())
             ;

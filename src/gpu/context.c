@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/work.h"
 
 lmn_status gpu_no_gl(gpu **g, lmn_error *error, const char *what)
 {
@@ -116,6 +117,7 @@ static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum se
     gpu *g = (gpu *)(uintptr_t)user;
     if (type == GL_DEBUG_TYPE_ERROR)
         gpu_fail(g, LMN_GL, "the driver reports: %s", message);
+    work_log(LMN_LOG_DRIVER, "driver", message);
 }
 
 lmn_status gpu_begin(gpu **out, bool debug, lmn_error *error)
@@ -304,6 +306,7 @@ static void release_objects(gpu *g)
         glDeleteVertexArrays(1, &g->boxes_array);
         glDeleteBuffers(1, &g->boxes_buffer);
     }
+    gpu_sources_release(g);
     mem_free(g->programs);
     mem_free(g->targets);
     mem_free(g->buffers);

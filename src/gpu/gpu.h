@@ -63,7 +63,10 @@ bool gpu_is_adopted(const gpu *g);
 /* Returns the sticky error and clears it. */
 lmn_status gpu_check(gpu *g, lmn_error *error);
 void       gpu_fail(gpu *g, lmn_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
-bool       gpu_failed(const gpu *g);
+/* The same, for what is wrong with a file of someone else's. */
+void gpu_fail_in(gpu *g, lmn_status status, const char *file, int line, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+bool gpu_failed(const gpu *g);
 /* Waits until everything is done. */
 void gpu_finish(gpu *g);
 
@@ -124,6 +127,10 @@ void gpu_target_write(gpu *g, gpu_texture *t, const int box[4], const void *pixe
  * name file and line. */
 gpu_program *gpu_program_of(gpu *g, gpu_dialect dialect, const char *vertex, const char *fragment, const char *prelude);
 size_t       gpu_program_count(const gpu *g);
+/* Lets programs name `text` by this path, which must mean the same text for good and end in its own way. `label` stands
+ * for it in errors, which have it as their file, and the line. Copies what it is given; a path that is known stays as
+ * it is. False when memory is gone. */
+bool gpu_give_source(gpu *g, const char *path, const char *label, const char *text);
 
 /* --- meshes --------------------------------------------------------------------------------------------- */
 

@@ -39,6 +39,11 @@ struct gpu_program {
     int          uniform_count;
 };
 
+/* A shader text from outside of the library. */
+typedef struct given_source {
+    char *path, *label, *text;
+} given_source;
+
 enum { GPU_BUFFERS = 15 };
 
 struct gpu_mesh {
@@ -82,6 +87,8 @@ struct gpu {
     size_t           target_count, target_capacity;
     gpu_program    **programs;
     size_t           program_count, program_capacity;
+    given_source    *sources;
+    size_t           source_count, source_capacity;
     gpu_buffer     **buffers;
     size_t           buffer_count, buffer_capacity;
     framebuffer      framebuffers[FRAMEBUFFERS_MAX];
@@ -105,6 +112,7 @@ uint32_t pace_indices(const gpu *g, uint32_t count); /* how many at once */
 int      pace_rows(const gpu *g, int width, int height);
 
 void gpu_buffers_trim(gpu *g);
+void gpu_sources_release(gpu *g);
 /* --- context.c, adopt.c --- */
 lmn_status gpu_begin(gpu **out, bool debug, lmn_error *error); /* an empty one, busy; `before` is asked */
 lmn_status gpu_no_gl(gpu **g, lmn_error *error, const char *what);

@@ -7,6 +7,7 @@
 #include "base/embedded.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/work.h"
 
 enum { FILES_MAX = 32, INCLUDE_DEPTH_MAX = 8, FILE_LINES_MAX = 2000 };
 
@@ -36,10 +37,63 @@ static const char *embedded_text(const char *path, size_t *size)
     return NULL;
 }
 
+/* --- texts from outside of the library ------------------------------------------------------------------ */
+
+static const given_source *given(const gpu *g, const char *path)
+{
+    for (size_t i = 0; i < g->source_count; i++)
+        if (strcmp(g->sources[i].path, path) == 0)
+            return &g->sources[i];
+    return NULL;
+}
+
+/* The one that a '+'-joined list has; NULL: none. */
+static const given_source *given_among(const gpu *g, const char *list)
+{
+    for (size_t i = 0; i < g->source_count; i++)
+        if (strstr(list, g->sources[i].path))
+            return &g->sources[i];
+    return NULL;
+}
+
+static void given_release(given_source *s)
+{
+    mem_free(s->path);
+    mem_free(s->label);
+    mem_free(s->text);
+}
+
+bool gpu_give_source(gpu *g, const char *path, const char *label, const char *content)
+{
+    if (given(g, path))
+        return true;
+    if (!mem_grow((void **)&g->sources, &g->source_capacity, g->source_count + 1, sizeof *g->sources))
+        return false;
+    given_source s = {mem_copy_text(path), mem_copy_text(label), mem_copy_text(content)};
+    if (!s.path || !s.label || !s.text) {
+        given_release(&s);
+        return false;
+    }
+    g->sources[g->source_count++] = s;
+    return true;
+}
+
+void gpu_sources_release(gpu *g)
+{
+    for (size_t i = 0; i < g->source_count; i++)
+        given_release(&g->sources[i]);
+    mem_free(g->sources);
+}
+
+/* --- putting shaders together --------------------------------------------------------------------------- */
+
 /* LIMNER_SHADER_DIR lets shaders be edited without a build. */
 static char *load_text(gpu *g, const char *path)
 {
-    const char *folder = getenv("LIMNER_SHADER_DIR");
+    const char         *folder = getenv("LIMNER_SHADER_DIR");
+    const given_source *outside = given(g, path);
+    if (outside)
+        return mem_copy_text(outside->text);
     if (folder) {
         text joined = {0};
         text_append(&joined, "%s/%s", folder, path);
@@ -141,40 +195,100 @@ static const char *main_file(const char *list)
     return last ? last + 1 : list;
 }
 
-/* Appends a line of the log with the file's name: "0:4012(3): error: …", "ERROR: 0:4012: …" and "0(4012) : error …"
- * become "src/FILE:12: …". */
-static void explain_line(text *out, const source *s, const char *line, size_t length)
+/* --- what drivers say ----------------------------------------------------------------------------------- */
+
+/* Where a line of the log says that something is: "0:4012(3): error: …", "ERROR: 0:4012: …" and "0(4012) : error …"
+ * all mean line 12 of a file. */
+typedef struct log_place {
+    const char *file;   /* NULL: it does not say */
+    long        line;   /* of the file */
+    const char *behind; /* what follows it */
+} log_place;
+
+static log_place place_of(const source *s, const char *line)
 {
     const char *at = strncmp(line, "ERROR: ", 7) == 0 ? line + 7 : strncmp(line, "WARNING: ", 9) == 0 ? line + 9 : line;
     size_t      digits = strspn(at, "0123456789");
     char       *behind = NULL;
     long number = digits > 0 && (at[digits] == ':' || at[digits] == '(') ? strtol(at + digits + 1, &behind, 10) : 0;
     long file = number / FILE_LINES_MAX - 1;
-    if (file >= 0 && file < s->file_count) {
-        text_append(out, "src/%s:%ld", s->files[file], number % FILE_LINES_MAX);
-        behind += *behind == ')';
-        length -= (size_t)(behind - line);
-        line = behind;
-    }
-    text_append_bytes(out, line, length);
+    if (file < 0 || file >= s->file_count)
+        return (log_place){.behind = line};
+    return (log_place){s->files[file], number % FILE_LINES_MAX, behind + (*behind == ')')};
 }
 
-static void explain(gpu *g, const source *s, const char *path, const char *log)
+static void append_name(text *out, const gpu *g, const char *file)
+{
+    const given_source *outside = given(g, file);
+    text_append(out, "%s%s", outside ? "" : "src/", outside ? outside->label : file);
+}
+
+/* The log with names and lines of files. */
+static text explained(const gpu *g, const source *s, const char *log)
 {
     text out = {0};
     for (const char *line = log; *line;) {
-        size_t length = strcspn(line, "\n");
+        size_t    length = strcspn(line, "\n");
+        log_place at = place_of(s, line);
         length += line[length] == '\n';
-        explain_line(&out, s, line, length);
+        if (at.file) {
+            append_name(&out, g, at.file);
+            text_append(&out, ":%ld", at.line);
+        }
+        text_append_bytes(&out, at.behind, (size_t)(line + length - at.behind));
         line += length;
     }
     while (!out.failed && out.size > 0 && strchr("\n\r ", out.data[out.size - 1]))
         out.data[--out.size] = '\0';
-    if (!out.failed && out.size > 4 && strncmp(out.data, "src/", 4) == 0)
+    return out;
+}
+
+/* The first error of the log that lies in a text from outside; what warns comes before it. */
+static log_place error_outside(const gpu *g, const source *s, const char *log)
+{
+    for (const char *line = log; *line; line += line[strcspn(line, "\n")] ? strcspn(line, "\n") + 1 : strlen(line)) {
+        log_place   at = place_of(s, line);
+        const char *word = strstr(line, "rror"), *end = line + strcspn(line, "\n");
+        if (at.file && given(g, at.file) && word && word < end)
+            return at;
+    }
+    return (log_place){0};
+}
+
+/* The shader is a text from outside together with files of the library, which are right. */
+static void explain_outside(gpu *g, const source *s, const given_source *outside, const char *log, const char *all)
+{
+    log_place at = error_outside(g, s, log);
+    if (!at.file) {
+        gpu_fail_in(g, LMN_GL, outside->label, 0, "the driver refuses the shader with this text in it: %s", all);
+        return;
+    }
+    const char *from = at.behind + strspn(at.behind, ": ");
+    gpu_fail_in(g, LMN_GL, given(g, at.file)->label, (int)at.line, "%.*s", (int)strcspn(from, "\n"), from);
+}
+
+static void explain(gpu *g, const source *s, const char *path, const char *log)
+{
+    text                out = explained(g, s, log);
+    const given_source *outside = given_among(g, path);
+    if (outside)
+        explain_outside(g, s, outside, log, out.failed || !out.data ? log : out.data);
+    else if (!out.failed && out.size > 4 && strncmp(out.data, "src/", 4) == 0)
         gpu_fail(g, LMN_GL, "%s", out.data);
     else
         gpu_fail(g, LMN_GL, "src/%s: the driver refuses the shader: %s", main_file(path),
                  out.failed || !out.data ? log : out.data);
+    text_release(&out);
+}
+
+/* What the driver says of a shader that it takes. */
+static void tell_warnings(gpu *g, const source *s, GLuint shader)
+{
+    char log[1024] = "";
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    text out = explained(g, s, log);
+    if (out.data && out.size)
+        work_log(LMN_LOG_DRIVER, "driver", out.data);
     text_release(&out);
 }
 
@@ -200,6 +314,8 @@ static GLuint compile(gpu *g, gpu_dialect dialect, GLenum stage, const char *pat
             explain(g, &s, path, log);
             glDeleteShader(shader);
             shader = 0;
+        } else if (work_listens()) {
+            tell_warnings(g, &s, shader);
         }
     } else {
         gpu_fail(g, LMN_MEMORY, "out of memory"); /* where it was something else, that was said first */
@@ -220,7 +336,11 @@ static GLuint link_program(gpu *g, GLuint vertex, GLuint fragment, const char *p
         return program;
     char log[1024] = "";
     glGetProgramInfoLog(program, sizeof log, NULL, log);
-    gpu_fail(g, LMN_GL, "src/%s: the driver cannot link the program: %s", main_file(path), log);
+    const given_source *outside = given_among(g, path);
+    if (outside)
+        gpu_fail_in(g, LMN_GL, outside->label, 0, "the driver cannot link the program with this text in it: %s", log);
+    else
+        gpu_fail(g, LMN_GL, "src/%s: the driver cannot link the program: %s", main_file(path), log);
     glDeleteProgram(program);
     return 0;
 }

@@ -19,6 +19,19 @@ void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
     error_set(&g->error, status, "%s", message);
 }
 
+void gpu_fail_in(gpu *g, lmn_status status, const char *file, int line, const char *format, ...)
+{
+    if (g->failed)
+        return;
+    char    message[sizeof g->error.message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    g->failed = true;
+    error_in_file(&g->error, status, file, line, "%s", message);
+}
+
 bool gpu_failed(const gpu *g)
 {
     return g->failed;

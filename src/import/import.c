@@ -22,11 +22,11 @@ lmn_status import_progress(const import_job *job, double fraction, const char *s
     return status;
 }
 
-static bool has_ending(const import_format *f, const char *ending)
+static bool is_among(const char *endings, const char *ending)
 {
     size_t length = strlen(ending);
-    for (const char *at = f->endings; length > 1 && (at = strstr(at, ending)); at += length)
-        if ((at[length] == '\0' || at[length] == ' ') && (at == f->endings || at[-1] == ' '))
+    for (const char *at = endings; length > 1 && (at = strstr(at, ending)); at += length)
+        if ((at[length] == '\0' || at[length] == ' ') && (at == endings || at[-1] == ' '))
             return true;
     return false;
 }
@@ -42,7 +42,7 @@ static const import_format *by_content(const file_data *file)
 static const import_format *by_ending(const char *ending)
 {
     for (int i = 0; i < FORMAT_COUNT; i++)
-        if (has_ending(formats[i], ending))
+        if (is_among(formats[i]->endings, ending))
             return formats[i];
     return NULL;
 }
@@ -135,6 +135,61 @@ static lmn_status check_options(const import_format *format, const char *path, c
                          desc->define_count ? "definitions are" : "being strict is", format->name);
 }
 
+/* --- formats of the caller's ---------------------------------------------------------------------------- */
+
+/* The caller's importer for this file; NULL: there is none. */
+static const lmn_importer *find_importer(const lmn_load_desc *desc, const char *path, const file_data *file)
+{
+    char ending[16];
+    file_ending(path, ending, sizeof ending);
+    for (size_t i = 0; i < desc->importer_count && file->size; i++) {
+        const lmn_importer *of = desc->importers[i];
+        if (of->probe ? of->probe(file->data, file->size, of->user) : is_among(of->endings, ending))
+            return of;
+    }
+    return NULL;
+}
+
+/* What it made it has made by calls, which leave the scene whole. */
+static lmn_status read_outside(const import_job *job, const lmn_importer *by, lmn_error *error)
+{
+    lmn_scene *scene = job->scene;
+    lmn_error  own = {0};
+    if (job->desc->define_count || job->desc->strict)
+        return error_in_file(error, LMN_USAGE, job->path, 0,
+                             "definitions and being strict are for OpenSCAD programs "
+                             "(.scad), and this is %s",
+                             by->name);
+    lmn_status status = import_progress(job, 0, "reading", error);
+    if (status != LMN_OK)
+        return status;
+    status = by->read(scene, job->path, job->file->data, job->file->size, by->user, &own);
+    if (status == LMN_OK && scene->changes_open)
+        status = error_set(&own, LMN_USAGE, "the importer of %s has left changes of the scene open", by->name);
+    if (status != LMN_OK) {
+        error_in_file(error, status, job->path, own.line, "%s",
+                      own.message[0] ? own.message : "the importer has failed and does not say why");
+        if (own.hint[0])
+            error_hint(error, "%s", own.hint);
+        return status;
+    }
+    if (job->desc->up_axis != LMN_UP_AUTO)
+        scene->up = job->desc->up_axis == LMN_UP_Y ? 'y' : 'z';
+    status = name_single_node(scene, job->path, error);
+    return status == LMN_OK ? check_triangles(job, error) : status;
+}
+
+/* --- from a path to a scene ----------------------------------------------------------------------------- */
+
+static lmn_status read_ours(const import_job *job, lmn_error *error)
+{
+    const import_format *format = NULL;
+    lmn_status           status = choose(&format, job->path, job->file, error);
+    if (status == LMN_OK)
+        status = check_options(format, job->path, job->desc, error);
+    return status == LMN_OK ? read_into(job, format, job->desc->up_axis, error) : status;
+}
+
 static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc,
                        lmn_error *error)
 {
@@ -144,15 +199,13 @@ static lmn_status load(lmn_scene **out, const import_job *by, const char *path, 
     lmn_status status = access_read(by, by ? "file" : "model", path, &file, NULL, error);
     if (status != LMN_OK)
         return status;
-    const import_format *format = NULL;
-    lmn_scene           *scene = scene_new();
-    status = scene ? choose(&format, path, &file, error) : error_memory(error);
-    if (status == LMN_OK)
-        status = check_options(format, path, desc, error);
-    if (status == LMN_OK) {
-        import_job job = {.path = path, .model = by ? by->model : path, .file = &file, .scene = scene, .desc = desc};
-        status = read_into(&job, format, desc->up_axis, error);
-    }
+    const lmn_importer *outside = find_importer(desc, path, &file);
+    lmn_scene          *scene = scene_new();
+    import_job job = {.path = path, .model = by ? by->model : path, .file = &file, .scene = scene, .desc = desc};
+    if (!scene)
+        status = error_memory(error);
+    else
+        status = outside ? read_outside(&job, outside, error) : read_ours(&job, error);
     file_data_release(&file);
     if (status != LMN_OK) {
         /* Readers of parts of a file need not know its name. */

@@ -65,38 +65,41 @@ bool kind_may_be_none(const kind *k)
 }
 
 /* "a, b, c" of the techniques for which `has` (NULL: any) is a parameter; false when there is none. */
-static bool list_techniques(text *list, const kind *k, const char *has)
+static bool list_techniques(text *list, const kind *k, const lmn_techniques *set, const char *has)
 {
     bool any = false;
-    for (size_t i = 0; i < k->technique_count; i++) {
-        if (has && !kind_find_param(k, k->techniques[i], has))
+    for (size_t i = 0; i < k->technique_count + techniques_count(set, k); i++) {
+        const technique *t = i < k->technique_count ? k->techniques[i] : techniques_at(set, k, i - k->technique_count);
+        if (has && !kind_find_param(k, t, has))
             continue;
-        text_append(list, "%s%s", any ? ", " : "", k->techniques[i]->name);
+        text_append(list, "%s%s", any ? ", " : "", t->name);
         any = true;
     }
     return any;
 }
 
-void kind_hint_techniques(const kind *k, lmn_error *error)
+void kind_hint_techniques(const kind *k, const lmn_techniques *set, lmn_error *error)
 {
     text list = {0};
-    list_techniques(&list, k, NULL);
+    list_techniques(&list, k, set, NULL);
     error_hint(error, "%s has: %s%s", k->name, list.data ? list.data : "?", kind_may_be_none(k) ? ", none" : "");
     text_release(&list);
 }
 
-lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *error)
+lmn_status kind_unknown_technique(const kind *k, const lmn_techniques *set, const char *name, lmn_error *error)
 {
     const char *names[64];
     size_t      count = 0;
-    for (; count < k->technique_count && count < PARAM_COUNT(names); count++)
-        names[count] = k->techniques[count]->name;
+    for (size_t i = 0; i < techniques_count(set, k) && count < PARAM_COUNT(names); i++)
+        names[count++] = techniques_at(set, k, i)->name;
+    for (size_t i = 0; i < k->technique_count && count < PARAM_COUNT(names); i++)
+        names[count++] = k->techniques[i]->name;
     const char *near = text_nearest(name, names, count);
     lmn_status  status = error_set(error, LMN_USAGE, "there is no %s technique '%.60s'", k->name, name);
     if (near)
         error_hint(error, "did you mean '%s'?", near);
     else
-        kind_hint_techniques(k, error);
+        kind_hint_techniques(k, set, error);
     return status;
 }
 
@@ -104,7 +107,7 @@ lmn_status kind_missing_param(const kind *k, const technique *t, const char *key
 {
     text       having = {0};
     lmn_status status;
-    if (list_techniques(&having, k, key)) {
+    if (list_techniques(&having, k, NULL, key)) {
         status = error_set(error, LMN_USAGE, "%s technique '%s' has no parameter '%.60s'; these have it: %.200s",
                            k->name, t->name, key, having.data ? having.data : "others");
         error_hint(error, "set %s.%s first, or see `limner looks` for what '%s' has", k->name, k->selector_key,

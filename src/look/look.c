@@ -118,6 +118,7 @@ static lmn_status copy_rule(rule *out, const rule *from, lmn_error *error)
 
 static lmn_status copy_content(lmn_look *out, const lmn_look *from, lmn_error *error)
 {
+    out->techniques = techniques_hold(from->techniques);
     out->name = mem_copy_text(from->name);
     out->doc = mem_copy_text(from->doc);
     out->rules = mem_calloc(from->rule_count, sizeof *out->rules);
@@ -159,6 +160,7 @@ void look_destroy(lmn_look **look)
     mem_free((*look)->rules);
     mem_free((*look)->name);
     mem_free((*look)->doc);
+    techniques_release((*look)->techniques); /* behind all that uses one */
     mem_free(*look);
     *look = NULL;
 }

@@ -5,6 +5,7 @@
 #include "limner/look.h"
 #include "limner/rules.h"
 #include "look/selector.h"
+#include "look/technique_set.h"
 #include "technique/technique.h"
 
 typedef struct rule {
@@ -18,12 +19,13 @@ typedef struct rule {
 enum { LOOK_CHANGE_BITS = 5, LOOK_CHANGE_ALL = (1 << LOOK_CHANGE_BITS) - 1 };
 
 struct lmn_look {
-    char         *name, *doc;
-    technique_use wide[KIND_COUNT]; /* technique NULL for kinds that are not look-wide */
-    rule         *rules;
-    size_t        rule_count;
-    uint64_t      revision; /* changes whenever the content does; no two looks of a process share one */
-    uint64_t      changed[LOOK_CHANGE_BITS]; /* the revision at which each of lmn_look_change was last so */
+    char           *name, *doc;
+    technique_use   wide[KIND_COUNT]; /* technique NULL for kinds that are not look-wide */
+    rule           *rules;
+    size_t          rule_count;
+    lmn_techniques *techniques; /* held; NULL: none but the library's */
+    uint64_t        revision;   /* changes whenever the content does; no two looks of a process share one */
+    uint64_t        changed[LOOK_CHANGE_BITS]; /* the revision at which each of lmn_look_change was last so */
 };
 
 /* All kinds in drawing order, KIND_COUNT of them, index = kind_id. */
@@ -44,12 +46,12 @@ bool kind_may_be_none(const kind *k);
 size_t       kind_param_count(const kind *k, const technique *t);
 const param *kind_param_at(const kind *k, const technique *t, size_t index);
 
-/* Errors with a helpful text, all LMN_USAGE: a technique or a parameter that does not exist. The latter names the
- * techniques of the kind that have it. */
-lmn_status kind_unknown_technique(const kind *k, const char *name, lmn_error *error);
+/* Errors with a helpful text, all LMN_USAGE: a technique, of the kind or the set, or a parameter that does not exist.
+ * The latter names the techniques of the kind that have it. */
+lmn_status kind_unknown_technique(const kind *k, const lmn_techniques *set, const char *name, lmn_error *error);
 lmn_status kind_missing_param(const kind *k, const technique *t, const char *key, lmn_error *error);
 /* Hints at the names of the kind's techniques. */
-void kind_hint_techniques(const kind *k, lmn_error *error);
+void kind_hint_techniques(const kind *k, const lmn_techniques *set, lmn_error *error);
 
 /* Makes a use with default values; false when memory is gone. */
 bool use_create(technique_use *out, const kind *k, const technique *t);
@@ -65,8 +67,10 @@ void       rule_release(rule *r);
 enum { LOOK_VERSION = 2 }; /* src/look/look_version.c reads older ones */
 
 /* See limner/look.h; these are what the public functions forward to. */
-lmn_status  look_load(lmn_look **out, const char *name_or_path, lmn_error *error);
-lmn_status  look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error);
+lmn_status  look_load(lmn_look **out, const char *name_or_path, lmn_techniques *set, lmn_error *error);
+lmn_status  look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_techniques *set,
+                       lmn_error *error);
+lmn_status  look_create(lmn_look **out, lmn_techniques *set, lmn_error *error); /* of one rule for all parts */
 void        look_destroy(lmn_look **look);
 lmn_status  look_copy(lmn_look **out, const lmn_look *look, lmn_error *error);
 lmn_status  look_set(lmn_look *look, const char *key, const char *value, lmn_error *error);

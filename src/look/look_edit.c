@@ -248,12 +248,12 @@ lmn_status look_select(lmn_look *look, size_t index, const char *select, lmn_err
 
 lmn_status look_set_technique(lmn_look *look, const use_list *uses, size_t index, const char *name, lmn_error *error)
 {
-    const technique *t = kind_find_technique(uses->kind, name);
+    const technique *t = techniques_find(look->techniques, uses->kind, name);
     lmn_status       status = check_use(uses, index, error);
     if (status != LMN_OK)
         return status;
     if (!t)
-        return kind_unknown_technique(uses->kind, name, error);
+        return kind_unknown_technique(uses->kind, look->techniques, name, error);
     if (uses->uses[index].technique == t)
         return LMN_OK;
     if (!use_exchange(&uses->uses[index], uses->kind, t))
@@ -286,11 +286,11 @@ static lmn_status check_room(const use_list *uses, size_t at, lmn_error *error)
 lmn_status look_add_technique(lmn_look *look, const use_list *uses, const char *name, size_t before, lmn_error *error)
 {
     const kind      *k = uses->kind;
-    const technique *t = kind_find_technique(k, name);
+    const technique *t = techniques_find(look->techniques, k, name);
     size_t           count = uses->count, at = before == LMN_AT_END ? count : before;
     technique_use    fresh, spare;
     if (!t)
-        return kind_unknown_technique(k, name, error);
+        return kind_unknown_technique(k, look->techniques, name, error);
     lmn_status status = check_room(uses, at, error);
     if (status != LMN_OK)
         return status;
@@ -318,7 +318,7 @@ lmn_status look_remove_technique(lmn_look *look, const use_list *uses, size_t in
         return status;
     if (uses->count == 1 && !kind_may_be_none(k)) {
         status = error_set(error, LMN_USAGE, "%s cannot be none", k->name);
-        kind_hint_techniques(k, error);
+        kind_hint_techniques(k, look->techniques, error);
         return status;
     }
     move_element(uses->uses, sizeof spare, index, uses->count - 1, &spare);

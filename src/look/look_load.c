@@ -53,26 +53,26 @@ static lmn_status unknown_name(const char *name, lmn_error *error)
     return status;
 }
 
-static lmn_status load_file(lmn_look **out, const char *path, lmn_error *error)
+static lmn_status load_file(lmn_look **out, const char *path, lmn_techniques *set, lmn_error *error)
 {
     file_data  data;
     lmn_status status = file_load(&data, path, error);
     if (status != LMN_OK)
         return status;
-    status = look_parse(out, (const char *)data.data, data.size, path, error);
+    status = look_parse(out, (const char *)data.data, data.size, path, set, error);
     file_data_release(&data);
     return status;
 }
 
-lmn_status look_load(lmn_look **out, const char *name_or_path, lmn_error *error)
+lmn_status look_load(lmn_look **out, const char *name_or_path, lmn_techniques *set, lmn_error *error)
 {
     *out = NULL;
     char ending[8];
     file_ending(name_or_path, ending, sizeof ending);
     if (strchr(name_or_path, '/') || strcmp(ending, ".json") == 0)
-        return load_file(out, name_or_path, error);
+        return load_file(out, name_or_path, set, error);
     for (size_t i = 0; i < embedded_looks_count; i++)
         if (strcmp(embedded_looks[i].path, name_or_path) == 0)
-            return look_parse(out, embedded_looks[i].data, embedded_looks[i].size, name_or_path, error);
+            return look_parse(out, embedded_looks[i].data, embedded_looks[i].size, name_or_path, set, error);
     return unknown_name(name_or_path, error);
 }

@@ -18,11 +18,12 @@
 enum { STEPS_MAX = 6 };
 
 typedef struct reader {
-    const char *text, *file;
-    size_t      size;
-    lmn_error  *error;
-    locate_step steps[STEPS_MAX]; /* where the reader is in the document */
-    size_t      depth;
+    const char     *text, *file;
+    size_t          size;
+    lmn_error      *error;
+    lmn_techniques *set;              /* that the look may have besides the library's; NULL: none */
+    locate_step     steps[STEPS_MAX]; /* where the reader is in the document */
+    size_t          depth;
 } reader;
 
 static void enter_key(reader *r, const char *key)
@@ -119,10 +120,10 @@ static lmn_status read_technique(reader *r, const kind *k, const json_t *json, c
     lmn_error inner = {0};
     if (!json_is_string(json))
         return fail(r, key, "the technique's name must be text in quotes");
-    *out = kind_find_technique(k, json_string_value(json));
+    *out = techniques_find(r->set, k, json_string_value(json));
     if (*out)
         return LMN_OK;
-    kind_unknown_technique(k, json_string_value(json), &inner);
+    kind_unknown_technique(k, r->set, json_string_value(json), &inner);
     return fail_with(r, key, &inner);
 }
 
@@ -141,7 +142,7 @@ static lmn_status find_technique_of(reader *r, const kind *k, const json_t *obje
     if (*out)
         return LMN_OK;
     lmn_status status = fail(r, NULL, "'%s' is missing", k->selector_key);
-    kind_hint_techniques(k, r->error);
+    kind_hint_techniques(k, r->set, r->error);
     return status;
 }
 
@@ -423,9 +424,10 @@ static lmn_status check_limits(const reader *r)
     return LMN_OK;
 }
 
-lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_error *error)
+lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char *name, lmn_techniques *set,
+                      lmn_error *error)
 {
-    reader       r = {.text = json, .file = name, .size = size, .error = error};
+    reader       r = {.text = json, .file = name, .size = size, .error = error, .set = set};
     json_error_t wrong;
     *out = NULL;
     if (size >= 3 && memcmp(json, "\xEF\xBB\xBF", 3) == 0) { /* some editors put a byte order mark */
@@ -439,6 +441,8 @@ lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char 
     if (!root)
         return fail_syntax(&r, &wrong);
     lmn_look *look = mem_calloc(1, sizeof *look);
+    if (look)
+        look->techniques = techniques_hold(set);
     status = look ? read_root(&r, root, look) : error_memory(error);
     if (status == LMN_OK && !look->name && !(look->name = stem_of(name)))
         status = error_memory(error);
@@ -449,4 +453,10 @@ lmn_status look_parse(lmn_look **out, const char *json, size_t size, const char 
         look_destroy(&look);
     *out = look;
     return status;
+}
+
+lmn_status look_create(lmn_look **out, lmn_techniques *set, lmn_error *error)
+{
+    static const char empty[] = "{\"version\": 2, \"rules\": [{\"select\": \"*\"}]}";
+    return look_parse(out, empty, sizeof empty - 1, "look", set, error);
 }

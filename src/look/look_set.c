@@ -141,10 +141,10 @@ static lmn_status check_index(const lmn_look *look, const address *a, bool appen
 static lmn_status set_technique(lmn_look *look, const address *a, const char *value, lmn_error *error)
 {
     const kind      *k = a->kind;
-    const technique *t = kind_find_technique(k, value);
+    const technique *t = techniques_find(look->techniques, k, value);
     bool             none = !t && strcmp(value, "none") == 0 && kind_may_be_none(k), any = false;
     if (!t && !none)
-        return kind_unknown_technique(k, value, error);
+        return kind_unknown_technique(k, look->techniques, value, error);
     if (k->look_wide)
         return use_exchange(&look->wide[k->id], k, t) ? LMN_OK : error_memory(error);
     lmn_status status = a->index == ALL ? LMN_OK : check_index(look, a, !none, error);

@@ -133,7 +133,7 @@ static lmn_status put_looks(json_t *root, lmn_error *error)
         return error_memory(error);
     for (size_t i = 0; i < embedded_looks_count; i++) {
         lmn_look  *look = NULL;
-        lmn_status status = look_load(&look, look_name_at(i), error);
+        lmn_status status = look_load(&look, look_name_at(i), NULL, error);
         if (status != LMN_OK)
             return status;
         json_t *object = json_object();
@@ -223,7 +223,7 @@ static bool put_look(json_t *root, const lmn_look *look)
 static lmn_status reference_of_look(json_t *root, const char *name_or_path, lmn_error *error)
 {
     lmn_look  *look = NULL;
-    lmn_status status = look_load(&look, name_or_path, error);
+    lmn_status status = look_load(&look, name_or_path, NULL, error);
     if (status == LMN_OK && !put_look(root, look))
         status = error_memory(error);
     look_destroy(&look);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "limner/version.h"
 
 static json_t *numbers(const double *values, size_t count)
@@ -57,7 +58,9 @@ json_t *report_strokes_json(const uint64_t counts[STROKE_CLASS_COUNT])
 
 char *report_dump(json_t *root)
 {
-    char *out = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
+    char *dumped = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     json_decref(root);
-    return out;
+    char *copy = mem_copy_text(dumped); /* callers free it like all of the library's texts */
+    free(dumped);
+    return copy;
 }

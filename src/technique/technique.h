@@ -140,7 +140,9 @@ struct stroke_options;
 
 /* What a surface technique is beside its passes. */
 typedef struct surface_row {
-    const char *shader;         /* GLSL file with `vec4 surface_colour(surface_point p)` */
+    const char *shader;  /* GLSL file with `vec4 surface_colour(surface_point p)`, several joined by '+' */
+    const char *outside; /* text of the last of them and how messages call it, where it is no file of the library */
+    const char *label;
     bool        direct;         /* may be drawn straight onto the page when the rule has no lines */
     bool        forward;        /* always shaded while the geometry is drawn, whatever the layers ask for */
     bool        reflects;       /* wants TARGET_REFLECTION */

@@ -13,7 +13,7 @@ static void use_look(lmn_look **look)
     lmn_error error;
     char     *json = look_json(*look);
     lmn_look *again = NULL;
-    if (json && look_parse(&again, json, strlen(json), "again", &error) != LMN_OK && error.status != LMN_MEMORY)
+    if (json && look_parse(&again, json, strlen(json), "again", NULL, &error) != LMN_OK && error.status != LMN_MEMORY)
         __builtin_trap();
     look_destroy(&again);
     mem_free(json);
@@ -24,7 +24,7 @@ void fuzz_look(const uint8_t *bytes, size_t size)
 {
     lmn_look *look = NULL;
     lmn_error error;
-    if (look_parse(&look, (const char *)bytes, size, "fuzz", &error) == LMN_OK)
+    if (look_parse(&look, (const char *)bytes, size, "fuzz", NULL, &error) == LMN_OK)
         use_look(&look);
 }
 

@@ -1,6 +1,6 @@
 # Does docs/EMBEDDING.md show the examples as they are?
 file(READ ${SOURCE}/docs/EMBEDDING.md page)
-foreach(pair host_glfw.c=c host_offscreen.c=c embed_pick.cpp=cpp embed_picture.py=python)
+foreach(pair custom_surface.c=c host_glfw.c=c host_offscreen.c=c embed_pick.cpp=cpp embed_picture.py=python)
   string(REGEX REPLACE "=.*" "" name ${pair})
   string(REGEX REPLACE ".*=" "" language ${pair})
   file(READ ${SOURCE}/examples/${name} code)

@@ -484,7 +484,7 @@ static void test_damage(void **state)
             json[(random >> 8) % (sizeof json - 1)] = spice[(random >> 3) % (sizeof spice - 1)];
             key[(random >> 9) % (sizeof key - 1)] = spice[(random >> 5) % (sizeof spice - 1)];
         }
-        if (look_parse(&look, json, sizeof json - 1, "test.json", NULL) == LMN_OK) {
+        if (look_parse(&look, json, sizeof json - 1, "test.json", NULL, NULL) == LMN_OK) {
             look_set(look, key, "3", NULL);
             char *printed = lmn_look_json(look);
             assert_non_null(printed);

@@ -384,6 +384,7 @@ CALL(lmn_look_name_at)
 {
     return neutral(w->null != 0 || !lmn_look_name_at(0) || lmn_look_name_at(SIZE_MAX));
 }
+#include "null_calls_host.h"
 #include "null_calls_rules.h"
 CALL(lmn_look_reference_json)
 {
@@ -756,6 +757,12 @@ static const row rows[] = {
     ROW(lmn_look_name, 1, 0, VALUE),
     ROW(lmn_look_count, 0, 0, VALUE),
     ROW(lmn_look_name_at, 0, 0, VALUE),
+    ROW(lmn_techniques_create, 2, B),
+    ROW(lmn_techniques_destroy, 1, A, NEUTRAL),
+    ROW(lmn_techniques_add, 3, C, STATUS, {DESC(technique_desc)}),
+    ROW(lmn_techniques_at, 2, 0, VALUE),
+    ROW(lmn_techniques_param_at, 3, 0, VALUE),
+    ROW(lmn_look_open, 3, C, STATUS, {DESC(look_desc)}),
     ROW(lmn_kind_count, 0, 0, VALUE),
     ROW(lmn_kind_at, 1, 0, VALUE),
     ROW(lmn_technique_at, 2, 0, VALUE),
@@ -813,6 +820,10 @@ static const row rows[] = {
     ROW(lmn_page_size, 4, D),
     ROW(lmn_draw_sheet, 7, B | F | G, STATUS, {DESC(draw_desc), DESC(sheet_desc)}),
     ROW(lmn_sheet_write, 5, C | D | E),
+    ROW(lmn_allocator_set, 2, B, REFUSED, {DESC(allocator)}),
+    ROW(lmn_sheet_encode, 5, E),
+    ROW(lmn_drawing_encode, 5, E),
+    ROW(lmn_bytes_free, 1, A, NEUTRAL),
     ROW(lmn_format_at, 1, 0, VALUE),
     ROW(lmn_sheet_report_json, 1, 0, VALUE),
     ROW(lmn_sheet_warning_count, 1, 0, VALUE),
@@ -1010,9 +1021,9 @@ static void descriptions_of_every_size(void **state)
             const size_t full = r->descs[i].size, sizes[] = {0, 1, sizeof(size_t), full - 1, full + 1, full + 64};
             for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
                 lmn_status status = run(w, r, 0, i, sizes[k]);
-                bool       small = sizes[k] < sizeof(size_t);
+                bool       wrong = sizes[k] < sizeof(size_t) || sizes[k] > full;
                 /* What a short description lacks keeps its standard, with which the scene may be refused. */
-                if (status != LMN_USAGE && (small || status == LMN_INTERNAL) && r->answer != FILM)
+                if (status != LMN_USAGE && (wrong || status == LMN_INTERNAL) && r->answer != FILM)
                     fail_msg("%s with struct_size %zu gives %d '%s'", r->name, sizes[k], (int)status, w->error.message);
                 if (status != LMN_OK && !w->error.message[0])
                     fail_msg("%s with struct_size %zu gives no message", r->name, sizes[k]);

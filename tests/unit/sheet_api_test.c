@@ -73,7 +73,7 @@ static void test_refused(void **state)
     lmn_error            error = {0};
     lmn_sheet           *s = NULL;
     desc.struct_size = 0;
-    refuse(f, &how, &desc, "struct_size is not set");
+    refuse(f, &how, &desc, "struct_size is 0");
     desc = good, desc.angle = (lmn_angle)5;
     refuse(f, &how, &desc, "there is no angle 5");
     desc = good, desc.page = "B5";
@@ -95,10 +95,13 @@ static void test_refused(void **state)
     assert_int_equal(lmn_draw_sheet(&s, NULL, f->scene, NULL, &how, NULL, &error), LMN_USAGE);
     assert_int_equal(lmn_sheet_write(NULL, "x.svg", NULL, NULL, &error), LMN_USAGE);
     s = draw(f, NULL);
+    error.file[0] = '\0';
     assert_int_equal(lmn_sheet_write(s, "x.gif", NULL, NULL, &error), LMN_USAGE);
+    assert_string_equal(error.file, "x.gif");
     assert_int_equal(lmn_sheet_write(s, "x.svgg", NULL, NULL, &error), LMN_USAGE);
     assert_string_equal(error.hint, "did you mean '.svg'?");
     assert_int_equal(lmn_sheet_write(s, "/nosuch/x.svg", NULL, NULL, &error), LMN_WRITE);
+    assert_string_equal(error.file, "/nosuch/x.svg");
     assert_null(lmn_sheet_warning_at(s, 0, NULL, NULL));
     lmn_sheet_destroy(&s);
     assert_null(s);
@@ -349,6 +352,25 @@ static void see_documented(const char *page, const lmn_format_info *f)
         fail_msg("docs/reference/draw.md lacks: %s", line);
 }
 
+/* What memory gets is what the file has. */
+static void see_encoded(const lmn_sheet *s, const char *path, const lmn_format_info *f)
+{
+    lmn_error error = {0};
+    uint8_t  *bytes = NULL;
+    size_t    size = 0;
+    file_data file;
+    assert_int_equal(lmn_sheet_encode(s, f->ending, &bytes, &size, &error), f->vectors ? LMN_OK : LMN_USAGE);
+    if (!f->vectors) {
+        assert_true(!bytes && error.message[0]);
+        return;
+    }
+    assert_int_equal(file_load(&file, path, &error), LMN_OK);
+    assert_int_equal(size, file.size);
+    assert_memory_equal(bytes, file.data, size);
+    file_data_release(&file);
+    lmn_bytes_free(bytes);
+}
+
 /* A sheet can be written in each format of vectors and in no other; the format's own name is not refused with
  * another one's. */
 static void see_written(const lmn_sheet *s, const lmn_format_info *f)
@@ -363,6 +385,7 @@ static void see_written(const lmn_sheet *s, const lmn_format_info *f)
     assert_int_equal(status, f->vectors ? LMN_OK : LMN_USAGE);
     assert_true(!f->vectors || bytes > 100);
     assert_int_equal(lmn_sheet_write(s, path, f->ending + 1, &bytes, &error), status);
+    see_encoded(s, path, f);
     unlink(path);
 }
 

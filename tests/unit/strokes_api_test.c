@@ -45,7 +45,7 @@ static void test_create(void **state)
     desc = good, desc.count = 500001;
     refuse_desc(desc, LMN_LIMIT, "allowed are 500000");
     desc = good, desc.struct_size = 0;
-    refuse_desc(desc, LMN_USAGE, "struct_size is not set");
+    refuse_desc(desc, LMN_USAGE, "struct_size is 0");
     assert_int_equal(lmn_strokes_create(NULL, &good, &error), LMN_USAGE);
     /* A caller that knows less of the struct gets defaults for the rest. */
     desc = good;

@@ -13,12 +13,11 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-import pathlib
-import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
+from . import _arrays
 from . import _declarations as c
 from ._library import (CancelledError, Error, FormatError, GLError, Handle, InternalError, LimitError, OutOfMemoryError,
                        Progress, ReadError, UnsupportedError, UsageError, Watch, WriteError, call, encode, lib, take_text)
@@ -53,6 +52,18 @@ def _choice(name: str, value: Any, allowed: Mapping[Any, int]) -> int:
     return allowed[value]
 
 
+def _matrix(values: Any) -> Any:
+    """Rows of an array are columns for C."""
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    values = list(values)
+    if len(values) == 4:
+        values = [values[row][column] for column in range(4) for row in range(4)]
+    if len(values) != 16:
+        raise UsageError(f"matrix has {len(values)} numbers; it has 16")
+    return (ctypes.c_double * 16)(*values)
+
+
 class Scene(Handle):
     """Models that are drawn together. One that is drawn several times is read once."""
 
@@ -71,6 +82,73 @@ class Scene(Handle):
             desc = c.STANDARDS[c.lmn_load_desc]()
             desc.up_axis, desc.progress = _choice("up_axis", up_axis, _UP), watch.function
             call("lmn_scene_add_file", self, encode(path), ctypes.byref(desc))
+
+    @classmethod
+    def from_mesh(cls, positions: Any, indices: Any = None, *, normals: Any = None, colours: Any = None, uvs: Any = None, name: str | None = None,
+                  colour: Vector | None = None, up_axis: str = "y") -> Scene:
+        """A scene of one mesh; the arguments are those of add_mesh. limner.Scene.from_mesh(mesh.vertices, mesh.faces) takes one of trimesh."""
+        scene = cls()
+        call("lmn_scene_set_up", scene, _choice("up_axis", up_axis, {"y": c.LMN_UP_Y, "z": c.LMN_UP_Z}))
+        scene.add_mesh(positions, indices, normals=normals, colours=colours, uvs=uvs, name=name, colour=colour)
+        return scene
+
+    def add_mesh(self, positions: Any, indices: Any = None, *, normals: Any = None, colours: Any = None, uvs: Any = None, name: str | None = None,
+                 colour: Vector | None = None, matrix: Any = None) -> int:
+        """Adds triangles as a part, and answers the number of its mesh, for move_mesh.
+
+        positions: three numbers a vertex; indices: three vertices a triangle, from 0 on (None: vertices as they come); normals: three numbers a vertex;
+        colours: three or four a vertex, 0 … 1 or bytes; uvs: two a vertex; colour: of the whole mesh, 0 … 1; matrix: 16 numbers, column after column, or
+        a 4 × 4 array as NumPy programs write it. NumPy arrays and other buffers that are float32 or uint32 already are not copied on the way.
+        """
+        self._check()
+        desc, held = self._mesh(positions, indices, normals, colours, uvs, name)
+        mesh, node = ctypes.c_uint32(), c.STANDARDS[c.lmn_node_desc]()
+        node.name = encode(name)
+        if matrix is not None:
+            node.matrix = _matrix(matrix)
+        if colour is not None:
+            desc.material = self._material(colour)
+        call("lmn_scene_add_mesh", self, ctypes.byref(desc), ctypes.byref(mesh))
+        del held
+        node.mesh = mesh.value
+        call("lmn_scene_add_node", self, ctypes.byref(node), None)
+        return mesh.value
+
+    def move_mesh(self, mesh: int, positions: Any, normals: Any = None) -> None:
+        """Gives the vertices of a mesh other positions, as many as it has: for what deforms from picture to picture."""
+        self._check()
+        at, turned = _arrays.floats("positions", positions, 3), None if normals is None else _arrays.floats("normals", normals, 3)
+        if turned and turned.count != at.count:
+            raise UsageError(f"there are {turned.count} normals for {at.count} positions")
+        call("lmn_scene_set_positions", self, mesh, at.pointer, turned.pointer if turned else None, at.count)
+
+    @staticmethod
+    def _mesh(positions: Any, indices: Any, normals: Any, colours: Any, uvs: Any, name: str | None) -> tuple[Any, list[Any]]:
+        """The description, and what must last as long as it."""
+        desc, at = c.STANDARDS[c.lmn_mesh_desc](), _arrays.floats("positions", positions, 3)
+        held: list[Any] = [at]
+        desc.name, desc.positions, desc.vertex_count = encode(name), at.pointer, at.count
+        for word, values, columns in (("normals", normals, 3), ("uvs", uvs, 2), ("colours", colours, 4)):
+            if values is None:
+                continue
+            rows = _arrays.colours(values, at.count) if word == "colours" else _arrays.floats(word, values, columns)
+            if rows.count != at.count:
+                raise UsageError(f"there are {rows.count} {word} for {at.count} positions")
+            setattr(desc, word, rows.pointer)
+            held.append(rows)
+        if indices is not None:
+            corners = _arrays.indices("indices", indices)
+            desc.indices, desc.index_count = corners.pointer, corners.numbers
+            held.append(corners)
+        return desc, held
+
+    def _material(self, colour: Vector) -> int:
+        if len(colour) not in (3, 4):
+            raise UsageError(f"colour has {len(colour)} numbers; allowed are 3 or 4")
+        desc, number = c.STANDARDS[c.lmn_material_desc](), ctypes.c_uint32()
+        desc.colour = tuple(float(value) for value in (*colour, 1)[:4])
+        call("lmn_scene_add_material", self, ctypes.byref(desc), ctypes.byref(number))
+        return number.value
 
     @property
     def info(self) -> dict[str, Any]:
@@ -152,10 +230,13 @@ class Drawing(Handle):
         return [at(self, i, None, None).decode("utf-8", "replace") for i in range(count)]
 
     def _encoded(self, ending: str) -> bytes:
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder, "drawing" + ending)
-            self.save(path)
-            return path.read_bytes()
+        self._check()
+        data, size = ctypes.POINTER(ctypes.c_uint8)(), ctypes.c_size_t()
+        call(f"{self._name}_encode", self, encode(ending), ctypes.byref(data), ctypes.byref(size))
+        try:
+            return ctypes.string_at(data, size.value)
+        finally:
+            lib.lmn_bytes_free(data)
 
 
 class Picture(Drawing):

@@ -89,13 +89,38 @@ LMN_PERSPECTIVE_LAYERS = 3
 LMN_FILES_NEAR = 0
 LMN_FILES_FOLDER = 1
 LMN_FILES_ANY = 2
+LMN_LOG_WARNING = 0
+LMN_LOG_DRIVER = 1
 LMN_PALETTE_MAX = 8
 LMN_VALUE_TEXT_MAX = 512
 LMN_SOLID_ROOT = 1
 
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
+lmn_alloc_fn = CFUNCTYPE(c_void_p, c_size_t, c_void_p)
+
+lmn_resize_fn = CFUNCTYPE(c_void_p, c_void_p, c_size_t, c_void_p)
+
+lmn_release_fn = CFUNCTYPE(None, c_void_p, c_void_p)
+
+lmn_probe_fn = CFUNCTYPE(c_bool, c_void_p, c_size_t, c_void_p)
+
+
+class lmn_error(Structure):
+    _fields_ = [
+        ("status", c_int),
+        ("message", c_char * 512),
+        ("file", c_char * 512),
+        ("line", c_int),
+        ("column", c_int),
+        ("hint", c_char * 256),
+    ]
+
+lmn_import_fn = CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p, c_size_t, c_void_p, POINTER(lmn_error))
+
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
+
+lmn_log_fn = CFUNCTYPE(None, c_int, c_char_p, c_char_p, c_void_p)
 
 
 class lmn_mesh_desc(Structure):
@@ -207,17 +232,6 @@ class lmn_draw_desc(Structure):
     ]
 
 
-class lmn_error(Structure):
-    _fields_ = [
-        ("status", c_int),
-        ("message", c_char * 512),
-        ("file", c_char * 512),
-        ("line", c_int),
-        ("column", c_int),
-        ("hint", c_char * 256),
-    ]
-
-
 class lmn_film_desc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -282,6 +296,16 @@ class lmn_pick(Structure):
     ]
 
 
+class lmn_allocator(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("alloc", lmn_alloc_fn),
+        ("resize", lmn_resize_fn),
+        ("release", lmn_release_fn),
+        ("user", c_void_p),
+    ]
+
+
 class lmn_kind_info(Structure):
     _fields_ = [
         ("name", c_char_p),
@@ -337,6 +361,17 @@ class lmn_param_state(Structure):
     ]
 
 
+class lmn_importer(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("endings", c_char_p),
+        ("probe", lmn_probe_fn),
+        ("read", lmn_import_fn),
+        ("user", c_void_p),
+    ]
+
+
 class lmn_load_desc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -346,6 +381,8 @@ class lmn_load_desc(Structure):
         ("defines", POINTER(c_char_p)),
         ("define_count", c_size_t),
         ("strict", c_bool),
+        ("importers", POINTER(POINTER(lmn_importer))),
+        ("importer_count", c_size_t),
     ]
 
 
@@ -507,7 +544,52 @@ class lmn_task_desc(Structure):
         ("allow_path_count", c_size_t),
         ("read_file", lmn_read_fn),
         ("read_user", c_void_p),
+        ("log", lmn_log_fn),
+        ("log_user", c_void_p),
         ("in_process", c_bool),
+    ]
+
+
+class lmn_param_desc(Structure):
+    _fields_ = [
+        ("key", c_char_p),
+        ("type", c_int),
+        ("standard", c_char_p),
+        ("min", c_double),
+        ("max", c_double),
+        ("soft_min", c_double),
+        ("soft_max", c_double),
+        ("unit", c_int),
+        ("logarithmic", c_bool),
+        ("as_light", c_bool),
+        ("names", POINTER(c_char_p)),
+        ("name_count", c_size_t),
+        ("only_if", c_char_p),
+        ("doc", c_char_p),
+    ]
+
+
+class lmn_technique_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("param_size", c_size_t),
+        ("kind", c_char_p),
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("params", POINTER(lmn_param_desc)),
+        ("param_count", c_size_t),
+        ("glsl", c_char_p),
+        ("file", c_char_p),
+    ]
+
+
+class lmn_look_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name_or_path", c_char_p),
+        ("json", c_char_p),
+        ("name", c_char_p),
+        ("techniques", c_void_p),
     ]
 
 
@@ -522,11 +604,15 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
-    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False),
+    lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
+    lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
+    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
     lmn_strokes_view: lambda: lmn_strokes_view(sizeof(lmn_strokes_view), 512, 0, 0, 0),
+    lmn_technique_desc: lambda: lmn_technique_desc(sizeof(lmn_technique_desc), sizeof(lmn_param_desc), None, None, None, None, 0, None, None),
+    lmn_look_desc: lambda: lmn_look_desc(sizeof(lmn_look_desc), None, None, None, None),
 }
 
 FUNCTIONS = {
@@ -557,6 +643,8 @@ FUNCTIONS = {
     "lmn_drawing_destroy": (None, [POINTER(c_void_p)]),
     "lmn_drawing_pixels": (POINTER(c_uint8), [c_void_p, POINTER(c_int), POINTER(c_int)]),
     "lmn_drawing_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_drawing_encode": (c_int, [c_void_p, c_char_p, POINTER(POINTER(c_uint8)), POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_bytes_free": (None, [POINTER(c_uint8)]),
     "lmn_drawing_write_maps": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
     "lmn_drawing_report_json": (c_void_p, [c_void_p]),
     "lmn_drawing_warning_count": (c_size_t, [c_void_p]),
@@ -593,6 +681,7 @@ FUNCTIONS = {
     "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
     "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
+    "lmn_allocator_set": (c_int, [POINTER(lmn_allocator), POINTER(lmn_error)]),
     "lmn_kind_count": (c_size_t, []),
     "lmn_kind_at": (c_bool, [c_size_t, POINTER(lmn_kind_info)]),
     "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
@@ -642,6 +731,7 @@ FUNCTIONS = {
     "lmn_page_size": (c_int, [c_char_p, POINTER(c_double), POINTER(c_double), POINTER(lmn_error)]),
     "lmn_draw_sheet": (c_int, [POINTER(c_void_p), c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_sheet_desc), POINTER(lmn_error)]),
     "lmn_sheet_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_sheet_encode": (c_int, [c_void_p, c_char_p, POINTER(POINTER(c_uint8)), POINTER(c_size_t), POINTER(lmn_error)]),
     "lmn_format_at": (c_bool, [c_size_t, POINTER(lmn_format_info)]),
     "lmn_sheet_report_json": (c_void_p, [c_void_p]),
     "lmn_sheet_warning_count": (c_size_t, [c_void_p]),
@@ -677,5 +767,11 @@ FUNCTIONS = {
     "lmn_task_end": (None, [POINTER(c_void_p)]),
     "lmn_fence_kind": (c_char_p, []),
     "lmn_file_alloc": (c_void_p, [c_size_t]),
+    "lmn_techniques_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_techniques_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_techniques_add": (c_int, [c_void_p, POINTER(lmn_technique_desc), POINTER(lmn_error)]),
+    "lmn_techniques_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_technique_info)]),
+    "lmn_techniques_param_at": (c_bool, [c_void_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
+    "lmn_look_open": (c_int, [POINTER(c_void_p), POINTER(lmn_look_desc), POINTER(lmn_error)]),
     "lmn_version": (c_char_p, []),
 }

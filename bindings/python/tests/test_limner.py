@@ -1,4 +1,5 @@
 """Tests of the package. Environment: LIMNER_LIBRARY, the library; CC, a C compiler (else cc)."""
+import array
 import ctypes
 import os
 import pathlib
@@ -13,6 +14,7 @@ ROOT = HERE.parent.parent.parent
 sys.path.insert(0, str(HERE.parent))
 
 import limner  # noqa: E402
+from limner import _arrays  # noqa: E402
 from limner import _declarations as c  # noqa: E402
 
 BOX = ROOT / "examples" / "box.glb"
@@ -195,11 +197,97 @@ class Mistakes(unittest.TestCase):
             limner.draw(BOX, progress=stop, **SMALL)
         self.assertEqual(limner.draw(BOX, **SMALL).size, (64, 48))
 
+    def test_encoded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "box.png")
+            picture = limner.draw(BOX, **SMALL)
+            picture.save(path)
+            self.assertEqual(picture.png(), path.read_bytes())
+            sheet = limner.draw_svg(BOX, **SMALL)
+            sheet.save(path.with_suffix(".svg"))
+            self.assertEqual(sheet.svg().encode(), path.with_suffix(".svg").read_bytes())
+
     def test_no_library(self):
         done = subprocess.run([sys.executable, "-c", "import limner"], capture_output=True, text=True,
                               env={**os.environ, "PYTHONPATH": str(HERE.parent), "LIMNER_LIBRARY": "/nowhere/liblimner.so.1"})
         self.assertIn("ImportError", done.stderr)
         self.assertIn("/nowhere/liblimner.so.1", done.stderr)
+
+
+CORNERS = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1), (0, 1.5, 0)]
+FACES = [(0, 1, 2), (0, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)]
+
+
+class Meshes(unittest.TestCase):
+    """Scenes from numbers, however they are held."""
+
+    @staticmethod
+    def flat(rows):
+        return [number for row in rows for number in row]
+
+    def pixels(self, *arguments, **settings):
+        return bytes(limner.draw(limner.Scene.from_mesh(*arguments, **settings), "toon", **SMALL).array)
+
+    def test_all_ways_are_the_same(self):
+        floats, whole = array.array("f", self.flat(CORNERS)), array.array("I", self.flat(FACES))
+        expected = self.pixels(CORNERS, FACES)
+        self.assertGreater(len(set(expected)), 3)
+        self.assertEqual(self.pixels(floats, whole), expected)
+        self.assertEqual(self.pixels(array.array("d", floats), array.array("q", whole)), expected)
+        self.assertEqual(self.pixels(memoryview(bytes(floats)).cast("f"), whole), expected)  # read only
+        self.assertEqual(self.pixels(memoryview(bytearray(floats)).cast("B").cast("f", (5, 3)), FACES), expected)
+        self.assertEqual(self.pixels([CORNERS[i] for face in FACES for i in face]), expected)
+        self.assertNotEqual(self.pixels(CORNERS, FACES[2:]), expected)
+
+    def test_not_copied(self):
+        floats = array.array("f", self.flat(CORNERS))
+        rows = _arrays.floats("positions", floats, 3)
+        self.assertEqual(ctypes.addressof(rows.pointer.contents), floats.buffer_info()[0])
+
+    def test_numpy(self):
+        try:
+            import numpy
+        except ImportError:
+            self.skipTest("numpy is not installed")
+        expected = self.pixels(CORNERS, FACES)
+        corners, faces = numpy.array(CORNERS), numpy.array(FACES)
+        self.assertEqual(self.pixels(corners, faces), expected)  # float64, int64
+        single = corners.astype(numpy.float32)
+        self.assertEqual(self.pixels(single, faces.astype(numpy.uint32)), expected)
+        self.assertEqual(_arrays.floats("positions", single, 3).pointer[13], 1.5)
+        self.assertEqual(ctypes.addressof(_arrays.floats("p", single, 3).pointer.contents), single.ctypes.data)
+        self.assertEqual(self.pixels(numpy.asfortranarray(single), faces), expected)
+        self.assertEqual(self.pixels(single[::-1][::-1], faces.astype(numpy.uint8)), expected)
+        red = numpy.full((5, 3), (255, 0, 0), numpy.uint8)
+        self.assertEqual(self.pixels(corners, faces, colours=red), self.pixels(CORNERS, FACES, colours=[(1, 0, 0)] * 5))
+        with self.assertRaisesRegex(limner.UsageError, "whole numbers"):
+            limner.Scene.from_mesh(corners, faces - 1)
+        with self.assertRaisesRegex(limner.UsageError, "2 numbers a row"):
+            limner.Scene.from_mesh(corners[:, :2], faces)
+
+    def test_colours(self):
+        plain, whole = self.pixels(CORNERS, FACES), self.pixels(CORNERS, FACES, colour=(1, 0, 0))
+        self.assertNotEqual(plain, whole)
+        red = self.pixels(CORNERS, FACES, colours=[(1, 0, 0)] * 5)
+        for colours in ([(1, 0, 0, 1)] * 5, array.array("f", [1, 0, 0] * 5), bytes([255, 0, 0]) * 5, bytearray([255, 0, 0, 255]) * 5):
+            self.assertEqual(self.pixels(CORNERS, FACES, colours=colours), red)
+
+    def test_several(self):
+        scene = limner.Scene.from_mesh(CORNERS, FACES, name="left", normals=None, uvs=[(0, 0)] * 5)
+        mesh = scene.add_mesh(CORNERS, FACES, name="right", matrix=[[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        parts = scene.info["parts"]
+        self.assertEqual([part["name"] for part in parts], ["left", "right"])
+        self.assertEqual(scene.info["bounds"]["max"][0], 4)
+        scene.move_mesh(mesh, [(x, 2 * y, z) for x, y, z in CORNERS])
+        self.assertEqual(scene.info["bounds"]["max"][1], 3)
+
+    def test_refused(self):
+        for arguments, settings, words in (
+                ((CORNERS, [(0, 1, 5)]), {}, "5"), ((self.flat(CORNERS)[:-1], FACES), {}, "14 numbers"), (([(0, 0)], FACES), {}, "2 numbers a row"),
+                ((CORNERS, [(0, 1, -1)]), {}, "whole numbers"), ((CORNERS, FACES), {"normals": CORNERS[1:]}, "4 normals for 5"),
+                ((CORNERS, FACES), {"colour": (1, 0)}, "2 numbers"), ((["a"] * 9, None), {}, "positions"), ((CORNERS, FACES), {"up_axis": "x"}, "up_axis")):
+            with self.assertRaisesRegex(limner.UsageError, words):
+                limner.Scene.from_mesh(*arguments, **settings)
 
 
 if __name__ == "__main__":
