@@ -30,6 +30,16 @@ float own_depth(ivec2 at)
 #endif
 
 #ifdef PERTURBED
+/* The nearest of the pixels that a position between them mixes: at the border of the fill some have none, and it is as soft as a pixel there. */
+float depth_around(vec2 position)
+{
+    ivec2 first = ivec2(floor(position)), last = ivec2(u_size) - 1;
+    float least = 1.0;
+    for (int i = 0; i < 4; i++)
+        least = min(least, own_depth(clamp(first + ivec2(i % 2, i / 2), ivec2(0), last)));
+    return least;
+}
+
 /* Paper where the fill fell short of the outline, and under the grains that it leaves bare; not where a surface has none. What stands behind is
  * hidden by it. Nienhaus 2005, section 6.4. */
 vec4 fallback_of(float alpha)
@@ -45,7 +55,8 @@ void main()
     float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     vec4 ink = vec4(0.0);
 #ifdef PERTURBED
-    vec4 fill = fill_depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
+    depth = depth_around(fill_position());
+    vec4 fill = depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
 #else
     /* Ink of further line techniques is folded into the fill, outside the boundary, too. */
@@ -66,7 +77,7 @@ void main()
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         int bare = line_depth < 1.0 && fill_depth >= 1.0 && i == 0 ? 1 : 0;
         for (int once = 0; once < bare; once++)
-            fill = fallback_of(texelFetch(t_shade, pixel_at(position), 0).a);
+            fill = over(fill, fallback_of(texelFetch(t_shade, pixel_at(position), 0).a));
 #else
         int search = line_depth >= 1.0 && max(own_ink.a, fill.a) > 0.0 ? 1 : 0;
 #endif
