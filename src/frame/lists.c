@@ -55,14 +55,24 @@ static int kept_of(const layer_stack *stack)
     return stack->limit < KEPT_MAX ? stack->limit : KEPT_MAX;
 }
 
+/* One figure that asks for it is enough: they are sorted together. */
+static bool settles_ties(const layer_stack *stack)
+{
+    bool settles = false;
+    for (int i = 0; i < stack->count; i++)
+        settles = settles || stack->states[i].figure->layering.settle_ties;
+    return settles;
+}
+
 /* The next round of layers: their nodes. */
 static void sort_round(frame *f, layer_stack *stack, bool follows)
 {
     stopwatch w = watch_start(&f->profile);
     int       kept = kept_of(stack), pictures = kept > 4 ? 2 : 1;
     text      prelude = {0};
-    text_append(&prelude, "#define NODE_VECTORS %d\n#define KEPT %d\n#define LAST %c\n%s", stack->node_vectors, kept,
-                "xyzw"[(kept - 1) % 4], follows ? "#define FOLLOWS\n" : "");
+    text_append(&prelude, "#define NODE_VECTORS %d\n#define KEPT %d\n#define LAST %c\n%s%s", stack->node_vectors, kept,
+                "xyzw"[(kept - 1) % 4], follows ? "#define FOLLOWS\n" : "",
+                settles_ties(stack) ? "#define SETTLES_TIES\n" : "");
     gpu_program *p = program_of(f, GPU_FAST, "gpu/screen.vert", "layer/list_sort.frag", &prelude);
     gpu_texture *fresh[2] = {0};
     gpu_pass     pass = {.colour_count = pictures};

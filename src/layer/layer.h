@@ -34,6 +34,7 @@ typedef struct layering {
     bool        deferred, complement; /* shaded from the G-buffer; other figures' parts take part in edge detection */
     int32_t     evaluation;           /* of solids: layer_evaluation */
     bool        several;              /* surfaces behind the visible one, too */
+    bool        settle_ties;          /* parts that coincide within rounding come in their order */
     int32_t     count;                /* of layers at most; 0: all there are */
     int32_t     producer, memory;     /* layer_producer; MiB for lists */
     float       fraction;             /* of the picture: ends with a layer that covers less */

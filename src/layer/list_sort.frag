@@ -1,5 +1,6 @@
 /* The nearest of a pixel's fragments, in order: their nodes. Of fragments of one part at the same depth that face the same way the
- * first drawn stays. With FOLLOWS, those behind the last node of the round before. */
+ * first drawn stays. With SETTLES_TIES, parts that lie on one another come in their order, whichever of them rounding puts
+ * in front at a pixel. With FOLLOWS, those behind the last node of the round before. */
 layout(std430, binding = 0) readonly buffer heads_block { uint heads[]; };
 layout(std430, binding = 1) readonly buffer nodes_block { uvec4 nodes[]; };
 
@@ -13,6 +14,12 @@ layout(location = 1) out uvec4 out_more;
 #endif
 
 const uint NONE = 0xFFFFFFFFu; /* deeper than any depth */
+
+#ifdef SETTLES_TIES
+/* Depths that differ by less, in the window and as a fraction of the way to the eye, are those of surfaces that coincide:
+ * they are interpolated over different triangles. */
+const float COINCIDENT = 4e-6, COINCIDENT_EYE = 8e-6;
+#endif
 
 #include "layer/order.glsl"
 
@@ -40,8 +47,39 @@ bool sort_by_depth(uint head, out uint kept[KEPT])
         }
         i = node.x;
     }
+#ifdef SETTLES_TIES
+    for (int k = 0; k + 1 < KEPT; k++)
+        ties = ties || (depths[k + 1] != NONE && uintBitsToFloat(depths[k + 1]) - uintBitsToFloat(depths[k]) < COINCIDENT);
+#endif
     return !ties;
 }
+
+#ifdef SETTLES_TIES
+/* Parts that coincide, in their order; the surfaces of one stay as they are, for at its rim front and back are as near. The
+ * last one stays the farthest: the next round goes on behind it. */
+void order_coincident(uint depths[KEPT], uint orders[KEPT], inout uint kept[KEPT])
+{
+    float eyes[KEPT];
+    for (int k = 0; k < KEPT; k++)
+        eyes[k] = uintBitsToFloat(nodes[(max(kept[k], 1u) - 1u) * uint(NODE_VECTORS) + 1u].y);
+    for (int end = KEPT - 2; end > 0; end--)
+        for (int k = 0; k < end; k++) {
+            float apart = abs(uintBitsToFloat(depths[k + 1]) - uintBitsToFloat(depths[k]));
+            bool turned = depths[k + 1] != NONE && orders[k] >> 1 > orders[k + 1] >> 1 && apart < COINCIDENT &&
+                          abs(eyes[k + 1] - eyes[k]) < COINCIDENT_EYE * abs(eyes[k]);
+            uint d = depths[k], o = orders[k], n = kept[k];
+            float e = eyes[k];
+            depths[k] = turned ? depths[k + 1] : d;
+            orders[k] = turned ? orders[k + 1] : o;
+            kept[k] = turned ? kept[k + 1] : n;
+            eyes[k] = turned ? eyes[k + 1] : e;
+            depths[k + 1] = turned ? d : depths[k + 1];
+            orders[k + 1] = turned ? o : orders[k + 1];
+            kept[k + 1] = turned ? n : kept[k + 1];
+            eyes[k + 1] = turned ? e : eyes[k + 1];
+        }
+}
+#endif
 
 /* The full order, behind (least_depth, least_order). */
 void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEPT])
@@ -79,6 +117,9 @@ void sort_fully(uint head, uint least_depth, uint least_order, out uint kept[KEP
         }
         i = node.x;
     }
+#ifdef SETTLES_TIES
+    order_coincident(depths, orders, kept);
+#endif
 }
 
 void main()

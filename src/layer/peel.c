@@ -11,6 +11,7 @@ typedef struct peel_values {
     param_words focus;
     float       focus_fraction, rear;
     colour      focus_colour;
+    bool        settle_ties;
 } peel_values;
 
 static const char *const producers[] = {"auto", "peeling", "lists", NULL};
@@ -39,6 +40,9 @@ static const param params[] = {
                   .cpu_only = true,
                   .doc = "MiB that lists may take, within the driver's limit; what does not fit is drawn in bands, or "
                          "else by peeling."),
+    PARAM_BOOL_ROW(peel_values, settle_ties, .def = 0, .cpu_only = true,
+                   .doc = "Parts that lie on one another within rounding come in the order of the parts, at every "
+                          "pixel the same; else whichever rounding puts in front. By lists alone."),
     PARAM_ENUM_ROW(
         peel_values, evaluation, .names = layer_evaluations, .cpu_only = true,
         .doc =
@@ -54,6 +58,7 @@ static void peel_layering(layering *out, const void *values)
                       .several = true,
                       .count = v->count,
                       .producer = v->producer,
+                      .settle_ties = v->settle_ties,
                       .memory = v->memory,
                       .fraction = v->fraction,
                       .focus = v->focus.text,

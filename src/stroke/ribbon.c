@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/ribbon_hidden.h"
 #include "stroke/ribbon_private.h"
 #include "stroke/stroke_private.h"
 
@@ -538,6 +539,7 @@ static bool look_round(ribbon_job *job, stroke_set *whole, gap_list *gaps)
     if (good) {
         ribbon_find_halos(gaps, job, &grid);
         ribbon_find_crowds(gaps, job);
+        ribbon_find_loose(gaps, job);
         gap_list_sort(gaps);
     }
     segment_grid_release(&grid);

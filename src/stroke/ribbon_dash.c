@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "stroke/ribbon_private.h"
+#include "stroke/ribbon_hidden.h"
 
 static const float dash_least = 2; /* widths */
 /* A corner turns by more than 30° within half a millimetre; corners nearer than that are one. */
@@ -132,16 +132,31 @@ static void dash_section(span_list *out, section all, float from, float to, cons
         add_ink(out, to - end, to, least);
 }
 
+static float wanted_dash(const stroke_style *style, const stroke *s)
+{
+    return s->hidden_by == 0 ? style->dash : style->hidden == HIDDEN_DASHED ? style->hidden_dash : 0;
+}
+
+float ribbon_dash_length(const ribbon_job *job, const stroke *s)
+{
+    return fmaxf(wanted_dash(job->style, s), dash_least * ribbon_width(job, s));
+}
+
 void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from, float to)
 {
     const stroke_style *style = job->style;
     bool                hidden = s->hidden_by > 0;
-    float               dash = hidden ? style->hidden == HIDDEN_DASHED ? style->hidden_dash : 0 : style->dash;
+    float               dash = wanted_dash(style, s);
     float               gap = hidden ? style->hidden_gap : style->gap, shortest = dash_least * ribbon_width(job, s);
     bool                plain =
         !(dash > 0) || !(gap > 0) || !(dash + gap >= shortest_period) || !isfinite(dash + gap) || !isfinite(s->phase);
     out->count = 0;
-    dash = fmaxf(dash, shortest);
+    dash = ribbon_dash_length(job, s);
+    if (hidden && !plain) { /* one pattern for all that is hidden in a row; the caller takes this stroke's of it */
+        span run = ribbon_hidden_run(job, (size_t)(s - job->strokes->strokes));
+        from = run.from;
+        to = run.to;
+    }
     if (plain || to - from <= dash + gap * least_gap || !((to - from) / (dash + gap) < dashes_most)) {
         add_ink(out, from, to, 0);
         return;

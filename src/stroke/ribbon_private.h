@@ -118,6 +118,8 @@ void  line_room_release(line_room *room);
 /* Finds the corners of all chains, if dashes are wanted. False: out of memory. */
 bool ribbon_find_corners(ribbon_job *job);
 
+/* How long a dash of a stroke is, before it is fitted: never so short that it would be a dot. */
+float ribbon_dash_length(const ribbon_job *job, const stroke *s);
 /* The dashes of a stroke from arc `from` to `to`. */
 void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const chain_facts *chain, float from,
                  float to);

@@ -271,6 +271,47 @@ static void what_coincides(void)
     }
 }
 
+/* Pixels at which the second and the third layer coincide, and no other does, and at how many of these the parts are
+ * not these two. */
+static void count_specks(const shot *s, const int parts[2], int *judged, int *specks)
+{
+    for (int i = 0; i < s->width * s->height && s->layer_count > 2; i++) {
+        double first = s->layers[0].depth[i], second = s->layers[1].depth[i], third = s->layers[2].depth[i];
+        if (isinf(second) || isinf(third) || !(fabs(third - second) < 3e-5) || second - first < 1e-3)
+            continue;
+        ++*judged;
+        *specks += s->layers[1].id[i] != parts[0] || s->layers[2].id[i] != parts[1];
+    }
+}
+
+/* A box stands on a floor whose triangles are others, so that rounding puts now one, now the other in front. Lists know
+ * both as one place: the order is that of the parts at every pixel. */
+static void what_stands_on_another(void)
+{
+    shape s = {0};
+    int   judged = 0, specks = 0;
+    shape_box(&s, "floor", dvec_of(-2.9, -3.1, -0.2), dvec_of(3.3, 2.7, 0));
+    shape_box(&s, "block", dvec_of(-0.9, -0.7, 0), dvec_of(1.1, 0.8, 0.5));
+    for (int angle = 0; angle < 12; angle++) {
+        double    turn = 0.137 + 0.5236 * angle;
+        shot_view view = {.width = 160,
+                          .height = 160,
+                          .eye = {5 * cos(turn), 5 * sin(turn), 4.3},
+                          .target = {0, 0, 0},
+                          .up = {0, 0, 1},
+                          .orthographic = angle % 2 == 1};
+        shot      drawing;
+        if (!shot_of_shape(&drawing, &s, "stands.glb",
+                           layered_look("\"count\":5,\"producer\":\"lists\",\"settle_ties\":true", NULL), NULL, &view))
+            break;
+        count_specks(&drawing, (const int[]){1, 2}, &judged, &specks);
+        shot_release(&drawing);
+    }
+    check_at_least("B01", judged, 10000, "a box on a floor: pixels judged");
+    check_at_most("B01", specks, 0, "a box on a floor: specks");
+    shape_release(&s);
+}
+
 /* --- where it ends -------------------------------------------------------------------------------------- */
 
 static int first_differing(const shot *few, const shot *all)
@@ -729,6 +770,7 @@ int main(int argc, char **argv)
         {"rays", against_rays},
         {"dialects", dialects},
         {"coincident", what_coincides},
+        {"stands", what_stands_on_another},
         {"counts", counts},
         {"fractions", fractions},
         {"masks", masks},

@@ -1,0 +1,292 @@
+/* Hidden lines as ISO 128 wants them: whole, from corner to corner, or not at all. Lengths are worked out by hand from
+ * edges and the view's direction. */
+#include "stroke_shapes.h"
+
+#include "stroke/ribbon.h"
+
+enum { PAGE = 600 };
+#define UNIT 150.0 /* of the page for one of the model */
+
+static stroke_style dashed_style(void)
+{
+    stroke_style style = {.width = 1.5f,
+                          .crease_width = 0.7f,
+                          .wobble_length = 30,
+                          .repeats = 1,
+                          .hidden = HIDDEN_DASHED,
+                          .hidden_colour = {NAN, 0, 0, 1},
+                          .hidden_width = 0.75f,
+                          .hidden_dash = 4.5f,
+                          .hidden_gap = 3,
+                          .hidden_fade = 1};
+    for (int i = 0; i < STROKE_CLASS_COUNT; i++)
+        style.colours[i] = (colour){NAN, 0, 0, 1};
+    style.colours[STROKE_CONTOUR] = (colour){0, 0, 0, 1};
+    return style;
+}
+
+/* From the first dash of each run to its last; a gap wider than two of the style's ends a run. */
+static double hidden_length(const stroke_set *set, size_t *dashes)
+{
+    ribbon_set   r;
+    lmn_error    error = {0};
+    stroke_style style = dashed_style();
+    double       sum = 0, before = 0;
+    int64_t      chain = -1;
+    *dashes = 0;
+    assert_int_equal(ribbons_make(&r, set, &style, 1, &error), LMN_OK);
+    for (size_t i = 0; i < r.ribbon_count; i++) {
+        const ribbon_point *p = &r.points[r.ribbons[i].first], *q = p + r.ribbons[i].count - 1;
+        if (r.ribbons[i].hidden_by == 0)
+            continue;
+        double gap = (double)p->arc - before;
+        sum += (double)q->arc - p->arc + (r.ribbons[i].chain == chain && gap < 2 * 3 ? gap : 0);
+        chain = r.ribbons[i].chain;
+        before = q->arc;
+        ++*dashes;
+    }
+    ribbon_set_release(&r);
+    return sum;
+}
+
+static void assert_near(double value, double wanted, double within)
+{
+    if (!(fabs(value - wanted) <= within))
+        fail_msg("%.4f instead of %.4f", value, wanted);
+}
+
+/* --- solids ---------------------------------------------------------------------------------------------- */
+
+/* How long a unit along an axis is on the page. */
+static double seen(const double eye[3], int axis)
+{
+    double square = eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2];
+    return UNIT * sqrt(1 - eye[axis] * eye[axis] / square);
+}
+
+static double hidden_of(lmn_scene *s, const double eye[3], const double middle[3])
+{
+    stroke_options options = STROKE_OPTIONS_INIT;
+    options.hidden = true;
+    stroke_camera camera = look_along(-eye[0], -eye[1], -eye[2], middle, 20, PAGE / 2 / UNIT, true, PAGE, PAGE);
+    stroke_shot   shot = shoot(s, camera, options);
+    size_t        dashes;
+    double        length = hidden_length(&shot.set, &dashes);
+    shot_release(&shot);
+    return length;
+}
+
+static void test_cube(void **state)
+{
+    const double eye[3] = {3, 2, 1.5}, middle[3] = {0.5, 0.5, 0.5};
+    lmn_scene   *s = stroke_scene_begin();
+    (void)state;
+    add_box(s, 0, 0, 0, 1, 1, 1);
+    /* The three edges of the corner that lies farthest. */
+    assert_near(hidden_of(s, eye, middle), seen(eye, 0) + seen(eye, 1) + seen(eye, 2), 0.05);
+}
+
+/* A prism over an L whose arms are two long and one wide. */
+static void add_l(lmn_scene *s, float height)
+{
+    const float    plan[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    const uint32_t fans[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+    vec3           positions[12];
+    uint32_t       corners[60], k = 0;
+    for (int i = 0; i < 12; i++)
+        positions[i] = (vec3){plan[i % 6][0], plan[i % 6][1], i < 6 ? 0 : height};
+    for (int i = 0; i < 4; i++) {
+        const uint32_t both[6] = {fans[i][0], fans[i][2], fans[i][1], 6 + fans[i][0], 6 + fans[i][1], 6 + fans[i][2]};
+        memcpy(corners + k, both, sizeof both);
+        k += 6;
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        uint32_t       n = (i + 1) % 6;
+        const uint32_t wall[6] = {i, n, 6 + n, i, 6 + n, 6 + i};
+        memcpy(corners + k, wall, sizeof wall);
+        k += 6;
+    }
+    add_part(s, positions, 12, corners, k);
+}
+
+static void test_l(void **state)
+{
+    const double eye[3] = {-1, 2, 1}, middle[3] = {1, 1, 1}, height = 2;
+    double       x = seen(eye, 0), y = seen(eye, 1), z = seen(eye, 2);
+    lmn_scene   *s = stroke_scene_begin();
+    (void)state;
+    add_l(s, (float)height);
+    /* Behind all: the bottom edges at y = 0, x = 2 and x = 1, the upright ones at (2, 0) and in the notch. The bottom
+     * edge of the notch's other wall is hidden as far as the arm reaches over it: 1 along y is ½ along x. */
+    assert_near(hidden_of(s, eye, middle), 2 * x + y + y + 2 * height * z + 0.5 * x, 0.05);
+}
+
+enum { SIDES = 24 };
+
+/* A square box, 2 wide around the axis, with a bore through it. */
+static void add_bored(lmn_scene *s, double radius, float height)
+{
+    const float square[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    vec3        positions[2 * (SIDES + 4)];
+    uint32_t    corners[3 * 200], k = 0, layer = SIDES + 4;
+    for (uint32_t i = 0; i < 2 * layer; i++) {
+        double turn = 2 * stroke_pi * (i % layer) / SIDES;
+        bool   round = i % layer < SIDES;
+        positions[i] =
+            (vec3){round ? (float)(radius * cos(turn)) : square[i % layer - SIDES][0],
+                   round ? (float)(radius * sin(turn)) : square[i % layer - SIDES][1], i < layer ? 0 : height};
+    }
+    for (uint32_t i = 0; i < SIDES + 4; i++) { /* top and bottom: each corner has a quarter of the rim */
+        uint32_t a = i < SIDES ? SIDES + i / 6 : SIDES + (i - SIDES),
+                 b = i < SIDES ? (i + 1) % SIDES : SIDES + (i + 1) % 4, c = i < SIDES ? i : (i - SIDES + 1) % 4 * 6;
+        const uint32_t both[6] = {layer + a, layer + b, layer + c, a, c, b};
+        memcpy(corners + k, both, sizeof both);
+        k += 6;
+    }
+    for (uint32_t i = 0; i < SIDES + 4; i++) {
+        uint32_t       n = i < SIDES ? (i + 1) % SIDES : SIDES + (i - SIDES + 1) % 4;
+        const uint32_t inner[6] = {n, i, layer + i, n, layer + i, layer + n};
+        const uint32_t outer[6] = {i, n, layer + n, i, layer + n, layer + i};
+        memcpy(corners + k, i < SIDES ? inner : outer, sizeof inner);
+        k += 6;
+    }
+    add_part(s, positions, 2 * layer, corners, k);
+}
+
+static void test_bored(void **state)
+{
+    const double eye[3] = {1, 2, 2}, middle[3] = {0, 0, 0.6}, height = 1.2, radius = 0.4, square = 9;
+    double       rim = 0;
+    lmn_scene   *s = stroke_scene_begin();
+    (void)state;
+    add_bored(s, radius, (float)height);
+    for (int i = 0; i < SIDES; i++) {
+        double a = 2 * stroke_pi * i / SIDES, b = 2 * stroke_pi * (i + 1) / SIDES;
+        double x = radius * (cos(b) - cos(a)), y = radius * (sin(b) - sin(a)), along = x * eye[0] + y * eye[1];
+        rim += UNIT * sqrt(x * x + y * y - along * along / square);
+    }
+    /* Three edges of the box and the bore's lower rim: so steep is the view that none of it is seen through the bore,
+     * whose wall is hollow and has no outline. */
+    assert_near(hidden_of(s, eye, middle), 2 * seen(eye, 0) + 2 * seen(eye, 1) + height * seen(eye, 2) + rim, 0.05);
+}
+
+/* --- figures --------------------------------------------------------------------------------------------- */
+
+static stroke_point points[64];
+static stroke       strokes[32];
+static stroke_set   set;
+
+static void begin(void)
+{
+    memset(strokes, 0, sizeof strokes);
+    set = (stroke_set){.strokes = strokes, .points = points};
+}
+
+static void add(float x0, float y0, float x1, float y1, uint32_t hidden_by, bool goes_on)
+{
+    stroke *s = &strokes[set.stroke_count++];
+    float   arc = goes_on ? points[set.point_count - 1].arc : 0, length = hypotf(x1 - x0, y1 - y0);
+    set.chain_count += !goes_on;
+    *s = (stroke){.kind = STROKE_CREASE,
+                  .part = 1,
+                  .hidden_by = hidden_by,
+                  .chain = (uint32_t)set.chain_count - 1,
+                  .id = 5 * set.chain_count,
+                  .first = (uint32_t)set.point_count,
+                  .count = 2};
+    points[set.point_count++] = (stroke_point){x0, y0, 5, arc, 1};
+    points[set.point_count++] = (stroke_point){x1, y1, 5, arc + length, 1};
+    for (stroke *t = s; t >= strokes && t->chain == s->chain; t--)
+        t->chain_length = arc + length;
+}
+
+static void add_posts(float x0, float x1)
+{
+    add(x0, -50, x0, 50, 0, false);
+    add(x1, -50, x1, 50, 0, false);
+}
+
+/* Four dashes and three gaps are 27: what is shorter is left out, though it lies between two lines. */
+static void test_short(void **state)
+{
+    size_t dashes;
+    (void)state;
+    begin();
+    add_posts(0, 26.5f);
+    add(0, 0, 26.5f, 0, 1, false);
+    assert_near(hidden_length(&set, &dashes), 0, 0);
+    begin();
+    add_posts(0, 27.5f);
+    add(0, 0, 27.5f, 0, 1, false);
+    assert_near(hidden_length(&set, &dashes), 27.5, 1e-3);
+    assert_int_equal(dashes, 4);
+}
+
+/* What ends at nothing must be longer, the more of its ends do so. */
+static void test_loose(void **state)
+{
+    static const float lengths[3] = {27.5f, 54.5f, 81.5f};
+    size_t             dashes;
+    (void)state;
+    for (int loose = 0; loose < 3; loose++)
+        for (int i = 0; i < 3; i++) {
+            begin();
+            add_posts(loose == 2 ? -20 : 0, loose ? lengths[i] + 20 : lengths[i]);
+            add(0, 0, lengths[i], 0, 1, false);
+            assert_near(hidden_length(&set, &dashes), i >= loose ? lengths[i] : 0, 1e-3);
+        }
+}
+
+/* Two short runs that end at one corner are one figure. */
+static void test_corner(void **state)
+{
+    size_t dashes;
+    (void)state;
+    for (int apart = 0; apart < 2; apart++) {
+        begin();
+        add_posts(0, 60);
+        add(0, 0, 14, 0, 1, false);
+        add(14 + (float)apart * 5, 0, 14 + (float)apart * 5, 14, 1, false);
+        add(0, 14, 60, 14, 0, false);
+        assert_near(hidden_length(&set, &dashes), apart ? 0 : 28, 1e-3);
+    }
+}
+
+/* Neither a surface more in front nor a visible stretch that no one sees ends the dashes' row. */
+static void test_run(void **state)
+{
+    (void)state;
+    for (int visible = 0; visible < 2; visible++) {
+        ribbon_set   r;
+        lmn_error    error = {0};
+        stroke_style style = dashed_style();
+        float        at = 0, gap = visible ? 0.5f : 0;
+        begin();
+        add(0, -50, 0, 50, 0, false);
+        add(60, -50, 60, 50, 0, false);
+        add(0, 0, 20, 0, 1, false);
+        if (visible)
+            add(20, 0, 20 + gap, 0, 0, true);
+        add(20 + gap, 0, 60, 0, 3, true);
+        assert_int_equal(ribbons_make(&r, &set, &style, 1, &error), LMN_OK);
+        for (size_t i = 0; i < r.ribbon_count; i++) {
+            const ribbon_point *p = &r.points[r.ribbons[i].first], *q = p + r.ribbons[i].count - 1;
+            if (r.ribbons[i].hidden_by == 0)
+                continue;
+            /* A dash or a gap at the change, never an end with its ink on both sides. */
+            assert_true(p->arc - at <= 3.4f && q->arc - p->arc <= 5.1f);
+            at = q->arc;
+        }
+        assert_float_equal(at, 60, 1e-3);
+        ribbon_set_release(&r);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube),  cmocka_unit_test(test_l),
+                                       cmocka_unit_test(test_bored), cmocka_unit_test(test_short),
+                                       cmocka_unit_test(test_loose), cmocka_unit_test(test_corner),
+                                       cmocka_unit_test(test_run)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
