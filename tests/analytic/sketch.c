@@ -47,6 +47,9 @@ static sketch_style style_of(double amount)
                           .ground = sketch_colour(ground_bytes, 1)};
 }
 
+/* Less of a pixel need not be seen. */
+static const double faintest = 0.02;
+
 static bool is_ground(const shot *s, int x, int y)
 {
     return sketch_levels_off(sketch_pixel(s, x, y), sketch_colour(ground_bytes, 1)) < 2;
@@ -158,8 +161,10 @@ static void fill_masks(void)
         if (check_that("C13", m.uncertainty != NULL, "the drawing has its field of uncertainty"))
             for (int y = 0; y < m.height; y++)
                 for (int x = 0; x < m.width; x++) {
-                    bool inside = isfinite(sketch_depth(&m, sketch_moved(&m, x, y, cases[c].amount, cases[c].shades)));
-                    right += inside == !is_ground(&drawn, x, y);
+                    sketch_position f = sketch_moved(&m, x, y, cases[c].amount, cases[c].shades);
+                    bool            inside = isfinite(sketch_depth(&m, f)), ground = is_ground(&drawn, x, y);
+                    double          fill = sketch_shade(&m, f).a; /* at borders a fraction */
+                    right += fill > faintest ? !ground : fill > 0 || ground;
                     moved += inside != isfinite(sketch_depth(&m, (sketch_position){x, y}));
                 }
         check_at_least("C13", (double)right / (m.width * m.height), 0.999,
@@ -582,8 +587,8 @@ static void mask_identity(void)
             for (int x = 0; x < drawn.width; x++) {
                 sketch_position e = sketch_moved(&m, x, y, 12, style.edges),
                                 f = sketch_moved(&m, x, y, 12, style.shades);
-                bool line = isfinite(sketch_depth(&m, e)), fill = isfinite(sketch_depth(&m, f)),
-                     there = !is_ground(&drawn, x, y);
+                double share = sketch_shade(&m, f).a; /* at borders a fraction */
+                bool   line = isfinite(sketch_depth(&m, e)), fill = share > 0, there = !is_ground(&drawn, x, y);
                 double edge[4];
                 sketch_edge(&m, e, edge);
                 double         ink = sketch_ink(edge, style.ink).a;
@@ -591,11 +596,11 @@ static void mask_identity(void)
                 bool           is_odd = p[0] > 240 && p[1] < 20 && p[2] > 240;
                 beside += !line && !fill && ink > 0;
                 cut_off += !line && !fill && ink > 0.2 && !there;
-                missing += (line || fill) && !there;
+                missing += (line || share > faintest) && !there;
                 more += !line && !fill && ink <= 0 && there;
                 odd += line && !fill && ink < 0.01;
                 odd_missing += line && !fill && ink < 0.01 && !is_odd;
-                odd_elsewhere += is_odd && (!line || fill);
+                odd_elsewhere += is_odd && (!line || share > 0.1);
                 fill_only += fill && !line;
             }
         check_note("of %d pixels with ink beside the boundary, %d lose more than a fifth of it because no surface is "

@@ -58,6 +58,14 @@ double sketch_depth(const sketch_maps *m, sketch_position p)
     return (double)m->depth[texel(m, (int)floor(p.x + 0.5), (int)floor(p.y + 0.5))];
 }
 
+double sketch_depth_around(const sketch_maps *m, sketch_position p)
+{
+    double x = floor(p.x), y = floor(p.y), least = INFINITY;
+    for (int k = 0; k < 4; k++)
+        least = fmin(least, sketch_depth(m, (sketch_position){x + k % 2, y + k / 2}));
+    return least;
+}
+
 double sketch_reach(const sketch_maps *m, sketch_position p, int reach)
 {
     double least = INFINITY;
@@ -159,13 +167,13 @@ sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, in
 sketch_paint sketch_opaque(const sketch_maps *m, const sketch_style *style, int x, int y, double *depth)
 {
     sketch_position s = sketch_moved(m, x, y, style->amount, style->shades);
-    double          fill_depth = sketch_depth(m, s), line_depth;
+    double          fill_depth = sketch_depth_around(m, s), line_depth;
     bool bare = !style->without_lines && isfinite(sketch_depth(m, sketch_moved(m, x, y, style->amount, style->edges)));
     sketch_paint fill = {0, 0, 0, 0}, ink = {0, 0, 0, 0};
     if (isfinite(fill_depth))
         fill = sketch_shade(m, s);
-    else if (bare && !style->without_fill)
-        fill = style->fallback;
+    if (!isfinite(sketch_depth(m, s)) && bare && !style->without_fill)
+        fill = sketch_over(fill, style->fallback);
     *depth = style->without_fill ? INFINITY : fill_depth;
     for (int i = style->repeat > 1 ? style->repeat - 1 : 0; i >= 0 && !style->without_lines; i--) {
         ink = sketch_over(sketch_copy_ink(m, style, i, x, y, &line_depth), ink);

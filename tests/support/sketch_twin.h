@@ -53,7 +53,8 @@ sketch_paint  sketch_copy_ink(const sketch_maps *m, const sketch_style *style, i
 
 sketch_position sketch_moved(const sketch_maps *m, int x, int y, double amount, sketch_degree degree);
 bool            sketch_inside(const sketch_maps *m, sketch_position p);
-double          sketch_depth(const sketch_maps *m, sketch_position p);               /* of the nearest texel */
+double          sketch_depth(const sketch_maps *m, sketch_position p);        /* of the nearest texel */
+double          sketch_depth_around(const sketch_maps *m, sketch_position p); /* the least that filtering mixes there */
 double          sketch_reach(const sketch_maps *m, sketch_position p, int reach);    /* the least within a square */
 double          sketch_field(const sketch_maps *m, double x, double y, int channel); /* between texels */
 void            sketch_edge(const sketch_maps *m, sketch_position p, double out[4]);

@@ -59,6 +59,7 @@ static const struct {
     {"layers", "shading", "both ways give the same picture"},
     {"layers", "producer", "both ways give the same layers"},
     {"layers", "memory", "less memory gives the same layers"},
+    {"layers", "settle_ties", "no parts lie on one another here; analytic.layers has some that do"},
     {"layers", "evaluation", "all ways give the same surfaces"},
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
