@@ -15,7 +15,7 @@ static const param common[] = {
     PARAM_COLOUR_ROW(lines_common, id_colour, .can_auto = true, .def_auto = true, .auto_from = "colour",
                      .doc = "Colour of lines between parts; auto takes colour."),
     PARAM_FLOAT_ROW(lines_common, width, .def = 1.5, .min = 0, .max = 24, .soft_min = 0.375, .soft_max = 6,
-                    .unit = UNIT_PT, .doc = "Width of the lines."),
+                    .unit = UNIT_PT, .reach = LINES_CROWD_WIDTHS, .doc = "Width of the lines."),
     PARAM_FLOAT_ROW(lines_common, profile_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Strength of profile lines; 0 hides them."),
     PARAM_FLOAT_ROW(lines_common, inner_weight, .def = 1, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,

@@ -30,6 +30,9 @@ void lines_find_ink(uint8_t *ink, const float *edges, size_t count, const lines_
 /* How wide lines are that operators find, in pixels: all that is known is between which pixels an edge runs. */
 enum { LINES_FOUND_WIDTH = 2 };
 
+/* How far lines look for others that they yield to, in widths: lines/edge/crowd_blur.frag. */
+enum { LINES_CROWD_WIDTHS = 6 };
+
 /* What contrast-aware lines look at. */
 #define LINES_PASSES_CONTRAST                                                                                          \
     {.name = "ground",                                                                                                 \

@@ -9,6 +9,10 @@ flat in vec4 v_look;
 layout(location = 0) out vec4 out_edge;
 layout(location = 1) out vec4 out_bare;
 
+/* What lies beneath a line and so far beyond would only make its side rough: faces about a pixel high come and go there. */
+const float BENEATH = 0.75, WHOLE = 0.9;
+const float APART = 2.0; /* pixels */
+
 #ifdef OPEN_BODIES
 /* Where parts of the model are left out, an edge before what is seen may be one of those. */
 bool is_on_surface(vec3 axis, bool wanted)
@@ -36,6 +40,15 @@ bool is_seen(vec3 axis, bool wanted)
 #endif
 }
 
+/* As most of three positions along the edge are: where faces are about a pixel high, single ones come and go, and lines would be stitches and beads. */
+bool is_seen_around(vec3 axis, float at, float size, bool wanted)
+{
+    float apart = APART / max(size, 1e-6);
+    vec3 before = mix(v_begin.xyz, v_end.xyz, max(at - apart, 0.0)), behind = mix(v_begin.xyz, v_end.xyz, min(at + apart, 1.0));
+    bool first = is_seen(axis, wanted), second = is_seen(before, wanted), third = is_seen(behind, wanted && first != second);
+    return first == second ? first : third;
+}
+
 float step_beside(ivec2 at)
 {
     vec2 own = texelFetch(t_pairs, at, 0).xy;
@@ -56,11 +69,12 @@ void main()
     vec3 axis = mix(v_begin.xyz, v_end.xyz, at);
     vec2 way = gl_FragCoord.xy - axis.xy;
     float d = length(way);
-    bool within = d <= max(half_width + 0.75, RECORD_REACH);
-    int wanted = is_seen(axis, within) && within ? 1 : 0;
-    vec2 ink = vec2(0.0); /* of outlines and of creases */
+    bool within = d <= max(0.5 * u_line_width + 0.75, RECORD_REACH);
+    int wanted = is_seen_around(axis, at, size, within) && within ? 1 : 0;
+    vec2 ink = vec2(0.0), strength = vec2(0.0); /* of outlines and of creases */
     for (int once = 0; once < wanted; once++) {
-        vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6), strength = vec2(v_look.x > RECORDED_OUTLINE ? 1.0 : 0.0, max(-v_look.x, 0.0));
+        vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
+        strength = vec2(v_look.x > RECORDED_OUTLINE ? 1.0 : 0.0, max(-v_look.x, 0.0));
         /* What is smooth has an outline only where something is behind it. */
         int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
         for (int again = 0; again < uncertain; again++)
@@ -73,6 +87,6 @@ void main()
     vec2 left = 1.0 - ink;
     out_edge = vec4(left.x, left.y, left.x * left.y, 1.0);
     /* Beside a crease another edge may be an outline. */
-    float bare = d <= RECORD_REACH ? 0.0 : 1.0;
+    float bare = d <= (max(strength.x, strength.y) >= WHOLE ? max(0.5 * u_line_width + BENEATH, RECORD_REACH) : RECORD_REACH) ? 0.0 : 1.0;
     out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, 1.0, 1.0);
 }

@@ -12,7 +12,7 @@ typedef struct gooch {
 static const param params[] = {
     PARAM_COLOUR_ROW(gooch, cool, .def_colour = {0.05f, 0.15f, 0.78f, 1}, .as_light = true,
                      .doc = "Tone of places turned away from the light."),
-    PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.76f, 0.62f, 0.10f, 1}, .as_light = true,
+    PARAM_COLOUR_ROW(gooch, warm, .def_colour = {0.66f, 0.56f, 0.16f, 1}, .as_light = true,
                      .doc = "Tone of places turned to the light."),
     PARAM_FLOAT_ROW(gooch, cool_fraction, .was = "cool_share", .def = 0.25, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much of the model's colour is added to the cool tone."),

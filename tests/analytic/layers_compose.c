@@ -13,7 +13,9 @@
 #define LOOK(RULES) "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ece4d2\"},\"rules\":[" RULES "]}"
 #define OWN_COLOUR  "\"surface\":{\"technique\":\"flat\",\"model_colour\":1}"
 #define ALL_LAYERS  "\"layers\":{\"technique\":\"peel\",\"count\":0}"
-#define LINES       "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\"}"
+#define LINES                                                                                                          \
+    "\"lines\":{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"cover\":1}" /* whole ink is counted            \
+                                                                                     */
 
 static const uint8_t ground[3] = {0xec, 0xe4, 0xd2};
 

@@ -114,6 +114,8 @@ static void draws_as_our_own(void **state)
         lmn_look *a = open_look(ours, NULL), *b = open_look(theirs, set);
         DO(lmn_look_set(a, "surface.cool", "#5266a8", &error));
         DO(lmn_look_set(a, "surface.warm", "#ccb87a", &error));
+        DO(lmn_look_set(a, "surface.cool_fraction", "0.2", &error));
+        DO(lmn_look_set(a, "surface.warm_fraction", "0.35", &error));
         draws_alike(a, b, true);
         DO(lmn_look_set_number(b, 0, "surface", 0, "cool_fraction", 0.9, &error));
         draws_alike(a, b, false);
