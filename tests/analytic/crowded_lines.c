@@ -26,21 +26,6 @@ static void shape_stack(shape *out, double step)
     }
 }
 
-/* Pixels, row 0 on top. */
-static void on_page(const shot *s, dvec p, double out[2])
-{
-    double eye[4], clip[4];
-    for (int row = 0; row < 4; row++)
-        eye[row] = s->view[row] * p.x + s->view[4 + row] * p.y + s->view[8 + row] * p.z + s->view[12 + row];
-    for (int row = 0; row < 4; row++) {
-        clip[row] = 0;
-        for (int k = 0; k < 4; k++)
-            clip[row] += s->projection[4 * k + row] * eye[k];
-    }
-    out[0] = (clip[0] / clip[3] + 1) / 2 * s->width;
-    out[1] = (1 - clip[1] / clip[3]) / 2 * s->height;
-}
-
 static double ink_at(const shot *s, double x, double y)
 {
     int column = (int)floor(x), row = (int)floor(y);
@@ -57,7 +42,7 @@ static double ink_between(const shot *s, const shape *stack, int from, int to, d
     for (int k = 0; k < 2; k++) {
         const shape_part *p = &stack->parts[numbers[k]];
         dvec              low = shape_point(p, 0), high = shape_point(p, 3);
-        on_page(s, (dvec){(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2}, ends[k]);
+        shot_on_page(s, (dvec){(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2}, ends[k]);
     }
     double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1], size = hypot(dx, dy);
     *apart = size / (to - from);

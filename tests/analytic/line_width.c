@@ -17,18 +17,11 @@ typedef struct page_point {
     double x, y;
 } page_point;
 
-/* Pixels, row 0 on top. */
 static page_point on_page(const shot *s, dvec p)
 {
-    double eye[4], clip[4];
-    for (int row = 0; row < 4; row++)
-        eye[row] = s->view[row] * p.x + s->view[4 + row] * p.y + s->view[8 + row] * p.z + s->view[12 + row];
-    for (int row = 0; row < 4; row++) {
-        clip[row] = 0;
-        for (int k = 0; k < 4; k++)
-            clip[row] += s->projection[4 * k + row] * eye[k];
-    }
-    return (page_point){(clip[0] / clip[3] + 1) / 2 * s->width, (1 - clip[1] / clip[3]) / 2 * s->height};
+    double at[2];
+    shot_on_page(s, p, at);
+    return (page_point){at[0], at[1]};
 }
 
 /* The area of a pixel within half a width of the line through a and b. */

@@ -384,3 +384,17 @@ int shot_differing(const shot *a, const shot *b, int tolerance)
         count += abs(a->picture[i] - b->picture[i]) > tolerance;
     return count;
 }
+
+void shot_on_page(const shot *s, dvec point, double out[2])
+{
+    double eye[4], clip[4];
+    for (int row = 0; row < 4; row++)
+        eye[row] = s->view[row] * point.x + s->view[4 + row] * point.y + s->view[8 + row] * point.z + s->view[12 + row];
+    for (int row = 0; row < 4; row++) {
+        clip[row] = 0;
+        for (int k = 0; k < 4; k++)
+            clip[row] += s->projection[4 * k + row] * eye[k];
+    }
+    out[0] = (clip[0] / clip[3] + 1) / 2 * s->width;
+    out[1] = (1 - clip[1] / clip[3]) / 2 * s->height;
+}

@@ -78,6 +78,9 @@ bool shot_has_warning(const shot *s, const char *code);
 /* Ends the renderers; call before the program ends so that leak checkers stay quiet. */
 void shot_end(void);
 
+/* Where a point of the scene is on the picture, pixels, row 0 on top. */
+void shot_on_page(const shot *s, dvec point, double out[2]);
+
 /* The ray through a pixel position (in pixels, row 0 on top): origin on the near plane, direction not normalised. */
 void shot_ray(const shot *s, double x, double y, dvec *origin, dvec *direction);
 
