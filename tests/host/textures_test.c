@@ -34,11 +34,11 @@ typedef struct subject {
 #define BIT(map) (1u << (map))
 static const char several[] =
     "{\"version\": 2, \"rules\": [{\"select\": \"*\", \"surface\": \"lit\", \"lines\": \"discontinuity\"},"
-    "{\"select\": \"*Cover*\", \"surface\": \"toon\", \"lines\": [{\"operator\": \"sobel\"}, {\"operator\": \"id\"}]},"
-    "{\"select\": \"*Bolt*\", \"surface\": \"gooch\"},"
+    "{\"select\": \"*Bolt*\", \"surface\": \"toon\", \"lines\": [{\"operator\": \"sobel\"}, {\"operator\": \"id\"}]},"
+    "{\"select\": \"*Gasket*\", \"surface\": \"gooch\"},"
     "{\"select\": \"*Housing*\", \"surface\": \"lit\", \"lines\": \"discontinuity\","
     " \"layers\": {\"technique\": \"peel\", \"count\": 4}, \"compose\": \"xray\"},"
-    "{\"select\": \"*Gasket*\", \"surface\": \"flat\", \"lines\": \"discontinuity\","
+    "{\"select\": \"*Cover*\", \"surface\": \"flat\", \"lines\": [{\"operator\": \"sobel\"}, {\"operator\": \"id\"}],"
     " \"layers\": {\"technique\": \"peel\", \"count\": 3}, \"compose\": \"wire\"}]}";
 static const char    form[] = "{\"version\": 2, \"rules\": [{\"select\": \"*\", \"lines\": \"discontinuity\","
                               " \"surface\": {\"technique\": \"hatch\", \"coordinates\": \"form\"}}]}";
