@@ -77,14 +77,14 @@ typedef struct lmn_draw_desc {
      * A perspective must be symmetric; y goes up. Not for sheets. Since 0.1. */
     bool   matrices_given;
     double view_matrix[16], projection_matrix[16];
+    /* Of lmn_draw with an adopted context: picture and maps stay on the GPU, as textures that limner/host.h names, and
+     * nothing is read back. Not with `profile`. Since 0.1. */
+    bool textures;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0},            \
-        {                                                                                                              \
-            0                                                                                                          \
-        }                                                                                                              \
+            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0}, {0}, false \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window, or one that draws in the caller's (adopt).
@@ -118,7 +118,8 @@ LMN_API lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn
 LMN_API void lmn_drawing_destroy(lmn_drawing **drawing);
 
 /* The picture: RGBA, 8 bits, sRGB, straight alpha, row 0 on top, width·4 bytes a row; borrowed from the drawing.
- * `width` and `height` may be NULL. NULL, and sizes of 0, without a drawing. */
+ * `width` and `height` may be NULL. NULL, and sizes of 0, without a drawing; NULL while the picture lies on the GPU
+ * alone (lmn_draw_desc.textures). */
 LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width, int *height);
 
 /* Writes the picture. The format comes from `format` (".png") or, when that is NULL, from the path's ending; path

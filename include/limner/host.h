@@ -5,6 +5,7 @@
 #define LIMNER_HOST_H
 
 #include "limner/draw.h"
+#include "limner/maps.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,6 +41,32 @@ typedef struct lmn_target {
  * for a target that is not there or has no depth, and for renderers that have adopted no context. Since 0.1. */
 LMN_API lmn_status lmn_draw_into(lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                                  const lmn_draw_desc *desc, const lmn_target *target, lmn_error *error);
+
+/* --- drawings that stay on the GPU ---------------------------------------------------------------------- */
+
+/* The name of the texture with the picture of a drawing that lmn_draw has made with lmn_draw_desc.textures: it lies on
+ * the GPU, and nothing was read back. A GL_TEXTURE_2D, GL_RGBA8, of the drawing's size, with one level, nearest filter
+ * and clamped edges. It has the bytes of lmn_drawing_pixels, but row 0 is at the bottom, as in OpenGL: encoded as sRGB,
+ * which OpenGL is not told, straight alpha. It is the renderer's and is lent: valid in the context that it has adopted,
+ * and those that share objects with it, until the renderer draws or picks again or ends; the drawing itself may end
+ * before. It may be looked up and copied from, but not written, and its parameters are not set: samplers
+ * (glGenSamplers) have other filters. Who asks is the thread that has the context current; it waits for nothing. The
+ * drawing's report, camera and warnings are there at once; for pixels, files, maps in memory and picks call
+ * lmn_drawing_read_back before. Errors: LMN_USAGE (NULL, a drawing without textures, a renderer that has drawn again or
+ * has ended). Since 0.1. */
+LMN_API lmn_status lmn_drawing_texture(const lmn_drawing *drawing, uint32_t *name, lmn_error *error);
+
+/* The same of a map, of drawings with `maps`, too: the numbers of lmn_drawing_copy_map, merged on the GPU. DEPTH is
+ * GL_R32F, ID GL_R32UI, EDGE and SHADE GL_RGBA16F; of three numbers and alpha 0 are NORMAL, UNCERTAINTY and VELOCITY in
+ * GL_RGBA32F and DIRECTION in GL_RGBA16F. Errors: as lmn_drawing_texture; LMN_USAGE also where the drawing does not
+ * have this map. Since 0.1. */
+LMN_API lmn_status lmn_drawing_map_texture(const lmn_drawing *drawing, lmn_map map, uint32_t *name, lmn_error *error);
+
+/* Copies picture and maps into memory, while the textures are valid, with the context current: from then on the drawing
+ * is one as without `textures`, which outlasts the renderer; but maps of layers (lmn_drawing_write_maps) it has none.
+ * The textures stay what they were. A drawing whose pixels are in memory stays as it is. Errors: as
+ * lmn_drawing_texture; LMN_GL, LMN_MEMORY. Since 0.1. */
+LMN_API lmn_status lmn_drawing_read_back(lmn_drawing *drawing, lmn_error *error);
 
 #ifdef __cplusplus
 }

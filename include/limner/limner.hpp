@@ -80,6 +80,7 @@ using progress_function = std::function<bool(double fraction, const char *stage)
 
 namespace detail
 {
+struct reading;
 
 /* Text that Limner returned, as one of C++. NULL: memory is gone. */
 inline std::string take(char *text)
@@ -132,6 +133,19 @@ struct watch {
             std::rethrow_exception(std::exchange(thrown, nullptr));
     }
 };
+
+/* Bytes that Limner returned, as those of C++. */
+template <class Type>
+std::vector<std::uint8_t> encoded(lmn_status (*function)(const Type *, const char *, std::uint8_t **, std::size_t *,
+                                                         lmn_error *),
+                                  const Type *of, const std::string &format)
+{
+    std::uint8_t *bytes = nullptr;
+    std::size_t   size = 0;
+    call(function, of, format.c_str(), &bytes, &size);
+    std::unique_ptr<std::uint8_t, void (*)(std::uint8_t *)> owner(bytes, lmn_bytes_free);
+    return std::vector<std::uint8_t>(bytes, bytes + size);
+}
 
 /* Owns a handle of C. */
 template <class Type, void (*End)(Type **)> class handle
@@ -261,6 +275,75 @@ inline lmn_node_desc node_desc()
     return LMN_NODE_DESC_INIT;
 }
 
+inline lmn_technique_desc technique_desc(const char *name, const char *glsl)
+{
+    lmn_technique_desc desc = LMN_TECHNIQUE_DESC_INIT;
+    desc.name = name;
+    desc.glsl = glsl;
+    return desc;
+}
+
+/* --- what the program brings: memory, techniques, formats ----------------------------------------------- */
+
+/* Takes all memory of the library from an object with alloc(size), resize(block, size) and release(block), none of
+ * which throws; nullptr says that there is no memory. It lives as long as the process: once, before all else. */
+template <class Allocator> void set_allocator(Allocator &from)
+{
+    static_assert(noexcept(from.alloc(std::size_t())) &&noexcept(from.resize(nullptr, std::size_t())) &&noexcept(
+                      from.release(nullptr)),
+                  "nothing may be thrown through C");
+    lmn_allocator a = LMN_ALLOCATOR_INIT;
+    a.alloc = [](std::size_t size, void *user) -> void * { return static_cast<Allocator *>(user)->alloc(size); };
+    a.resize = [](void *block, std::size_t size, void *user) -> void * {
+        return static_cast<Allocator *>(user)->resize(block, size);
+    };
+    a.release = [](void *block, void *user) { static_cast<Allocator *>(user)->release(block); };
+    a.user = &from;
+    call(lmn_allocator_set, &a);
+}
+
+/* A set of techniques of the program's own, for looks that are opened with it and may outlive it. */
+class techniques : public detail::handle<lmn_techniques, lmn_techniques_destroy>
+{
+  public:
+    techniques()
+    {
+        call(lmn_techniques_create, out());
+    }
+    /* techniques().add(technique_desc("heights", glsl), {{...}, {...}}): rows as in limner/techniques.h. */
+    techniques &add(lmn_technique_desc desc, const std::vector<lmn_param_desc> &params = {})
+    {
+        if (!params.empty()) {
+            desc.params = params.data();
+            desc.param_count = params.size();
+        }
+        call(lmn_techniques_add, get(), &desc);
+        return *this;
+    }
+    /* Their names. */
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> all;
+        lmn_technique_info       info = {};
+        while (lmn_techniques_at(get(), all.size(), &info))
+            all.emplace_back(info.name);
+        return all;
+    }
+};
+
+class scene;
+
+/* A format that the program reads itself. The functions may throw: then the file is not read, and the call that reads
+ * it throws what they have thrown. A limner::scene that is lent to them is not kept. */
+struct importer {
+    using probe_function = std::function<bool(const std::uint8_t *bytes, std::size_t size)>;
+    using read_function =
+        std::function<void(scene &into, const char *path, const std::uint8_t *bytes, std::size_t size)>;
+    std::string    name, endings; /* ".off .coff" */
+    read_function  read;
+    probe_function probe; /* empty: the endings say which files are its own */
+};
+
 /* --- scene, look, renderer ------------------------------------------------------------------------------ */
 
 class scene : public detail::handle<lmn_scene, lmn_scene_destroy>
@@ -282,6 +365,9 @@ class scene : public detail::handle<lmn_scene, lmn_scene_destroy>
         w.attach(desc);
         w.run(lmn_scene_add_file, get(), path.c_str(), &desc);
     }
+    /* With formats of the program's own, asked before Limner's. */
+    void add_file(const std::string &path, const std::vector<importer> &formats, lmn_load_desc desc = load_desc(),
+                  progress_function ask = {});
     lmn_scene_info info() const
     {
         return lmn_scene_info_of(get());
@@ -319,6 +405,12 @@ class scene : public detail::handle<lmn_scene, lmn_scene_destroy>
     }
 
   private:
+    friend struct detail::reading;
+    struct lent {
+    };
+    scene(lent, lmn_scene *of) noexcept : handle(of)
+    {
+    }
     template <class Desc>
     std::uint32_t add_by(lmn_status (*function)(lmn_scene *, const Desc *, std::uint32_t *, lmn_error *),
                          const Desc &desc)
@@ -329,6 +421,82 @@ class scene : public detail::handle<lmn_scene, lmn_scene_destroy>
     }
 };
 
+namespace detail
+{
+
+/* An importer while a file is read: its row of C, and what its functions throw. */
+struct reading {
+    const importer     *format;
+    std::exception_ptr *thrown; /* of all formats of the call */
+    lmn_importer        row;
+
+    static bool probe(const void *bytes, std::size_t size, void *user) noexcept
+    {
+        reading *r = static_cast<reading *>(user);
+        try {
+            return r->format->probe(static_cast<const std::uint8_t *>(bytes), size);
+        } catch (...) {
+            *r->thrown = std::current_exception();
+            return true; /* so that the file is not read by another */
+        }
+    }
+    static lmn_status read(lmn_scene *into, const char *path, const void *bytes, std::size_t size, void *user,
+                           lmn_error *e) noexcept;
+};
+
+} // namespace detail
+
+inline lmn_status detail::reading::read(lmn_scene *into, const char *path, const void *bytes, std::size_t size,
+                                        void *user, lmn_error *e) noexcept
+{
+    reading   *r = static_cast<reading *>(user);
+    scene      lent{scene::lent(), into};
+    lmn_status status = LMN_FORMAT;
+    try {
+        if (!*r->thrown)
+            r->format->read(lent, path, static_cast<const std::uint8_t *>(bytes), size);
+        status = *r->thrown ? LMN_FORMAT : LMN_OK;
+    } catch (const error &thrown) {
+        *r->thrown = std::current_exception();
+        status = thrown.status();
+    } catch (...) {
+        *r->thrown = std::current_exception();
+    }
+    lent.release(); /* not ours to end */
+    e->status = status;
+    return status;
+}
+
+inline void scene::add_file(const std::string &path, const std::vector<importer> &formats, lmn_load_desc desc,
+                            progress_function ask)
+{
+    detail::watch                     w{std::move(ask), nullptr};
+    std::exception_ptr                thrown;
+    std::vector<detail::reading>      readings;
+    std::vector<const lmn_importer *> rows;
+    readings.reserve(formats.size());
+    for (const importer &format : formats) {
+        readings.push_back({&format, &thrown, LMN_IMPORTER_INIT});
+        lmn_importer &row = readings.back().row;
+        row.name = format.name.c_str();
+        row.endings = format.endings.c_str();
+        row.probe = format.probe ? detail::reading::probe : nullptr;
+        row.read = format.read ? detail::reading::read : nullptr;
+        row.user = &readings.back();
+        rows.push_back(&row);
+    }
+    desc.importers = rows.data();
+    desc.importer_count = rows.size();
+    w.attach(desc);
+    try {
+        w.run(lmn_scene_add_file, get(), path.c_str(), &desc);
+    } catch (const error &) {
+        if (thrown)
+            std::rethrow_exception(thrown);
+        throw;
+    }
+}
+
 class look : public detail::handle<lmn_look, lmn_look_destroy>
 {
   public:
@@ -336,6 +504,17 @@ class look : public detail::handle<lmn_look, lmn_look_destroy>
     explicit look(const std::string &name_or_path)
     {
         call(lmn_look_load, out(), name_or_path.c_str());
+    }
+    /* The same with techniques of the program's own. */
+    look(const std::string &name_or_path, const techniques &own)
+    {
+        open(own, name_or_path.c_str(), nullptr, nullptr);
+    }
+    static look parse(const std::string &json, const techniques &own, const std::string &name = "look")
+    {
+        look made;
+        made.open(own, nullptr, json.c_str(), name.c_str());
+        return made;
     }
     static look parse(const std::string &json, const std::string &name = "look")
     {
@@ -368,6 +547,15 @@ class look : public detail::handle<lmn_look, lmn_look_destroy>
 
   private:
     look() noexcept = default;
+    void open(const techniques &own, const char *name_or_path, const char *json, const char *name)
+    {
+        lmn_look_desc desc = LMN_LOOK_DESC_INIT;
+        desc.name_or_path = name_or_path;
+        desc.json = json;
+        desc.name = name;
+        desc.techniques = own.get();
+        call(lmn_look_open, out(), &desc);
+    }
 };
 
 class renderer : public detail::handle<lmn_renderer, lmn_renderer_destroy>
@@ -387,6 +575,15 @@ class renderer : public detail::handle<lmn_renderer, lmn_renderer_destroy>
         detail::watch w{std::move(ask), nullptr};
         w.attach(desc);
         w.run(lmn_draw_into, get(), s.get(), l.get(), &desc, &to);
+    }
+    /* What one pixel of a picture would show. */
+    lmn_pick pick(const scene &s, const look &l, lmn_draw_desc desc, int x, int y, progress_function ask = {})
+    {
+        detail::watch w{std::move(ask), nullptr};
+        lmn_pick      found = {};
+        w.attach(desc);
+        w.run(lmn_draw_pick, get(), s.get(), l.get(), &desc, x, y, &found);
+        return found;
     }
 };
 
@@ -452,6 +649,28 @@ class drawing : public detail::handle<lmn_drawing, lmn_drawing_destroy>
     {
         return copy<std::uint32_t>(LMN_MAP_ID);
     }
+    /* Of drawings with `textures`, as in limner/host.h: OpenGL's names; and after read_back() all is in memory, too. */
+    std::uint32_t texture() const
+    {
+        std::uint32_t name = 0;
+        call(lmn_drawing_texture, get(), &name);
+        return name;
+    }
+    std::uint32_t map_texture(lmn_map which) const
+    {
+        std::uint32_t name = 0;
+        call(lmn_drawing_map_texture, get(), which, &name);
+        return name;
+    }
+    void read_back()
+    {
+        call(lmn_drawing_read_back, get());
+    }
+    /* The bytes of a file; `format` as ".png". */
+    std::vector<std::uint8_t> encode(const std::string &format) const
+    {
+        return detail::encoded(lmn_drawing_encode, get(), format);
+    }
     lmn_pick pick(int x, int y) const
     {
         lmn_pick found = {};
@@ -516,6 +735,11 @@ class sheet : public detail::handle<lmn_sheet, lmn_sheet_destroy>
         std::uint64_t bytes = 0;
         call(lmn_sheet_write, get(), path.c_str(), format.empty() ? nullptr : format.c_str(), &bytes);
         return bytes;
+    }
+    /* The same bytes; `format` as ".svg". */
+    std::vector<std::uint8_t> encode(const std::string &format) const
+    {
+        return detail::encoded(lmn_sheet_encode, get(), format);
     }
     std::string report_json() const
     {

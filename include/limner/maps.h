@@ -42,6 +42,13 @@ typedef struct lmn_pick {
 /* What is seen at this pixel; pixels outside of the picture show nothing. */
 LMN_API lmn_status lmn_drawing_pick(const lmn_drawing *drawing, int x, int y, lmn_pick *out, lmn_error *error);
 
+/* The same without a drawing: draws what this one pixel of the described picture shows, and nothing else of it, as
+ * lmn_draw with `maps` and lmn_drawing_pick would answer. For programs that ask while the picture is one of
+ * lmn_draw_into. As lmn_draw it needs the renderer's context, and takes the place of its last textures (limner/host.h).
+ * `textures` of the description is not heeded. Errors: those of lmn_draw. */
+LMN_API lmn_status lmn_draw_pick(lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                                 const lmn_draw_desc *desc, int x, int y, lmn_pick *out, lmn_error *error);
+
 /* The parts that are seen in a rectangle of pixels, each once, by their numbers: at most `capacity` of them are written
  * to `parts` (which may be NULL with 0), and *count gets how many there are. */
 LMN_API lmn_status lmn_drawing_pick_parts(const lmn_drawing *drawing, int x, int y, int width, int height,

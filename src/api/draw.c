@@ -123,6 +123,30 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
     return status == LMN_OK ? refuse_time(&r, look, full.time_s, !vectors) : status;
 }
 
+/* Textures are of use where the caller's calls of OpenGL are. */
+static lmn_status check_textures(const lmn_renderer *renderer, const lmn_draw_desc *d, lmn_error *error)
+{
+    if (!d->textures)
+        return LMN_OK;
+    if (d->profile)
+        return error_set(error, LMN_USAGE, "a drawing with `textures` has no profile, whose frame is waited for");
+    if (gpu_is_adopted(renderer->g))
+        return LMN_OK;
+    error_set(error, LMN_USAGE, "the renderer has a context of its own, whose textures nobody else can use");
+    error_hint(error, "set `adopt` of its description, or leave `textures` away");
+    return LMN_USAGE;
+}
+
+/* Is its picture in memory? */
+static lmn_status check_read_back(const lmn_drawing *d, const char *caller, lmn_error *error)
+{
+    if (d->pixels)
+        return LMN_OK;
+    error_set(error, LMN_USAGE, "%s: the drawing lies on the GPU alone", caller);
+    error_hint(error, "call lmn_drawing_read_back before the renderer draws again");
+    return LMN_USAGE;
+}
+
 lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
                     const lmn_draw_desc *desc, lmn_error *error)
 {
@@ -133,6 +157,8 @@ lmn_status lmn_draw(lmn_drawing **out, lmn_renderer *renderer, const lmn_scene *
         return error_set(error, LMN_USAGE, "a renderer, a scene and a look are needed to draw");
     lmn_draw_desc full;
     lmn_status    status = check_draw_desc(&full, desc, error);
+    if (status == LMN_OK)
+        status = check_textures(renderer, &full, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -166,7 +192,9 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
     const export_format *chosen = NULL;
     if (!drawing || !path || !*path)
         return missing("lmn_drawing_write", drawing ? "path" : "drawing", error);
-    lmn_status status = export_choose(&chosen, path, format, false, error);
+    lmn_status status = check_read_back(drawing, "lmn_drawing_write", error);
+    if (status == LMN_OK)
+        status = export_choose(&chosen, path, format, false, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -195,7 +223,9 @@ lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *format, ui
                        : !bytes  ? "bytes"
                                  : "size",
                        error);
-    lmn_status status = export_choose(&chosen, "-", format, false, error);
+    lmn_status status = check_read_back(drawing, "lmn_drawing_encode", error);
+    if (status == LMN_OK)
+        status = export_choose(&chosen, "-", format, false, error);
     if (status != LMN_OK)
         return status;
     work w;
@@ -219,11 +249,14 @@ lmn_status lmn_drawing_write_maps(const lmn_drawing *drawing, const char *direct
 {
     if (!drawing || !directory)
         return missing("lmn_drawing_write_maps", drawing ? "directory" : "drawing", error);
+    lmn_status status = check_read_back(drawing, "lmn_drawing_write_maps", error);
+    if (status != LMN_OK)
+        return status;
     if (!drawing->maps.depth)
         return error_set(error, LMN_USAGE, "the drawing was made without its maps; set `maps` in its description");
     work w;
     work_begin(&w, NULL, NULL);
-    lmn_status status = maps_write(&drawing->maps, drawing->facts.part_count, directory, error);
+    status = maps_write(&drawing->maps, drawing->facts.part_count, directory, error);
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
 }
 

@@ -5,6 +5,7 @@
 #include "api/complete.h"
 #include "base/error.h"
 #include "base/work.h"
+#include "draw/drawing.h"
 #include "draw/into.h"
 
 static lmn_status check_target(const lmn_target *t, const lmn_draw_desc *d, lmn_error *error)
@@ -17,8 +18,9 @@ static lmn_status check_target(const lmn_target *t, const lmn_draw_desc *d, lmn_
         error_hint(error, "set matrices_given, view_matrix and projection_matrix of the description");
         return LMN_USAGE;
     }
-    if (d->maps || d->profile)
-        return error_set(error, LMN_USAGE, "lmn_draw_into keeps neither maps nor a profile; lmn_draw does");
+    if (d->maps || d->profile || d->textures)
+        return error_set(error, LMN_USAGE,
+                         "lmn_draw_into keeps neither maps nor a profile nor textures; lmn_draw does");
     return LMN_OK;
 }
 
@@ -52,4 +54,57 @@ lmn_status lmn_draw_into(lmn_renderer *renderer, const lmn_scene *scene, const l
     if (status == LMN_OK)
         status = renderer_draw_into(renderer, scene, look, &sized, &into, error);
     return work_end(&w, status, error);
+}
+
+/* Are its textures there? */
+static lmn_status check_kept(const lmn_drawing *d, const char *caller, lmn_error *error)
+{
+    if (!d)
+        return error_set(error, LMN_USAGE, "%s: `drawing` is NULL", caller);
+    if (d->kept && d->kept->renderer)
+        return LMN_OK;
+    if (d->kept)
+        return error_set(error, LMN_USAGE, "%s: the textures are gone: the renderer has drawn again or has ended",
+                         caller);
+    error_set(error, LMN_USAGE, "%s: the drawing was made without textures", caller);
+    error_hint(error, "set `textures` in its description");
+    return LMN_USAGE;
+}
+
+lmn_status lmn_drawing_texture(const lmn_drawing *drawing, uint32_t *name, lmn_error *error)
+{
+    lmn_status status = check_kept(drawing, "lmn_drawing_texture", error);
+    if (status == LMN_OK && !name)
+        return error_set(error, LMN_USAGE, "lmn_drawing_texture: `name` is NULL");
+    if (status == LMN_OK)
+        *name = gpu_texture_name(drawing->kept->picture);
+    return status;
+}
+
+lmn_status lmn_drawing_map_texture(const lmn_drawing *drawing, lmn_map map, uint32_t *name, lmn_error *error)
+{
+    const char *caller = "lmn_drawing_map_texture";
+    lmn_status  status = check_kept(drawing, caller, error);
+    if (status != LMN_OK)
+        return status;
+    if (!name)
+        return error_set(error, LMN_USAGE, "%s: `name` is NULL", caller);
+    if (!lmn_map_components(map))
+        return error_set(error, LMN_USAGE, "%s: %d is no map", caller, (int)map);
+    if (!drawing->kept->maps.textures[map])
+        return error_set(error, LMN_USAGE, "%s: the drawing does not have this map", caller);
+    *name = gpu_texture_name(drawing->kept->maps.textures[map]);
+    return LMN_OK;
+}
+
+lmn_status lmn_drawing_read_back(lmn_drawing *drawing, lmn_error *error)
+{
+    if (drawing && drawing->pixels)
+        return LMN_OK;
+    lmn_status status = check_kept(drawing, "lmn_drawing_read_back", error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, NULL, NULL);
+    return work_end(&w, drawing_read_back(drawing, error), error);
 }

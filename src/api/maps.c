@@ -3,8 +3,10 @@
 
 #include <string.h>
 
+#include "api/check_desc.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "draw/pick.h"
 
 int lmn_map_components(lmn_map map)
@@ -15,12 +17,21 @@ int lmn_map_components(lmn_map map)
     return map >= LMN_MAP_DEPTH && map <= LMN_MAP_DIRECTION ? components[map] : 0;
 }
 
+static lmn_status on_gpu_alone(const char *caller, lmn_error *error)
+{
+    error_set(error, LMN_USAGE, "%s: the drawing lies on the GPU alone", caller);
+    error_hint(error, "call lmn_drawing_read_back before the renderer draws again");
+    return LMN_USAGE;
+}
+
 static lmn_status check_drawing(const lmn_drawing *d, const char *caller, lmn_error *error)
 {
     if (!d)
         return error_set(error, LMN_USAGE, "%s: `drawing` is NULL", caller);
     if (d->maps.depth)
         return LMN_OK;
+    if (d->kept && d->kept->maps.on_gpu)
+        return on_gpu_alone(caller, error);
     error_set(error, LMN_USAGE, "%s: the drawing was made without its maps", caller);
     error_hint(error, "set `maps` in its description");
     return LMN_USAGE;
@@ -58,6 +69,26 @@ lmn_status lmn_drawing_pick(const lmn_drawing *d, int x, int y, lmn_pick *out, l
     if (x >= 0 && y >= 0 && x < d->width && y < d->height)
         *out = pick_at(d, x, y);
     return LMN_OK;
+}
+
+lmn_status lmn_draw_pick(lmn_renderer *renderer, const lmn_scene *scene, const lmn_look *look,
+                         const lmn_draw_desc *desc, int x, int y, lmn_pick *out, lmn_error *error)
+{
+    if (out)
+        memset(out, 0, sizeof *out);
+    if (!renderer || !scene || !look || !out)
+        return error_set(error, LMN_USAGE, "lmn_draw_pick: a renderer, a scene, a look and `out` are needed");
+    lmn_draw_desc full;
+    lmn_status    status = check_draw_desc(&full, desc, error);
+    if (status != LMN_OK)
+        return status;
+    full.maps = full.profile = full.textures = false;
+    work w;
+    work_begin(&w, full.progress, full.progress_user);
+    status = check_pixels(&full, error);
+    if (status == LMN_OK)
+        status = renderer_pick(renderer, scene, look, &full, x, y, out, error);
+    return work_end(&w, status, error);
 }
 
 lmn_status lmn_drawing_pick_parts(const lmn_drawing *d, int x, int y, int width, int height, uint32_t *parts,

@@ -59,6 +59,8 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
     if (!scene || !look)
         return missing("lmn_draw_sheet", scene ? "look" : "scene", error);
     lmn_status status = check_draw_desc(&wanted, desc, error);
+    if (status == LMN_OK && wanted.textures)
+        return error_set(error, LMN_USAGE, "a sheet has no textures; lmn_draw keeps some (`textures`)");
     if (status == LMN_OK)
         status = complete(&full, sheet, error);
     if (status == LMN_OK && wanted.matrices_given)

@@ -8,7 +8,7 @@
 #include "light/light.h"
 #include "plan/refuse.h"
 
-static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
+static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_error *error)
 {
     size_t stride = (size_t)d->width * 4;
     d->pixels = mem_alloc(stride * (size_t)d->height);
@@ -17,7 +17,7 @@ static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
         mem_free(row);
         return error_memory(error);
     }
-    gpu_read(s->renderer->g, s->out, d->pixels);
+    gpu_read(g, picture, d->pixels);
     for (int y = 0; y < d->height / 2; y++) {
         uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
         memcpy(row, top, stride);
@@ -25,7 +25,27 @@ static lmn_status read_pixels(lmn_drawing *d, session *s, lmn_error *error)
         memcpy(bottom, row, stride);
     }
     mem_free(row);
-    return gpu_check(s->renderer->g, error);
+    return gpu_check(g, error);
+}
+
+lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
+{
+    if (d->pixels)
+        return LMN_OK;
+    gpu       *g = d->kept->renderer->g;
+    lmn_status status = gpu_enter(g, error);
+    if (status != LMN_OK)
+        return status;
+    if (d->kept->maps.on_gpu && !d->maps.depth && !frame_maps_read(&d->kept->maps, g, &d->maps))
+        status = error_memory(error);
+    if (status == LMN_OK)
+        status = read_pixels(d, g, d->kept->picture, error);
+    if (status != LMN_OK) {
+        mem_free(d->pixels);
+        d->pixels = NULL;
+        frame_maps_release(&d->maps);
+    }
+    return gpu_leave(g, status, error);
 }
 
 static bool has_strokes(const rule *r)
@@ -211,9 +231,9 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     return drawing_refuse(s, scene, look, desc, &d->warnings, error);
 }
 
-/* An extra frame with one sample and all buffers read back. */
-static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                            const lmn_draw_desc *desc, lmn_error *error)
+/* The extra frame of the maps: one sample a pixel. */
+static lmn_status draw_buffers(frame_maps *maps, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                               const lmn_draw_desc *desc, lmn_error *error)
 {
     enum { LARGE = 1 << 21 }; /* pixels from which on the drawing's own pictures are not kept while maps are read */
     session  s;
@@ -221,15 +241,25 @@ static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *sc
     if ((int64_t)desc->width * desc->height >= LARGE)
         gpu_targets_trim(r->g);
     lmn_status status = session_open(&s, r, scene, look, &(draw_options){.desc = desc, .maps = true}, &ignored, error);
-    if (status == LMN_OK)
-        status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
     if (status == LMN_OK) {
-        s.frame.maps = &d->maps;
+        if (maps->on_gpu)
+            frame_maps_open(maps, r->g, desc->width, desc->height);
+        s.frame.maps = maps;
         frame_draw(&s.frame, NULL);
         status = gpu_check(r->g, error);
     }
     session_close(&s);
     warnings_release(&ignored);
+    return status;
+}
+
+/* The maps in memory, which are counted too. */
+static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
+                            const lmn_draw_desc *desc, lmn_error *error)
+{
+    lmn_status status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
+    if (status == LMN_OK)
+        status = draw_buffers(&d->maps, r, scene, look, desc, error);
     if (status != LMN_OK)
         return status;
     d->part_pixels = mem_calloc(d->facts.part_count, sizeof *d->part_pixels);
@@ -256,7 +286,8 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     const drawn_frame   *drawn = user;
     lmn_drawing         *d = drawn->drawing;
     const lmn_draw_desc *desc = drawn->desc;
-    gpu_finish(s->renderer->g);
+    if (!desc->textures)
+        gpu_finish(s->renderer->g);
     d->frame_ms = clock_ms() - drawn->start_ms;
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
@@ -266,8 +297,12 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     if (s->frame.lists_full)
         warnings_add(&d->warnings, WARNING_LAYER_MEMORY,
                      "layers did not fit into layers.memory and were peeled instead, which takes longer");
-    if (status == LMN_OK)
-        status = read_pixels(d, s, error);
+    if (status == LMN_OK && d->kept) {
+        d->kept->picture = s->out;
+        s->out = NULL;
+    } else if (status == LMN_OK) {
+        status = read_pixels(d, s->renderer->g, s->out, error);
+    }
     if (status != LMN_OK || !desc->profile)
         return status;
     s->frame.profile.on = true;
@@ -306,6 +341,10 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
         return error_memory(error);
     d->width = desc->width;
     d->height = desc->height;
+    if (desc->textures && !(d->kept = mem_calloc(1, sizeof *d->kept))) {
+        mem_free(d);
+        return error_memory(error);
+    }
     session    s;
     lmn_status status = session_open(&s, r, scene, look, options, &d->warnings, error);
     if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
@@ -317,10 +356,17 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
     session_close(&s);
     if (status == LMN_OK && cancelled(desc, 0.8, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");
-    if (status == LMN_OK && (desc->maps || desc->profile))
+    if (status == LMN_OK && d->kept && desc->maps) {
+        d->kept->maps.on_gpu = true;
+        status = draw_buffers(&d->kept->maps, r, scene, look, desc, error);
+    } else if (status == LMN_OK && (desc->maps || desc->profile)) {
         status = draw_maps(d, r, scene, look, desc, error);
-    if (status != LMN_OK)
+    }
+    kept_lend(d->kept, r);
+    if (status != LMN_OK) {
+        kept_drop(r);
         drawing_destroy(&d);
+    }
     *out = d;
     return status;
 }
@@ -345,6 +391,7 @@ void drawing_destroy(lmn_drawing **drawing)
     lmn_drawing *d = *drawing;
     mem_free(d->pixels);
     frame_maps_release(&d->maps);
+    kept_release(d->kept);
     warnings_release(&d->warnings);
     facts_release(&d->facts);
     mem_free(d->vendor);

@@ -6,10 +6,11 @@
 #include "plan/facts.h"
 
 struct lmn_drawing {
-    int        width, height;
-    uint8_t   *pixels; /* RGBA, row 0 on top */
-    frame_maps maps;   /* all NULL unless asked for */
-    warnings   warnings;
+    int            width, height;
+    uint8_t       *pixels; /* RGBA, row 0 on top; NULL: kept on the GPU and not read back */
+    frame_maps     maps;   /* all NULL unless asked for */
+    kept_textures *kept;   /* NULL: none */
+    warnings       warnings;
     /* for the report */
     report_facts facts;
     view_camera  camera;
@@ -29,6 +30,8 @@ lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *sc
  * LMN_UNSUPPORTED, LMN_USAGE. */
 lmn_status drawing_refuse(const session *s, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
                           warnings *warnings, lmn_error *error);
+/* Of a drawing whose textures are there. */
+lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error);
 char      *renderer_json(const lmn_renderer *r);
 char      *drawing_report_json(const lmn_drawing *d);
 void       drawing_destroy(lmn_drawing **d);

@@ -51,24 +51,82 @@ static void to_scene(const view_camera *c, const double eye[3], double w, double
         out[k] = m[4 * k] * moved[0] + m[4 * k + 1] * moved[1] + m[4 * k + 2] * moved[2];
 }
 
+/* The same of a picture's camera. */
+static void unproject(const view_camera *c, int width, int height, const double pixel[2], double depth, double point[3])
+{
+    double       by = half_height(c) * (c->orthographic ? 1 : depth);
+    const double eye[3] = {(2 * pixel[0] / width - 1) * by * c->aspect, (1 - 2 * pixel[1] / height) * by, -depth};
+    to_scene(c, eye, 1, point);
+}
+
 void pick_unproject(const lmn_drawing *d, const double pixel[2], double depth, double point[3])
 {
-    const view_camera *c = &d->camera;
-    double             by = half_height(c) * (c->orthographic ? 1 : depth);
-    const double eye[3] = {(2 * pixel[0] / d->width - 1) * by * c->aspect, (1 - 2 * pixel[1] / d->height) * by, -depth};
-    to_scene(c, eye, 1, point);
+    unproject(&d->camera, d->width, d->height, pixel, depth, point);
+}
+
+/* A picture's pixel and where the maps have it. */
+typedef struct picked {
+    const view_camera *camera;
+    const frame_maps  *maps;
+    int                width, height, x, y; /* of the picture */
+    size_t             index;
+} picked;
+
+static lmn_pick pick_of(const picked *p)
+{
+    lmn_pick     out = {.part = p->maps->id[p->index]};
+    const float *n = &p->maps->normal[3 * p->index];
+    if (!out.part)
+        return out;
+    out.depth = (double)p->maps->depth[p->index];
+    unproject(p->camera, p->width, p->height, (const double[]){p->x + 0.5, p->y + 0.5}, out.depth, out.position);
+    to_scene(p->camera, (const double[]){(double)n[0], (double)n[1], (double)n[2]}, 0, out.normal);
+    return out;
 }
 
 lmn_pick pick_at(const lmn_drawing *d, int x, int y)
 {
-    lmn_pick     out = {0};
-    size_t       i = (size_t)(d->height - 1 - y) * (size_t)d->width + (size_t)x;
-    const float *n = &d->maps.normal[3 * i];
-    out.part = d->maps.id[i];
-    if (!out.part)
-        return out;
-    out.depth = (double)d->maps.depth[i];
-    pick_unproject(d, (const double[]){x + 0.5, y + 0.5}, out.depth, out.position);
-    to_scene(&d->camera, (const double[]){(double)n[0], (double)n[1], (double)n[2]}, 0, out.normal);
-    return out;
+    size_t index = (size_t)(d->height - 1 - y) * (size_t)d->width + (size_t)x;
+    return pick_of(&(picked){&d->camera, &d->maps, d->width, d->height, x, y, index});
+}
+
+/* The frame of maps, cut down to the pixel. */
+static lmn_status draw_pixel(session *s, int x, int y, lmn_pick *out, lmn_error *error)
+{
+    frame     *f = &s->frame;
+    frame_maps maps;
+    lmn_status status = frame_maps_create_pixel(&maps, x, f->height - 1 - y, error);
+    if (status != LMN_OK)
+        return status;
+    f->maps = &maps;
+    frame_draw(f, NULL);
+    status = gpu_check(f->g, error);
+    if (status == LMN_OK)
+        *out = pick_of(&(picked){&f->camera, &maps, f->width, f->height, x, y, 0});
+    frame_maps_release(&maps);
+    return status;
+}
+
+static lmn_status pick_pixel(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                             int x, int y, lmn_pick *out, lmn_error *error)
+{
+    session    s;
+    warnings   said = {0};
+    lmn_status status = session_open(&s, r, scene, look, &(draw_options){.desc = desc, .maps = true}, &said, error);
+    if (status == LMN_OK)
+        status = drawing_refuse(&s, scene, look, desc, &said, error);
+    if (status == LMN_OK && x >= 0 && y >= 0 && x < desc->width && y < desc->height)
+        status = draw_pixel(&s, x, y, out, error);
+    session_close(&s);
+    warnings_release(&said);
+    return status;
+}
+
+lmn_status renderer_pick(lmn_renderer *r, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,
+                         int x, int y, lmn_pick *out, lmn_error *error)
+{
+    lmn_status status = gpu_enter(r->g, error);
+    if (status != LMN_OK)
+        return status;
+    return gpu_leave(r->g, pick_pixel(r, scene, look, desc, x, y, out, error), error);
 }

@@ -30,12 +30,41 @@ lmn_status renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lm
     return status;
 }
 
+void kept_lend(kept_textures *k, lmn_renderer *r)
+{
+    if (!k)
+        return;
+    k->renderer = r;
+    k->owners = 2;
+    r->kept = k;
+}
+
+void kept_release(kept_textures *k)
+{
+    if (k && atomic_fetch_sub(&k->owners, 1) <= 1)
+        mem_free(k);
+}
+
+void kept_drop(lmn_renderer *r)
+{
+    kept_textures *k = r->kept;
+    if (!k)
+        return;
+    gpu_target_release(r->g, k->picture);
+    frame_maps_release_textures(&k->maps, r->g);
+    k->renderer = NULL;
+    k->picture = NULL;
+    r->kept = NULL;
+    kept_release(k);
+}
+
 void renderer_destroy(lmn_renderer **renderer)
 {
     if (!renderer || !*renderer)
         return;
     lmn_renderer *r = *renderer;
     gpu_enter_to_free(r->g);
+    kept_drop(r);
     upload_release(&r->up, r->g);
     pose_release(&r->pose);
     swept_boxes_release(&r->swept);
@@ -232,6 +261,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     frame               *f = &s->frame;
     memset(s, 0, sizeof *s);
     s->renderer = r;
+    kept_drop(r);
     lmn_status status = prepare(s, scene, look, options, side, warnings, error);
     if (status != LMN_OK)
         return status;

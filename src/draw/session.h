@@ -2,14 +2,25 @@
 #ifndef LIMNER_DRAW_SESSION_H
 #define LIMNER_DRAW_SESSION_H
 
+#include <stdatomic.h>
+
 #include "frame/frame.h"
 #include "limner/draw.h"
 #include "plan/time.h"
 #include "pose/pose.h"
 #include "stage/made_textures.h"
 
+/* What a drawing has left on the GPU. Its renderer and the drawing own it together. */
+typedef struct kept_textures {
+    atomic_int    owners;
+    lmn_renderer *renderer; /* NULL: it has drawn since or ended, and the textures are gone */
+    gpu_texture  *picture;
+    frame_maps    maps;
+} kept_textures;
+
 struct lmn_renderer {
     gpu             *g;
+    kept_textures   *kept;  /* of the last drawing; NULL: it has left none */
     pose             pose;  /* of the last scene that was drawn */
     swept_boxes      swept; /* of its clips */
     upload           up;
@@ -18,6 +29,13 @@ struct lmn_renderer {
     made_textures    made;
     int width, height, samples; /* of the last drawing: its pictures stay in the pool for one of the same size */
 };
+
+/* Makes them the renderer's, too; NULL is none. Inside of its context. */
+void kept_lend(kept_textures *k, lmn_renderer *r);
+/* The renderer draws again, or ends: its textures go back to the pool. Inside of its context. */
+void kept_drop(lmn_renderer *r);
+/* An owner less; NULL is accepted. */
+void kept_release(kept_textures *k);
 
 lmn_status renderer_create(lmn_renderer **out, const lmn_renderer_desc *desc, lmn_error *error);
 void       renderer_destroy(lmn_renderer **r);

@@ -1,5 +1,5 @@
 /* Maps: what the figures were made of, read back and merged by nearest depth. */
-#include "frame/frame_private.h"
+#include "frame/merge.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,6 +28,19 @@ lmn_status frame_maps_create(frame_maps *m, int width, int height, bool whole, l
     for (size_t i = 0; whole && i < count * 4; i++)
         m->edge[i] = 1;
     return LMN_OK;
+}
+
+lmn_status frame_maps_create_pixel(frame_maps *m, int x, int y, lmn_error *error)
+{
+    lmn_status status = frame_maps_create(m, 1, 1, false, error);
+    m->x = x;
+    m->y = y;
+    m->part = true;
+    m->normal = status == LMN_OK ? mem_calloc(3, sizeof(float)) : NULL;
+    if (status != LMN_OK || m->normal)
+        return status;
+    frame_maps_release(m);
+    return error_memory(error);
 }
 
 void frame_maps_release(frame_maps *m)
@@ -70,9 +83,10 @@ static void merge_maps(frame_maps *m, const figure_state *s, const readings *r)
         if (nearer) {
             m->depth[i] = r->normal_depth[4 * i + 3];
             m->id[i] = r->id[2 * i];
+            if (m->normal)
+                memcpy(&m->normal[3 * i], &r->normal_depth[4 * i], 3 * sizeof(float));
             if (!m->whole)
                 continue;
-            memcpy(&m->normal[3 * i], &r->normal_depth[4 * i], 3 * sizeof(float));
             memcpy(&m->shade[4 * i], &r->shade[4 * i], 4 * sizeof(float));
             memcpy(&m->edge[4 * i], &r->edge[4 * i], 4 * sizeof(float));
             if (r->velocity)
@@ -114,6 +128,10 @@ static void merge_layer(layer_map *layer, size_t count, const figure_state *s, c
 /* Keeps the darkest of the edge maps of a figure with several line techniques. */
 void collect_edges(frame *f, figure_state *s)
 {
+    if (f->maps->on_gpu) {
+        merge_edges(f, s);
+        return;
+    }
     size_t count = (size_t)f->width * (size_t)f->height * 4;
     float *edge = mem_alloc(count * sizeof(float));
     if (!edge) {
@@ -134,8 +152,12 @@ void collect_edges(frame *f, figure_state *s)
 void collect_uncertainty(frame *f, figure_state *s)
 {
     frame_maps *m = f->maps;
-    size_t      count = (size_t)f->width * (size_t)f->height;
-    float      *field = mem_alloc(count * 4 * sizeof *field);
+    if (m->on_gpu) {
+        merge_uncertainty(f, s);
+        return;
+    }
+    size_t count = (size_t)f->width * (size_t)f->height;
+    float *field = mem_alloc(count * 4 * sizeof *field);
     if (!m->uncertainty)
         m->uncertainty = mem_calloc(count, 3 * sizeof *m->uncertainty);
     if (!field || !m->uncertainty) {
@@ -154,18 +176,22 @@ void collect_uncertainty(frame *f, figure_state *s)
 void collect_direction(frame *f, figure_state *s)
 {
     frame_maps *m = f->maps;
-    int         columns = gpu_texture_width(s->targets[TARGET_DIRECTION]),
+    if (m->on_gpu)
+        merge_direction(f, s);
+    if (m->on_gpu || !m->whole)
+        return;
+    int columns = gpu_texture_width(s->targets[TARGET_DIRECTION]),
         rows = (f->height + DIRECTION_APART - 1) / DIRECTION_APART;
     float *coarse = mem_alloc((size_t)columns * (size_t)rows * 4 * sizeof *coarse);
-    if (m->whole && !m->direction)
+    if (!m->direction)
         m->direction = mem_calloc((size_t)f->width * (size_t)f->height, 3 * sizeof *m->direction);
-    if (!coarse || (m->whole && !m->direction)) {
+    if (!coarse || !m->direction) {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
         mem_free(coarse);
         return;
     }
     gpu_read(f->g, s->targets[TARGET_DIRECTION], coarse);
-    for (size_t y = 0; m->direction && y < (size_t)f->height; y++)
+    for (size_t y = 0; y < (size_t)f->height; y++)
         for (size_t x = 0; x < (size_t)f->width; x++) {
             const float *from = &coarse[4 * (y / DIRECTION_APART * (size_t)columns + x / DIRECTION_APART)];
             if (from[3] > 0)
@@ -212,9 +238,11 @@ static bool read_velocity(frame *f, const figure_state *s, readings *r)
 /* Reads the figure's pictures and merges them, into a layer's map too when the figure has several. */
 static void collect(frame *f, figure_state *s, bool layered)
 {
-    size_t   count = (size_t)f->width * (size_t)f->height;
-    bool     whole = f->maps->whole;
-    readings r = {.normal_depth = mem_alloc(count * 16), .id = mem_alloc(count * 8), .edge = s->edges};
+    const frame_maps *m = f->maps;
+    const int         box[4] = {m->x, m->y, m->width, m->height};
+    size_t            count = (size_t)m->width * (size_t)m->height;
+    bool              whole = m->whole;
+    readings          r = {.normal_depth = mem_alloc(count * 16), .id = mem_alloc(count * 8), .edge = s->edges};
     if (whole) {
         r.shade = mem_alloc(count * 16);
         if (!r.edge && (r.edge = s->edges = mem_alloc(count * 16)))
@@ -222,8 +250,8 @@ static void collect(frame *f, figure_state *s, bool layered)
                 r.edge[i] = 1;
     }
     if (r.normal_depth && r.id && (!whole || (r.edge && r.shade)) && read_velocity(f, s, &r)) {
-        gpu_read(f->g, s->targets[TARGET_NORMAL_DEPTH], r.normal_depth);
-        gpu_read(f->g, s->targets[TARGET_ID], r.id);
+        gpu_read_box(f->g, s->targets[TARGET_NORMAL_DEPTH], box, r.normal_depth);
+        gpu_read_box(f->g, s->targets[TARGET_ID], box, r.id);
         if (whole)
             gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
         if (!gpu_failed(f->g) && (!layered || s->layer == 0))
@@ -242,12 +270,20 @@ static void collect(frame *f, figure_state *s, bool layered)
 
 void collect_figure(frame *f, figure_state *s)
 {
-    collect(f, s, false);
+    if (f->maps->on_gpu)
+        merge_figure(f, s);
+    else
+        collect(f, s, false);
 }
 
 void collect_layer(frame *f, figure_state *s)
 {
-    collect(f, s, true);
+    if (f->maps->on_gpu && s->layer == 0)
+        merge_figure(f, s);
+    else if (f->maps->on_gpu)
+        merge_layer_edges_end(f);
+    else
+        collect(f, s, true);
     mem_free(s->edges);
     s->edges = NULL;
 }

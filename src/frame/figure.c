@@ -34,6 +34,20 @@ int figure_reach(const figure *fig)
     return (int)ceilf(widest) + 2;
 }
 
+/* Leaves the part of its pixels that is in the box which maps are of; empty where there is none. */
+static void keep_box(const frame_maps *m, figure_state *s)
+{
+    const int box[4] = {m->x, m->y, m->width, m->height};
+    for (int k = 0; k < 2; k++) {
+        int low = s->pixels[k] > box[k] ? s->pixels[k] : box[k];
+        int high = s->pixels[k] + s->pixels[2 + k], end = box[k] + box[2 + k];
+        s->pixels[k] = low;
+        s->pixels[2 + k] = (high < end ? high : end) - low;
+        s->around[k] = box[k];
+        s->around[2 + k] = box[2 + k];
+    }
+}
+
 bool figure_open(frame *f, figure_state *s, const figure *fig)
 {
     *s = (figure_state){.figure = fig, .near = f->camera.near, .far = f->camera.far};
@@ -46,7 +60,9 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
     if (!(s->far > s->near))
         s->far = s->near + 1;
     camera_pixels(&f->camera, fig->box, f->width, f->height, figure_reach(fig), s->pixels);
-    if (!f->maps) /* maps are read back whole */
+    if (f->maps && f->maps->part)
+        keep_box(f->maps, s);
+    else if (!f->maps) /* maps are read back whole */
         camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
     return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
 }

@@ -3,6 +3,7 @@
 #define LIMNER_FRAME_FRAME_H
 
 #include "gpu/profile.h"
+#include "limner/maps.h"
 #include "plan/camera.h"
 #include "plan/plan.h"
 #include "stage/plan_textures.h"
@@ -61,11 +62,13 @@ typedef struct layer_map {
     uint8_t  edge[4], shade[4]; /* shade: sRGB, straight alpha */
 } layer_map;
 
+enum { FRAME_MAPS = LMN_MAP_DIRECTION + 1 };
+
 /* What the figures were made of, merged by nearest depth; row 0 at the bottom. */
 struct frame_maps {
-    int       width, height;
-    float    *depth;  /* eye depth, INFINITY where empty */
-    float    *normal; /* 3 */
+    int       x, y, width, height; /* of the page: a pixel for a pick, else all of it */
+    float    *depth;               /* eye depth, INFINITY where empty */
+    float    *normal;              /* 3 */
     uint32_t *id;
     float    *edge;        /* 4 */
     float    *shade;       /* 4, sRGB, premultiplied */
@@ -74,10 +77,22 @@ struct frame_maps {
     float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks
                          for it */
     bool        whole;  /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
+    bool        part;   /* not whole: a box of the page, and its normals too */
     layer_map **layers; /* of figures that are seen through, nearest first */
     size_t      layer_count, layer_capacity;
+    /* The same on the GPU instead, by lmn_map, without those of layers; the caller's to release. */
+    bool         on_gpu;
+    gpu_texture *textures[FRAME_MAPS];
+    gpu_texture *edges; /* of the figure that is drawn: darkest of its line techniques' edge maps */
 };
 lmn_status frame_maps_create(frame_maps *out, int width, int height, bool whole, lmn_error *error);
-void       frame_maps_release(frame_maps *m);
+/* Of one pixel, with its normal. */
+lmn_status frame_maps_create_pixel(frame_maps *out, int x, int y, lmn_error *error);
+/* On the GPU; errors stick to it. */
+void frame_maps_open(frame_maps *out, gpu *g, int width, int height);
+void frame_maps_release(frame_maps *m); /* not what lies on the GPU */
+void frame_maps_release_textures(frame_maps *m, gpu *g);
+/* Reads the textures into maps in memory. False when that is gone. */
+bool frame_maps_read(const frame_maps *m, gpu *g, frame_maps *out);
 
 #endif

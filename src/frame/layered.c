@@ -41,9 +41,9 @@ static void stack_open(frame *f, layer_stack *stack, const figure *figures, int 
         stack->states[i].shared = stack->count > 1;
     if (stack->count > 1)
         stack->channels |= CHANNEL_ID;
-    if (f->maps && !f->maps->whole)
+    if (f->maps && !f->maps->whole && !f->maps->part) /* that is made of what the whole maps are, to the bit */
         stack->limit = 1;
-    if (f->maps) /* are read back whole */
+    if (f->maps && !f->maps->part) /* are read back whole */
         memcpy(stack->box, (int[]){0, 0, f->width, f->height}, sizeof stack->box);
 }
 
@@ -259,7 +259,7 @@ static int draw_layers(frame *f, layer_stack *stack, bool lists)
             open = open || !finished[i];
         }
         forget_layer(f, stack, !lists);
-        if (!open)
+        if (!open || (f->maps && (f->maps->on_gpu || f->maps->part))) /* maps of layers are made in memory alone */
             break;
     }
     forget_layer(f, stack, false);

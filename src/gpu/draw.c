@@ -77,13 +77,18 @@ static void set_scissor(const int box[4])
     }
 }
 
+static bool is_integer(gpu_format format)
+{
+    return format == GPU_R32UI || format == GPU_RG32UI || format == GPU_RGBA32UI;
+}
+
 static void clear_targets(const gpu_pass *pass)
 {
     set_scissor(pass->clear_box);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (int i = 0; i < pass->colour_count; i++) {
         const float *v = pass->clear_values[i];
-        if (pass->colours[i]->format == GPU_RG32UI || pass->colours[i]->format == GPU_RGBA32UI)
+        if (is_integer(pass->colours[i]->format))
             glClearBufferuiv(GL_COLOR, i, (GLuint[]){(GLuint)v[0], (GLuint)v[1], (GLuint)v[2], (GLuint)v[3]});
         else
             glClearBufferfv(GL_COLOR, i, v);

@@ -21,6 +21,8 @@ typedef enum gpu_format {
     GPU_R8,
     GPU_RG8,
     GPU_RG16F,
+    GPU_R32F,
+    GPU_R32UI,
     GPU_RGBA8,
     GPU_SRGB8,
     GPU_RGBA16F,
@@ -110,10 +112,12 @@ bool gpu_target_possible(gpu *g, int width, int height, gpu_format format);
 void gpu_targets_trim(gpu *g);
 int  gpu_texture_width(const gpu_texture *t);
 int  gpu_texture_height(const gpu_texture *t);
+/* OpenGL's name, to be lent. */
+unsigned gpu_texture_name(const gpu_texture *t);
 /* Bytes of a texel as gpu_target_write takes it. */
 size_t gpu_texel_size(const gpu_texture *t);
-/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, RG32UI → 2 uint32, RGBA32UI →
- * 4, DEPTH32F → 1 float. */
+/* Reads a picture back, row 0 at the bottom: RGBA8 → 4 bytes, RGBA16F/32F → 4 floats, R32F → 1, RG32UI → 2 uint32,
+ * R32UI → 1, RGBA32UI → 4, DEPTH32F → 1 float. */
 void gpu_read(gpu *g, gpu_texture *t, void *out);
 /* The same for a part (x, y, width, height); not of depth or R8. */
 void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out);

@@ -18,6 +18,8 @@ static const format_row formats[GPU_FORMAT_COUNT] = {
     [GPU_R8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1},
     [GPU_RG8] = {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2},
     [GPU_RG16F] = {GL_RG16F, GL_RG, GL_FLOAT, 8},
+    [GPU_R32F] = {GL_R32F, GL_RED, GL_FLOAT, 4},
+    [GPU_R32UI] = {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
     [GPU_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     [GPU_SRGB8] = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     [GPU_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
@@ -36,6 +38,11 @@ int gpu_texture_width(const gpu_texture *t)
 int gpu_texture_height(const gpu_texture *t)
 {
     return t->height;
+}
+
+unsigned gpu_texture_name(const gpu_texture *t)
+{
+    return t->name;
 }
 
 size_t gpu_texel_size(const gpu_texture *t)
@@ -262,6 +269,22 @@ void gpu_read(gpu *g, gpu_texture *t, void *out)
     gpu_read_box(g, t, (int[]){0, 0, t->width, t->height}, out);
 }
 
+/* ES guarantees reads of four components only, integers or floats. */
+static void read_narrow(gpu *g, const gpu_texture *t, const int box[4], void *out)
+{
+    size_t count = (size_t)box[2] * (size_t)box[3], size = formats[t->format].size;
+    char  *wide = mem_alloc(count * 16);
+    if (!wide) {
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    glReadPixels(box[0], box[1], box[2], box[3], t->format == GPU_R32F ? GL_RGBA : GL_RGBA_INTEGER,
+                 formats[t->format].type, wide);
+    for (size_t i = 0; i < count; i++)
+        memcpy((char *)out + i * size, wide + i * 16, size);
+    mem_free(wide);
+}
+
 void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
 {
     if (g->failed || !t)
@@ -269,18 +292,8 @@ void gpu_read_box(gpu *g, gpu_texture *t, const int box[4], void *out)
     gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1});
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     GLenum type = t->format == GPU_RGBA16F ? GL_FLOAT : formats[t->format].type;
-    if (t->format == GPU_RG32UI && g->capabilities.es) {
-        /* ES guarantees four-component integer reads only. */
-        size_t    count = (size_t)box[2] * (size_t)box[3];
-        uint32_t *wide = mem_alloc(count * 16);
-        if (!wide) {
-            gpu_fail(g, LMN_MEMORY, "out of memory");
-            return;
-        }
-        glReadPixels(box[0], box[1], box[2], box[3], GL_RGBA_INTEGER, GL_UNSIGNED_INT, wide);
-        for (size_t i = 0; i < count; i++)
-            memcpy((uint32_t *)out + i * 2, wide + i * 4, 8);
-        mem_free(wide);
+    if (g->capabilities.es && (t->format == GPU_RG32UI || t->format == GPU_R32UI || t->format == GPU_R32F)) {
+        read_narrow(g, t, box, out);
         return;
     }
     glReadPixels(box[0], box[1], box[2], box[3], formats[t->format].format, type, out);

@@ -1,7 +1,10 @@
 // limner.hpp against the installed library: ownership, errors, and what callbacks throw. Usage: cplusplus MODEL FOLDER
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <limner/limner.hpp>
 #include <type_traits>
 
@@ -176,15 +179,148 @@ static void films(const std::string &folder)
     CHECK(std::fopen(left.c_str(), "rb") == nullptr);
 }
 
+static std::vector<std::uint8_t> bytes_of(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
+
+// Encoded bytes are those of files; textures are refused as in C.
+static void encoded(const std::string &model, const std::string &folder)
+{
+    limner::renderer r;
+    limner::scene    s(model);
+    limner::look     l("line");
+    lmn_draw_desc    desc = limner::draw_desc(64, 48);
+    desc.maps = true;
+    limner::drawing d(r, s, l, desc);
+    limner::sheet   sheet(s, l, desc);
+    d.write(folder + "/encoded.png");
+    sheet.write(folder + "/encoded.svg");
+    CHECK(d.encode(".png") == bytes_of(folder + "/encoded.png") && d.encode(".png").size() > 100);
+    CHECK(sheet.encode(".svg") == bytes_of(folder + "/encoded.svg") && sheet.encode(".svg").size() > 100);
+    CHECK(thrown([&] { d.encode(".txt"); }) == LMN_USAGE);
+    const lmn_pick one = r.pick(s, l, desc, 32, 24), same = d.pick(32, 24);
+    CHECK(one.part == 1 && one.part == same.part && one.depth == same.depth);
+    CHECK(thrown([&] { d.texture(); }) == LMN_USAGE && thrown([&] { d.map_texture(LMN_MAP_ID); }) == LMN_USAGE);
+    d.read_back();
+    desc.textures = true; // the context is Limner's own
+    CHECK(thrown([&] { limner::drawing(r, s, l, desc); }) == LMN_USAGE);
+}
+
+// A technique that paints all in one colour, in looks that outlive its set.
+static void techniques(const std::string &model)
+{
+    static_assert(moves_only<limner::techniques>());
+    const std::string  glsl = "vec4 surface_colour(surface_point p) { return vec4(u_paint.rgb, 1.0); }";
+    lmn_param_desc     paint = {};
+    limner::renderer   r;
+    limner::scene      s(model);
+    limner::techniques set;
+    paint.key = "paint";
+    paint.type = LMN_PARAM_COLOUR;
+    paint.standard = "#ff0000";
+    set.add(limner::technique_desc("painted", glsl.c_str()), {paint});
+    CHECK(set.names() == std::vector<std::string>{"painted"});
+    CHECK(thrown([&] { set.add(limner::technique_desc("painted", glsl.c_str())); }) == LMN_USAGE);
+    CHECK(thrown([&] { set.add(limner::technique_desc("empty", nullptr)); }) == LMN_USAGE);
+    const std::string json = "{\"version\": 2, \"rules\": [{\"select\": \"*\", \"surface\": \"painted\"}]}";
+    limner::look      l = limner::look::parse(json, set);
+    CHECK(thrown([&] { limner::look::parse(json); }) != LMN_OK);
+    CHECK(std::string(limner::look("line", set).name()) == "line");
+    set = limner::techniques();
+    const limner::drawing d(r, s, l, limner::draw_desc(32, 32));
+    const std::uint8_t   *middle = d.pixels().data + 4 * (16 * 32 + 16);
+    CHECK(middle[0] == 255 && middle[1] == 0 && middle[2] == 0);
+}
+
+// A format of the program's own: the number of triangles as text. What its functions throw arrives, and leaves no part.
+static void importers(const std::string &folder)
+{
+    const std::string path = folder + "/three.count";
+    std::ofstream(path) << "3";
+    const float      corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    limner::importer counted{"counted",
+                             ".count",
+                             [&](limner::scene &into, const char *, const std::uint8_t *bytes, std::size_t size) {
+                                 CHECK(size == 1);
+                                 for (int i = 0; i < bytes[0] - '0'; i++) {
+                                     lmn_mesh_desc mesh = limner::mesh_desc();
+                                     lmn_node_desc node = limner::node_desc();
+                                     mesh.positions = corners;
+                                     mesh.vertex_count = 3;
+                                     node.mesh = into.add(mesh);
+                                     into.add(node);
+                                 }
+                             },
+                             {}};
+    limner::scene    s;
+    s.add_file(path, {counted});
+    CHECK(s.info().parts == 3);
+    CHECK(thrown([&] { s.add_file(path); }) != LMN_OK); // Limner has no such format
+    limner::importer broken = counted, asks = counted;
+    broken.read = [](limner::scene &, const char *, const std::uint8_t *, std::size_t) { throw std::string("broken"); };
+    asks.probe = [](const std::uint8_t *, std::size_t) -> bool { throw 7; };
+    int caught = 0;
+    try {
+        s.add_file(path, {broken});
+    } catch (const std::string &what) {
+        caught += what == "broken";
+    }
+    try {
+        s.add_file(path, {asks, counted});
+    } catch (int number) {
+        caught += number == 7;
+    }
+    broken.read = [](limner::scene &into, const char *, const std::uint8_t *, std::size_t) {
+        limner::call(lmn_scene_set_visible, into.get(), 4711u, false);
+    };
+    CHECK(caught == 2 && thrown([&] { s.add_file(path, {broken}); }) == LMN_USAGE && s.info().parts == 3);
+    asks.probe = [](const std::uint8_t *bytes, std::size_t) { return bytes[0] == 'x'; };
+    s.add_file(path, {asks, counted});
+    CHECK(s.info().parts == 6);
+}
+
+// All of the library's memory, and none of it left.
+struct counting {
+    std::atomic<long> blocks{0}, asked{0};
+    void             *alloc(std::size_t size) noexcept
+    {
+        void *block = std::malloc(size);
+        blocks += block != nullptr;
+        asked++;
+        return block;
+    }
+    void *resize(void *block, std::size_t size) noexcept
+    {
+        return std::realloc(block, size);
+    }
+    void release(void *block) noexcept
+    {
+        blocks -= block != nullptr;
+        std::free(block);
+    }
+};
+static counting memory;
+
 int main(int count, char **arguments)
 {
     if (count != 3)
         return 1;
     const std::string model = arguments[1], folder = arguments[2];
+    limner::set_allocator(memory);
+    CHECK(thrown([] {
+              limner::scene first;
+              limner::set_allocator(memory);
+          }) == LMN_USAGE);
     errors(folder);
     ownership(model);
     drawings(model, folder);
     callbacks(model);
     films(folder);
+    encoded(model, folder);
+    techniques(model);
+    importers(folder);
+    CHECK(memory.asked > 1000 && memory.blocks == 0);
     return 0;
 }

@@ -104,3 +104,23 @@ CALL(lmn_look_open)
     lmn_look_destroy(&made);
     return status;
 }
+CALL(lmn_draw_pick)
+{
+    lmn_pick out;
+    return lmn_draw_pick(P(0, w->renderer), P(1, w->scene), P(2, w->look), P(3, w->desc[0]), 0, 0, P(4, &out),
+                         P(5, &w->error));
+}
+CALL(lmn_drawing_texture)
+{
+    uint32_t name;
+    return lmn_drawing_texture(P(0, w->drawing), P(1, &name), P(2, &w->error)); /* it has none */
+}
+CALL(lmn_drawing_map_texture)
+{
+    uint32_t name;
+    return lmn_drawing_map_texture(P(0, w->drawing), LMN_MAP_ID, P(1, &name), P(2, &w->error));
+}
+CALL(lmn_drawing_read_back)
+{
+    return lmn_drawing_read_back(P(0, w->drawing), P(1, &w->error)); /* it is there */
+}

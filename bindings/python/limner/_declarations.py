@@ -229,6 +229,7 @@ class lmn_draw_desc(Structure):
         ("matrices_given", c_bool),
         ("view_matrix", c_double * 16),
         ("projection_matrix", c_double * 16),
+        ("textures", c_bool),
     ]
 
 
@@ -601,7 +602,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_light_desc: lambda: lmn_light_desc(sizeof(lmn_light_desc), None, LMN_LIGHT_DIRECTIONAL, (1, 1, 1,), 1, 0, 45),
     lmn_node_desc: lambda: lmn_node_desc(sizeof(lmn_node_desc), None, 0, 0, 0, 0, 0, ( 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 ,)),
     lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
-    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), ( 0 ,)),
+    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), (0,), False),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
     lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
@@ -661,6 +662,9 @@ FUNCTIONS = {
     "lmn_film_warning_at": (c_char_p, [c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_size_t)]),
     "lmn_picture_is_whole": (c_bool, [c_char_p, c_int, c_int]),
     "lmn_draw_into": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_target), POINTER(lmn_error)]),
+    "lmn_drawing_texture": (c_int, [c_void_p, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_drawing_map_texture": (c_int, [c_void_p, c_int, POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_drawing_read_back": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_limits_standard": (lmn_limits, []),
     "lmn_limits_safe": (lmn_limits, []),
     "lmn_limits_set": (c_int, [POINTER(lmn_limits), c_char_p, POINTER(lmn_error)]),
@@ -677,6 +681,7 @@ FUNCTIONS = {
     "lmn_map_components": (c_int, [c_int]),
     "lmn_drawing_copy_map": (c_int, [c_void_p, c_int, c_void_p, c_size_t, POINTER(lmn_error)]),
     "lmn_drawing_pick": (c_int, [c_void_p, c_int, c_int, POINTER(lmn_pick), POINTER(lmn_error)]),
+    "lmn_draw_pick": (c_int, [c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), c_int, c_int, POINTER(lmn_pick), POINTER(lmn_error)]),
     "lmn_drawing_pick_parts": (c_int, [c_void_p, c_int, c_int, c_int, c_int, POINTER(c_uint32), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
     "lmn_drawing_project": (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
