@@ -6,30 +6,34 @@
 
 #include "base/clock.h"
 
-void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
+/* The first failure stays. `file`: NULL where no text is to blame. */
+static void fail(gpu *g, lmn_status status, const char *file, int line, const char *format, va_list arguments)
 {
+    char message[sizeof g->error.message];
     if (g->failed)
         return;
-    char    message[sizeof g->error.message];
+    vsnprintf(message, sizeof message, format, arguments);
+    g->failed = true;
+    if (file)
+        error_in_file(&g->error, status, file, line, "%s", message);
+    else
+        error_set(&g->error, status, "%s", message);
+}
+
+void gpu_fail(gpu *g, lmn_status status, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    fail(g, status, NULL, 0, format, arguments);
     va_end(arguments);
-    g->failed = true;
-    error_set(&g->error, status, "%s", message);
 }
 
 void gpu_fail_in(gpu *g, lmn_status status, const char *file, int line, const char *format, ...)
 {
-    if (g->failed)
-        return;
-    char    message[sizeof g->error.message];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    fail(g, status, file, line, format, arguments);
     va_end(arguments);
-    g->failed = true;
-    error_in_file(&g->error, status, file, line, "%s", message);
 }
 
 bool gpu_failed(const gpu *g)

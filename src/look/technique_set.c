@@ -229,14 +229,7 @@ static lmn_status keep_names(own_technique *own, param *p, const lmn_param_desc 
 /* The default is read as a look's value is, and so held against the range. */
 static lmn_status read_standard(param *p, const char *given, lmn_error *error)
 {
-    union {
-        int32_t   whole;
-        float     number;
-        bool      flag;
-        colour    tint;
-        direction axis;
-        palette   list;
-    } value;
+    param_value value;
     param       alone = *p;
     const char *text = given ? given : p->type == PARAM_BOOL ? "false" : p->type == PARAM_ENUM ? p->names[0] : "0";
     alone.offset = 0;

@@ -182,16 +182,8 @@ static lmn_param_unit unit_of(param_unit unit)
 /* Fields of the table's own struct are anywhere: the default is made at the beginning of one that is large enough. */
 static void put_default(lmn_param_info *out, const param *p)
 {
-    param alone = *p;
-    union {
-        int32_t     whole;
-        float       number;
-        bool        flag;
-        colour      tint;
-        direction   axis;
-        palette     list;
-        param_words words;
-    } value;
+    param       alone = *p;
+    param_value value;
     alone.offset = 0;
     memset(&value, 0, sizeof value);
     params_set_defaults(&alone, 1, &value);

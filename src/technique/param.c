@@ -9,17 +9,6 @@
 
 enum { NUMBER_SIZE = 32, RANGE_SIZE = 2 * NUMBER_SIZE + 32, CONDITION_SIZE = 128 };
 
-/* A field of any type. */
-typedef union param_value {
-    int32_t     whole;
-    float       number;
-    bool        flag;
-    colour      tint;
-    direction   axis;
-    palette     list;
-    param_words words;
-} param_value;
-
 const char *param_type_text(param_type type)
 {
     static const char *const names[] = {"int", "float", "bool", "enum", "colour", "direction", "palette", "text"};

@@ -45,6 +45,17 @@ typedef enum param_unit {
     UNIT_FRACTION
 } param_unit;
 
+/* Room for one value of any type. */
+typedef union param_value {
+    int32_t     whole;
+    float       number;
+    bool        flag;
+    colour      tint;
+    direction   axis;
+    palette     list;
+    param_words words;
+} param_value;
+
 typedef struct param {
     const char        *key; /* also the struct field, the look key and the uniform u_KEY */
     param_type         type;
