@@ -60,6 +60,7 @@ typedef struct edge_mesh {
     uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
+    bool     moves; /* a pose or a call has put it where it is: in the next picture it may be elsewhere */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
 
