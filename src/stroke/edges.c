@@ -14,6 +14,7 @@
 #include "stroke/butterfly_mesh.h"
 #include "stroke/creases.h"
 #include "stroke/drawn.h"
+#include "stroke/form_surface.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -31,17 +32,18 @@ typedef struct half_edge {
 enum { RANGES = 16, RANGES_LEAST = 4096 };
 
 struct edge_topology {
-    uint64_t   revision;
-    uint32_t   range_edges[RANGES + 1]; /* per range: how many edges those before it have */
-    edge_mesh  mesh;                    /* at rest */
-    uint32_t  *welded;                  /* per vertex of the mesh: its number */
-    size_t     vertex_count;
-    uint32_t  *starts; /* of `mesh`, as below */
-    half_edge *halves;
-    uint32_t  *opposite; /* of crease_facts, as are these */
-    uint8_t   *shading;
-    bool       mixed;
-    bool       has_flat; /* faces without area were left out */
+    uint64_t    revision;
+    uint32_t    range_edges[RANGES + 1]; /* per range: how many edges those before it have */
+    edge_mesh   mesh;                    /* at rest */
+    uint32_t   *welded;                  /* per vertex of the mesh: its number */
+    size_t      vertex_count;
+    uint32_t   *starts; /* of `mesh`, as below */
+    half_edge  *halves;
+    uint32_t   *opposite; /* of crease_facts, as are these */
+    uint8_t    *shading;
+    bool        mixed;
+    bool        has_flat; /* faces without area were left out */
+    form_knots *knots;
 };
 
 typedef struct builder {
@@ -671,8 +673,14 @@ void edge_topology_destroy(edge_topology **topology)
     mem_free(t->halves);
     mem_free(t->opposite);
     mem_free(t->shading);
+    form_knots_destroy(&t->knots);
     mem_free(t);
     *topology = NULL;
+}
+
+struct form_knots **edge_topology_knots(edge_topology *t)
+{
+    return &t->knots;
 }
 
 uint64_t edge_topology_revision(const edge_topology *t)

@@ -76,6 +76,8 @@ static lmn_status pose_edges(scene_builder *b, edge_mesh *out, int32_t mesh_inde
         status = edge_topology_create(t, m, error);
     if (status == LMN_OK)
         status = edge_mesh_pose(out, *t, positions, b->crease_angle, &fits, error);
+    if (status == LMN_OK && fits)
+        out->topology = *t;
     return status == LMN_OK && !fits ? edge_mesh_create(out, m, positions, b->crease_angle, error) : status;
 }
 
@@ -250,6 +252,8 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, cons
     scene_builder     b = {
             .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = &own};
     lmn_status status = fill(&b, parts, progress, user, error);
+    for (size_t i = 0; i < out->mesh_count; i++)
+        out->meshes[i].topology = NULL;
     stroke_topologies_release(&own);
     if (status != LMN_OK)
         return status;
