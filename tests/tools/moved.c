@@ -157,7 +157,7 @@ int main(int argc, char **argv)
         m.grid = m.grid || strcmp(argv[at], "-g") == 0;
         m.says = m.says || strcmp(argv[at], "-s") == 0;
         if (strcmp(argv[at], "-n") == 0 && at + 1 < argc)
-            m.rounds = atoi(argv[++at]);
+            m.rounds = (int)strtol(argv[++at], NULL, 10);
     }
     if (m.rounds < 1 || m.rounds > ROUNDS_MOST) {
         fprintf(stderr, "moved: from 1 to %d rounds\n", ROUNDS_MOST);
