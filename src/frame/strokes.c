@@ -84,13 +84,31 @@ static gpu_marks *upload_records(frame *f, float *records, size_t count)
     return marks;
 }
 
+/* Of a mesh that moves only what this viewer may see as lines is sent: all of it would serve for one picture. */
+static void bring_seen(frame *f, stroke_store *store, uint32_t index)
+{
+    const stroke_item *item = &store->scene.items[index];
+    stroke_seen       *seen = &store->seen[index];
+    float              viewer[4];
+    find_viewer(f, &item->world, viewer);
+    if (seen->edges && memcmp(viewer, seen->viewer, sizeof viewer) == 0)
+        return;
+    gpu_marks_destroy(f->g, &seen->edges);
+    memcpy(seen->viewer, viewer, sizeof viewer);
+    size_t count = 0;
+    float *records = strokes_edge_records_seen(&store->scene.meshes[item->mesh], viewer, &count);
+    seen->edges = upload_records(f, records, count);
+}
+
 /* Makes what the item's lines are drawn from, unless it is there. */
 void edges_bring(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
-    uint32_t mesh = store->scene.items[index].mesh;
-    if (!store->edges[mesh] && !gpu_failed(f->g))
-        store->edges[mesh] = upload_records(f, strokes_edge_records(&store->scene.meshes[mesh]),
-                                            strokes_edge_record_count(&store->scene.meshes[mesh]));
+    uint32_t         mesh = store->scene.items[index].mesh;
+    const edge_mesh *m = &store->scene.meshes[mesh];
+    if (m->moves && !gpu_failed(f->g))
+        bring_seen(f, store, index);
+    else if (!store->edges[mesh] && !gpu_failed(f->g))
+        store->edges[mesh] = upload_records(f, strokes_edge_records(m), strokes_edge_record_count(m));
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;
@@ -116,7 +134,8 @@ void edges_draw(frame *f, stroke_store *store, uint32_t index, bool crossings)
 {
     const stroke_item *item = &store->scene.items[index];
     const mat4         still = mat4_identity();
-    draw_records(f, store->edges[item->mesh], &item->world);
+    bool               moves = store->scene.meshes[item->mesh].moves;
+    draw_records(f, moves ? store->seen[index].edges : store->edges[item->mesh], &item->world);
     if (crossings)
         draw_records(f, store->crossings[index], &still);
 }

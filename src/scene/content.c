@@ -282,8 +282,11 @@ lmn_status scene_check_mesh(const lmn_scene *s, int32_t index, const primitive *
 static box3 bounds_of(const vec3 *positions, uint32_t count)
 {
     box3 b = box3_empty();
-    for (uint32_t i = 0; i < count; i++)
-        b = box3_with_point(b, positions[i]);
+    for (uint32_t i = 0; i < count; i++) { /* as box3_with_point, which would be called for each */
+        vec3 p = positions[i];
+        b.min = (vec3){b.min.x < p.x ? b.min.x : p.x, b.min.y < p.y ? b.min.y : p.y, b.min.z < p.z ? b.min.z : p.z};
+        b.max = (vec3){b.max.x > p.x ? b.max.x : p.x, b.max.y > p.y ? b.max.y : p.y, b.max.z > p.z ? b.max.z : p.z};
+    }
     return b;
 }
 

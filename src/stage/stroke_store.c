@@ -20,7 +20,10 @@ static void empty_store(stroke_store *s, gpu *g)
         gpu_marks_destroy(g, &s->edges[i]);
     for (size_t i = 0; i < s->scene.item_count && s->crossings; i++)
         gpu_marks_destroy(g, &s->crossings[i]);
+    for (size_t i = 0; i < s->scene.item_count && s->seen; i++)
+        gpu_marks_destroy(g, &s->seen[i].edges);
     stroke_scene_release(&s->scene);
+    mem_free(s->seen);
     mem_free(s->edges);
     mem_free(s->crossings);
     mem_free(s->parts);
@@ -60,7 +63,8 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
     s->crossings = mem_calloc(s->scene.item_count, sizeof(gpu_marks *));
-    return s->edges && s->crossings ? LMN_OK : error_memory(error);
+    s->seen = mem_calloc(s->scene.item_count, sizeof *s->seen);
+    return s->edges && s->crossings && s->seen ? LMN_OK : error_memory(error);
 }
 
 stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options)
@@ -96,5 +100,8 @@ lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_e
         return LMN_OK;
     release_view(s);
     s->camera = *camera;
+    lmn_status status = stroke_scene_calm(&s->scene, error);
+    if (status != LMN_OK)
+        return status;
     return stroke_view_create(&s->view, &s->scene, camera, NULL, NULL, error);
 }

@@ -6,6 +6,12 @@
 #include "gpu/gpu.h"
 #include "stroke/stroke.h"
 
+/* Edges that may be lines for one viewer. */
+typedef struct stroke_seen {
+    gpu_marks *edges; /* NULL: not made yet */
+    float      viewer[4];
+} stroke_seen;
+
 typedef struct stroke_store {
     bool             *parts; /* that the scene has; all that may hide lines */
     size_t            part_count;
@@ -16,6 +22,7 @@ typedef struct stroke_store {
     stroke_topologies topologies; /* stay when another moment is asked for */
     gpu_marks       **edges;      /* per mesh of the scene; NULL: not made yet */
     gpu_marks       **crossings;  /* per item, the same */
+    stroke_seen      *seen;       /* per item, of meshes that move */
     stroke_view      *view;       /* of the last camera; NULL: none */
     stroke_camera     camera;
 } stroke_store;

@@ -25,15 +25,37 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
     return status == LMN_OK ? gpu_check(g, error) : status;
 }
 
+/* Groups of a mesh whose vertices were elsewhere: those of primitives in which other ones lie at one position now are
+ * dropped. False when memory is gone. */
+static bool fit_corners(upload_corners *c, const mesh *m)
+{
+    bool good = true;
+    for (size_t i = 0; i < c->count && good; i++) {
+        const primitive *p = &m->primitives[i];
+        if (!c->groups[i].ids)
+            continue;
+        uint32_t *ids = mesh_position_ids(p);
+        good = ids != NULL;
+        if (good && memcmp(ids, c->groups[i].ids, p->vertex_count * sizeof *ids) != 0)
+            corner_groups_release(&c->groups[i]);
+        mem_free(ids);
+    }
+    c->revision = good ? m->revision : c->revision;
+    return good;
+}
+
 /* Where the groups of a primitive's corners are kept. */
 static lmn_status find_corners(upload *u, const upload_part_job *job, size_t i, corner_groups **out, lmn_error *error)
 {
     const lmn_scene *scene = u->pose->scene;
     upload_corners  *c = &u->corners[scene->nodes[scene->parts[job->part_index].node].mesh];
+    if (c->groups && c->revision != job->mesh->revision && !fit_corners(c, job->mesh))
+        return error_memory(error);
     if (!c->groups) {
         c->groups = mem_calloc(job->mesh->primitive_count, sizeof *c->groups);
         c->count = job->mesh->primitive_count;
         c->revision = job->mesh->revision;
+        c->topology = job->mesh->topology;
     }
     *out = c->groups ? &c->groups[i] : NULL;
     return c->groups ? LMN_OK : error_memory(error);
@@ -47,7 +69,8 @@ static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job
     vec3            *rest = NULL, *past[POSE_PAST_MAX] = {NULL};
     bool deforms = at_rest && pose_deforms(job->pose, p), moved = deforms && (u->needs.rest || u->needs.field);
     corner_groups *kept = NULL;
-    lmn_status     status = deforms && !p->normals ? find_corners(u, job, i, &kept, error) : LMN_OK;
+    bool           again = deforms || job->mesh->moved; /* asked for in the next picture, too */
+    lmn_status     status = again && !p->normals ? find_corners(u, job, i, &kept, error) : LMN_OK;
     if (status == LMN_OK)
         status = posed_make_keeping(&now, p, u->crease_angle, job->pose, kept, error);
     if (status == LMN_OK && moved)
@@ -242,8 +265,11 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->marks = earlier->marks; /* these know which pose they are in */
         earlier->marks = NULL;
     }
-    for (int i = 0; i < STROKE_STORES && u->revision == earlier->revision; i++) {
-        u->strokes[i] = earlier->strokes[i]; /* these know their moment, too */
+    bool cut_alike = u->revision == earlier->revision
+                         ? section_equal(&u->section, &earlier->section, scene->part_count + scene->ghost_count)
+                         : u->section.cut.cell_count == 0 && earlier->section.cut.cell_count == 0;
+    for (int i = 0; i < STROKE_STORES && cut_alike; i++) {
+        u->strokes[i] = earlier->strokes[i]; /* these know of which moment and content they are */
         earlier->strokes[i] = NULL;
     }
     take_posed(u, earlier, scene);
@@ -254,7 +280,7 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         } else {
             take_buffers(&u->meshes[i], &earlier->meshes[i], &scene->meshes[i]);
         }
-        if (earlier->corners[i].revision == scene->meshes[i].revision) {
+        if (earlier->corners[i].topology == scene->meshes[i].topology) {
             u->corners[i] = earlier->corners[i];
             earlier->corners[i] = (upload_corners){.groups = NULL};
         }

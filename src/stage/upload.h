@@ -47,9 +47,9 @@ typedef struct upload_mesh {
     size_t count;
 } upload_mesh;
 
-/* What poses of a mesh without normals have in common. `revision`: as above. */
+/* What poses of a mesh without normals have in common. `revision`, `topology`: as above. */
 typedef struct upload_corners {
-    uint64_t       revision;
+    uint64_t       revision, topology;
     corner_groups *groups; /* per primitive; NULL: not made yet */
     size_t         count;
 } upload_corners;

@@ -603,25 +603,36 @@ static bool has_creases(const edge_mesh *m)
     return false;
 }
 
-static bool measure_sampling(judge *j)
+static double size_of(const edge_mesh *m)
 {
-    edge_mesh *m = j->m;
-    box3       box = box3_empty();
-    for (uint32_t i = 0; i < m->vertex_count; i++)
-        box = box3_union(box, (box3){m->positions[i], m->positions[i]});
-    j->size = m->vertex_count ? box3_diagonal(box) : 0;
-    bool good = measure_noise(j);
-    m->sampling = (edge_sampling){j->noise >= 0 && j->mean_edge < OUTLINE_EDGE * j->size, (float)fmax(j->noise, 0),
-                                  (float)j->mean_edge, (float)j->size};
+    box3 box = box3_empty();
+    for (uint32_t i = 0; i < m->vertex_count; i++) { /* as box3_with_point, which would be called for each */
+        vec3 p = m->positions[i];
+        box.min = (vec3){box.min.x < p.x ? box.min.x : p.x, box.min.y < p.y ? box.min.y : p.y,
+                         box.min.z < p.z ? box.min.z : p.z};
+        box.max = (vec3){box.max.x > p.x ? box.max.x : p.x, box.max.y > p.y ? box.max.y : p.y,
+                         box.max.z > p.z ? box.max.z : p.z};
+    }
+    return m->vertex_count ? box3_diagonal(box) : 0;
+}
+
+bool creases_measure(crease_measure *out, edge_mesh *m, const crease_facts *facts)
+{
+    judge j = {.m = m, .facts = facts, .size = size_of(m)};
+    bool  good = measure_noise(&j);
+    m->sampling = (edge_sampling){j.noise >= 0 && j.mean_edge < OUTLINE_EDGE * j.size, (float)fmax(j.noise, 0),
+                                  (float)j.mean_edge, (float)j.size};
+    *out = (crease_measure){j.noise, j.mean_edge, j.size};
     return good;
 }
 
-bool creases_judge(edge_mesh *m, const crease_facts *facts)
+bool creases_judge(edge_mesh *m, const crease_facts *facts, const crease_measure *measured)
 {
-    judge j = {.m = m, .facts = facts};
-    bool  good = measure_sampling(&j);
-    if (!good || !has_creases(m))
-        return good;
+    judge j = {
+        .m = m, .facts = facts, .noise = measured->noise, .mean_edge = measured->mean_edge, .size = measured->size};
+    bool good;
+    if (!has_creases(m))
+        return true;
     j.verdicts = mem_calloc((size_t)m->edge_count + 1, 1);
     j.stamps = mem_calloc((size_t)m->face_count + 1, sizeof *j.stamps);
     good = j.verdicts && j.stamps;

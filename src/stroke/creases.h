@@ -25,12 +25,19 @@ typedef struct crease_facts {
     double         angle;     /* radians: what turns by more may be a crease */
 } crease_facts;
 
+/* What is known of a mesh before its edges are. */
+typedef struct crease_measure {
+    double noise, mean_edge, size; /* radians, lengths; noise below 0: the mesh is no sampling */
+} crease_measure;
+/* Measures, and sets the mesh's `sampling`; asks for positions, faces and normals. False when memory is gone. */
+bool creases_measure(crease_measure *out, edge_mesh *m, const crease_facts *facts);
+
 /* Judges again which of a mesh's edges are creases. Those that come by angle alone stay, but not
  *   - where the file's normals go on smoothly;
  *   - in tessellated roundings: three steps or more in a row that turn alike;
  *   - in samplings of surfaces, scans for example: what their noise alone makes, or how they bend, or what is short.
  * Where a crease fades out, edges that turn by half of the angle belong to it. What the file says of edges (`said`)
  * stays. False when memory is gone. */
-bool creases_judge(edge_mesh *m, const crease_facts *facts);
+bool creases_judge(edge_mesh *m, const crease_facts *facts, const crease_measure *measured);
 
 #endif

@@ -3,6 +3,7 @@
 #include "stroke/edges.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@
 #include "stroke/butterfly_mesh.h"
 #include "stroke/creases.h"
 #include "stroke/drawn.h"
+#include "stroke/form_surface.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -26,17 +28,22 @@ typedef struct half_edge {
     uint32_t high, corner; /* corner: 3 · face + number of the corner that it begins at */
 } half_edge;
 
+/* Ranges of vertices whose edges are taken side by side. */
+enum { RANGES = 16, RANGES_LEAST = 4096 };
+
 struct edge_topology {
-    uint64_t   revision;
-    edge_mesh  mesh;   /* at rest */
-    uint32_t  *welded; /* per vertex of the mesh: its number */
-    size_t     vertex_count;
-    uint32_t  *starts; /* of `mesh`, as below */
-    half_edge *halves;
-    uint32_t  *opposite; /* of crease_facts, as are these */
-    uint8_t   *shading;
-    bool       mixed;
-    bool       has_flat; /* faces without area were left out */
+    uint64_t    revision;
+    uint32_t    range_edges[RANGES + 1]; /* per range: how many edges those before it have */
+    edge_mesh   mesh;                    /* at rest */
+    uint32_t   *welded;                  /* per vertex of the mesh: its number */
+    size_t      vertex_count;
+    uint32_t   *starts; /* of `mesh`, as below */
+    half_edge  *halves;
+    uint32_t   *opposite; /* of crease_facts, as are these */
+    uint8_t    *shading;
+    bool        mixed;
+    bool        has_flat; /* faces without area were left out */
+    form_knots *knots;
 };
 
 typedef struct builder {
@@ -572,7 +579,11 @@ static lmn_status judge_creases(builder *b, lmn_error *error)
     each_edge(b, pair_halves);
     uint8_t     *shading = b->normals ? shading_judge(m, b->opposite, b->normals, &mixed) : NULL;
     crease_facts facts = {b->opposite, shading, mixed, b->angle};
-    bool         good = (shading || !b->normals) && (b->keeps || creases_judge(m, &facts)); /* poses judge anew */
+    bool         good = shading || !b->normals;
+    if (good && !b->keeps) { /* poses judge anew */
+        crease_measure measured;
+        good = creases_measure(&measured, m, &facts) && creases_judge(m, &facts, &measured);
+    }
     if (b->keeps && good) {
         b->keeps->opposite = b->opposite;
         b->keeps->shading = shading;
@@ -651,24 +662,6 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions
 
 /* --- poses ---------------------------------------------------------------------------------------------- */
 
-lmn_status edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error)
-{
-    edge_topology *t = *out = mem_calloc(1, sizeof *t);
-    if (!t)
-        return error_memory(error);
-    builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0, .angle = 1.5};
-    t->revision = m->topology;
-    lmn_status status = finish(&b, make_faces(&b, m, NULL, error), error);
-    mem_free(t->mesh.positions); /* every pose has its own */
-    mem_free(t->mesh.normals);
-    mem_free(t->mesh.edges);
-    t->mesh.positions = t->mesh.normals = NULL;
-    t->mesh.edges = NULL;
-    if (status != LMN_OK)
-        edge_topology_destroy(out);
-    return status;
-}
-
 void edge_topology_destroy(edge_topology **topology)
 {
     edge_topology *t = *topology;
@@ -680,8 +673,14 @@ void edge_topology_destroy(edge_topology **topology)
     mem_free(t->halves);
     mem_free(t->opposite);
     mem_free(t->shading);
+    form_knots_destroy(&t->knots);
     mem_free(t);
     *topology = NULL;
+}
+
+struct form_knots **edge_topology_knots(edge_topology *t)
+{
+    return &t->knots;
 }
 
 uint64_t edge_topology_revision(const edge_topology *t)
@@ -737,60 +736,133 @@ typedef struct edge_range {
     bool      done;
 } edge_range;
 
-static void take_ranges(size_t begin, size_t end, void *user)
+/* What is judged of a pose side by side: whoever has nothing to do takes the next one, the longest first. */
+enum { JUDGE_NOISE, JUDGE_PIECES, JUDGE_RANGES };
+
+typedef struct pose_judge {
+    edge_mesh     *mesh;
+    crease_facts   facts;
+    crease_measure measured;
+    bool           has_measured;
+    double        *volumes; /* of the pieces; NULL: memory was gone */
+    edge_range     ranges[RANGES];
+    uint32_t       range_count;
+    atomic_uint    next;
+} pose_judge;
+
+static void judge_next(size_t begin, size_t end, void *user)
 {
-    edge_range *ranges = user;
-    for (size_t i = begin; i < end; i++)
-        ranges[i].done = each_edge_of(&ranges[i].b, ranges[i].first, ranges[i].end, take_edge);
+    pose_judge *j = user;
+    (void)begin;
+    (void)end;
+    for (unsigned i; (i = atomic_fetch_add(&j->next, 1)) < JUDGE_RANGES + j->range_count;) {
+        edge_range *r = i < JUDGE_RANGES ? NULL : &j->ranges[i - JUDGE_RANGES];
+        if (i == JUDGE_NOISE)
+            j->has_measured = creases_measure(&j->measured, j->mesh, &j->facts);
+        else if (i == JUDGE_PIECES)
+            j->volumes = measure_pieces(j->mesh);
+        else
+            r->done = each_edge_of(&r->b, r->first, r->end, take_edge);
+    }
+}
+
+static uint32_t range_count(const edge_mesh *m)
+{
+    return m->vertex_count < RANGES_LEAST ? 1 : RANGES;
+}
+
+/* The first vertex of a range. */
+static uint32_t range_start(const edge_mesh *m, uint32_t range)
+{
+    return (uint32_t)((uint64_t)m->vertex_count * range / range_count(m));
+}
+
+static bool count_edge(builder *b, uint32_t low, const half_edge *group, size_t count)
+{
+    (void)low;
+    (void)group;
+    (void)count;
+    b->keeps->mesh.all_edges++;
+    return true;
+}
+
+static void count_ranges(edge_topology *t)
+{
+    builder b = {.mesh = &t->mesh, .keeps = t, .starts = t->starts, .halves = t->halves};
+    t->mesh.all_edges = 0;
+    for (uint32_t i = 0; i < range_count(&t->mesh); i++) {
+        t->range_edges[i] = t->mesh.all_edges;
+        each_edge_of(&b, range_start(&t->mesh, i), range_start(&t->mesh, i + 1), count_edge);
+    }
+}
+
+/* Each range puts its edges where there is room for all that it may have. */
+static void open_ranges(pose_judge *j, const builder *b, const edge_topology *t)
+{
+    j->range_count = range_count(b->mesh);
+    for (uint32_t i = 0; i < j->range_count; i++) {
+        edge_range *r = &j->ranges[i];
+        *r = (edge_range){
+            .mesh = *b->mesh, .b = *b, .first = range_start(b->mesh, i), .end = range_start(b->mesh, i + 1)};
+        r->b.mesh = &r->mesh;
+        r->b.edge_capacity = SIZE_MAX;
+        r->mesh.edges += t->range_edges[i];
+    }
 }
 
 /* Ranges side by side, put one behind the other: as each_edge has them. */
-static bool take_edges_again(builder *b)
+static bool close_ranges(pose_judge *j)
 {
-    enum { RANGES = 16, LEAST = 4096 };
-    edge_range ranges[RANGES];
-    edge_mesh *m = b->mesh;
-    uint32_t   count = m->vertex_count < LEAST ? 1 : RANGES;
+    edge_mesh *m = j->mesh;
     bool       done = true;
-    for (uint32_t i = 0; i < count; i++) {
-        edge_range *r = &ranges[i];
-        *r = (edge_range){.mesh = *m,
-                          .b = *b,
-                          .first = (uint32_t)((uint64_t)m->vertex_count * i / count),
-                          .end = (uint32_t)((uint64_t)m->vertex_count * (i + 1) / count)};
-        r->b.mesh = &r->mesh;
-    }
-    threads_for(count, 1, take_ranges, ranges);
-    size_t edges = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        edges += ranges[i].mesh.edge_count;
-        done = done && ranges[i].done;
-    }
-    m->edges = done ? mem_alloc(edges * sizeof *m->edges) : NULL;
-    for (uint32_t i = 0; i < count; i++) {
-        const edge_mesh *from = &ranges[i].mesh;
-        if (m->edges && from->edge_count)
-            memcpy(m->edges + m->edge_count, from->edges, from->edge_count * sizeof *m->edges);
+    for (uint32_t i = 0; i < j->range_count; i++) {
+        const edge_mesh *from = &j->ranges[i].mesh;
+        memmove(m->edges + m->edge_count, from->edges, from->edge_count * sizeof *m->edges);
         m->edge_count += from->edge_count;
         m->all_edges += from->all_edges;
         m->loose_edges += from->loose_edges;
-        mem_free(ranges[i].mesh.edges);
+        done = done && j->ranges[i].done;
     }
-    return m->edges;
+    return done;
 }
 
 /* Edges, with faces and half-edges that are there. */
 static lmn_status judge_again(builder *b, const edge_topology *t, lmn_error *error)
 {
-    edge_mesh   *m = b->mesh;
-    crease_facts facts = {t->opposite, t->shading, t->mixed, b->angle};
-    double      *volumes = take_edges_again(b) && creases_judge(m, &facts) ? measure_pieces(m) : NULL;
-    if (!volumes)
+    edge_mesh *m = b->mesh;
+    pose_judge j = {.mesh = m, .facts = {t->opposite, t->shading, t->mixed, b->angle}};
+    m->edges = mem_alloc(((size_t)t->mesh.all_edges + 1) * sizeof *m->edges);
+    if (!m->edges)
         return error_memory(error);
-    memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
-    drop_concave(m, volumes);
-    mem_free(volumes);
-    return drawn_close(m) ? LMN_OK : error_memory(error);
+    open_ranges(&j, b, t);
+    threads_for(j.range_count, 1, judge_next, &j);
+    bool good = close_ranges(&j) && j.has_measured && j.volumes && creases_judge(m, &j.facts, &j.measured);
+    if (good) {
+        memcpy(m->closed, t->mesh.closed, m->piece_count * sizeof *m->closed);
+        drop_concave(m, j.volumes);
+    }
+    mem_free(j.volumes);
+    return good && drawn_close(m) ? LMN_OK : error_memory(error);
+}
+
+lmn_status edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error)
+{
+    edge_topology *t = *out = mem_calloc(1, sizeof *t);
+    if (!t)
+        return error_memory(error);
+    builder b = {.mesh = &t->mesh, .keeps = t, .crease = 0, .angle = 1.5};
+    t->revision = m->topology;
+    lmn_status status = finish(&b, make_faces(&b, m, NULL, error), error);
+    mem_free(t->mesh.positions); /* every pose has its own */
+    mem_free(t->mesh.normals);
+    mem_free(t->mesh.edges);
+    t->mesh.positions = t->mesh.normals = NULL;
+    t->mesh.edges = NULL;
+    if (status == LMN_OK)
+        count_ranges(t);
+    else
+        edge_topology_destroy(out);
+    return status;
 }
 
 lmn_status edge_mesh_pose(edge_mesh *out, const edge_topology *t, const vec3 *positions, double crease_angle,

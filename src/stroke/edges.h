@@ -60,6 +60,8 @@ typedef struct edge_mesh {
     uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
+    bool                  moves; /* a pose or a call has put it where it is: in the next picture it may be elsewhere */
+    struct edge_topology *topology;  /* of its poses, borrowed; NULL: none is kept */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
 } edge_mesh;
 
@@ -74,7 +76,9 @@ void       edge_mesh_release(edge_mesh *m);
 typedef struct edge_topology edge_topology;
 lmn_status                   edge_topology_create(edge_topology **out, const mesh *m, lmn_error *error);
 void                         edge_topology_destroy(edge_topology **t);
-uint64_t edge_topology_revision(const edge_topology *t); /* of the mesh's topology, as it was then */
+/* What form_surface_make keeps with it; NULL: nothing yet. */
+struct form_knots **edge_topology_knots(edge_topology *t);
+uint64_t            edge_topology_revision(const edge_topology *t); /* of the mesh's topology, as it was then */
 
 /* edge_mesh_create for a pose, a few times as fast. *fits is false, and nothing is made, where vertices that were one
  * have come apart, or faces have no area in the pose or at rest. */

@@ -170,11 +170,11 @@ static bool open_surfaces(stroke_scene *s)
     return s->surfaces != NULL;
 }
 
-lmn_status form_surfaces_open(stroke_scene *s, lmn_error *error)
+lmn_status stroke_scene_calm(stroke_scene *s, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     for (size_t i = 0; i < s->mesh_count && status == LMN_OK; i++)
-        if (s->meshes[i].sampling.sampled && !s->meshes[i].refinement)
+        if (s->meshes[i].sampling.sampled && !s->meshes[i].refinement && !(s->surfaces && s->surfaces[i].corners))
             status = open_surfaces(s) ? form_surface_make(&s->surfaces[i], &s->meshes[i], false, error)
                                       : error_memory(error);
     return status;

@@ -14,6 +14,16 @@ typedef struct surface_bend {
     float change[4];
 } surface_bend;
 
+/* What around a mesh's knots does not depend on where they are: of samplings it stays when they move. */
+typedef struct form_knots {
+    uint32_t knot_count;
+    uint32_t (*corners)[3], *opposite, *vertices; /* as in form_surface */
+    uint32_t *fan_starts, *fan_faces;             /* likewise */
+    uint32_t *corner_starts, *corner_list;        /* per knot: its corners, ascending */
+    uint32_t *beside_starts, *beside_list;        /* per knot of a sampling: those along edges; NULL: not asked for */
+} form_knots;
+void form_knots_destroy(form_knots **k);
+
 /* A knot is a vertex, once for each smooth stretch of surface around it: sharp edges have knots of their own on
  * either side. */
 typedef struct form_surface {
@@ -27,6 +37,7 @@ typedef struct form_surface {
     surface_bend *bends;                  /* per knot; NULL: not asked for */
     uint32_t     *fan_starts, *fan_faces; /* faces around each vertex of the mesh */
     double        size;                   /* diagonal of the mesh */
+    form_knots   *own;                    /* what the arrays of numbers belong to; NULL: to the mesh's topology */
 } form_surface;
 #define NO_HALF UINT32_MAX
 

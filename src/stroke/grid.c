@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/threads.h"
 
 /* A cell with more triangles than this gets a finer grid with about so many a cell. */
 enum { CROWD = 256, FEW = 8, SUB_SIDE_MAX = 24 };
@@ -80,8 +81,8 @@ static bool touches(const grid_level *l, const inside_test *t, int32_t column, i
     return true;
 }
 
-/* Counts a triangle into its cells; with entries, puts it there: starts have been counted then. */
-static void enter(const grid_level *l, const stroke_view *v, uint32_t number, uint32_t *entries)
+/* Counts a triangle into its cells; with entries, puts it there: `slots`, one a cell, say where then. */
+static void enter(const grid_level *l, const stroke_view *v, uint32_t number, uint32_t *slots, uint32_t *entries)
 {
     const window_box *box = &v->boxes[number];
     cell_range        range;
@@ -95,11 +96,10 @@ static void enter(const grid_level *l, const stroke_view *v, uint32_t number, ui
         for (int32_t c = range.c0; c <= range.c1; c++) {
             if (!few && !touches(l, &test, c, r))
                 continue;
-            uint32_t *start = &l->starts[(size_t)r * (size_t)l->columns + (size_t)c];
+            uint32_t *slot = &slots[(size_t)r * (size_t)l->columns + (size_t)c];
             if (entries)
-                entries[start[1]++] = number;
-            else
-                start[2]++;
+                entries[*slot] = number;
+            ++*slot;
         }
 }
 
@@ -162,12 +162,12 @@ static bool divide_cell(window_grid *g, const stroke_view *v, grid_level *l, int
                       NULL};
     memset(sub.starts, 0, (cells + 2) * sizeof *sub.starts);
     for (uint32_t i = 0; i < count; i++)
-        enter(&sub, v, g->entries[begin + i], NULL);
+        enter(&sub, v, g->entries[begin + i], sub.starts + 2, NULL);
     uint32_t total = add_up(&sub, (uint32_t)g->sub_entry_count);
     if (!mem_grow((void **)&g->sub_entries, &g->sub_entry_capacity, (size_t)total + 1, sizeof *g->sub_entries))
         return false;
     for (uint32_t i = 0; i < count; i++)
-        enter(&sub, v, g->entries[begin + i], g->sub_entries);
+        enter(&sub, v, g->entries[begin + i], sub.starts + 1, g->sub_entries);
     g->sub_entry_count = total;
     g->sub_start_count += cells + 2;
     sub.starts = NULL;
@@ -201,22 +201,80 @@ static bool divide_crowds(window_grid *g, const stroke_view *v)
     return true;
 }
 
+/* Triangles are counted and put in runs side by side, each with slots of its own; in a cell runs follow each other, as
+ * if there were one. */
+enum { RUNS = 4, RUN_LEAST = 16384 };
+
+typedef struct grid_job {
+    window_grid       *g;
+    const stroke_view *v;
+    uint32_t          *slots[RUNS][GRID_LEVELS];
+    uint32_t           run_count;
+    uint32_t          *entries; /* NULL: they are counted */
+} grid_job;
+
+static void enter_runs(size_t begin, size_t end, void *user)
+{
+    grid_job *j = user;
+    size_t    count = j->v->triangle_count;
+    for (size_t r = begin; r < end; r++)
+        for (size_t i = count * r / j->run_count; i < count * (r + 1) / j->run_count; i++) {
+            int level = level_of(j->g, &j->v->boxes[i]);
+            enter(&j->g->levels[level], j->v, (uint32_t)i, j->slots[r][level], j->entries);
+        }
+}
+
+/* Where each cell's entries begin, and those of each run in it. Returns where those of the next level begin. */
+static uint32_t place_runs(grid_job *j, int level, uint32_t total)
+{
+    grid_level *l = &j->g->levels[level];
+    size_t      cells = (size_t)l->columns * (size_t)l->rows;
+    for (size_t c = 0; c < cells; c++) {
+        l->starts[c] = total;
+        for (uint32_t r = 0; r < j->run_count; r++) {
+            uint32_t own = j->slots[r][level][c];
+            j->slots[r][level][c] = total;
+            total += own;
+        }
+    }
+    l->starts[cells] = l->starts[cells + 1] = total;
+    return total;
+}
+
+static bool open_runs(grid_job *j)
+{
+    bool good = true;
+    j->run_count = j->v->triangle_count < RUN_LEAST ? 1 : RUNS;
+    for (uint32_t r = 0; r < j->run_count; r++)
+        for (int k = 0; k < GRID_LEVELS; k++) {
+            const grid_level *l = &j->g->levels[k];
+            j->slots[r][k] = good ? mem_calloc((size_t)l->columns * (size_t)l->rows, sizeof **j->slots[r]) : NULL;
+            good = j->slots[r][k] != NULL;
+        }
+    return good;
+}
+
+static bool enter_all(grid_job *j)
+{
+    uint32_t total = 0;
+    threads_for(j->run_count, 1, enter_runs, j);
+    for (int k = 0; k < GRID_LEVELS; k++)
+        total = place_runs(j, k, total);
+    j->g->entries = j->entries = mem_alloc(((size_t)total + 1) * sizeof *j->entries);
+    if (j->entries)
+        threads_for(j->run_count, 1, enter_runs, j);
+    return j->entries;
+}
+
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
 {
+    grid_job job = {.g = out, .v = v};
     memset(out, 0, sizeof *out);
-    if (!make_levels(out, v))
-        return error_memory(error);
-    for (uint32_t i = 0; i < v->triangle_count; i++)
-        enter(&out->levels[level_of(out, &v->boxes[i])], v, i, NULL);
-    uint32_t total = 0;
-    for (int k = 0; k < GRID_LEVELS; k++)
-        total = add_up(&out->levels[k], total);
-    out->entries = mem_alloc(((size_t)total + 1) * sizeof *out->entries);
-    if (!out->entries)
-        return error_memory(error);
-    for (uint32_t i = 0; i < v->triangle_count; i++)
-        enter(&out->levels[level_of(out, &v->boxes[i])], v, i, out->entries);
-    return divide_crowds(out, v) ? LMN_OK : error_memory(error);
+    bool good = make_levels(out, v) && open_runs(&job) && enter_all(&job);
+    for (uint32_t r = 0; r < job.run_count; r++)
+        for (int k = 0; k < GRID_LEVELS; k++)
+            mem_free(job.slots[r][k]);
+    return good && divide_crowds(out, v) ? LMN_OK : error_memory(error);
 }
 
 void grid_release(window_grid *g)

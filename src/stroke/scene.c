@@ -76,6 +76,8 @@ static lmn_status pose_edges(scene_builder *b, edge_mesh *out, int32_t mesh_inde
         status = edge_topology_create(t, m, error);
     if (status == LMN_OK)
         status = edge_mesh_pose(out, *t, positions, b->crease_angle, &fits, error);
+    if (status == LMN_OK && fits)
+        out->topology = *t;
     return status == LMN_OK && !fits ? edge_mesh_create(out, m, positions, b->crease_angle, error) : status;
 }
 
@@ -115,6 +117,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
         edge_mesh_release(&s->meshes[s->mesh_count]);
         return status;
     }
+    s->meshes[s->mesh_count].moves = posed;
     *out = (uint32_t)s->mesh_count++;
     if (!posed)
         b->shared[n->mesh] = (int32_t)*out;
@@ -236,8 +239,6 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
             status = add_part(b, i, error);
     }
     mem_free(b->shared);
-    if (status == LMN_OK)
-        status = form_surfaces_open(out, error);
     out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);
@@ -251,7 +252,14 @@ lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, cons
     scene_builder     b = {
             .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = &own};
     lmn_status status = fill(&b, parts, progress, user, error);
+    for (size_t i = 0; i < out->mesh_count; i++)
+        out->meshes[i].topology = NULL;
     stroke_topologies_release(&own);
+    if (status != LMN_OK)
+        return status;
+    status = stroke_scene_calm(out, error);
+    if (status != LMN_OK)
+        stroke_scene_release(out);
     return status;
 }
 

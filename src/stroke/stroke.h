@@ -122,6 +122,9 @@ lmn_status stroke_scene_create_keeping(stroke_scene *out, const pose *pose, cons
                                        lmn_error *error);
 void       stroke_topologies_release(stroke_topologies *t);
 void       stroke_scene_release(stroke_scene *s);
+/* Makes the smooth surfaces that dense samplings stand for, unless they are there: views need them, and
+ * stroke_scene_create_keeping leaves them out, as not all who draw edges have views. Errors: LMN_MEMORY, LMN_LIMIT. */
+lmn_status stroke_scene_calm(stroke_scene *s, lmn_error *error);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else
  * stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);

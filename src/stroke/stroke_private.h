@@ -253,9 +253,7 @@ uint64_t line_id(uint64_t a, uint64_t b); /* numbers that differ for different l
 /* --- form.c --- */
 /* Is a mesh a sampling of a surface, whose outline is that surface's however it is asked for? */
 bool has_calm_outline(const stroke_scene *s, size_t mesh);
-/* Makes the surfaces of samplings. */
-lmn_status form_surfaces_open(stroke_scene *s, lmn_error *error);
-void       form_surfaces_destroy(stroke_scene *s);
+void form_surfaces_destroy(stroke_scene *s);
 /* Adds the lines of smooth surfaces that are wished for: outlines by normals, suggestive contours, ridges, valleys,
  * apparent ridges. */
 lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,

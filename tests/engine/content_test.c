@@ -11,6 +11,8 @@
 enum { SIDE = 160, PIXELS = SIDE * SIDE };
 
 static lmn_renderer *renderer;
+#define EYE_X 9.0
+static double eye_x = EYE_X; /* where drawings are seen from */
 
 static const char *const looks[] = {
     "{\"surface\": \"lit\", \"lines\": \"discontinuity\"}",
@@ -40,7 +42,7 @@ static lmn_status try_draw(const lmn_scene *s, const char *rules, uint8_t *out)
     lmn_look     *look = NULL;
     lmn_drawing  *drawing = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
-    const double  eye[3] = {9, 7, 11}, target[3] = {0.4, 0.2, 0}, up[3] = {0, 1, 0};
+    const double  eye[3] = {eye_x, 7, 11}, target[3] = {0.4, 0.2, 0}, up[3] = {0, 1, 0};
     snprintf(json, sizeof json, "{\"version\": 2, \"rules\": [%s]}", rules);
     DO(lmn_look_parse(&look, json, "test", &error));
     desc.width = desc.height = SIDE;
@@ -214,6 +216,86 @@ static void changes_are_drawn(void **state)
     lmn_scene *all[] = {s, wanted, farther, again};
     for (int i = 0; i < 4; i++)
         lmn_scene_destroy(&all[i]);
+}
+
+/* A ring of so many vertices along it, waves running over it. */
+enum { ALONG_MOST = 160, AROUND_MOST = 80 };
+
+typedef struct ring {
+    int      along, around;
+    float    positions[ALONG_MOST * AROUND_MOST][3];
+    uint32_t faces[ALONG_MOST * AROUND_MOST * 6];
+} ring;
+
+static lmn_mesh_desc ring_desc(ring *r, double phase)
+{
+    const double  turn = 6.283185307179586;
+    lmn_mesh_desc desc = LMN_MESH_DESC_INIT;
+    for (int i = 0; i < r->along * r->around; i++) {
+        double u = turn * (i / r->around) / r->along, v = turn * (i % r->around) / r->around,
+               tube = 1 + 0.15 * sin(5 * u + 3 * v + phase);
+        r->positions[i][0] = (float)((2.6 + tube * cos(v)) * cos(u));
+        r->positions[i][1] = (float)(tube * sin(v));
+        r->positions[i][2] = (float)((2.6 + tube * cos(v)) * sin(u));
+        int after = (i + r->around) % (r->along * r->around), row = i - i % r->around, past = after - i % r->around,
+            above = (i + 1) % r->around;
+        memcpy(&r->faces[6 * i],
+               (uint32_t[]){(uint32_t)i, (uint32_t)(row + above), (uint32_t)(past + above), (uint32_t)i,
+                            (uint32_t)(past + above), (uint32_t)after},
+               6 * sizeof *r->faces);
+    }
+    desc.positions = r->positions[0];
+    desc.indices = r->faces;
+    desc.vertex_count = (size_t)r->along * (size_t)r->around;
+    desc.index_count = 6 * desc.vertex_count;
+    return desc;
+}
+
+static lmn_scene *ring_scene(ring *r, double phase)
+{
+    lmn_scene    *s = fresh();
+    uint32_t      mesh;
+    lmn_mesh_desc desc = ring_desc(r, phase);
+    DO(lmn_scene_add_mesh(s, &desc, &mesh, &error));
+    add_node(s, "ring", 0, mesh, 0, 0);
+    return s;
+}
+
+/* Smooth meshes, coarse and as dense as scans, in the looks whose lines come from their edges: moved step by step they
+ * are drawn as if they had been so from the beginning, and seen from elsewhere. */
+static void moved_meshes_have_their_lines(void **state)
+{
+    (void)state;
+    static ring              r;
+    static const char *const rules[] = {
+        "{\"surface\": \"lit\", \"lines\": \"discontinuity\"}",
+        "{\"surface\": \"flat\", \"lines\": {\"operator\": \"strokes\", \"taper\": 13.5}}",
+        "{\"surface\": \"flat\", \"lines\": {\"operator\": \"strokes\", \"visibility\": \"sampled\"}}",
+        "{\"surface\": \"hatch\", \"layers\": {\"technique\": \"front\", \"shading\": \"deferred\"}, "
+        "\"lines\": \"discontinuity\"}"};
+    for (int dense = 0; dense < 2; dense++) {
+        r.along = dense ? ALONG_MOST : 24;
+        r.around = dense ? AROUND_MOST : 12;
+        for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+            static uint8_t before[4 * PIXELS], after[4 * PIXELS];
+            lmn_scene     *s = ring_scene(&r, 0);
+            draw(s, rules[i], before);
+            for (int step = 1; step <= 3; step++) {
+                lmn_mesh_desc desc = ring_desc(&r, 0.7 * step);
+                DO(lmn_scene_set_positions(s, 1, desc.positions, NULL, desc.vertex_count, &error));
+                lmn_scene *wanted = ring_scene(&r, 0.7 * step);
+                assert_int_equal(differing(s, wanted, rules[i]), 0);
+                draw(s, rules[i], after);
+                assert_memory_not_equal(before, after, sizeof before);
+                draw(s, rules[i], after); /* what was brought for one view is not shown in another one */
+                eye_x = -7;
+                assert_int_equal(differing(s, wanted, rules[i]), 0);
+                eye_x = EYE_X;
+                lmn_scene_destroy(&wanted);
+            }
+            lmn_scene_destroy(&s);
+        }
+    }
 }
 
 static void meshes_are_exchanged(void **state)
@@ -550,6 +632,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(is_drawn_like_a_file),
                                        cmocka_unit_test(changes_are_drawn),
+                                       cmocka_unit_test(moved_meshes_have_their_lines),
                                        cmocka_unit_test(meshes_are_exchanged),
                                        cmocka_unit_test(nodes_come_and_go),
                                        cmocka_unit_test(colours_textures_and_sets),

@@ -1,4 +1,5 @@
 /* Records of edges and ribbons: what the GPU is told about them. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -89,7 +90,7 @@ static void test_creases_come_first(void **state)
         {{0, 1}, {0, 1}, EDGE_CANDIDATE}, {{1, 2}, {0, 1}, EDGE_CREASE}, {{2, 3}, {0, 1}, EDGE_CANDIDATE}};
     vec3      normals[2] = {{0, 0, 1}, {0, 1, 0}};
     uint32_t  faces[2][3] = {{0, 1, 2}, {1, 2, 3}}, pieces[2] = {0, 0};
-    bool      closed = false;
+    bool      closed = false, inward = false;
     box3      box = {.min = {0, 0, 0}, .max = {1, 1, 1}};
     edge_mesh m = {.vertex_count = 8,
                    .face_count = 2,
@@ -101,12 +102,68 @@ static void test_creases_come_first(void **state)
                    .edges = edges,
                    .pieces = pieces,
                    .closed = &closed,
+                   .inward = &inward,
                    .boxes = &box};
     float    *records = strokes_edge_records(&m);
     assert_int_equal((int)records[3], RECORD_CREASE | RECORD_PAIR);
     assert_int_equal((int)records[EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
     assert_int_equal((int)records[2 * EDGE_RECORD_FLOATS + 3], RECORD_PAIR);
     mem_free(records);
+}
+
+/* As the shader decides, of edges that are no creases. */
+static bool is_outline(const float *r, const float viewer[4])
+{
+    bool front[2];
+    for (int k = 0; k < 2; k++) {
+        float sum = 0;
+        for (int c = 0; c < 3; c++)
+            sum += r[8 + 4 * k + c] * (viewer[c] - viewer[3] * 0.5f * (r[c] + r[4 + c]));
+        front[k] = sum > 0;
+    }
+    return ((int)r[3] & RECORD_PAIR) && front[0] != front[1];
+}
+
+/* A ball in pieces of 12°: of all of its records those of one viewer are those that may be lines, as they are. */
+static void test_seen_ones(void **state)
+{
+    (void)state;
+    enum { ROUND = 30, RINGS = 15, VERTICES = ROUND * (RINGS + 1) };
+    static vec3     ball[VERTICES];
+    static uint32_t indices[ROUND * RINGS * 6];
+    uint32_t        corners = 0;
+    for (int i = 0; i < VERTICES; i++) {
+        double turn = 6.283185307179586 * (i % ROUND) / ROUND, rise = 3.141592653589793 * (i / ROUND) / RINGS;
+        ball[i] = (vec3){(float)(cos(turn) * sin(rise)), (float)cos(rise), (float)(sin(turn) * sin(rise))};
+    }
+    for (uint32_t i = 0; i < ROUND * RINGS; i++) {
+        uint32_t a = i, b = i - i % ROUND + (i + 1) % ROUND, c = b + ROUND, d = a + ROUND;
+        memcpy(indices + corners, (uint32_t[]){a, b, c, a, c, d}, 6 * sizeof *indices);
+        corners += 6;
+    }
+    primitive p = {
+        .vertex_count = VERTICES, .positions = ball, .index_count = corners, .indices = indices, .material = NONE};
+    mesh        m = {.primitives = &p, .primitive_count = 1};
+    edge_mesh   e;
+    const float viewers[3][4] = {{3, 2, 1, 1}, {0, 0, 5, 1}, {0.3f, 0.9f, -0.3f, 0}};
+    assert_int_equal(edge_mesh_create(&e, &m, NULL, 0.7, NULL), LMN_OK);
+    float *all = strokes_edge_records(&e);
+    for (int v = 0; v < 3; v++) {
+        size_t count, at = 0, outlines = 0;
+        float *seen = strokes_edge_records_seen(&e, viewers[v], &count);
+        for (size_t i = 0; i < strokes_edge_record_count(&e); i++) {
+            const float *r = &all[EDGE_RECORD_FLOATS * i];
+            bool same = at < count && memcmp(r, &seen[EDGE_RECORD_FLOATS * at], EDGE_RECORD_FLOATS * sizeof *r) == 0;
+            assert_true(same || !is_outline(r, viewers[v]));
+            outlines += is_outline(r, viewers[v]);
+            at += same;
+        }
+        assert_int_equal(at, count);
+        assert_true(outlines > ROUND / 2 && count < strokes_edge_record_count(&e) / 4);
+        mem_free(seen);
+    }
+    mem_free(all);
+    edge_mesh_release(&e);
 }
 
 /* Each crossing has one record, with its item's, and the normals of both surfaces. */
@@ -175,9 +232,11 @@ static void test_without_memory(void **state)
     ribbon_set none = {0};
     size_t     count;
     make_edges(&m, 36, false);
-    for (long n = 1; n <= 2; n++) {
+    mem_fail_at(1);
+    assert_null(strokes_edge_records(&m));
+    for (long n = 1; n <= 3; n++) {
         mem_fail_at(n);
-        assert_null(strokes_edge_records(&m));
+        assert_null(strokes_edge_records_seen(&m, (const float[4]){3, 2, 1, 1}, &count));
     }
     mem_fail_at(1);
     assert_null(strokes_ribbon_records(&none, 10, &count));
@@ -226,6 +285,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cube),
         cmocka_unit_test(test_triangle),
+        cmocka_unit_test(test_seen_ones),
         cmocka_unit_test(test_crossings),
         cmocka_unit_test(test_creases_come_first),
         cmocka_unit_test(test_ribbons),

@@ -1,29 +1,10 @@
 /* Records of edges and ribbons, as the GPU takes them. */
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/threads.h"
 #include "lines/stroke/strokes.h"
-
-/* Six times the volume of each piece, which says which way round it is: measured from a corner of its own box,
- * where numbers are small. */
-static double *find_volumes(const edge_mesh *m)
-{
-    double *volumes = mem_calloc((size_t)m->piece_count + 1, sizeof *volumes);
-    for (uint32_t f = 0; f < m->face_count && volumes; f++) {
-        vec3   from = m->boxes[m->pieces[f]].min;
-        double p[3][3];
-        for (int k = 0; k < 3; k++) {
-            vec3 at = m->positions[m->faces[f][k]];
-            p[k][0] = (double)at.x - from.x;
-            p[k][1] = (double)at.y - from.y;
-            p[k][2] = (double)at.z - from.z;
-        }
-        volumes[m->pieces[f]] += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-                                 p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-                                 p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
-    }
-    return volumes;
-}
 
 static void put_vector(float *out, vec3 v, float fourth, float sign)
 {
@@ -33,14 +14,14 @@ static void put_vector(float *out, vec3 v, float fourth, float sign)
     out[3] = fourth;
 }
 
-static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e, double volume)
+static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e)
 {
     bool pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
     int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
                (closed ? RECORD_CLOSED : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
-    float outward = volume < 0 ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
+    float outward = m->inward[m->pieces[e->face[0]]] ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);
     put_vector(out + 4, m->positions[e->vertex[1]], 0, 1);
     put_vector(out + 8, m->normals[e->face[0]], 0, outward);
@@ -57,27 +38,118 @@ size_t strokes_edge_record_count(const edge_mesh *m)
     return (size_t)m->edge_count + m->line_count;
 }
 
-float *strokes_edge_records(const edge_mesh *m)
+static float *put_drawn_lines(float *at, const edge_mesh *m)
 {
-    float  *records = mem_calloc(strokes_edge_record_count(m) + 1, EDGE_RECORD_FLOATS * sizeof *records);
-    double *volumes = find_volumes(m);
-    float  *at = records;
-    for (int pass = 0; pass < 2;
-         pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
-        for (uint32_t i = 0; i < m->edge_count && records && volumes; i++)
-            if (is_always_line(&m->edges[i]) == (pass == 0)) {
-                put_edge(at, m, &m->edges[i], volumes[m->pieces[m->edges[i].face[0]]]);
-                at += EDGE_RECORD_FLOATS;
-            }
-    for (uint32_t i = 0; i < m->line_count && records; i++, at += EDGE_RECORD_FLOATS) {
+    for (uint32_t i = 0; i < m->line_count; i++, at += EDGE_RECORD_FLOATS) {
         put_vector(at, m->positions[m->lines[i].vertex[0]], RECORD_DRAWN, 1);
         put_vector(at + 4, m->positions[m->lines[i].vertex[1]], m->lines[i].lift, 1);
     }
-    if (!volumes) {
-        mem_free(records);
-        records = NULL;
+    return at;
+}
+
+float *strokes_edge_records(const edge_mesh *m)
+{
+    float *records = mem_calloc(strokes_edge_record_count(m) + 1, EDGE_RECORD_FLOATS * sizeof *records);
+    float *at = records;
+    for (int pass = 0; pass < 2;
+         pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
+        for (uint32_t i = 0; i < m->edge_count && records; i++)
+            if (is_always_line(&m->edges[i]) == (pass == 0)) {
+                put_edge(at, m, &m->edges[i]);
+                at += EDGE_RECORD_FLOATS;
+            }
+    if (records)
+        put_drawn_lines(at, m);
+    return records;
+}
+
+/* --- of what one viewer sees ----------------------------------------------------------------------------- */
+
+/* Where rounding decides on which side of a face the eye is, the shader decides: of the distance from the edge to the
+ * eye, and of how far both are from the origin. */
+#define UNSURE         1e-4f
+#define UNSURE_ROUNDED 4e-6f
+
+/* Edges that may be lines, in steps of this many. */
+enum { SIFT_STEP = 8192 };
+
+typedef struct sieve {
+    const edge_mesh *m;
+    const float     *viewer;
+    uint32_t        *kept;   /* numbers of edges; a step's own begin where the step does */
+    uint32_t        *counts; /* per step */
+} sieve;
+
+static float largest_of(float x, float y, float z)
+{
+    return fmaxf(fmaxf(fabsf(x), fabsf(y)), fabsf(z));
+}
+
+/* May one of the edge's faces be seen from the front and the other not? */
+static bool may_be_outline(const edge_mesh *m, const mesh_edge *e, const float viewer[4])
+{
+    if (e->face[1] == EDGE_NO_FACE)
+        return false;
+    vec3 a = m->positions[e->vertex[0]], b = m->positions[e->vertex[1]], n = m->normals[e->face[0]],
+         o = m->normals[e->face[1]];
+    float share = 0.5f * viewer[3], x = share * (a.x + b.x), y = share * (a.y + b.y), z = share * (a.z + b.z);
+    float to_x = viewer[0] - x, to_y = viewer[1] - y, to_z = viewer[2] - z;
+    float unsure = UNSURE * largest_of(to_x, to_y, to_z) +
+                   UNSURE_ROUNDED * (largest_of(viewer[0], viewer[1], viewer[2]) + largest_of(x, y, z));
+    float first = n.x * to_x + n.y * to_y + n.z * to_z, second = o.x * to_x + o.y * to_y + o.z * to_z;
+    second = e->flags & EDGE_TWISTED ? -second : second;
+    return !((first > unsure && second > unsure) || (first < -unsure && second < -unsure));
+}
+
+static void sift(size_t begin, size_t end, void *user)
+{
+    sieve *s = user;
+    for (size_t step = begin; step < end; step++) {
+        uint32_t first = (uint32_t)step * SIFT_STEP, count = 0;
+        for (uint32_t i = first; i < s->m->edge_count && i < first + SIFT_STEP; i++) {
+            const mesh_edge *e = &s->m->edges[i];
+            s->kept[first + count] = i;
+            count += is_always_line(e) || may_be_outline(s->m, e, s->viewer);
+        }
+        s->counts[step] = count;
     }
-    mem_free(volumes);
+}
+
+/* In the order of strokes_edge_records. */
+static float *put_sifted(const sieve *s, size_t steps, size_t *count)
+{
+    const edge_mesh *m = s->m;
+    *count = m->line_count;
+    for (size_t i = 0; i < steps; i++)
+        *count += s->counts[i];
+    float *records = mem_calloc(*count + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < steps && records; i++)
+            for (uint32_t k = 0; k < s->counts[i]; k++) {
+                const mesh_edge *e = &m->edges[s->kept[i * SIFT_STEP + k]];
+                if (is_always_line(e) != (pass == 0))
+                    continue;
+                put_edge(at, m, e);
+                at += EDGE_RECORD_FLOATS;
+            }
+    if (records)
+        put_drawn_lines(at, m);
+    return records;
+}
+
+float *strokes_edge_records_seen(const edge_mesh *m, const float viewer[4], size_t *count)
+{
+    size_t steps = ((size_t)m->edge_count + SIFT_STEP - 1) / SIFT_STEP;
+    sieve  s = {.m = m, .viewer = viewer};
+    s.kept = mem_alloc(((size_t)m->edge_count + 1) * sizeof *s.kept);
+    s.counts = mem_calloc(steps + 1, sizeof *s.counts);
+    float *records = NULL;
+    if (s.kept && s.counts) {
+        threads_for(steps, 4, sift, &s);
+        records = put_sifted(&s, steps, count);
+    }
+    mem_free(s.kept);
+    mem_free(s.counts);
     return records;
 }
 

@@ -42,6 +42,9 @@ typedef enum record_bit {
  * it. */
 float *strokes_edge_records(const edge_mesh *m);
 size_t strokes_edge_record_count(const edge_mesh *m);
+/* Those that may be lines for one viewer (`u_viewer` of lines/stroke/decide.glsl), in the same order, and hardly any
+ * others: of meshes that move, for which all of them would be made and sent for one picture. Sets *count. */
+float *strokes_edge_records_seen(const edge_mesh *m, const float viewer[4], size_t *count);
 /* The same for the lines in which surfaces of an item cross others, in world axes. Sets *count. */
 float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *count);
 
