@@ -128,7 +128,7 @@ static void test_plain_numbers(void **state)
     } cases[] = {
         {"edges", "lines", "width", 6, 9},        {"edges", "lines", "gain", 1, 0.5},
         {"pencil", "surface", "light", 1.25, 2},  {"pencil", "perturb", "dark_sway", 0.8, 4},
-        {"toon", "lines", "width", 4, 5},         {"gooch", "lines", "gain", 1, 0.4},
+        {"toon", "lines", "width", 4, 5},         {"gooch", "surface", "specular", 0.6, 0.1},
         {"sketch", "perturb", "amount", 3.75, 9},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
