@@ -33,7 +33,7 @@ void fuzz_set(const uint8_t *bytes, size_t size)
 {
     lmn_look *look = NULL;
     lmn_error error;
-    if (size < 2 || look_load(&look, look_name_at(bytes[0] % lmn_look_count()), &error) != LMN_OK)
+    if (size < 2 || look_load(&look, look_name_at(bytes[0] % lmn_look_count()), NULL, &error) != LMN_OK)
         return;
     char *key = mem_copy_text((const char *)bytes + 1), *value = key ? strchr(key, '\n') : NULL;
     if (value) {
