@@ -1,0 +1,37 @@
+/* What a state is as a command line and as a program in C: what a person copies, and what an export does. */
+#ifndef LIMNER_VIEW_COMMAND_H
+#define LIMNER_VIEW_COMMAND_H
+
+#include "document.h"
+
+/* A parameter of a look that is not as in the look it comes from. Free with g_free each text, then the array. */
+typedef struct look_setting {
+    char *key, *value; /* as --set and lmn_look_set take them */
+} look_setting;
+
+/* How `look` differs from its origin, as settings that make the one of the other. NULL where none do: rules or
+ * techniques were added or taken away; then the look needs a file. Free with g_array_unref. */
+GArray *look_settings(const look_ref *look);
+
+/* The look as a file among the user's data, written when it is not there yet; NULL when that fails. g_free. */
+char *look_keep(const look_ref *look, lmn_error *error);
+
+/* What is drawn into which file. */
+typedef struct export_wish {
+    const char *path;
+    int         width, height;
+    int         samples; /* 0: as many as suit */
+    bool        transparent;
+    double      first, last, rate; /* of films, seconds; rate 0: none */
+} export_wish;
+
+/* The words of `limner draw …` that makes the same bytes; NULL with an error. Free with g_strfreev. */
+GStrv command_words(const view_state *s, const scene_ref *scene, const export_wish *wish, lmn_error *error);
+
+/* The words as a line for a shell. g_free. */
+char *command_line(const char *const *words);
+
+/* The same as a program in C. g_free; NULL with an error. */
+char *command_in_c(const view_state *s, const scene_ref *scene, const export_wish *wish, lmn_error *error);
+
+#endif

@@ -1,0 +1,104 @@
+/* What a window shows and how: files, look, view, what is hidden, time. All of it that a person can change is one
+ * state; states follow one another and can be gone back to. A state never changes once it is there, so that the artist
+ * can draw it while the next one is made. Main thread. */
+#ifndef LIMNER_VIEW_DOCUMENT_H
+#define LIMNER_VIEW_DOCUMENT_H
+
+#include <glib.h>
+
+#include "orbit.h"
+
+/* A scene, its files and what lists show of it; shared and never changed but by the artist (solids). */
+typedef struct scene_ref {
+    lmn_scene     *scene;
+    GStrv          paths;
+    lmn_scene_info info;
+    char          *json; /* lmn_scene_info_json */
+} scene_ref;
+/* Takes the scene. */
+scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths);
+scene_ref *scene_ref_take(scene_ref *s);
+void       scene_ref_drop(scene_ref *s); /* NULL is accepted */
+
+/* A look, and the name or file that it comes from; shared and never changed. */
+typedef struct look_ref {
+    lmn_look *look;
+    char     *origin;
+} look_ref;
+look_ref *look_ref_make(lmn_look *look, const char *origin); /* takes the look */
+look_ref *look_ref_load(const char *name_or_path, lmn_error *error);
+look_ref *look_ref_take(look_ref *l);
+void      look_ref_drop(look_ref *l); /* NULL is accepted */
+
+typedef struct view_state {
+    look_ref *look;
+    orbit     view;
+    GArray   *hidden; /* of uint32_t: the parts that are not drawn, by number, rising; NULL: none */
+    bool      timed;  /* drawn at `time_s`, else at rest */
+    double    time_s;
+    char     *clip; /* as lmn_draw_desc.clip */
+    uint32_t  seed;
+} view_state;
+
+typedef struct document document;
+
+/* What has changed, or-ed. */
+typedef enum document_change {
+    DOCUMENT_SCENE = 1,
+    DOCUMENT_LOOK = 2, /* of the look: values, techniques or rules */
+    DOCUMENT_VIEW = 4,
+    DOCUMENT_PARTS = 8, /* what is hidden or selected */
+    DOCUMENT_TIME = 16,
+    DOCUMENT_HISTORY = 32 /* what can be undone */
+} document_change;
+typedef void (*document_listener)(document *d, unsigned changes, void *user);
+
+document *document_make(void);
+void      document_free(document *d);
+void      document_listen(document *d, document_listener listener, void *user);
+
+/* Shows another scene; takes the reference. `fit`: with a new view and nothing hidden, and a new history. */
+void             document_set_scene(document *d, scene_ref *scene, bool fit, int width, int height);
+const scene_ref *document_scene(const document *d); /* NULL: none yet */
+
+/* The state now; borrowed until the next change. */
+const view_state *document_state(const document *d);
+
+/* --- changes: each is a step that undo goes back by. Changes with the same `what` (static text, for people) that
+ * follow one another within a moment become one step. */
+void document_set_view(document *d, const orbit *view, const char *what);
+void document_set_time(document *d, bool timed, double time_s, const char *clip);
+void document_set_look(document *d, look_ref *look, const char *what); /* takes the reference */
+/* Hides or shows parts; `alone`: shows these and no other. */
+void document_show_parts(document *d, const uint32_t *parts, size_t count, bool shown);
+void document_show_alone(document *d, const uint32_t *parts, size_t count);
+void document_show_all(document *d);
+bool document_is_hidden(const document *d, uint32_t part);
+
+/* A copy of the look to change, and the way back: document_put_look takes it. */
+lmn_look *document_copy_look(const document *d, lmn_error *error);
+void      document_put_look(document *d, lmn_look *look, const char *what);
+
+/* The part that is marked in lists and in the picture; 0: none. Not a part of the state. */
+void     document_select(document *d, uint32_t part);
+uint32_t document_selected(const document *d);
+
+bool        document_undo(document *d);
+bool        document_redo(document *d);
+const char *document_undo_name(const document *d); /* NULL: nothing to undo */
+const char *document_redo_name(const document *d);
+/* The next change is a step of its own, whatever was before. */
+void document_end_step(document *d);
+
+/* --- what to draw --- */
+
+/* The selector of a state's parts, for lmn_draw_desc.select; NULL: all. Free with g_free. */
+char *state_selector(const view_state *s, const scene_ref *scene);
+
+/* Fills size, camera, time, seed; `select` and `clip` point into the state and into `selector`. */
+void state_describe(const view_state *s, const char *selector, int width, int height, lmn_draw_desc *desc);
+
+view_state *state_copy(const view_state *s);
+void        state_free(view_state *s);
+
+#endif

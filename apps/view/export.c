@@ -1,0 +1,5 @@
+#include "export.h"
+void export_open(ViewWindow *w)
+{
+    (void)w;
+}

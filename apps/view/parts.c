@@ -1,0 +1,6 @@
+#include "parts.h"
+GtkWidget *parts_new(document *d)
+{
+    (void)d;
+    return gtk_label_new("parts");
+}
