@@ -34,6 +34,7 @@ static void scene_clear(void *data)
     lmn_scene_destroy(&s->scene);
     g_strfreev(s->paths);
     lmn_text_free(s->json);
+    g_array_unref(s->boxes);
 }
 
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
@@ -43,6 +44,14 @@ scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
     s->paths = g_strdupv((char **)paths);
     s->info = lmn_scene_info_of(scene);
     s->json = lmn_scene_info_json(scene);
+    s->boxes = g_array_new(FALSE, FALSE, sizeof(double[6]));
+    lmn_part_info part;
+    for (size_t i = 0; lmn_scene_part_at(scene, i, &part); i++) {
+        double box[6];
+        memcpy(box, part.bounds_min, sizeof part.bounds_min);
+        memcpy(box + 3, part.bounds_max, sizeof part.bounds_max);
+        g_array_append_val(s->boxes, box);
+    }
     return s;
 }
 
@@ -135,6 +144,26 @@ char *state_selector(const view_state *s, const scene_ref *scene)
     if (out->len == 0)
         g_string_append(out, "!*");
     return g_string_free(out, FALSE);
+}
+
+void state_bounds(const view_state *s, const scene_ref *scene, double box_min[3], double box_max[3])
+{
+    guint next = 0;
+    bool  any = false;
+    memcpy(box_min, scene->info.bounds_min, 3 * sizeof *box_min);
+    memcpy(box_max, scene->info.bounds_max, 3 * sizeof *box_max);
+    for (guint i = 0; s->hidden && i < scene->boxes->len; i++) {
+        const double *box = (const double *)(const void *)scene->boxes->data + 6 * i;
+        if (next < s->hidden->len && g_array_index(s->hidden, uint32_t, next) == i + 1) {
+            next++;
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            box_min[k] = any ? MIN(box_min[k], box[k]) : box[k];
+            box_max[k] = any ? MAX(box_max[k], box[3 + k]) : box[3 + k];
+        }
+        any = true;
+    }
 }
 
 void state_describe(const view_state *s, const char *selector, int width, int height, lmn_draw_desc *desc)
@@ -433,7 +462,7 @@ void document_select(document *d, uint32_t part)
     if (d->selected == part)
         return;
     d->selected = part;
-    tell(d, DOCUMENT_PARTS);
+    tell(d, DOCUMENT_SELECTED);
 }
 
 uint32_t document_selected(const document *d)

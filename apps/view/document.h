@@ -13,7 +13,8 @@ typedef struct scene_ref {
     lmn_scene     *scene;
     GStrv          paths;
     lmn_scene_info info;
-    char          *json; /* lmn_scene_info_json */
+    char          *json;  /* lmn_scene_info_json */
+    GArray        *boxes; /* of double[6]: the bounds of each part, as they were read */
 } scene_ref;
 /* Takes the scene. */
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths);
@@ -47,9 +48,10 @@ typedef enum document_change {
     DOCUMENT_SCENE = 1,
     DOCUMENT_LOOK = 2, /* of the look: values, techniques or rules */
     DOCUMENT_VIEW = 4,
-    DOCUMENT_PARTS = 8, /* what is hidden or selected */
+    DOCUMENT_PARTS = 8, /* what is hidden */
     DOCUMENT_TIME = 16,
-    DOCUMENT_HISTORY = 32 /* what can be undone */
+    DOCUMENT_HISTORY = 32, /* what can be undone */
+    DOCUMENT_SELECTED = 64 /* the marked part */
 } document_change;
 typedef void (*document_listener)(document *d, unsigned changes, void *user);
 
@@ -94,6 +96,9 @@ void document_end_step(document *d);
 
 /* The selector of a state's parts, for lmn_draw_desc.select; NULL: all. Free with g_free. */
 char *state_selector(const view_state *s, const scene_ref *scene);
+
+/* The bounds of the state's parts, at rest. */
+void state_bounds(const view_state *s, const scene_ref *scene, double box_min[3], double box_max[3]);
 
 /* Fills size, camera, time, seed; `select` and `clip` point into the state and into `selector`. */
 void state_describe(const view_state *s, const char *selector, int width, int height, lmn_draw_desc *desc);

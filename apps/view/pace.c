@@ -22,6 +22,10 @@ static void go_to(pace *p, int level)
 
 void pace_told(pace *p, double ms)
 {
+    if (!p->warm) {
+        p->warm = true;
+        return;
+    }
     p->mean_ms = p->mean_ms > 0 ? p->mean_ms + WEIGHT * (ms - p->mean_ms) : ms;
     if (p->mean_ms > TOO_SLOW_MS && p->level + 1 < LEVELS) {
         /* Far too slow: several steps at once. */

@@ -7,6 +7,7 @@
 typedef struct pace {
     int    level;   /* 0: the whole picture; each further one is smaller */
     double mean_ms; /* of pictures at this level, smoothed; 0: none yet */
+    bool   warm;    /* the first picture of a look compiles: its time says nothing */
 } pace;
 
 /* The side of a moving picture, as a fraction of the whole one. */

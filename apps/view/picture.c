@@ -3,10 +3,11 @@
 #include <math.h>
 
 #include "pace.h"
+#include "section.h"
 #include "trace.h"
 
 enum { SLOT_VIEW = 1, SLOT_COMPARED, SLOT_PICK };
-enum { REST_MS = 150, COMPARE_HANDLE = 8, CLICK_SLACK = 4 };
+enum { REST_MS = 150, COMPARE_HANDLE = 8, CLICK_SLACK = 4, HANDLE_RADIUS = 9 };
 /* Samples of the last picture, when nothing moves. */
 enum { REST_SAMPLES = 4 };
 
@@ -17,21 +18,24 @@ typedef struct shown {
 } shown;
 
 struct _Picture {
-    GtkWidget widget;
-    document *document; /* NULL after picture_close */
-    artist   *artist;
-    shown     now, compared;
-    look_ref *other;   /* on the left of the divider; NULL: no comparison */
-    double    divider; /* 0 … 1 */
-    bool      divider_held;
-    pace      pace;
-    guint     rest; /* the timer until the whole picture */
-    double    last_x, last_y, hover_x, hover_y;
-    bool      pans;  /* the drag moves instead of turning */
-    bool      moved; /* by this drag: its end is no click */
-    bool      walking;
-    gint64    input_at; /* of the oldest input that no picture shows yet; 0: none */
-    uint64_t  revision;
+    GtkWidget      widget;
+    document      *document; /* NULL after picture_close */
+    artist        *artist;
+    shown          now, compared;
+    look_ref      *other;   /* on the left of the divider; NULL: no comparison */
+    double         divider; /* 0 … 1 */
+    bool           divider_held;
+    section        section, section_begin; /* the look's, and as it was when a drag began */
+    int            handle;                 /* of the section that is held, -1: none */
+    section_handle held;
+    pace           pace;
+    guint          rest; /* the timer until the whole picture */
+    double         last_x, last_y, hover_x, hover_y;
+    bool           pans;  /* the drag moves instead of turning */
+    bool           moved; /* by this drag: its end is no click */
+    bool           walking;
+    gint64         input_at; /* of the oldest input that no picture shows yet; 0: none */
+    uint64_t       revision;
 };
 G_DEFINE_TYPE(Picture, picture, GTK_TYPE_WIDGET)
 
@@ -61,6 +65,7 @@ static lmn_status draw_view(artist_job *base, lmn_renderer *renderer, lmn_error 
     char         *selector = state_selector(j->state, j->scene);
     state_describe(j->state, selector, j->width, j->height, &desc);
     desc.samples = j->samples;
+    desc.draft = j->job.urgency == ARTIST_MOVING;
     desc.lenient = true;
     desc.progress = artist_goes_on;
     desc.progress_user = base;
@@ -206,17 +211,21 @@ static void refresh(Picture *p)
     p->rest = g_timeout_add(REST_MS, at_rest, p);
 }
 
+static void read_section(Picture *p);
+
 static void document_changed(document *d, unsigned changes, void *user)
 {
     (void)d;
     Picture *p = user;
+    if (changes & DOCUMENT_LOOK) {
+        read_section(p);
+        gtk_widget_queue_draw(GTK_WIDGET(p));
+    }
     if (changes & DOCUMENT_LOOK)
-        p->pace = (pace){p->pace.level, 0};
+        p->pace = (pace){p->pace.level, 0, false};
     if (changes & (DOCUMENT_SCENE | DOCUMENT_LOOK | DOCUMENT_VIEW | DOCUMENT_PARTS | DOCUMENT_TIME))
         refresh(p);
 }
-
-/* --- pointer --------------------------------------------------------------------------------------------- */
 
 static orbit view_of(const Picture *p)
 {
@@ -239,12 +248,84 @@ static bool near_divider(const Picture *p, double x)
     return p->other && fabs(x - p->divider * gtk_widget_get_width(GTK_WIDGET(p))) < COMPARE_HANDLE;
 }
 
+/* --- the section's handles -------------------------------------------------------------------------------- */
+
+static int find_handles(const Picture *p, section_handle out[SECTION_HANDLES])
+{
+    double box_min[3], box_max[3];
+    if (!has_view(p) || p->section.kind == SECTION_NONE)
+        return 0;
+    orbit o = view_of(p);
+    state_bounds(document_state(p->document), document_scene(p->document), box_min, box_max);
+    return section_handles(&p->section, box_min, box_max, &o, MAX(1, gtk_widget_get_width(GTK_WIDGET(p))),
+                           MAX(1, gtk_widget_get_height(GTK_WIDGET(p))), out);
+}
+
+static int handle_at(Picture *p, double x, double y)
+{
+    section_handle handles[SECTION_HANDLES];
+    int            count = find_handles(p, handles);
+    for (int i = 0; i < count; i++)
+        if (hypot(handles[i].at[0] - x, handles[i].at[1] - y) <= HANDLE_RADIUS + 3) {
+            p->held = handles[i];
+            p->section_begin = p->section;
+            return i;
+        }
+    return -1;
+}
+
+static void drag_handle(Picture *p, double x, double y)
+{
+    section   s = p->section;
+    char      text[SECTION_TEXT_MAX];
+    lmn_error error = {0};
+    section_drag(&s, &p->held, &p->section_begin, x, y);
+    section_write(&s, text);
+    lmn_look *look = document_copy_look(p->document, &error);
+    if (look && lmn_look_set(look, "scene.cut", text, &error) == LMN_OK)
+        document_put_look(p->document, look, "Section");
+    else
+        lmn_look_destroy(&look);
+}
+
+static void read_section(Picture *p)
+{
+    char      text[LMN_VALUE_TEXT_MAX] = "";
+    lmn_error error = {0};
+    lmn_look_get_text(document_state(p->document)->look->look, LMN_WHOLE_LOOK, "scene", 0, "cut", text, sizeof text,
+                      &error);
+    p->section = section_parse(text);
+}
+
+static void snapshot_handles(Picture *p, GtkSnapshot *snapshot)
+{
+    static const GdkRGBA colours[3] = {{0.85f, 0.2f, 0.2f, 1}, {0.15f, 0.6f, 0.2f, 1}, {0.15f, 0.4f, 0.9f, 1}};
+    section_handle       handles[SECTION_HANDLES];
+    int                  count = find_handles(p, handles);
+    for (int i = 0; i < count; i++) {
+        const section_handle *h = &handles[i];
+        const float           r = HANDLE_RADIUS;
+        graphene_rect_t       box = GRAPHENE_RECT_INIT((float)h->at[0] - r, (float)h->at[1] - r, 2 * r, 2 * r);
+        GskRoundedRect        round;
+        const float           widths[4] = {2, 2, 2, 2};
+        const GdkRGBA         white = {1, 1, 1, 1}, rims[4] = {white, white, white, white};
+        gsk_rounded_rect_init_from_rect(&round, &box, r);
+        gtk_snapshot_push_rounded_clip(snapshot, &round);
+        gtk_snapshot_append_color(snapshot, &colours[h->axis], &box);
+        gtk_snapshot_pop(snapshot);
+        gtk_snapshot_append_border(snapshot, &round, widths, rims);
+    }
+}
+
+/* --- pointer --------------------------------------------------------------------------------------------- */
+
 static void drag_begin(GtkGestureDrag *gesture, double x, double y, gpointer user)
 {
     Picture        *p = user;
     GdkModifierType keys = gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
     guint           button = gtk_gesture_single_get_current_button(GTK_GESTURE_SINGLE(gesture));
     p->pans = button == GDK_BUTTON_MIDDLE || button == GDK_BUTTON_SECONDARY || (keys & GDK_SHIFT_MASK);
+    p->handle = button == GDK_BUTTON_PRIMARY ? handle_at(p, x, y) : -1;
     p->divider_held = button == GDK_BUTTON_PRIMARY && near_divider(p, x);
     p->last_x = 0;
     p->last_y = 0;
@@ -270,6 +351,10 @@ static void drag_update(GtkGestureDrag *gesture, double x, double y, gpointer us
         return;
     }
     note_input(p);
+    if (p->handle >= 0) {
+        drag_handle(p, x, y);
+        return;
+    }
     orbit o = view_of(p);
     if (p->pans)
         orbit_pan(&o, dx, dy, height);
@@ -317,7 +402,9 @@ static void hovered(GtkEventControllerMotion *motion, double x, double y, gpoint
     Picture *p = user;
     p->hover_x = x;
     p->hover_y = y;
-    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x) ? "col-resize" : NULL);
+    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x)        ? "col-resize"
+                                                   : handle_at(p, x, y) >= 0 ? "grab"
+                                                                             : NULL);
 }
 
 static void pinched(GtkGestureZoom *zoom, double scale, gpointer user)
@@ -496,6 +583,7 @@ static void picture_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     float    width = (float)gtk_widget_get_width(widget), height = (float)gtk_widget_get_height(widget);
     if (p->now.texture)
         gtk_snapshot_append_texture(snapshot, p->now.texture, &GRAPHENE_RECT_INIT(0, 0, width, height));
+    snapshot_handles(p, snapshot);
     if (!p->other || !p->compared.texture)
         return;
     float x = (float)p->divider * width;
@@ -602,6 +690,7 @@ static void add_controllers(Picture *p)
 static void picture_init(Picture *p)
 {
     p->divider = 0.5;
+    p->handle = -1;
     p->pace.level = 1;
     gtk_widget_set_focusable(GTK_WIDGET(p), TRUE);
     gtk_widget_set_hexpand(GTK_WIDGET(p), TRUE);

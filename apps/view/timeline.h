@@ -8,4 +8,7 @@
 
 GtkWidget *timeline_new(document *d);
 
+/* Plays, or stops. */
+void timeline_play(GtkWidget *timeline);
+
 #endif

@@ -4,11 +4,13 @@
 
 #include "command.h"
 #include "controls.h"
+#include "cube.h"
 #include "export.h"
 #include "gallery.h"
 #include "load.h"
 #include "parts.h"
 #include "picture.h"
+#include "section.h"
 #include "timeline.h"
 #include "trace.h"
 
@@ -16,7 +18,7 @@ struct _ViewWindow {
     AdwApplicationWindow parent;
     document            *document;
     artist              *artist;
-    GtkWidget           *title, *picture, *status, *progress, *toasts, *gallery, *pages;
+    GtkWidget           *title, *picture, *status, *progress, *toasts, *gallery, *pages, *timeline;
     GCancellable        *loading; /* NULL: nothing is read */
     GStrv                loading_paths;
     bool                 reloads; /* the same files, seen from where one is */
@@ -414,6 +416,50 @@ ACTION(do_compare)
         view_window_say(w, "Left of the divider the look stays as it is now");
 }
 
+/* "x", "y", "z" toggle a plane across that axis; "flip" turns it round; "box" cuts a corner out; "none" mends all. */
+ACTION(do_section)
+{
+    (void)action;
+    ViewWindow *w = user;
+    const char *what = g_variant_get_string(value, NULL);
+    char        text[LMN_VALUE_TEXT_MAX] = "";
+    lmn_error   error = {0};
+    lmn_look   *look = document_copy_look(w->document, &error);
+    if (!look) {
+        view_window_say_error(w, &error);
+        return;
+    }
+    lmn_look_get_text(look, LMN_WHOLE_LOOK, "scene", 0, "cut", text, sizeof text, &error);
+    section s = section_parse(text);
+    if (g_strcmp0(what, "flip") == 0) {
+        s.flipped = !s.flipped;
+    } else {
+        s = section_parse("");
+        s.kind = g_strcmp0(what, "none") == 0  ? SECTION_NONE
+                 : g_strcmp0(what, "box") == 0 ? SECTION_BOX
+                                               : SECTION_PLANE;
+        s.axis = s.kind == SECTION_PLANE ? *what - 'x' : 0;
+        for (int k = 0; k < 3; k++) {
+            s.low[k] = 50;
+            s.high[k] = s.kind == SECTION_BOX ? 100 : 50;
+        }
+    }
+    section_write(&s, text);
+    if (lmn_look_set(look, "scene.cut", text, &error) == LMN_OK) {
+        document_end_step(w->document);
+        document_put_look(w->document, look, "Section");
+    } else {
+        lmn_look_destroy(&look);
+        view_window_say_error(w, &error);
+    }
+}
+
+ACTION(do_play)
+{
+    UNUSED;
+    timeline_play(LIMNER_VIEW_WINDOW(user)->timeline);
+}
+
 static const GActionEntry actions[] = {
     {.name = "open", .activate = do_open},
     {.name = "undo", .activate = do_undo},
@@ -421,6 +467,8 @@ static const GActionEntry actions[] = {
     {.name = "fit", .activate = do_fit},
     {.name = "view", .activate = do_view, .parameter_type = "s"},
     {.name = "export", .activate = do_export},
+    {.name = "section", .activate = do_section, .parameter_type = "s"},
+    {.name = "play", .activate = do_play},
     {.name = "show-all", .activate = do_show_all},
     {.name = "hide", .activate = do_hide},
     {.name = "alone", .activate = do_alone},
@@ -472,13 +520,20 @@ static GtkWidget *button(const char *icon, const char *name, const char *action)
 static GMenuModel *make_menu(void)
 {
     GMenu *menu = g_menu_new(), *views = g_menu_new(), *look = g_menu_new(), *copy = g_menu_new(), *end = g_menu_new();
+    GMenu *section = g_menu_new();
     static const char *const names[][2] = {{"Front", "win.view('front')"},  {"Back", "win.view('back')"},
                                            {"Left", "win.view('left')"},    {"Right", "win.view('right')"},
                                            {"Top", "win.view('top')"},      {"Bottom", "win.view('bottom')"},
                                            {"Isometric", "win.view('iso')"}};
     for (size_t i = 0; i < G_N_ELEMENTS(names); i++)
         g_menu_append(views, names[i][0], names[i][1]);
+    static const char *const cuts[][2] = {{"Across X", "win.section('x')"}, {"Across Y", "win.section('y')"},
+                                          {"Across Z", "win.section('z')"}, {"Other side", "win.section('flip')"},
+                                          {"Box", "win.section('box')"},    {"None", "win.section('none')"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cuts); i++)
+        g_menu_append(section, cuts[i][0], cuts[i][1]);
     g_menu_append_submenu(look, "View from", G_MENU_MODEL(views));
+    g_menu_append_submenu(look, "Section", G_MENU_MODEL(section));
     g_menu_append(look, "Fit", "win.fit");
     g_menu_append(look, "Parallel projection", "win.parallel");
     g_menu_append(look, "Walk", "win.walk");
@@ -492,7 +547,7 @@ static GMenuModel *make_menu(void)
     g_menu_append_section(menu, NULL, G_MENU_MODEL(look));
     g_menu_append_section(menu, NULL, G_MENU_MODEL(copy));
     g_menu_append_section(menu, NULL, G_MENU_MODEL(end));
-    GMenu *all[] = {views, look, copy, end};
+    GMenu *all[] = {views, section, look, copy, end};
     for (size_t i = 0; i < G_N_ELEMENTS(all); i++)
         g_object_unref(all[i]);
     return G_MENU_MODEL(menu);
@@ -568,13 +623,15 @@ static GtkWidget *make_middle(ViewWindow *w)
     name_it(w->progress, "Reading the model");
     gtk_overlay_set_child(GTK_OVERLAY(overlay), w->pages);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), w->progress);
+    gtk_overlay_add_overlay(GTK_OVERLAY(overlay), cube_new(w->document));
     w->status = gtk_label_new("");
     gtk_label_set_xalign(GTK_LABEL(w->status), 0);
     gtk_label_set_ellipsize(GTK_LABEL(w->status), PANGO_ELLIPSIZE_END);
     gtk_widget_add_css_class(w->status, "dim-label");
     gtk_widget_set_margin_start(w->status, 6);
     gtk_box_append(GTK_BOX(box), overlay);
-    gtk_box_append(GTK_BOX(box), timeline_new(w->document));
+    w->timeline = timeline_new(w->document);
+    gtk_box_append(GTK_BOX(box), w->timeline);
     gtk_box_append(GTK_BOX(box), w->status);
     return box;
 }

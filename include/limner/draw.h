@@ -80,11 +80,16 @@ typedef struct lmn_draw_desc {
     /* Of lmn_draw with an adopted context: picture and maps stay on the GPU, as textures that limner/host.h names, and
      * nothing is read back. Not with `profile`. Since 0.1. */
     bool textures;
+    /* For pictures that the next one replaces at once, while somebody turns a model: what costs most and shows least is
+     * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes. Not for sheets, which
+     * have no pixels. Since 0.1. */
+    bool draft;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
-            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0}, {0}, false \
+            0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0}, {0},       \
+            false, false                                                                                               \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window, or one that draws in the caller's (adopt).

@@ -281,6 +281,7 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->anchor = s->plan.box;
     f->seed = desc->seed;
     f->time_s = desc->time_s;
+    f->draft = desc->draft;
     f->keeps_depth = options->keeps_depth;
     if (!options->maps)
         s->out = gpu_target_acquire(r->g, desc->width, desc->height, GPU_RGBA8);

@@ -29,6 +29,7 @@ typedef struct frame {
     gpu_profile          profile;
     frame_maps          *maps; /* collects the figures' buffers when not NULL */
     gpu_texture         *page, *page_depth;
+    bool                 draft;       /* lmn_draw_desc.draft */
     bool                 keeps_depth; /* of the page, for who asks after frame_draw */
     gpu_texture         *kept_depth;  /* with keeps_depth: the page's; the caller's to release */
     gpu_texture

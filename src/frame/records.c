@@ -83,7 +83,7 @@ void records_run(frame *f, figure_state *s, const pass *p, const technique_use *
 {
     /* Movers and mirrors are drawn in other moments and halves of the scene than the store's; of layers each would
      * have to look for its own. */
-    if (f->mirror || s->figure->mover || s->figure->layered || gpu_failed(f->g))
+    if (f->draft || f->mirror || s->figure->mover || s->figure->layered || gpu_failed(f->g))
         return;
     stopwatch     w = watch_start(&f->profile);
     stroke_store *store = find_store(f);
