@@ -18,12 +18,13 @@ typedef struct listener {
 } listener;
 
 struct document {
-    scene_ref *scene;
-    GPtrArray *steps; /* of step */
-    guint      now;
-    GArray    *listeners;
-    uint32_t   selected;
-    bool       step_ended;
+    scene_ref  *scene;
+    GPtrArray  *steps; /* of step */
+    guint       now;
+    GArray     *listeners;
+    uint32_t    selected;
+    node_handle handle;
+    bool        step_ended;
 };
 
 /* --- references ------------------------------------------------------------------------------------------ */
@@ -35,6 +36,7 @@ static void scene_clear(void *data)
     g_strfreev(s->paths);
     lmn_text_free(s->json);
     g_array_unref(s->boxes);
+    g_clear_pointer(&s->edited, g_array_unref);
 }
 
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
@@ -53,6 +55,16 @@ scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
         g_array_append_val(s->boxes, box);
     }
     return s;
+}
+
+lmn_status scene_ref_edit(scene_ref *s, const GArray *edits, lmn_error *error)
+{
+    if (s->edited == edits)
+        return LMN_OK;
+    lmn_status status = solid_edits_apply(s->scene, s->edited, edits, error);
+    g_clear_pointer(&s->edited, g_array_unref);
+    s->edited = edits ? g_array_ref((GArray *)edits) : NULL;
+    return status;
 }
 
 scene_ref *scene_ref_take(scene_ref *s)
@@ -108,6 +120,8 @@ view_state *state_copy(const view_state *s)
         look_ref_take(s->look);
     if (s->hidden)
         g_array_ref(s->hidden);
+    if (s->edits)
+        g_array_ref(s->edits);
     out->clip = g_strdup(s->clip);
     return out;
 }
@@ -119,6 +133,8 @@ void state_free(view_state *s)
     look_ref_drop(s->look);
     if (s->hidden)
         g_array_unref(s->hidden);
+    if (s->edits)
+        g_array_unref(s->edits);
     g_free(s->clip);
     g_free(s);
 }
@@ -238,6 +254,7 @@ static unsigned difference(const view_state *a, const view_state *b)
     out |= a->look != b->look ? DOCUMENT_LOOK : 0;
     out |= memcmp(&a->view, &b->view, sizeof a->view) != 0 ? DOCUMENT_VIEW : 0;
     out |= a->hidden != b->hidden ? DOCUMENT_PARTS : 0;
+    out |= a->edits != b->edits ? DOCUMENT_SOLIDS : 0;
     out |= a->timed != b->timed || a->time_s != b->time_s || g_strcmp0(a->clip, b->clip) != 0 ? DOCUMENT_TIME : 0;
     return out;
 }
@@ -327,6 +344,7 @@ static void forget_files(document *d, const scene_ref *scene, int width, int hei
     s->view = orbit_make(scene->info.up);
     orbit_fit(&s->view, scene->info.bounds_min, scene->info.bounds_max, width, height);
     g_clear_pointer(&s->hidden, g_array_unref);
+    g_clear_pointer(&s->edits, g_array_unref);
     g_clear_pointer(&s->clip, g_free);
     s->timed = false;
     s->time_s = 0;
@@ -468,4 +486,28 @@ void document_select(document *d, uint32_t part)
 uint32_t document_selected(const document *d)
 {
     return d->selected;
+}
+
+/* --- solids ---------------------------------------------------------------------------------------------- */
+
+void document_set_handle(document *d, const node_handle *handle)
+{
+    if (memcmp(&d->handle, handle, sizeof *handle) == 0)
+        return;
+    d->handle = *handle;
+    tell(d, DOCUMENT_SELECTED);
+}
+
+const node_handle *document_handle(const document *d)
+{
+    return &d->handle;
+}
+
+void document_edit_solid(document *d, const solid_edit *edit, const char *what)
+{
+    view_state *s = state_copy(document_state(d));
+    GArray     *edits = solid_edits_with(s->edits, edit);
+    g_clear_pointer(&s->edits, g_array_unref);
+    s->edits = edits;
+    change(d, s, what, DOCUMENT_SOLIDS);
 }

@@ -7,15 +7,20 @@
 #include <glib.h>
 
 #include "orbit.h"
+#include "solid_edits.h"
 
 /* A scene, its files and what lists show of it; shared and never changed but by the artist (solids). */
 typedef struct scene_ref {
     lmn_scene     *scene;
     GStrv          paths;
     lmn_scene_info info;
-    char          *json;  /* lmn_scene_info_json */
-    GArray        *boxes; /* of double[6]: the bounds of each part, as they were read */
+    char          *json;   /* lmn_scene_info_json */
+    GArray        *boxes;  /* of double[6]: the bounds of each part, as they were read */
+    GArray        *edited; /* what was done to its solids; the artist's own; NULL: nothing */
 } scene_ref;
+/* Makes the scene's solids as a state has them. On the artist's thread. */
+lmn_status scene_ref_edit(scene_ref *s, const GArray *edits, lmn_error *error);
+
 /* Takes the scene. */
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths);
 scene_ref *scene_ref_take(scene_ref *s);
@@ -37,7 +42,8 @@ typedef struct view_state {
     GArray   *hidden; /* of uint32_t: the parts that are not drawn, by number, rising; NULL: none */
     bool      timed;  /* drawn at `time_s`, else at rest */
     double    time_s;
-    char     *clip; /* as lmn_draw_desc.clip */
+    char     *clip;  /* as lmn_draw_desc.clip */
+    GArray   *edits; /* of solid_edit; NULL: none */
     uint32_t  seed;
 } view_state;
 
@@ -50,8 +56,9 @@ typedef enum document_change {
     DOCUMENT_VIEW = 4,
     DOCUMENT_PARTS = 8, /* what is hidden */
     DOCUMENT_TIME = 16,
-    DOCUMENT_HISTORY = 32, /* what can be undone */
-    DOCUMENT_SELECTED = 64 /* the marked part */
+    DOCUMENT_HISTORY = 32,  /* what can be undone */
+    DOCUMENT_SELECTED = 64, /* the marked part or node */
+    DOCUMENT_SOLIDS = 128   /* where nodes of solids stand */
 } document_change;
 typedef void (*document_listener)(document *d, unsigned changes, void *user);
 
@@ -84,6 +91,17 @@ void      document_put_look(document *d, lmn_look *look, const char *what);
 /* The part that is marked in lists and in the picture; 0: none. Not a part of the state. */
 void     document_select(document *d, uint32_t part);
 uint32_t document_selected(const document *d);
+
+/* The node of a solid that is marked, and where its handles are. Not a part of the state. */
+typedef struct node_handle {
+    solid_edit edit; /* node 0: none is marked */
+    double     at[3];
+    double     above[16]; /* the product of the matrices above it */
+} node_handle;
+void               document_set_handle(document *d, const node_handle *handle);
+const node_handle *document_handle(const document *d);
+/* Puts a node elsewhere. */
+void document_edit_solid(document *d, const solid_edit *edit, const char *what);
 
 bool        document_undo(document *d);
 bool        document_redo(document *d);

@@ -17,6 +17,8 @@ typedef struct shown {
     bool        whole;   /* as good as it becomes, of the state as it is */
 } shown;
 
+typedef enum handle_kind { HANDLE_NONE = 0, HANDLE_SECTION, HANDLE_NODE } handle_kind;
+
 struct _Picture {
     GtkWidget      widget;
     document      *document; /* NULL after picture_close */
@@ -26,7 +28,8 @@ struct _Picture {
     double         divider; /* 0 … 1 */
     bool           divider_held;
     section        section, section_begin; /* the look's, and as it was when a drag began */
-    int            handle;                 /* of the section that is held, -1: none */
+    handle_kind    handle;                 /* what is held */
+    node_handle    node_begin;             /* the marked node when a drag began */
     section_handle held;
     pace           pace;
     guint          rest; /* the timer until the whole picture */
@@ -70,7 +73,9 @@ static lmn_status draw_view(artist_job *base, lmn_renderer *renderer, lmn_error 
     desc.progress = artist_goes_on;
     desc.progress_user = base;
     gint64     from = g_get_monotonic_time();
-    lmn_status status = lmn_draw(&j->drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
+    lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    if (status == LMN_OK)
+        status = lmn_draw(&j->drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
     j->ms = (double)(g_get_monotonic_time() - from) / 1e3;
     g_free(selector);
     return status;
@@ -217,13 +222,15 @@ static void document_changed(document *d, unsigned changes, void *user)
 {
     (void)d;
     Picture *p = user;
+    if (changes & DOCUMENT_SELECTED)
+        gtk_widget_queue_draw(GTK_WIDGET(p));
     if (changes & DOCUMENT_LOOK) {
         read_section(p);
         gtk_widget_queue_draw(GTK_WIDGET(p));
     }
     if (changes & DOCUMENT_LOOK)
         p->pace = (pace){p->pace.level, 0, false};
-    if (changes & (DOCUMENT_SCENE | DOCUMENT_LOOK | DOCUMENT_VIEW | DOCUMENT_PARTS | DOCUMENT_TIME))
+    if (changes & (DOCUMENT_SCENE | DOCUMENT_LOOK | DOCUMENT_VIEW | DOCUMENT_PARTS | DOCUMENT_TIME | DOCUMENT_SOLIDS))
         refresh(p);
 }
 
@@ -248,33 +255,66 @@ static bool near_divider(const Picture *p, double x)
     return p->other && fabs(x - p->divider * gtk_widget_get_width(GTK_WIDGET(p))) < COMPARE_HANDLE;
 }
 
-/* --- the section's handles -------------------------------------------------------------------------------- */
+/* --- handles --------------------------------------------------------------------------------------------- */
 
-static int find_handles(const Picture *p, section_handle out[SECTION_HANDLES])
+/* Of the marked node of a solid: one along each axis of the scene, a fixed way from its middle. */
+static int node_handles(const Picture *p, section_handle out[3])
 {
-    double box_min[3], box_max[3];
-    if (!has_view(p) || p->section.kind == SECTION_NONE)
+    enum { ARM = 56 };
+    const node_handle *h = document_handle(p->document);
+    int                width = MAX(1, gtk_widget_get_width(GTK_WIDGET(p))), count = 0;
+    int                height = MAX(1, gtk_widget_get_height(GTK_WIDGET(p)));
+    orbit              o = view_of(p);
+    double             middle[2];
+    if (!h->edit.node || !orbit_project(&o, h->at, width, height, middle))
         return 0;
-    orbit o = view_of(p);
-    state_bounds(document_state(p->document), document_scene(p->document), box_min, box_max);
-    return section_handles(&p->section, box_min, box_max, &o, MAX(1, gtk_widget_get_width(GTK_WIDGET(p))),
-                           MAX(1, gtk_widget_get_height(GTK_WIDGET(p))), out);
+    for (int k = 0; k < 3; k++) {
+        double beside[3] = {h->at[0], h->at[1], h->at[2]}, at[2], by = o.distance / 100;
+        beside[k] += by;
+        if (!orbit_project(&o, beside, width, height, at))
+            continue;
+        section_handle handle = {.axis = k, .step = {(at[0] - middle[0]) / by, (at[1] - middle[1]) / by}};
+        double         length = hypot(handle.step[0], handle.step[1]);
+        for (int i = 0; i < 2; i++)
+            handle.at[i] = middle[i] + (length > 0 ? handle.step[i] / length * ARM : 0);
+        out[count++] = handle;
+    }
+    return count;
 }
 
-static int handle_at(Picture *p, double x, double y)
+/* Those of the section, then those of the marked node, from *nodes on. */
+static int find_handles(const Picture *p, section_handle out[SECTION_HANDLES + 3], int *nodes)
 {
-    section_handle handles[SECTION_HANDLES];
-    int            count = find_handles(p, handles);
-    for (int i = 0; i < count; i++)
+    double box_min[3], box_max[3];
+    int    count = 0;
+    *nodes = 0;
+    if (!has_view(p))
+        return 0;
+    if (p->section.kind != SECTION_NONE) {
+        orbit o = view_of(p);
+        state_bounds(document_state(p->document), document_scene(p->document), box_min, box_max);
+        count = section_handles(&p->section, box_min, box_max, &o, MAX(1, gtk_widget_get_width(GTK_WIDGET(p))),
+                                MAX(1, gtk_widget_get_height(GTK_WIDGET(p))), out);
+    }
+    *nodes = count;
+    return count + node_handles(p, out + count);
+}
+
+static handle_kind handle_at(Picture *p, double x, double y)
+{
+    section_handle handles[SECTION_HANDLES + 3];
+    int            nodes, count = find_handles(p, handles, &nodes);
+    for (int i = count - 1; i >= 0; i--)
         if (hypot(handles[i].at[0] - x, handles[i].at[1] - y) <= HANDLE_RADIUS + 3) {
             p->held = handles[i];
             p->section_begin = p->section;
-            return i;
+            p->node_begin = *document_handle(p->document);
+            return i < nodes ? HANDLE_SECTION : HANDLE_NODE;
         }
-    return -1;
+    return HANDLE_NONE;
 }
 
-static void drag_handle(Picture *p, double x, double y)
+static void drag_section(Picture *p, double x, double y)
 {
     section   s = p->section;
     char      text[SECTION_TEXT_MAX];
@@ -288,20 +328,23 @@ static void drag_handle(Picture *p, double x, double y)
         lmn_look_destroy(&look);
 }
 
-static void read_section(Picture *p)
+static void drag_node(Picture *p, double x, double y)
 {
-    char      text[LMN_VALUE_TEXT_MAX] = "";
-    lmn_error error = {0};
-    lmn_look_get_text(document_state(p->document)->look->look, LMN_WHOLE_LOOK, "scene", 0, "cut", text, sizeof text,
-                      &error);
-    p->section = section_parse(text);
+    const section_handle *h = &p->held;
+    double                squared = h->step[0] * h->step[0] + h->step[1] * h->step[1], shift[3] = {0, 0, 0};
+    if (squared <= 0)
+        return;
+    solid_edit edit = p->node_begin.edit;
+    shift[h->axis] = (x * h->step[0] + y * h->step[1]) / squared;
+    solid_shift(p->node_begin.edit.matrix, p->node_begin.above, shift, edit.matrix);
+    document_edit_solid(p->document, &edit, "Move solid");
 }
 
 static void snapshot_handles(Picture *p, GtkSnapshot *snapshot)
 {
     static const GdkRGBA colours[3] = {{0.85f, 0.2f, 0.2f, 1}, {0.15f, 0.6f, 0.2f, 1}, {0.15f, 0.4f, 0.9f, 1}};
-    section_handle       handles[SECTION_HANDLES];
-    int                  count = find_handles(p, handles);
+    section_handle       handles[SECTION_HANDLES + 3];
+    int                  nodes, count = find_handles(p, handles, &nodes);
     for (int i = 0; i < count; i++) {
         const section_handle *h = &handles[i];
         const float           r = HANDLE_RADIUS;
@@ -309,12 +352,21 @@ static void snapshot_handles(Picture *p, GtkSnapshot *snapshot)
         GskRoundedRect        round;
         const float           widths[4] = {2, 2, 2, 2};
         const GdkRGBA         white = {1, 1, 1, 1}, rims[4] = {white, white, white, white};
-        gsk_rounded_rect_init_from_rect(&round, &box, r);
+        gsk_rounded_rect_init_from_rect(&round, &box, i < nodes ? r : 3);
         gtk_snapshot_push_rounded_clip(snapshot, &round);
         gtk_snapshot_append_color(snapshot, &colours[h->axis], &box);
         gtk_snapshot_pop(snapshot);
         gtk_snapshot_append_border(snapshot, &round, widths, rims);
     }
+}
+
+static void read_section(Picture *p)
+{
+    char      text[LMN_VALUE_TEXT_MAX] = "";
+    lmn_error error = {0};
+    lmn_look_get_text(document_state(p->document)->look->look, LMN_WHOLE_LOOK, "scene", 0, "cut", text, sizeof text,
+                      &error);
+    p->section = section_parse(text);
 }
 
 /* --- pointer --------------------------------------------------------------------------------------------- */
@@ -325,7 +377,7 @@ static void drag_begin(GtkGestureDrag *gesture, double x, double y, gpointer use
     GdkModifierType keys = gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
     guint           button = gtk_gesture_single_get_current_button(GTK_GESTURE_SINGLE(gesture));
     p->pans = button == GDK_BUTTON_MIDDLE || button == GDK_BUTTON_SECONDARY || (keys & GDK_SHIFT_MASK);
-    p->handle = button == GDK_BUTTON_PRIMARY ? handle_at(p, x, y) : -1;
+    p->handle = button == GDK_BUTTON_PRIMARY ? handle_at(p, x, y) : HANDLE_NONE;
     p->divider_held = button == GDK_BUTTON_PRIMARY && near_divider(p, x);
     p->last_x = 0;
     p->last_y = 0;
@@ -351,8 +403,8 @@ static void drag_update(GtkGestureDrag *gesture, double x, double y, gpointer us
         return;
     }
     note_input(p);
-    if (p->handle >= 0) {
-        drag_handle(p, x, y);
+    if (p->handle != HANDLE_NONE) {
+        (p->handle == HANDLE_SECTION ? drag_section : drag_node)(p, x, y);
         return;
     }
     orbit o = view_of(p);
@@ -402,9 +454,9 @@ static void hovered(GtkEventControllerMotion *motion, double x, double y, gpoint
     Picture *p = user;
     p->hover_x = x;
     p->hover_y = y;
-    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x)        ? "col-resize"
-                                                   : handle_at(p, x, y) >= 0 ? "grab"
-                                                                             : NULL);
+    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x)                  ? "col-resize"
+                                                   : handle_at(p, x, y) != HANDLE_NONE ? "grab"
+                                                                                       : NULL);
 }
 
 static void pinched(GtkGestureZoom *zoom, double scale, gpointer user)
@@ -690,7 +742,6 @@ static void add_controllers(Picture *p)
 static void picture_init(Picture *p)
 {
     p->divider = 0.5;
-    p->handle = -1;
     p->pace.level = 1;
     gtk_widget_set_focusable(GTK_WIDGET(p), TRUE);
     gtk_widget_set_hexpand(GTK_WIDGET(p), TRUE);

@@ -11,8 +11,10 @@
 #include "parts.h"
 #include "picture.h"
 #include "section.h"
+#include "solids.h"
 #include "timeline.h"
 #include "trace.h"
+#include "words.h"
 
 struct _ViewWindow {
     AdwApplicationWindow parent;
@@ -598,10 +600,43 @@ static GtkWidget *make_panel(ViewWindow *w)
     return box;
 }
 
+static gboolean drop_menu(gpointer popover)
+{
+    gtk_widget_unparent(popover);
+    return G_SOURCE_REMOVE;
+}
+
+/* Its action runs after it has closed. */
+static void menu_closed(GtkPopover *popover, gpointer user)
+{
+    (void)user;
+    g_idle_add(drop_menu, popover);
+}
+
 static void picture_said(Picture *p, const char *text, gpointer user)
 {
     (void)p;
     gtk_label_set_text(GTK_LABEL(LIMNER_VIEW_WINDOW(user)->status), text);
+}
+
+/* What can be done with the part below the pointer. */
+static void picture_menu(Picture *p, double x, double y, guint part, gpointer user)
+{
+    (void)user;
+    GMenu *menu = g_menu_new();
+    if (part) {
+        g_menu_append(menu, _("Hide"), "win.hide");
+        g_menu_append(menu, _("Show alone"), "win.alone");
+    }
+    g_menu_append(menu, _("Show all parts"), "win.show-all");
+    g_menu_append(menu, _("Fit"), "win.fit");
+    GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+    gtk_widget_set_parent(popover, GTK_WIDGET(p));
+    gtk_popover_set_pointing_to(GTK_POPOVER(popover), &(GdkRectangle){(int)x, (int)y, 1, 1});
+    gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
+    g_signal_connect(popover, "closed", G_CALLBACK(menu_closed), NULL);
+    gtk_popover_popup(GTK_POPOVER(popover));
+    g_object_unref(menu);
 }
 
 static GtkWidget *make_middle(ViewWindow *w)
@@ -613,6 +648,7 @@ static GtkWidget *make_middle(ViewWindow *w)
     adw_status_page_set_icon_name(ADW_STATUS_PAGE(empty), "document-open-symbolic");
     w->picture = picture_new(w->document, w->artist);
     g_signal_connect_object(w->picture, "status", G_CALLBACK(picture_said), w, 0);
+    g_signal_connect_object(w->picture, "menu", G_CALLBACK(picture_menu), w, 0);
     w->pages = gtk_stack_new();
     gtk_stack_add_named(GTK_STACK(w->pages), empty, "empty");
     gtk_stack_add_named(GTK_STACK(w->pages), w->picture, "picture");
@@ -682,7 +718,10 @@ static void view_window_init(ViewWindow *w)
     g_action_map_add_action_entries(G_ACTION_MAP(w), actions, G_N_ELEMENTS(actions), w);
     GtkWidget *middle = make_middle(w);
     GtkWidget *right = make_flap(make_panel(w), middle, GTK_PACK_END);
-    GtkWidget *left = make_flap(parts_new(w->document), right, GTK_PACK_START);
+    GtkWidget *lists = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+    gtk_paned_set_start_child(GTK_PANED(lists), parts_new(w->document));
+    gtk_paned_set_end_child(GTK_PANED(lists), solids_new(w->document));
+    GtkWidget *left = make_flap(lists, right, GTK_PACK_START);
     w->toasts = adw_toast_overlay_new();
     adw_toast_overlay_set_child(ADW_TOAST_OVERLAY(w->toasts), left);
     gtk_widget_set_vexpand(w->toasts, TRUE);
