@@ -340,11 +340,34 @@ static void drag_node(Picture *p, double x, double y)
     document_edit_solid(p->document, &edit, "Move solid");
 }
 
+/* From the node's middle to its handles. */
+static void snapshot_arms(Picture *p, GtkSnapshot *snapshot, const section_handle *handles, int count)
+{
+    double middle[2];
+    int    width = gtk_widget_get_width(GTK_WIDGET(p)), height = gtk_widget_get_height(GTK_WIDGET(p));
+    if (count == 0 || width <= 0 || height <= 0)
+        return;
+    orbit    o = view_of(p);
+    cairo_t *cr = gtk_snapshot_append_cairo(snapshot, &GRAPHENE_RECT_INIT(0, 0, (float)width, (float)height));
+    orbit_project(&o, document_handle(p->document)->at, width, height, middle);
+    for (int round = 0; round < 2; round++) {
+        cairo_set_line_width(cr, round ? 2 : 4);
+        cairo_set_source_rgba(cr, round ? 0.2 : 1, round ? 0.2 : 1, round ? 0.2 : 1, 0.9);
+        for (int i = 0; i < count; i++) {
+            cairo_move_to(cr, middle[0], middle[1]);
+            cairo_line_to(cr, handles[i].at[0], handles[i].at[1]);
+        }
+        cairo_stroke(cr);
+    }
+    cairo_destroy(cr);
+}
+
 static void snapshot_handles(Picture *p, GtkSnapshot *snapshot)
 {
     static const GdkRGBA colours[3] = {{0.85f, 0.2f, 0.2f, 1}, {0.15f, 0.6f, 0.2f, 1}, {0.15f, 0.4f, 0.9f, 1}};
     section_handle       handles[SECTION_HANDLES + 3];
     int                  nodes, count = find_handles(p, handles, &nodes);
+    snapshot_arms(p, snapshot, handles + nodes, count - nodes);
     for (int i = 0; i < count; i++) {
         const section_handle *h = &handles[i];
         const float           r = HANDLE_RADIUS;
