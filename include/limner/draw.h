@@ -81,8 +81,8 @@ typedef struct lmn_draw_desc {
      * nothing is read back. Not with `profile`. Since 0.1. */
     bool textures;
     /* For pictures that the next one replaces at once, while somebody turns a model: what costs most and shows least is
-     * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes. Not for sheets, which
-     * have no pixels. Since 0.1. */
+     * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes. Sheets do not heed
+     * it. Since 0.1. */
     bool draft;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \

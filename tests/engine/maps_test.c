@@ -63,6 +63,47 @@ static lmn_drawing *draw(bool orthographic, bool maps)
     return drawing;
 }
 
+/* Drafts show the same surfaces, and lines in the same places; only how exactly these lie is left out. */
+static void drafts_have_the_same_lines(void **state)
+{
+    (void)state;
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    lmn_look     *look = NULL;
+    lmn_drawing  *drawings[2] = {NULL, NULL};
+    uint32_t     *ids[2];
+    float        *edges[2];
+    int           lines[2] = {0, 0}, alike = 0;
+    DO(lmn_look_load(&look, "edges", &error));
+    desc.width = WIDTH;
+    desc.height = HEIGHT;
+    desc.samples = 1;
+    desc.maps = true;
+    for (int i = 0; i < 2; i++) {
+        desc.draft = i == 1;
+        DO(lmn_draw(&drawings[i], renderer, scene, look, &desc, &error));
+        ids[i] = calloc(PIXELS, sizeof *ids[i]);
+        edges[i] = calloc(PIXELS, 4 * sizeof *edges[i]);
+        DO(lmn_drawing_copy_map(drawings[i], LMN_MAP_ID, ids[i], PIXELS, &error));
+        DO(lmn_drawing_copy_map(drawings[i], LMN_MAP_EDGE, edges[i], 4 * PIXELS, &error));
+    }
+    assert_memory_equal(ids[0], ids[1], PIXELS * sizeof *ids[0]);
+    for (int k = 0; k < PIXELS; k++) {
+        for (int i = 0; i < 2; i++)
+            lines[i] += edges[i][4 * k + 2] < 0.5f;
+        alike += fabsf(edges[0][4 * k + 2] - edges[1][4 * k + 2]) < 0.01f;
+    }
+    assert_true(lines[0] > 100);
+    assert_in_range(lines[1], lines[0] * 8 / 10, lines[0] * 12 / 10);
+    assert_true(alike > PIXELS * 8 / 10);
+    assert_true(alike < PIXELS); /* else it would cost what a whole picture does */
+    for (int i = 0; i < 2; i++) {
+        free(ids[i]);
+        free(edges[i]);
+        lmn_drawing_destroy(&drawings[i]);
+    }
+    lmn_look_destroy(&look);
+}
+
 /* What is picked lies on the box's front, and is put where it was picked. */
 static void picks(bool orthographic)
 {
@@ -201,9 +242,12 @@ static void refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(picks_in_perspective), cmocka_unit_test(picks_by_parallel_rays),
-        cmocka_unit_test(rectangles),           cmocka_unit_test(maps_are_those_of_files),
-        cmocka_unit_test(the_camera),           cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(drafts_have_the_same_lines),
+                                       cmocka_unit_test(picks_in_perspective),
+                                       cmocka_unit_test(picks_by_parallel_rays),
+                                       cmocka_unit_test(rectangles),
+                                       cmocka_unit_test(maps_are_those_of_files),
+                                       cmocka_unit_test(the_camera),
+                                       cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
