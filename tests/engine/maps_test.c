@@ -77,6 +77,7 @@ static void drafts_have_the_same_lines(void **state)
     desc.width = WIDTH;
     desc.height = HEIGHT;
     desc.samples = 1;
+    desc.dpi = 144;
     desc.maps = true;
     for (int i = 0; i < 2; i++) {
         desc.draft = i == 1;
