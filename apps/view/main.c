@@ -1,4 +1,5 @@
 /* limner-viewer: the program behind `limner view`. */
+#include "shortcuts.h"
 #include "trace.h"
 #include "window.h"
 
@@ -23,44 +24,11 @@ static void open_files(GApplication *application, GFile **files, int count, cons
 static void activate(GApplication *application, gpointer user)
 {
     (void)user;
-    gtk_window_present(GTK_WINDOW(view_window_new(ADW_APPLICATION(application))));
-}
-
-static void add_keys(GtkApplication *application)
-{
-    static const struct {
-        const char *action, *keys[3];
-    } rows[] = {
-        {"win.open", {"<Control>o"}},
-        {"win.export", {"<Control>e"}},
-        {"win.save-look", {"<Control>s"}},
-        {"win.undo", {"<Control>z"}},
-        {"win.redo", {"<Control><Shift>z", "<Control>y"}},
-        {"win.fit", {"<Control>0", "Home"}},
-        {"win.view('front')", {"<Control>1"}},
-        {"win.view('back')", {"<Control>2"}},
-        {"win.view('left')", {"<Control>3"}},
-        {"win.view('right')", {"<Control>4"}},
-        {"win.view('top')", {"<Control>5"}},
-        {"win.view('bottom')", {"<Control>6"}},
-        {"win.view('iso')", {"<Control>7"}},
-        {"win.parallel", {"<Control>p"}},
-        {"win.walk", {"<Control>g"}},
-        {"win.turntable", {"<Control>t"}},
-        {"win.compare", {"<Control>b"}},
-        {"win.hide", {"<Control>h"}},
-        {"win.alone", {"<Control>i"}},
-        {"win.show-all", {"<Control><Shift>h"}},
-        {"win.copy-command", {"<Control><Shift>c"}},
-        {"win.copy-picture", {"<Control>c"}},
-        {"win.keys", {"<Control>question", "F1"}},
-        {"win.play", {"<Control>space"}},
-        {"app.new", {"<Control>n"}},
-        {"window.close", {"<Control>w"}},
-        {"app.quit", {"<Control>q"}},
-    };
-    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++)
-        gtk_application_set_accels_for_action(application, rows[i].action, rows[i].keys);
+    ViewWindow *w = view_window_new(ADW_APPLICATION(application));
+    gtk_window_present(GTK_WINDOW(w));
+    /* Without files it goes on where it was left, but only in the first window. */
+    if (!gtk_application_get_windows(GTK_APPLICATION(application))->next)
+        view_window_go_on(w);
 }
 
 static void new_window(GSimpleAction *action, GVariant *parameter, gpointer application)
@@ -85,7 +53,7 @@ static void startup(GApplication *application, gpointer user)
     (void)user;
     static const GActionEntry actions[] = {{.name = "new", .activate = new_window}, {.name = "quit", .activate = quit}};
     g_action_map_add_action_entries(G_ACTION_MAP(application), actions, G_N_ELEMENTS(actions), application);
-    add_keys(GTK_APPLICATION(application));
+    shortcuts_add(GTK_APPLICATION(application));
 }
 
 int main(int count, char **arguments)

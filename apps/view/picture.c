@@ -203,7 +203,8 @@ static gboolean at_rest(gpointer data)
 /* Something is different: a picture soon, the whole one when nothing has come for a while. */
 static void refresh(Picture *p)
 {
-    if (!p->document || !document_scene(p->document) || !gtk_widget_get_mapped(GTK_WIDGET(p)))
+    if (!p->document || !document_scene(p->document) || !gtk_widget_get_mapped(GTK_WIDGET(p)) ||
+        gtk_widget_get_width(GTK_WIDGET(p)) == 0)
         return;
     p->revision++;
     if (!p->input_at)

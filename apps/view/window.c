@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "cameras.h"
 #include "command.h"
 #include "controls.h"
 #include "cube.h"
@@ -11,6 +12,8 @@
 #include "parts.h"
 #include "picture.h"
 #include "section.h"
+#include "session.h"
+#include "shortcuts.h"
 #include "solids.h"
 #include "timeline.h"
 #include "trace.h"
@@ -26,6 +29,9 @@ struct _ViewWindow {
     bool                 reloads; /* the same files, seen from where one is */
     GPtrArray           *watches; /* of GFileMonitor */
     guint                reload, turntable;
+    GtkWidget           *left, *right; /* flaps around the picture */
+    GMenu               *cameras, *recent;
+    session              restored; /* until it is shown */
 };
 G_DEFINE_TYPE(ViewWindow, view_window, ADW_TYPE_APPLICATION_WINDOW)
 
@@ -38,7 +44,13 @@ document *view_window_document(ViewWindow *w)
 
 void view_window_picture_size(ViewWindow *w, int *width, int *height)
 {
+    /* Before a model is there the picture has no room of its own yet, but that of the page it will take. */
     picture_size(LIMNER_PICTURE(w->picture), width, height);
+    if (gtk_widget_get_width(w->picture) == 0 && gtk_widget_get_width(w->pages) > 0) {
+        int scale = gtk_widget_get_scale_factor(w->pages);
+        *width = gtk_widget_get_width(w->pages) * scale;
+        *height = MAX(1, gtk_widget_get_height(w->pages) * scale);
+    }
 }
 
 void view_window_say(ViewWindow *w, const char *text)
@@ -55,6 +67,38 @@ void view_window_say_error(ViewWindow *w, const lmn_error *error)
                                  *error->hint ? " – " : "", error->hint);
     view_window_say(w, text);
     g_free(text);
+}
+
+/* --- menus that change ----------------------------------------------------------------------------------- */
+
+static void list_cameras(ViewWindow *w)
+{
+    GMenu *menu = cameras_menu(document_scene(w->document));
+    g_menu_remove_all(w->cameras);
+    g_menu_append_section(w->cameras, NULL, G_MENU_MODEL(menu));
+    g_object_unref(menu);
+}
+
+static void list_recent(ViewWindow *w)
+{
+    enum { SHOWN = 10 };
+    GList *items = gtk_recent_manager_get_items(gtk_recent_manager_get_default());
+    int    count = 0;
+    g_menu_remove_all(w->recent);
+    for (GList *i = items; i && count < SHOWN; i = i->next) {
+        char *path = gtk_recent_info_has_application(i->data, g_get_application_name())
+                         ? g_filename_from_uri(gtk_recent_info_get_uri(i->data), NULL, NULL)
+                         : NULL;
+        if (path) {
+            GMenuItem *item = g_menu_item_new(gtk_recent_info_get_display_name(i->data), NULL);
+            g_menu_item_set_action_and_target(item, "win.recent", "s", path);
+            g_menu_append_item(w->recent, item);
+            g_object_unref(item);
+            count++;
+        }
+        g_free(path);
+    }
+    g_list_free_full(items, (GDestroyNotify)gtk_recent_info_unref);
 }
 
 /* --- files ----------------------------------------------------------------------------------------------- */
@@ -139,6 +183,11 @@ static void loaded(GObject *source, GAsyncResult *result, gpointer user)
             trace_event("loaded parts=%zu reload=%d", scene->info.parts, w->reloads);
             gtk_stack_set_visible_child_name(GTK_STACK(w->pages), "picture");
             document_set_scene(w->document, scene_ref_take(scene), !w->reloads, width, height);
+            if (w->restored.has_view && !w->reloads)
+                document_set_view(w->document, &w->restored.view, "Restore");
+            w->restored.has_view = false;
+            list_cameras(w);
+            list_recent(w);
         } else if (error.status != LMN_CANCELLED) {
             trace_event("not-loaded %s", error.message);
             view_window_say_error(w, &error);
@@ -180,6 +229,44 @@ static void open_again(ViewWindow *w)
 {
     if (w->loading_paths)
         load(w, document_scene(w->document) != NULL);
+}
+
+void view_window_go_on(ViewWindow *w)
+{
+    lmn_error error = {0};
+    lmn_look *look = NULL;
+    if (w->restored.look && lmn_look_parse(&look, w->restored.look, "session", &error) == LMN_OK) {
+        char *name = g_strdup(lmn_look_name(look));
+        document_set_look(w->document, look_ref_make(look, name ? name : "edges"), "Restore");
+        g_free(name);
+    }
+    if (w->restored.paths && w->restored.paths[0] && g_file_test(w->restored.paths[0], G_FILE_TEST_EXISTS))
+        view_window_open(w, (const char *const *)w->restored.paths);
+    else
+        w->restored.has_view = false;
+}
+
+static void keep_session(ViewWindow *w)
+{
+    session          s = {.maximized = gtk_window_is_maximized(GTK_WINDOW(w))};
+    const scene_ref *scene = document_scene(w->document);
+    char            *json = lmn_look_json(document_state(w->document)->look->look);
+    gtk_window_get_default_size(GTK_WINDOW(w), &s.width, &s.height);
+    s.paths = scene ? scene->paths : NULL;
+    s.look = json;
+    s.view = document_state(w->document)->view;
+    s.has_view = scene != NULL;
+    s.lists = adw_flap_get_reveal_flap(ADW_FLAP(w->left));
+    s.panel = adw_flap_get_reveal_flap(ADW_FLAP(w->right));
+    session_write(&s);
+    lmn_text_free(json);
+}
+
+static gboolean closing(GtkWindow *window, gpointer user)
+{
+    (void)user;
+    keep_session(LIMNER_VIEW_WINDOW(window));
+    return FALSE;
 }
 
 static void file_chosen(GtkNativeDialog *dialog, int response, gpointer user)
@@ -456,6 +543,32 @@ ACTION(do_section)
     }
 }
 
+static document *document_of(GObject *window)
+{
+    return LIMNER_VIEW_WINDOW(window)->document;
+}
+
+ACTION(do_camera)
+{
+    (void)action;
+    ViewWindow *w = user;
+    cameras_go(G_OBJECT(w), document_of, w->artist, (scene_ref *)document_scene(w->document),
+               document_state(w->document), g_variant_get_string(value, NULL));
+}
+
+ACTION(do_keys)
+{
+    UNUSED;
+    shortcuts_show(GTK_WINDOW(user));
+}
+
+ACTION(do_recent)
+{
+    (void)action;
+    const char *paths[] = {g_variant_get_string(value, NULL), NULL};
+    view_window_open(user, paths);
+}
+
 ACTION(do_play)
 {
     UNUSED;
@@ -470,6 +583,9 @@ static const GActionEntry actions[] = {
     {.name = "view", .activate = do_view, .parameter_type = "s"},
     {.name = "export", .activate = do_export},
     {.name = "section", .activate = do_section, .parameter_type = "s"},
+    {.name = "camera", .activate = do_camera, .parameter_type = "s"},
+    {.name = "recent", .activate = do_recent, .parameter_type = "s"},
+    {.name = "keys", .activate = do_keys},
     {.name = "play", .activate = do_play},
     {.name = "show-all", .activate = do_show_all},
     {.name = "hide", .activate = do_hide},
@@ -495,7 +611,8 @@ static void document_changed(document *d, unsigned changes, void *user)
     enable(w, "redo", document_redo_name(d) != NULL);
     enable(w, "hide", part);
     enable(w, "alone", part);
-    static const char *const of_scene[] = {"fit", "view", "export", "copy-command", "copy-c", "parallel", "compare"};
+    static const char *const of_scene[] = {"fit",          "view",   "section",  "camera", "export",
+                                           "copy-command", "copy-c", "parallel", "compare"};
     for (size_t i = 0; i < G_N_ELEMENTS(of_scene); i++)
         enable(w, of_scene[i], scene);
     if (changes & DOCUMENT_VIEW)
@@ -519,7 +636,7 @@ static GtkWidget *button(const char *icon, const char *name, const char *action)
     return out;
 }
 
-static GMenuModel *make_menu(void)
+static GMenuModel *make_menu(ViewWindow *w)
 {
     GMenu *menu = g_menu_new(), *views = g_menu_new(), *look = g_menu_new(), *copy = g_menu_new(), *end = g_menu_new();
     GMenu *section = g_menu_new();
@@ -536,6 +653,8 @@ static GMenuModel *make_menu(void)
         g_menu_append(section, cuts[i][0], cuts[i][1]);
     g_menu_append_submenu(look, "View from", G_MENU_MODEL(views));
     g_menu_append_submenu(look, "Section", G_MENU_MODEL(section));
+    g_menu_append_submenu(look, "Cameras", G_MENU_MODEL(w->cameras));
+    g_menu_append_submenu(look, "Recent files", G_MENU_MODEL(w->recent));
     g_menu_append(look, "Fit", "win.fit");
     g_menu_append(look, "Parallel projection", "win.parallel");
     g_menu_append(look, "Walk", "win.walk");
@@ -544,6 +663,7 @@ static GMenuModel *make_menu(void)
     g_menu_append(look, "Show all parts", "win.show-all");
     g_menu_append(copy, "Copy as command", "win.copy-command");
     g_menu_append(copy, "Copy as C", "win.copy-c");
+    g_menu_append(end, "Keys", "win.keys");
     g_menu_append(end, "New window", "app.new");
     g_menu_append(end, "Quit", "app.quit");
     g_menu_append_section(menu, NULL, G_MENU_MODEL(look));
@@ -563,7 +683,7 @@ static GtkWidget *make_header(ViewWindow *w, GtkWidget *left, GtkWidget *right)
     adw_header_bar_set_title_widget(ADW_HEADER_BAR(bar), w->title);
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
     name_it(menu, "Main menu");
-    GMenuModel *model = make_menu();
+    GMenuModel *model = make_menu(w);
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
     g_object_unref(model);
     gtk_button_set_icon_name(GTK_BUTTON(parts), "sidebar-show-symbolic");
@@ -690,9 +810,12 @@ static void view_window_dispose(GObject *object)
     g_clear_handle_id(&w->reload, g_source_remove);
     g_clear_handle_id(&w->turntable, g_source_remove);
     g_clear_pointer(&w->watches, g_ptr_array_unref);
+    g_clear_object(&w->cameras);
+    g_clear_object(&w->recent);
     if (w->loading)
         g_cancellable_cancel(w->loading);
     g_clear_pointer(&w->loading_paths, g_strfreev);
+    session_clear(&w->restored);
     if (w->picture)
         picture_close(LIMNER_PICTURE(w->picture));
     if (w->gallery)
@@ -714,6 +837,8 @@ static void view_window_init(ViewWindow *w)
     w->artist = artist_start();
     if (!w->document || !w->artist)
         g_error("limner: there is no memory for a window");
+    w->cameras = g_menu_new();
+    w->recent = g_menu_new();
     w->watches = g_ptr_array_new_with_free_func(stop_watch);
     g_action_map_add_action_entries(G_ACTION_MAP(w), actions, G_N_ELEMENTS(actions), w);
     GtkWidget *middle = make_middle(w);
@@ -729,7 +854,17 @@ static void view_window_init(ViewWindow *w)
     gtk_box_append(GTK_BOX(box), make_header(w, left, right));
     gtk_box_append(GTK_BOX(box), w->toasts);
     adw_application_window_set_content(ADW_APPLICATION_WINDOW(w), box);
-    gtk_window_set_default_size(GTK_WINDOW(w), 1280, 900);
+    w->left = left;
+    w->right = right;
+    w->restored = session_read();
+    adw_flap_set_reveal_flap(ADW_FLAP(left), w->restored.lists);
+    adw_flap_set_reveal_flap(ADW_FLAP(right), w->restored.panel);
+    gtk_window_set_default_size(GTK_WINDOW(w), w->restored.width > 0 ? w->restored.width : 1280,
+                                w->restored.height > 0 ? w->restored.height : 900);
+    if (w->restored.maximized)
+        gtk_window_maximize(GTK_WINDOW(w));
+    g_signal_connect(w, "close-request", G_CALLBACK(closing), NULL);
+    list_recent(w);
     GtkDropTarget *drop = gtk_drop_target_new(GDK_TYPE_FILE_LIST, GDK_ACTION_COPY);
     g_signal_connect(drop, "drop", G_CALLBACK(dropped), w);
     gtk_widget_add_controller(GTK_WIDGET(w), GTK_EVENT_CONTROLLER(drop));

@@ -15,6 +15,9 @@ ViewWindow *view_window_new(AdwApplication *application);
 /* Reads files and shows them when they are there. */
 void view_window_open(ViewWindow *w, const char *const *paths);
 
+/* Shows what was shown when a window was closed last. */
+void view_window_go_on(ViewWindow *w);
+
 /* A short message over the picture. */
 void view_window_say(ViewWindow *w, const char *text);
 void view_window_say_error(ViewWindow *w, const lmn_error *error);

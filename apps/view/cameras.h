@@ -1,0 +1,17 @@
+/* The cameras of the files. */
+#ifndef LIMNER_VIEW_CAMERAS_H
+#define LIMNER_VIEW_CAMERAS_H
+
+#include <gio/gio.h>
+
+#include "artist.h"
+#include "document.h"
+
+/* A menu of them, each an action "win.camera('NAME')"; empty when there are none. */
+GMenu *cameras_menu(const scene_ref *scene);
+
+/* Looks through one. `owner` is held until it is done; `document` is asked for then, and may be NULL by that time. */
+void cameras_go(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                const view_state *state, const char *name);
+
+#endif
