@@ -365,6 +365,7 @@ GtkWidget *parts_new(document *d)
     gtk_box_append(GTK_BOX(box), p->count);
     gtk_box_append(GTK_BOX(box), make_buttons());
     gtk_widget_set_size_request(box, 220, -1);
+    gtk_widget_set_hexpand(box, FALSE);
     g_object_set_data_full(G_OBJECT(box), "parts", p, parts_free);
     document_listen(d, document_changed, p);
     fill(p);

@@ -711,12 +711,14 @@ static GtkWidget *make_panel(ViewWindow *w)
     adw_view_stack_add_titled(ADW_VIEW_STACK(stack), w->gallery, "looks", "Looks");
     adw_view_stack_add_titled(ADW_VIEW_STACK(stack), controls_new(w->document), "controls", "Controls");
     adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), w->gallery), "view-grid-symbolic");
+    adw_view_stack_set_hhomogeneous(ADW_VIEW_STACK(stack), FALSE);
     adw_view_switcher_bar_set_stack(ADW_VIEW_SWITCHER_BAR(bar), ADW_VIEW_STACK(stack));
     adw_view_switcher_bar_set_reveal(ADW_VIEW_SWITCHER_BAR(bar), TRUE);
     gtk_widget_set_vexpand(stack, TRUE);
     gtk_box_append(GTK_BOX(box), stack);
     gtk_box_append(GTK_BOX(box), bar);
-    gtk_widget_set_size_request(box, 330, -1);
+    gtk_widget_set_size_request(box, 348, -1);
+    gtk_widget_set_hexpand(box, FALSE); /* whatever is in it: the room is the picture's */
     return box;
 }
 
