@@ -169,9 +169,12 @@ static void build_groups(controls *c)
     lmn_kind_info kind;
     g_ptr_array_set_size(c->groups, 0);
     clear(c->list);
-    for (size_t i = 0; i < lmn_kind_count() && lmn_kind_at(i, &kind); i++) {
+    /* What is of the rule comes before what is of the whole look. */
+    for (size_t i = 0; i < 2 * lmn_kind_count() && lmn_kind_at(i % lmn_kind_count(), &kind); i++) {
         size_t rule = kind.whole_look ? LMN_WHOLE_LOOK : c->rule;
         size_t count = lmn_look_technique_count(look_of(c), rule, kind.name);
+        if (kind.whole_look != (i >= lmn_kind_count()))
+            continue;
         if (count == 0)
             add_group(c, &kind, rule, 0, NULL);
         for (size_t k = 0; k < count; k++)

@@ -169,14 +169,14 @@ control_row *control_row_new(const lmn_param_info *info, const place *where, con
     r->set = setter;
     r->owner = owner;
     param_title(info->key, title, sizeof title);
+    const char *unit = param_unit_text(info->unit);
+    if (*unit)
+        snprintf(title + strlen(title), sizeof title - strlen(title), " (%s)", unit);
     char *text = g_strdup_printf("%s %s %s", title, info->key, info->doc);
     r->folded = g_utf8_casefold(text, -1);
     g_free(text);
     r->row = adw_action_row_new();
     adw_preferences_row_set_title(ADW_PREFERENCES_ROW(r->row), title);
-    const char *unit = param_unit_text(info->unit);
-    if (*unit)
-        adw_action_row_set_subtitle(ADW_ACTION_ROW(r->row), unit);
     gtk_widget_set_tooltip_text(r->row, info->doc);
     make_widgets(r);
     r->reset = gtk_button_new_from_icon_name("edit-clear-symbolic");

@@ -42,6 +42,11 @@ document *view_window_document(ViewWindow *w)
     return w->document;
 }
 
+artist *view_window_artist(ViewWindow *w)
+{
+    return w->artist;
+}
+
 void view_window_picture_size(ViewWindow *w, int *width, int *height)
 {
     /* Before a model is there the picture has no room of its own yet, but that of the page it will take. */
@@ -706,11 +711,13 @@ static GtkWidget *make_header(ViewWindow *w, GtkWidget *left, GtkWidget *right)
 static GtkWidget *make_panel(ViewWindow *w)
 {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0), *stack = adw_view_stack_new();
-    GtkWidget *bar = adw_view_switcher_bar_new();
+    GtkWidget *bar = adw_view_switcher_bar_new(), *controls = controls_new(w->document);
     w->gallery = gallery_new(w->document, w->artist);
     adw_view_stack_add_titled(ADW_VIEW_STACK(stack), w->gallery, "looks", "Looks");
-    adw_view_stack_add_titled(ADW_VIEW_STACK(stack), controls_new(w->document), "controls", "Controls");
+    adw_view_stack_add_titled(ADW_VIEW_STACK(stack), controls, "controls", "Controls");
     adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), w->gallery), "view-grid-symbolic");
+    adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), controls),
+                                      "preferences-other-symbolic");
     adw_view_stack_set_hhomogeneous(ADW_VIEW_STACK(stack), FALSE);
     adw_view_switcher_bar_set_stack(ADW_VIEW_SWITCHER_BAR(bar), ADW_VIEW_STACK(stack));
     adw_view_switcher_bar_set_reveal(ADW_VIEW_SWITCHER_BAR(bar), TRUE);

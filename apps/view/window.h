@@ -24,6 +24,7 @@ void view_window_say_error(ViewWindow *w, const lmn_error *error);
 
 /* Of these the window consists; for its panels and dialogs. */
 document *view_window_document(ViewWindow *w);
+artist   *view_window_artist(ViewWindow *w);
 void      view_window_picture_size(ViewWindow *w, int *width, int *height);
 
 #endif

@@ -1,0 +1,538 @@
+/* What the viewer does without a window: cameras, states and their history, sections, edits of solids, sliders, the
+ * thread that draws, and that the command a person copies draws what an export writes, byte for byte. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "artist.h"
+#include "command.h"
+#include "controls_value.h"
+#include "document.h"
+#include "export_work.h"
+#include "pace.h"
+#include "section.h"
+#include "solid_edits.h"
+
+static lmn_error error;
+
+#define DO(call)                                                                                                       \
+    do {                                                                                                               \
+        if ((call) != LMN_OK)                                                                                          \
+            fail_msg("%s: %s", #call, error.message);                                                                  \
+    } while (0)
+
+static void assert_close(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance))
+        fail_msg("%.12g is not %.12g", a, b);
+}
+
+static scene_ref *load(const char *name)
+{
+    lmn_scene  *scene = NULL;
+    char       *path = g_build_filename(EXAMPLES, name, NULL);
+    const char *paths[] = {path, NULL};
+    DO(lmn_scene_create(&scene, &error));
+    DO(lmn_scene_add_file(scene, path, NULL, &error));
+    scene_ref *out = scene_ref_make(scene, paths);
+    g_free(path);
+    return out;
+}
+
+/* --- cameras --------------------------------------------------------------------------------------------- */
+
+/* The named views look along the same directions as those of the library, with Y and with Z up. */
+static void named_views_are_the_library_s(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"pump.glb", "csg/widget.csg"};
+    lmn_renderer            *renderer = NULL;
+    lmn_look                *look = NULL;
+    lmn_renderer_desc        rd = LMN_RENDERER_DESC_INIT;
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(lmn_look_load(&look, "plain", &error));
+    for (int f = 0; f < 2; f++) {
+        scene_ref *scene = load(files[f]);
+        for (int v = LMN_VIEW_ISO; v <= LMN_VIEW_BOTTOM; v++) {
+            lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+            lmn_drawing  *drawing = NULL;
+            double        view[16], projection[16], right[3], up[3], forward[3];
+            orbit         o = orbit_make(scene->info.up);
+            desc.width = desc.height = 16;
+            desc.view = (lmn_view)v;
+            DO(lmn_draw(&drawing, renderer, scene->scene, look, &desc, &error));
+            lmn_drawing_camera(drawing, view, projection);
+            lmn_drawing_destroy(&drawing);
+            orbit_turn_to(&o, (lmn_view)v);
+            orbit_axes(&o, right, up, forward);
+            for (int k = 0; k < 3; k++) {
+                assert_close(right[k], view[4 * k], 1e-9);
+                assert_close(up[k], view[4 * k + 1], 1e-9);
+                assert_close(forward[k], -view[4 * k + 2], 1e-9);
+            }
+        }
+        scene_ref_drop(scene);
+    }
+    lmn_look_destroy(&look);
+    lmn_renderer_destroy(&renderer);
+}
+
+static orbit turned(bool orthographic)
+{
+    orbit        o = orbit_make('z');
+    const double low[3] = {-1, -2, 0}, high[3] = {3, 1, 2};
+    o.orthographic = orthographic;
+    orbit_turn(&o, 130, -40, 600);
+    orbit_fit(&o, low, high, 800, 600);
+    return o;
+}
+
+/* All of the box is on the picture, and it fills nine tenths of it one way. */
+static void fitting_fills_the_picture(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < 2; flat++) {
+        orbit  o = turned(flat);
+        double reach = 0;
+        for (int i = 0; i < 8; i++) {
+            const double corner[3] = {i & 1 ? 3 : -1, i & 2 ? 1 : -2, i & 4 ? 2 : 0};
+            double       at[2];
+            assert_true(orbit_project(&o, corner, 800, 600, at));
+            reach = fmax(reach, fmax(fabs(at[0] / 400 - 1), fabs(at[1] / 300 - 1)));
+        }
+        assert_close(reach, 0.9, 1e-9);
+    }
+}
+
+/* What is below the pointer stays there: rays of a pixel before and after meet in the target's depth. */
+static void zoom_and_pan_follow_the_pointer(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < 2; flat++) {
+        orbit  o = turned(flat);
+        double origin[3], ray[3], point[3], at[2];
+        orbit_ray(&o, 650, 130, 800, 600, origin, ray);
+        for (int k = 0; k < 3; k++)
+            point[k] = origin[k] + ray[k] * o.distance;
+        assert_true(orbit_project(&o, point, 800, 600, at));
+        assert_close(at[0], 650, 1e-6);
+        assert_close(at[1], 130, 1e-6);
+        orbit_zoom(&o, 0.6, 650, 130, 800, 600);
+        assert_true(orbit_project(&o, point, 800, 600, at));
+        assert_close(at[0], 650, 1e-6);
+        assert_close(at[1], 130, 1e-6);
+        orbit_pan(&o, -90, 45, 600);
+        assert_true(orbit_project(&o, point, 800, 600, at));
+        assert_close(at[0], 560, 1e-6);
+        assert_close(at[1], 175, 1e-6);
+    }
+}
+
+static void looking_around_keeps_the_eye(void **state)
+{
+    (void)state;
+    orbit  o = turned(false), placed = orbit_make('z');
+    double before[3], after[3];
+    orbit_eye(&o, before);
+    orbit_look(&o, 75, 20, 600);
+    orbit_eye(&o, after);
+    for (int k = 0; k < 3; k++)
+        assert_close(after[k], before[k], 1e-9);
+    orbit_place(&placed, after, o.target);
+    assert_close(placed.yaw, o.yaw, 1e-9);
+    assert_close(placed.pitch, o.pitch, 1e-9);
+    assert_close(placed.distance, o.distance, 1e-9);
+}
+
+/* --- states ---------------------------------------------------------------------------------------------- */
+
+static void count_change(document *d, unsigned changes, void *user)
+{
+    (void)d;
+    *(unsigned *)user |= changes;
+}
+
+static void everything_is_undone_and_redone(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    unsigned  told = 0;
+    document_listen(d, count_change, &told);
+    document_set_scene(d, load("pump.glb"), true, 640, 480);
+    assert_null(document_undo_name(d));
+    orbit begin = document_state(d)->view, o = begin;
+    for (int i = 0; i < 5; i++) { /* one drag */
+        orbit_turn(&o, 10, 0, 480);
+        document_set_view(d, &o, "Turn");
+    }
+    const uint32_t parts[] = {2, 5};
+    document_show_parts(d, parts, 2, false);
+    assert_true(document_is_hidden(d, 5));
+    lmn_look *look = document_copy_look(d, &error);
+    DO(lmn_look_set(look, "lines.width", "4", &error));
+    document_put_look(d, look, "lines.width");
+    told = 0;
+    assert_true(document_undo(d));
+    assert_true(told & DOCUMENT_LOOK && !(told & DOCUMENT_VIEW));
+    assert_true(document_undo(d));
+    assert_false(document_is_hidden(d, 5));
+    assert_true(document_undo(d));
+    assert_memory_equal(&document_state(d)->view, &begin, sizeof begin);
+    assert_false(document_undo(d));
+    for (int i = 0; i < 3; i++)
+        assert_true(document_redo(d));
+    assert_false(document_redo(d));
+    assert_true(document_is_hidden(d, 2));
+    double width = 0;
+    DO(lmn_look_get_number(document_state(d)->look->look, 0, "lines", 0, "width", &width, &error));
+    assert_close(width, 4, 1e-6);
+    /* A change after going back: what was undone is gone. */
+    document_undo(d);
+    document_show_all(d);
+    assert_null(document_redo_name(d));
+    document_free(d);
+}
+
+static void selectors_say_what_is_shown(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("pump.glb"), true, 640, 480);
+    assert_null(state_selector(document_state(d), document_scene(d)));
+    const uint32_t parts[] = {3, 7};
+    document_show_parts(d, parts, 2, false);
+    char *text = state_selector(document_state(d), document_scene(d));
+    assert_string_equal(text, "![id=3] ![id=7]");
+    g_free(text);
+    document_show_alone(d, parts, 2);
+    text = state_selector(document_state(d), document_scene(d));
+    assert_string_equal(text, "[id=3], [id=7]");
+    g_free(text);
+    double low[3], high[3];
+    state_bounds(document_state(d), document_scene(d), low, high);
+    const double *box = (const double *)(const void *)document_scene(d)->boxes->data + 6 * 2;
+    for (int k = 0; k < 3; k++)
+        assert_true(low[k] <= box[k] && high[k] >= box[3 + k] && low[k] >= document_scene(d)->info.bounds_min[k]);
+    document_free(d);
+}
+
+/* --- sections, solids, sliders, pace --------------------------------------------------------------------- */
+
+static void sections_are_read_and_written(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x=30%", "-z=62.5%", "box=10%,20%,30%:40%,50%,60%"};
+    char                     out[SECTION_TEXT_MAX];
+    for (int i = 0; i < 3; i++) {
+        section s = section_parse(texts[i]);
+        section_write(&s, out);
+        assert_string_equal(out, texts[i]);
+    }
+    assert_int_equal(section_parse("").kind, SECTION_NONE);
+    assert_int_equal(section_parse("1,1,0@0,0,5").kind, SECTION_OTHER);
+    assert_int_equal(section_parse("x;y").kind, SECTION_OTHER);
+    /* A handle that is dragged to where the plane would be at 80 % says so. */
+    section        s = section_parse("x=50%"), begin = s;
+    section_handle handles[SECTION_HANDLES];
+    orbit          o = turned(false);
+    const double   low[3] = {-1, -2, 0}, high[3] = {3, 1, 2}, wanted[3] = {-1 + 4 * 0.8, -0.5, 1};
+    double         at[2];
+    assert_int_equal(section_handles(&s, low, high, &o, 800, 600, handles), 1);
+    assert_true(orbit_project(&o, wanted, 800, 600, at));
+    section_drag(&s, &handles[0], &begin, at[0] - handles[0].at[0], at[1] - handles[0].at[1]);
+    assert_close(s.high[0], 80, 8); /* a perspective; steps are those at 50 % */
+    s = section_parse(texts[2]);
+    assert_int_equal(section_handles(&s, low, high, &o, 800, 600, handles), 6);
+}
+
+/* A node below turned and scaled ones moves by as much of the scene as it is told. */
+static void nodes_move_in_the_scene_s_axes(void **state)
+{
+    (void)state;
+    const double above[16] = {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 1.5, 0, 7, 8, 9, 1};
+    const double own[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}, shift[3] = {0.5, -1, 2};
+    double       moved[16], a[16], b[16];
+    solid_shift(own, above, shift, moved);
+    matrix_multiply(above, own, a);
+    matrix_multiply(above, moved, b);
+    for (int k = 0; k < 3; k++)
+        assert_close(b[12 + k] - a[12 + k], shift[k], 1e-12);
+    const double p[3] = {1, 2, 3};
+    double       q[3], back[3];
+    matrix_move_point(above, p, q);
+    assert_true(matrix_solve_point(above, q, back));
+    for (int k = 0; k < 3; k++)
+        assert_close(back[k], p[k], 1e-12);
+}
+
+static void edits_of_solids_are_taken_back(void **state)
+{
+    (void)state;
+    scene_ref     *scene = load("csg/widget.csg");
+    uint32_t       solid = lmn_scene_solid_at(scene->scene, 0);
+    lmn_solid_info before, now;
+    assert_true(lmn_solid_info_of(scene->scene, solid, LMN_SOLID_ROOT, &before));
+    solid_edit edit = {.solid = solid, .node = LMN_SOLID_ROOT};
+    memcpy(edit.original, before.matrix, sizeof edit.original);
+    memcpy(edit.matrix, before.matrix, sizeof edit.matrix);
+    edit.matrix[12] += 3;
+    GArray *edits = solid_edits_with(NULL, &edit);
+    DO(scene_ref_edit(scene, edits, &error));
+    assert_true(lmn_solid_info_of(scene->scene, solid, LMN_SOLID_ROOT, &now));
+    assert_close(now.matrix[12], before.matrix[12] + 3, 1e-12);
+    DO(scene_ref_edit(scene, NULL, &error));
+    assert_true(lmn_solid_info_of(scene->scene, solid, LMN_SOLID_ROOT, &now));
+    assert_close(now.matrix[12], before.matrix[12], 1e-12);
+    g_array_unref(edits);
+    scene_ref_drop(scene);
+}
+
+static void sliders_go_there_and_back(void **state)
+{
+    (void)state;
+    lmn_kind_info      kind;
+    lmn_technique_info technique;
+    lmn_param_info     param;
+    int                logarithmic = 0;
+    for (size_t k = 0; lmn_kind_at(k, &kind); k++)
+        for (size_t t = 0; lmn_technique_at(kind.name, t, &technique); t++)
+            for (size_t p = 0; lmn_param_at(kind.name, technique.name, p, &param); p++) {
+                if (param.type != LMN_PARAM_FLOAT || !(param.soft_max > param.soft_min))
+                    continue;
+                logarithmic += param.logarithmic;
+                assert_close(slider_value(&param, 0), param.soft_min, 0);
+                assert_close(slider_value(&param, 1), param.soft_max, 0);
+                for (double at = 0.1; at < 1; at += 0.2) {
+                    double value = slider_value(&param, at);
+                    assert_true(value >= param.min && value <= param.max);
+                    assert_close(slider_position(&param, value), at, 0.02);
+                }
+            }
+    assert_true(logarithmic > 3);
+}
+
+static void slow_pictures_become_smaller_and_fast_ones_larger(void **state)
+{
+    (void)state;
+    pace   p = {0};
+    double at_first = pace_scale(&p);
+    pace_told(&p, 900); /* compiles */
+    assert_close(pace_scale(&p), at_first, 0);
+    for (int i = 0; i < 12; i++)
+        pace_told(&p, 90 * pace_scale(&p) * pace_scale(&p));
+    assert_true(90 * pace_scale(&p) * pace_scale(&p) <= 40 && pace_scale(&p) > 0.45);
+    for (int i = 0; i < 40; i++)
+        pace_told(&p, 8 * pace_scale(&p) * pace_scale(&p));
+    assert_close(pace_scale(&p), 1, 0);
+}
+
+/* --- the thread that draws ------------------------------------------------------------------------------- */
+
+typedef struct test_job {
+    artist_job job;
+    int        number;
+} test_job;
+
+static GString *drawn;
+static gint     entered, let_go;
+
+static lmn_status note_job(artist_job *base, lmn_renderer *renderer, lmn_error *e)
+{
+    (void)e;
+    test_job *j = (test_job *)base;
+    if (!renderer)
+        return LMN_GL;
+    if (j->number == 0) { /* long work: until it is told to stop, or let go */
+        g_atomic_int_set(&entered, 1);
+        while (!g_atomic_int_get(&let_go)) {
+            if (!artist_goes_on(0.5, "", base))
+                return LMN_CANCELLED;
+            g_usleep(1000);
+        }
+    }
+    return LMN_OK;
+}
+
+static void note_done(artist_job *base, lmn_status status, const lmn_error *e)
+{
+    (void)e;
+    g_string_append_printf(drawn, "%d%s ", ((test_job *)base)->number, status == LMN_OK ? "" : "!");
+}
+
+static void free_job(artist_job *base)
+{
+    g_free(base);
+}
+
+static void ask_number(artist *a, artist_urgency urgency, int slot, int number)
+{
+    test_job *j = g_new0(test_job, 1);
+    j->job = (artist_job){urgency, slot, note_job, note_done, free_job};
+    j->number = number;
+    artist_ask(a, &j->job);
+}
+
+static void wait_for(const char *wanted)
+{
+    gint64 until = g_get_monotonic_time() + 20 * G_TIME_SPAN_SECOND;
+    while (strcmp(drawn->str, wanted) != 0 && g_get_monotonic_time() < until)
+        g_main_context_iteration(NULL, FALSE);
+    assert_string_equal(drawn->str, wanted);
+}
+
+static void urgent_jobs_come_first_and_new_ones_replace_old(void **state)
+{
+    (void)state;
+    artist *a = artist_start();
+    drawn = g_string_new(NULL);
+    ask_number(a, ARTIST_REST, 1, 0);
+    while (!g_atomic_int_get(&entered))
+        g_usleep(1000);
+    ask_number(a, ARTIST_ASIDE, 7, 5);
+    ask_number(a, ARTIST_ASIDE, 7, 6);  /* instead of 5 */
+    ask_number(a, ARTIST_MOVING, 0, 1); /* 0 gives way, and goes on afterwards */
+    wait_for("1 ");
+    g_atomic_int_set(&let_go, 1);
+    wait_for("1 0 6 ");
+    artist_end(a);
+    g_string_free(drawn, TRUE);
+}
+
+/* --- commands and exports -------------------------------------------------------------------------------- */
+
+static char *folder;
+
+static void check_export(document *d, const char *name, int samples, bool transparent)
+{
+    lmn_renderer     *renderer = NULL;
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    char       *ours = g_build_filename(folder, name, NULL), *theirs = g_strdup_printf("%s/command-%s", folder, name);
+    export_wish wish = {theirs, 200, 150, samples, transparent, 0, 0, 0};
+    GStrv       words = command_words(document_state(d), document_scene(d), &wish, &error);
+    if (!words)
+        fail_msg("%s", error.message);
+    /* Through a shell, as a person pastes it. */
+    char *line = command_line((const char *const *)words + 1), *whole = g_strdup_printf("%s %s -q", COMMAND, line);
+    assert_int_equal(system(whole), 0);
+    wish.path = ours;
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(export_draw((scene_ref *)document_scene(d), document_state(d), &wish, renderer, NULL, NULL, &error));
+    lmn_renderer_destroy(&renderer);
+    char *a = NULL, *b = NULL;
+    gsize a_size = 0, b_size = 0;
+    assert_true(g_file_get_contents(ours, &a, &a_size, NULL) && g_file_get_contents(theirs, &b, &b_size, NULL));
+    assert_true(a_size > 200 && a_size == b_size && memcmp(a, b, a_size) == 0);
+    unlink(ours);
+    unlink(theirs);
+    g_free(a);
+    g_free(b);
+    g_free(ours);
+    g_free(theirs);
+    g_free(line);
+    g_free(whole);
+    g_strfreev(words);
+}
+
+static void set_look(document *d, const char *key, const char *value)
+{
+    lmn_look *look = document_copy_look(d, &error);
+    DO(lmn_look_set(look, key, value, &error));
+    document_put_look(d, look, g_intern_string(key));
+}
+
+static void copied_commands_draw_what_is_exported(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("pump.glb"), true, 200, 150);
+    check_export(d, "first.png", 0, false);
+    orbit o = document_state(d)->view;
+    orbit_turn(&o, 33, -7, 150);
+    orbit_zoom(&o, 0.7, 40, 90, 200, 150);
+    document_set_view(d, &o, "Turn");
+    set_look(d, "lines.width", "2.5");
+    set_look(d, "scene.cut", "box=50%,45%,0%:100%,100%,100%");
+    check_export(d, "section.png", 4, true);
+    o.orthographic = true;
+    o.fov_deg = 50;
+    document_set_view(d, &o, "Projection");
+    const uint32_t parts[] = {2, 4};
+    document_show_parts(d, parts, 2, false);
+    check_export(d, "parallel.png", 1, false);
+    /* A rule more: no --set says that, so the look is kept as a file. */
+    size_t    rule = 0;
+    lmn_look *look = document_copy_look(d, &error);
+    DO(lmn_look_set(look, "scene.cut", "", &error));
+    DO(lmn_look_add_rule(look, "[id=5]", LMN_AT_END, &rule, &error));
+    DO(lmn_look_set_technique(look, rule, "surface", 0, "toon", &error));
+    document_put_look(d, look, "Add rule");
+    assert_null(look_settings(document_state(d)->look));
+    check_export(d, "rule.png", 1, false);
+    document_set_look(d, look_ref_load("line", &error), "Look");
+    check_export(d, "drawing.svg", 0, false);
+    document_free(d);
+    d = document_make();
+    document_set_scene(d, load("fox.glb"), true, 200, 150);
+    document_set_time(d, true, 0.31, "3");
+    check_export(d, "moment.png", 1, false);
+    document_free(d);
+}
+
+static void moved_solids_are_no_command(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("csg/widget.csg"), true, 200, 150);
+    solid_edit  edit = {.solid = 1, .node = LMN_SOLID_ROOT, .matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1}};
+    export_wish wish = {.path = "x.png", .width = 10, .height = 10};
+    document_edit_solid(d, &edit, "Move solid");
+    error = (lmn_error){0};
+    assert_null(command_words(document_state(d), document_scene(d), &wish, &error));
+    assert_true(error.status == LMN_UNSUPPORTED && *error.message && *error.hint);
+    document_free(d);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    folder = g_dir_make_tmp("limner-view-XXXXXX", NULL);
+    return folder && g_setenv("XDG_DATA_HOME", folder, TRUE) ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char *command = g_strdup_printf("rm -r '%s'", folder);
+    int   status = system(command);
+    g_free(command);
+    g_free(folder);
+    return status;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(named_views_are_the_library_s),
+        cmocka_unit_test(fitting_fills_the_picture),
+        cmocka_unit_test(zoom_and_pan_follow_the_pointer),
+        cmocka_unit_test(looking_around_keeps_the_eye),
+        cmocka_unit_test(everything_is_undone_and_redone),
+        cmocka_unit_test(selectors_say_what_is_shown),
+        cmocka_unit_test(sections_are_read_and_written),
+        cmocka_unit_test(nodes_move_in_the_scene_s_axes),
+        cmocka_unit_test(edits_of_solids_are_taken_back),
+        cmocka_unit_test(sliders_go_there_and_back),
+        cmocka_unit_test(slow_pictures_become_smaller_and_fast_ones_larger),
+        cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),
+        cmocka_unit_test(copied_commands_draw_what_is_exported),
+        cmocka_unit_test(moved_solids_are_no_command),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
