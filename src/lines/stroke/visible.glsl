@@ -8,7 +8,7 @@ const float ROUNDING = 2e-6, SLOPE = 0.35;
 /* So much deeper than a pixel at the bottom of a valley may it be in truth, steps of the lesser wall. */
 const float VALLEY = 1.0;
 /* So much of what is around a position shows nothing nearer. */
-const float ENOUGH = 0.25;
+const float ENOUGH = 0.1;
 
 float depth_at(vec2 pixel)
 {
