@@ -55,11 +55,13 @@ enum { LINES_CROWD_WIDTHS = 6 };
 #define LINES_TILES      TARGET_OWN(5) /* 1: a tile that lines may reach */
 #define LINES_SEEDS      TARGET_OWN(6) /* lines/seed.glsl */
 #define LINES_PAIRS      TARGET_OWN(7) /* lines/edge/pairs.frag */
-#define LINES_BARE       TARGET_OWN(8) /* r: of outlines, g: of others; 0 beside edges that are drawn already, else 1 */
-#define LINES_THIN       TARGET_OWN(9) /* the edge map, two pixels wide, of what is not drawn already */
-#define LINES_WHOLE      TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
-#define LINES_STYLED     TARGET_OWN(11) /* the same, run on and cut short */
-#define LINES_CROWD      TARGET_OWN(12) /* r: length of lines around, pixels in a square pixel */
+#define LINES_BARE                                                                                                     \
+    TARGET_OWN(8) /* 0 beside edges that are drawn already, else 1; r: of outlines, g: of others, b: of a piece's      \
+                     steps beside its creases */
+#define LINES_THIN   TARGET_OWN(9)  /* the edge map, two pixels wide, of what is not drawn already */
+#define LINES_WHOLE  TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
+#define LINES_STYLED TARGET_OWN(11) /* the same, run on and cut short */
+#define LINES_CROWD  TARGET_OWN(12) /* r: length of lines around, pixels in a square pixel */
 enum { LINES_TARGET_COUNT = 13 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 #define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT

@@ -36,7 +36,7 @@ bool is_seen(vec3 axis, bool wanted)
 #ifdef OPEN_BODIES
     return is_on_surface(axis, wanted);
 #else
-    return is_visible(axis, wanted);
+    return is_mostly_visible(axis, wanted);
 #endif
 }
 
@@ -86,7 +86,7 @@ void main()
         discard;
     vec2 left = 1.0 - ink;
     out_edge = vec4(left.x, left.y, left.x * left.y, 1.0);
-    /* Beside a crease another edge may be an outline. */
+    /* Beside a crease another piece may have an outline. */
     float bare = d <= (max(strength.x, strength.y) >= WHOLE ? max(0.5 * u_line_width + BENEATH, RECORD_REACH) : RECORD_REACH) ? 0.0 : 1.0;
-    out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, 1.0, 1.0);
+    out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, strength.y > 0.0 ? bare : 1.0, 1.0);
 }

@@ -7,6 +7,8 @@ uniform vec2 u_far_corner; /* the last pixel */
 const float ROUNDING = 2e-6, SLOPE = 0.35;
 /* So much deeper than a pixel at the bottom of a valley may it be in truth, steps of the lesser wall. */
 const float VALLEY = 1.0;
+/* So much of what is around a position shows nothing nearer. */
+const float ENOUGH = 0.1;
 
 float depth_at(vec2 pixel)
 {
@@ -25,31 +27,56 @@ float least_wall(float here, float before, float behind, vec2 pixel, vec2 way)
     return max(0.0, min(max(here - before, before - depth_at(pixel - 2.0 * way)), max(here - behind, behind - depth_at(pixel + 2.0 * way))));
 }
 
+/* What a pixel near the position says of it. x: it shows nothing that is nearer; y: the position is hidden, whatever other pixels say. */
+bvec2 seen_beside(vec2 pixel, vec3 axis)
+{
+    const vec2 X = vec2(1.0, 0.0), Y = vec2(0.0, 1.0);
+    vec2 off = axis.xy - pixel - 0.5;
+    float here = depth_at(pixel), left = depth_at(pixel - X), right = depth_at(pixel + X), below = depth_at(pixel - Y), above = depth_at(pixel + Y);
+    vec2 slope = vec2(smaller(right - here, here - left), smaller(above - here, here - below));
+    float nearer = axis.z - here - dot(slope, off);
+    bool seen = here >= 1.0 || nearer <= ROUNDING + SLOPE * (abs(slope.x) + abs(slope.y));
+    /* What lies farther behind than any of these reach is hidden. */
+    float far = max(max(max(left, right), max(below, above)), here), near = min(min(min(left, right), min(below, above)), here);
+    bool hidden = axis.z > far + 4.0 * (far - near) + ROUNDING;
+    int valley = seen || hidden ? 0 : 1;
+    for (int once = 0; once < valley; once++) {
+        float bottom = max(least_wall(here, left, right, pixel, X), least_wall(here, below, above, pixel, Y));
+        seen = nearer <= ROUNDING + VALLEY * bottom;
+    }
+    return bvec2(seen, hidden && !seen);
+}
+
 /* One pixel a turn, the middle one first, so that most positions are decided after one; software drivers run the first turn in any case. `wanted`: whether the answer
  * matters. */
 bool is_visible(vec3 axis, bool wanted)
 {
-    const vec2 X = vec2(1.0, 0.0), Y = vec2(0.0, 1.0);
-    vec2 middle = floor(axis.xy), beside = vec2(0.0), next = X;
+    vec2 middle = floor(axis.xy), beside = vec2(0.0), next = vec2(1.0, 0.0);
     bool seen = false;
     int turns = wanted ? 9 : 0;
     for (int i = 0; i < turns; i++) {
-        vec2 pixel = middle + beside, off = axis.xy - pixel - 0.5;
-        float here = depth_at(pixel), left = depth_at(pixel - X), right = depth_at(pixel + X), below = depth_at(pixel - Y), above = depth_at(pixel + Y);
-        vec2 slope = vec2(smaller(right - here, here - left), smaller(above - here, here - below));
-        float nearer = axis.z - here - dot(slope, off);
-        seen = here >= 1.0 || nearer <= ROUNDING + SLOPE * (abs(slope.x) + abs(slope.y));
-        /* What lies farther behind than any of these reach is hidden. */
-        float far = max(max(max(left, right), max(below, above)), here), near = min(min(min(left, right), min(below, above)), here);
-        bool hidden = axis.z > far + 4.0 * (far - near) + ROUNDING;
-        int valley = seen || hidden ? 0 : 1;
-        for (int once = 0; once < valley; once++) {
-            float bottom = max(least_wall(here, left, right, pixel, X), least_wall(here, below, above, pixel, Y));
-            seen = nearer <= ROUNDING + VALLEY * bottom;
-        }
-        turns = seen || hidden ? 0 : turns;
+        bvec2 found = seen_beside(middle + beside, axis);
+        seen = found.x;
+        turns = seen || found.y ? 0 : turns;
         beside = next;
         next = vec2(sign(next.x - next.y), sign(next.x + next.y));
     }
     return seen;
+}
+
+/* The same of the four pixels whose middles are around the position, each with the weight that a bilinear sample gives it: what is hidden less than a pixel beside the rim of what
+ * hides it, or just beneath a surface that it runs into, is not seen here and there as pixels have their middles. */
+bool is_mostly_visible(vec3 axis, bool wanted)
+{
+    vec2 middle = floor(axis.xy), to = axis.xy - middle - 0.5, towards = vec2(to.x < 0.0 ? -1.0 : 1.0, to.y < 0.0 ? -1.0 : 1.0), fraction = abs(to);
+    float weight = 0.0, left = 1.0;
+    int turns = wanted ? 4 : 0;
+    for (int i = 0; i < turns; i++) {
+        vec2 aside = vec2(float(i % 2), float(i / 2)), weights = mix(1.0 - fraction, fraction, aside);
+        bvec2 found = seen_beside(middle + towards * aside, axis);
+        weight += found.x ? weights.x * weights.y : 0.0;
+        left = found.y ? 0.0 : left - weights.x * weights.y;
+        turns = weight >= ENOUGH || weight + left < ENOUGH ? 0 : turns;
+    }
+    return weight >= ENOUGH;
 }
