@@ -1,0 +1,178 @@
+"""The viewer's window, step by step as a person uses it. Arguments: VIEWER COMMAND SOURCE FOLDER."""
+import filecmp
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.dirname(__file__))
+from window import Failure, Viewer, act, centre, drag, find_below, start_display, xdo
+
+VIEWER, COMMAND, SOURCE, FOLDER = sys.argv[1:5]
+MODEL = os.path.join(FOLDER, "model.glb")
+checks = failed = 0
+
+
+def check(what, true):
+    global checks, failed
+    checks += 1
+    failed += not true
+    print(("ok   " if true else "FAIL ") + what, flush=True)
+
+
+def picture_middle(v):
+    return centre(v.find("Drawing"))
+
+
+def opened_and_turned(v):
+    v.wait("loaded parts=24")
+    v.rests()
+    x, y = picture_middle(v)
+    since = v.mark()
+    drag(x, y, 120, 30)
+    v.wait("drawn .*whole=0", since=since)
+    v.rests(since)
+    check("a drag turns: pictures while it moves, then the whole one", True)
+    since = v.mark()
+    xdo("click", 4)
+    v.rests(since)
+    check("the wheel comes nearer", True)
+
+
+def undone(v):
+    for step in ("Undo", "Redo"):
+        since = v.mark()
+        v.click(step)
+        v.rests(since)
+    check("the view is undone and redone", True)
+
+
+def look_chosen(v):
+    since = v.mark()
+    v.click("toon", "push button")
+    v.wait("chosen look=toon", since=since)
+    v.rests(since)
+    check("a look is chosen in the gallery", True)
+
+
+def part_hidden(v):
+    x, y = picture_middle(v)
+    since = v.mark()
+    xdo("mousemove", x, y, "click", 1)
+    part = int(v.wait(r"picked part=(\d+)", since=since).group(1))
+    check("a click tells the part", part > 0)
+    print(part, v.lines[-6:])
+    since = v.mark()
+    v.click("Hide")
+    v.rests(since)
+    time.sleep(0.6)  # not a double click
+    since = v.mark()
+    xdo("mousemove", x + 1, y, "click", 1)
+    check("what was hidden is not picked", int(v.wait(r"picked part=(\d+)", since=since).group(1)) != part)
+
+
+def section_cut(v):
+    since = v.mark()
+    for item in ("Main menu", "Section", "Across X"):
+        v.click(item)
+        time.sleep(0.4)
+    v.rests(since)
+    check("a section from the menu", True)
+
+
+def copied_and_exported(v):
+    since = v.mark()
+    v.click("Main menu")
+    time.sleep(0.4)
+    v.click("Copy as command")
+    line = v.wait(r"copied (limner draw .*)", since=since).group(1)
+    words = shlex.split(line)
+    check("the command has look, section and what is hidden",
+          "toon" in words and any(w.startswith("scene.cut=") for w in words) and "--select" in words)
+    ours, theirs = os.path.join(FOLDER, "ours.png"), os.path.join(FOLDER, "theirs.png")
+    words[words.index("-o") + 1] = theirs
+    subprocess.run([COMMAND] + words[1:] + ["-q"], check=True)
+    since = v.mark()
+    v.click("Export", "push button")
+    path = v.find("File", "text")
+    path.set_text_contents(ours)
+    time.sleep(0.2)
+    dialog = [w for w in v.windows() if w.get_name() == "Export"][0]
+    act(find_below(dialog, "Export", "push button"), "click")
+    v.wait("exported", since=since, seconds=30)
+    check("the exported file is the command's, byte for byte", filecmp.cmp(ours, theirs, shallow=False))
+    act(find_below(dialog, "Close", "push button"), "click")
+
+
+def watched(v):
+    since = v.mark()
+    shutil.copy(os.path.join(SOURCE, "examples", "box.glb"), MODEL)
+    v.wait("loaded parts=1 reload=1", since=since)
+    v.rests(since)
+    check("a file that changes is read again", True)
+    since = v.mark()
+    with open(MODEL, "r+b") as file:
+        file.truncate(300)
+    v.wait("not-loaded", since=since)
+    check("half of a file is an error that is said, and the last picture stays", v.process.poll() is None)
+    since = v.mark()
+    os.remove(MODEL)
+    shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
+    v.wait("loaded parts=24", since=since)
+    check("a file that comes back is read", True)
+
+
+def ends(v):
+    check("it ends with status 0", v.close() == 0)
+
+
+def goes_on_where_it_was():
+    v = Viewer(VIEWER, [])
+    v.wait("loaded parts=24")
+    v.rests()
+    check("the next start goes on with the same file", True)
+    check("it ends again", v.close() == 0)
+
+
+def says_what_is_wrong():
+    v = Viewer(VIEWER, [os.path.join(SOURCE, "README.md")])
+    v.wait("not-loaded")
+    check("what is no model is said", v.close() == 0)
+    v = Viewer(VIEWER, [MODEL], {"MESA_GL_VERSION_OVERRIDE": "3.1", "MESA_GLES_VERSION_OVERRIDE": "2.0"})
+    v.wait("failed")
+    check("a driver without OpenGL 3.3 is said", v.close() == 0)
+    environment = {k: w for k, w in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    without = subprocess.run([VIEWER, MODEL], env=environment, capture_output=True, text=True)
+    check("without a display: status 3 and what to do instead",
+          without.returncode == 3 and "limner draw" in without.stderr)
+
+
+def main():
+    server = start_display()
+    try:
+        shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
+        v = Viewer(VIEWER, [MODEL])
+        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, copied_and_exported, watched, ends):
+            try:
+                step(v)
+            except Failure as e:
+                check(f"{step.__name__}: {e}", False)
+                if v.process.poll() is not None:
+                    break
+        if v.process.poll() is None:
+            v.process.send_signal(signal.SIGKILL)
+        for step in (goes_on_where_it_was, says_what_is_wrong):
+            try:
+                step()
+            except Failure as e:
+                check(f"{step.__name__}: {e}", False)
+    finally:
+        server.terminate()
+    print(f"{checks} checks, {failed} failed")
+    return failed != 0
+
+
+sys.exit(main())
