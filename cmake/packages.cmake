@@ -7,6 +7,9 @@ set(CPACK_PACKAGE_VENDOR "Limner")
 set(CPACK_PACKAGE_CONTACT "${LIMNER_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_COMPONENTS_ALL command library development documentation python)
+if(TARGET limner_viewer)
+  list(APPEND CPACK_COMPONENTS_ALL viewer)
+endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -49,6 +52,18 @@ Outlines and hatching, blueprints, sketches, engravings and cartoons of
 3D models, as pictures, vectors and films, into memory or files.
 .
 This package has the shared library.")
+
+set(CPACK_COMPONENT_VIEWER_DEPENDS command)
+set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME limner-viewer)
+set(CPACK_DEBIAN_VIEWER_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_VIEWER_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_VIEWER_PACKAGE_RECOMMENDS adwaita-icon-theme)
+set(CPACK_COMPONENT_VIEWER_DESCRIPTION "draw 3D models the way people draw (viewer)
+Outlines and hatching, blueprints, sketches, engravings and cartoons of
+3D models: turn them, try looks, cut sections, play animations, and export
+pictures, vector drawings and films.
+.
+This package has the window behind `limner view`.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblimner-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

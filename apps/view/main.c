@@ -2,12 +2,18 @@
 #include "shortcuts.h"
 #include "trace.h"
 #include "window.h"
+#include "words.h"
+
+/* What the command line asks for. */
+typedef struct beginning {
+    char *look; /* NULL: not given */
+} beginning;
 
 static void open_files(GApplication *application, GFile **files, int count, const char *hint, gpointer user)
 {
     (void)hint;
-    (void)user;
-    GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+    const beginning *begin = user;
+    GPtrArray       *paths = g_ptr_array_new_with_free_func(g_free);
     for (int i = 0; i < count; i++) {
         char *path = g_file_get_path(files[i]);
         if (path)
@@ -16,6 +22,8 @@ static void open_files(GApplication *application, GFile **files, int count, cons
     g_ptr_array_add(paths, NULL);
     ViewWindow *w = view_window_new(ADW_APPLICATION(application));
     gtk_window_present(GTK_WINDOW(w));
+    if (begin->look)
+        view_window_set_look(w, begin->look);
     if (paths->len > 1)
         view_window_open(w, (const char *const *)paths->pdata);
     g_ptr_array_unref(paths);
@@ -23,12 +31,14 @@ static void open_files(GApplication *application, GFile **files, int count, cons
 
 static void activate(GApplication *application, gpointer user)
 {
-    (void)user;
-    ViewWindow *w = view_window_new(ADW_APPLICATION(application));
+    const beginning *begin = user;
+    ViewWindow      *w = view_window_new(ADW_APPLICATION(application));
     gtk_window_present(GTK_WINDOW(w));
     /* Without files it goes on where it was left, but only in the first window. */
     if (!gtk_application_get_windows(GTK_APPLICATION(application))->next)
         view_window_go_on(w);
+    if (begin && begin->look)
+        view_window_set_look(w, begin->look);
 }
 
 static void new_window(GSimpleAction *action, GVariant *parameter, gpointer application)
@@ -56,6 +66,14 @@ static void startup(GApplication *application, gpointer user)
     shortcuts_add(GTK_APPLICATION(application));
 }
 
+static int take_options(GApplication *application, GVariantDict *options, gpointer user)
+{
+    (void)application;
+    beginning *b = user;
+    g_variant_dict_lookup(options, "look", "s", &b->look);
+    return -1; /* go on */
+}
+
 int main(int count, char **arguments)
 {
     enum { NO_DISPLAY = 3 }; /* as the command's status where there is no driver */
@@ -65,12 +83,19 @@ int main(int count, char **arguments)
                    "hint: `limner draw` writes a picture without one\n");
         return NO_DISPLAY;
     }
+    beginning       begin = {NULL};
     AdwApplication *application =
         adw_application_new("io.github.limner.Viewer", G_APPLICATION_HANDLES_OPEN | G_APPLICATION_NON_UNIQUE);
+    static const GOptionEntry entries[] = {
+        {"look", 'l', 0, G_OPTION_ARG_STRING, NULL, N_("Look to begin with: a name or a file"), N_("NAME|FILE")},
+        {NULL}};
+    g_application_add_main_option_entries(G_APPLICATION(application), entries);
+    g_signal_connect(application, "handle-local-options", G_CALLBACK(take_options), &begin);
     g_signal_connect(application, "startup", G_CALLBACK(startup), NULL);
-    g_signal_connect(application, "activate", G_CALLBACK(activate), NULL);
-    g_signal_connect(application, "open", G_CALLBACK(open_files), NULL);
+    g_signal_connect(application, "activate", G_CALLBACK(activate), &begin);
+    g_signal_connect(application, "open", G_CALLBACK(open_files), &begin);
     int status = g_application_run(G_APPLICATION(application), count, arguments);
     g_object_unref(application);
+    g_free(begin.look);
     return status;
 }

@@ -117,8 +117,9 @@ static void follow(timeline *t)
     const view_state *s = document_state(t->document);
     char             *text = s->timed ? g_strdup_printf("%.2f s", s->time_s) : g_strdup(_("at rest"));
     t->follows = true;
-    if (s->timed && s->clip && atoi(s->clip) > 0)
-        gtk_drop_down_set_selected(GTK_DROP_DOWN(t->clips), (guint)atoi(s->clip) - 1);
+    guint64 clip = s->timed && s->clip ? g_ascii_strtoull(s->clip, NULL, 10) : 0;
+    if (clip > 0)
+        gtk_drop_down_set_selected(GTK_DROP_DOWN(t->clips), (guint)clip - 1);
     gtk_range_set_range(GTK_RANGE(t->scale), 0, fmax(end_of(t), 0.001));
     gtk_range_set_value(GTK_RANGE(t->scale), s->timed ? s->time_s : 0);
     gtk_label_set_text(GTK_LABEL(t->time), text);

@@ -3,14 +3,13 @@
 #include <glib.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 static FILE *out; /* written once, before there is a window */
 
 void trace_begin(void)
 {
     const char *fd = g_getenv("LIMNER_VIEW_TRACE");
-    out = fd ? fdopen(atoi(fd), "w") : NULL;
+    out = fd ? fdopen((int)g_ascii_strtoll(fd, NULL, 10), "w") : NULL;
 }
 
 void trace_event(const char *format, ...)

@@ -236,6 +236,16 @@ static void open_again(ViewWindow *w)
         load(w, document_scene(w->document) != NULL);
 }
 
+void view_window_set_look(ViewWindow *w, const char *name_or_path)
+{
+    lmn_error error = {0};
+    look_ref *look = look_ref_load(name_or_path, &error);
+    if (look)
+        document_set_look(w->document, look, _("Look"));
+    else
+        view_window_say_error(w, &error);
+}
+
 void view_window_go_on(ViewWindow *w)
 {
     lmn_error error = {0};

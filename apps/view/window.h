@@ -18,6 +18,9 @@ void view_window_open(ViewWindow *w, const char *const *paths);
 /* Shows what was shown when a window was closed last. */
 void view_window_go_on(ViewWindow *w);
 
+/* Draws with this look, or says why it cannot. */
+void view_window_set_look(ViewWindow *w, const char *name_or_path);
+
 /* A short message over the picture. */
 void view_window_say(ViewWindow *w, const char *text);
 void view_window_say_error(ViewWindow *w, const lmn_error *error);

@@ -64,7 +64,6 @@ def part_hidden(v):
     xdo("mousemove", x, y, "click", 1)
     part = int(v.wait(r"picked part=(\d+)", since=since).group(1))
     check("a click tells the part", part > 0)
-    print(part, v.lines[-6:])
     since = v.mark()
     v.click("Hide")
     v.rests(since)
