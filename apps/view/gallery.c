@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "look_files.h"
 #include "trace.h"
 #include "words.h"
 
@@ -253,7 +254,7 @@ static void add_looks(gallery *g)
 {
     for (size_t i = 0; i < lmn_look_count(); i++)
         add_file(g, lmn_look_name_at(i));
-    char       *folder = g_build_filename(g_get_user_data_dir(), "limner", "looks", NULL);
+    char       *folder = look_files_folder();
     GDir       *dir = g_dir_open(folder, 0, NULL);
     const char *name;
     while (dir && (name = g_dir_read_name(dir))) {

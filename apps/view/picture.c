@@ -704,6 +704,11 @@ void picture_compare(Picture *p, look_ref *look)
     gtk_widget_queue_draw(GTK_WIDGET(p));
 }
 
+GdkTexture *picture_texture(const Picture *p)
+{
+    return p->now.texture;
+}
+
 void picture_set_walking(Picture *p, bool walking)
 {
     p->walking = walking;

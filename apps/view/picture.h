@@ -21,6 +21,9 @@ void picture_compare(Picture *p, look_ref *look);
 /* The picture's size in device pixels. */
 void picture_size(const Picture *p, int *width, int *height);
 
+/* What it shows now; NULL: nothing yet. Borrowed. */
+GdkTexture *picture_texture(const Picture *p);
+
 /* Moves with the keyboard's letters and the pointer as if walking. */
 void picture_set_walking(Picture *p, bool walking);
 

@@ -9,6 +9,7 @@
 #include "export.h"
 #include "gallery.h"
 #include "load.h"
+#include "look_files.h"
 #include "parts.h"
 #include "picture.h"
 #include "section.h"
@@ -584,6 +585,29 @@ ACTION(do_recent)
     view_window_open(user, paths);
 }
 
+ACTION(do_save_look)
+{
+    UNUSED;
+    look_files_save(user);
+}
+
+ACTION(do_load_look)
+{
+    UNUSED;
+    look_files_load(user);
+}
+
+ACTION(do_copy_picture)
+{
+    UNUSED;
+    ViewWindow *w = user;
+    GdkTexture *texture = picture_texture(LIMNER_PICTURE(w->picture));
+    if (!texture)
+        return;
+    gdk_clipboard_set_texture(gtk_widget_get_clipboard(GTK_WIDGET(w)), texture);
+    view_window_say(w, _("Picture copied"));
+}
+
 ACTION(do_play)
 {
     UNUSED;
@@ -601,6 +625,9 @@ static const GActionEntry actions[] = {
     {.name = "camera", .activate = do_camera, .parameter_type = "s"},
     {.name = "recent", .activate = do_recent, .parameter_type = "s"},
     {.name = "keys", .activate = do_keys},
+    {.name = "save-look", .activate = do_save_look},
+    {.name = "load-look", .activate = do_load_look},
+    {.name = "copy-picture", .activate = do_copy_picture},
     {.name = "play", .activate = do_play},
     {.name = "show-all", .activate = do_show_all},
     {.name = "hide", .activate = do_hide},
@@ -676,6 +703,9 @@ static GMenuModel *make_menu(ViewWindow *w)
     g_menu_append(look, "Turntable", "win.turntable");
     g_menu_append(look, "Compare looks", "win.compare");
     g_menu_append(look, "Show all parts", "win.show-all");
+    g_menu_append(copy, "Save the look", "win.save-look");
+    g_menu_append(copy, "Load a look", "win.load-look");
+    g_menu_append(copy, "Copy the picture", "win.copy-picture");
     g_menu_append(copy, "Copy as command", "win.copy-command");
     g_menu_append(copy, "Copy as C", "win.copy-c");
     g_menu_append(end, "Keys", "win.keys");
