@@ -17,6 +17,7 @@
 #include "document.h"
 #include "export_work.h"
 #include "pace.h"
+#include "part_look.h"
 #include "section.h"
 #include "solid_edits.h"
 #include "stroke_sheet.h"
@@ -501,6 +502,39 @@ static void moved_solids_are_no_command(void **state)
     document_free(d);
 }
 
+/* A part that is given a look is drawn as that look draws it; given another one, it has that and no rule more. */
+static void parts_get_looks_of_their_own(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"toon", "pencil", "technical"};
+    for (int i = 0; i < 3; i++) {
+        look_ref *look = look_ref_load("edges", &error), *first = look_ref_load("hatch", &error);
+        look_ref *from = look_ref_load(names[i], &error);
+        DO(part_look_put(look->look, 4, first->look, &error));
+        DO(part_look_put(look->look, 4, from->look, &error));
+        assert_int_equal(lmn_look_rule_count(look->look), 2);
+        assert_string_equal(lmn_look_rule_selector(look->look, 1), "[id=4]");
+        lmn_kind_info kind;
+        size_t        compared = 0;
+        for (size_t k = 0; lmn_kind_at(k, &kind); k++)
+            for (size_t t = 0; !kind.whole_look && t < lmn_look_technique_count(from->look, 0, kind.name); t++) {
+                lmn_param_info param;
+                const char    *technique = lmn_look_technique(from->look, 0, kind.name, t);
+                assert_string_equal(lmn_look_technique(look->look, 1, kind.name, t), technique);
+                for (size_t p = 0; lmn_param_at(kind.name, technique, p, &param); p++, compared++) {
+                    char text[2][LMN_VALUE_TEXT_MAX];
+                    DO(lmn_look_get_text(from->look, 0, kind.name, t, param.key, text[0], sizeof *text, &error));
+                    DO(lmn_look_get_text(look->look, 1, kind.name, t, param.key, text[1], sizeof *text, &error));
+                    assert_string_equal(text[0], text[1]);
+                }
+            }
+        assert_true(compared > 20);
+        look_ref_drop(look);
+        look_ref_drop(first);
+        look_ref_drop(from);
+    }
+}
+
 /* --- strokes drawn by hand ------------------------------------------------------------------------------- */
 
 static stroke_sheet *drawn_sheet(void)
@@ -655,6 +689,7 @@ int main(void)
         cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),
         cmocka_unit_test(copied_commands_draw_what_is_exported),
         cmocka_unit_test(moved_solids_are_no_command),
+        cmocka_unit_test(parts_get_looks_of_their_own),
         cmocka_unit_test(strokes_are_read_as_they_were_saved),
         cmocka_unit_test(ends_are_picked_and_moved),
         cmocka_unit_test(thresholds_are_the_library_s),
