@@ -40,7 +40,9 @@ static bool goes_on(double fraction, const char *stage, void *user)
 static lmn_status export_now(artist_job *base, lmn_renderer *renderer, lmn_error *error)
 {
     export_job *j = (export_job *)base;
-    lmn_status  status = export_draw(j->scene, j->state, &j->wish, renderer, goes_on, j, error);
+    lmn_status  status = scene_ref_edit(j->scene, j->state->edits, error);
+    if (status == LMN_OK)
+        status = export_draw(j->scene, j->state, &j->wish, renderer, goes_on, j, error);
     /* Cancelled by a person: it is over, and not to be drawn again later. */
     if (status == LMN_CANCELLED && g_atomic_int_get(&j->dialog->cancelled))
         return LMN_WRITE;
