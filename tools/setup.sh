@@ -11,7 +11,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libxml2-dev libseccomp-dev
           libcairo2-dev libpango1.0-dev
           xvfb libglfw3-dev libsdl2-dev libgtk-4-dev libadwaita-1-dev
-          dbus at-spi2-core gir1.2-atspi-2.0 python3-gi xdotool adwaita-icon-theme desktop-file-utils appstream
+          dbus at-spi2-core gir1.2-atspi-2.0 python3-gi xdotool adwaita-icon-theme desktop-file-utils appstream gettext
           libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium ffmpeg
           abigail-tools mandoc zsh fish python3 python3-numpy
           clang clang-format libclang-rt-dev llvm lld ccache)

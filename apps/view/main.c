@@ -74,10 +74,27 @@ static int take_options(GApplication *application, GVariantDict *options, gpoint
     return -1; /* go on */
 }
 
+/* Translations lie beside the program in the build, and in share/locale where it is installed. */
+static void find_translations(void)
+{
+    char *program = g_file_read_link("/proc/self/exe", NULL), *folder = program ? g_path_get_dirname(program) : NULL;
+    char *beside = folder ? g_build_filename(folder, "locale", NULL) : NULL;
+    char *installed = folder ? g_build_filename(folder, "..", "share", "locale", NULL) : NULL;
+    if (folder)
+        bindtextdomain("limner", g_file_test(beside, G_FILE_TEST_IS_DIR) ? beside : installed);
+    bind_textdomain_codeset("limner", "UTF-8");
+    textdomain("limner");
+    g_free(program);
+    g_free(folder);
+    g_free(beside);
+    g_free(installed);
+}
+
 int main(int count, char **arguments)
 {
     enum { NO_DISPLAY = 3 }; /* as the command's status where there is no driver */
     trace_begin();
+    find_translations();
     if (!gtk_init_check()) {
         g_printerr("limner: there is no display to show a window on\n"
                    "hint: `limner draw` writes a picture without one\n");

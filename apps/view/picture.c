@@ -5,6 +5,7 @@
 #include "pace.h"
 #include "section.h"
 #include "trace.h"
+#include "words.h"
 
 enum { SLOT_VIEW = 1, SLOT_COMPARED, SLOT_PICK };
 enum { REST_MS = 150, COMPARE_HANDLE = 8, CLICK_SLACK = 4, HANDLE_RADIUS = 9 };
@@ -776,7 +777,7 @@ static void picture_init(Picture *p)
     gtk_widget_set_hexpand(GTK_WIDGET(p), TRUE);
     gtk_widget_set_vexpand(GTK_WIDGET(p), TRUE);
     gtk_widget_set_overflow(GTK_WIDGET(p), GTK_OVERFLOW_HIDDEN);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(p), GTK_ACCESSIBLE_PROPERTY_LABEL, "Drawing", -1);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(p), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Drawing"), -1);
     add_controllers(p);
 }
 

@@ -1,5 +1,6 @@
 /* What happens in a window, one line an event with the monotonic time in microseconds, for tests and for measuring:
- * written to the file descriptor that the environment names in LIMNER_VIEW_TRACE. */
+ * written to the file descriptor that the environment names in LIMNER_VIEW_TRACE. With LIMNER_VIEW_HEARTBEAT it also
+ * tells when the main loop did not come round for 20 ms. */
 #ifndef LIMNER_VIEW_TRACE_H
 #define LIMNER_VIEW_TRACE_H
 

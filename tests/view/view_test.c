@@ -19,6 +19,8 @@
 #include "pace.h"
 #include "section.h"
 #include "solid_edits.h"
+#include "stroke_sheet.h"
+#include "tour.h"
 
 static lmn_error error;
 
@@ -596,6 +598,126 @@ static void moved_solids_are_no_command(void **state)
     document_free(d);
 }
 
+/* --- strokes drawn by hand ------------------------------------------------------------------------------- */
+
+static stroke_sheet *drawn_sheet(void)
+{
+    stroke_sheet *s = stroke_sheet_make();
+    for (int i = 0; i < 24; i++)
+        stroke_sheet_add(s, 0.04 * i, 0.1 + 0.03 * i, 0.04 * i + 0.3, 0.2, i % 3);
+    return s;
+}
+
+static void strokes_are_read_as_they_were_saved(void **state)
+{
+    (void)state;
+    char         *path = g_build_filename(folder, "drawn.stx", NULL);
+    stroke_sheet *s = drawn_sheet(), *again = stroke_sheet_make();
+    DO(stroke_sheet_order(s, LMN_ORDER_SHUFFLED, LMN_PERSPECTIVE_RANDOM, 7, &error));
+    DO(stroke_sheet_save(s, path, &error));
+    DO(stroke_sheet_load(again, path, &error));
+    assert_int_equal(again->strokes->len, 24);
+    assert_memory_equal(again->strokes->data, s->strokes->data, 24 * sizeof(lmn_stroke));
+    stroke_sheet_free(s);
+    stroke_sheet_free(again);
+    g_free(path);
+}
+
+static void ends_are_picked_and_moved(void **state)
+{
+    (void)state;
+    stroke_sheet *s = stroke_sheet_make();
+    bool          second = false;
+    stroke_sheet_add(s, 0.9, 0.5, 1.1, 0.5, 0); /* leaves the square on the right */
+    stroke_sheet_add(s, 0.2, 0.2, 0.4, 0.2, 1);
+    stroke_sheet_step(s);
+    assert_int_equal(stroke_sheet_pick(s, 0.1, 0.51, 0.03, &second), 0); /* comes in on the left */
+    assert_true(second);
+    stroke_sheet_move_end(s, 0, true, 0.15, 0.6);
+    const lmn_stroke *k = &g_array_index(s->strokes, lmn_stroke, 0);
+    assert_close((double)k->u1, 1.15, 1e-6);
+    assert_close((double)k->v1, 0.6, 1e-6);
+    assert_int_equal(stroke_sheet_pick(s, 0.7, 0.8, 0.03, &second), -1);
+    stroke_sheet_set_layer(s, 1, 9);
+    assert_true(stroke_sheet_undo(s));
+    assert_int_equal(g_array_index(s->strokes, lmn_stroke, 1).layer, 1);
+    assert_close((double)g_array_index(s->strokes, lmn_stroke, 0).u1, 1.1, 1e-6);
+    assert_false(stroke_sheet_undo(s));
+    stroke_sheet_free(s);
+}
+
+static char *picture_of(const stroke_sheet *s, double light, double distance, gsize *size)
+{
+    char            *stx = g_build_filename(folder, "p.stx", NULL), *png = g_build_filename(folder, "p.png", NULL);
+    char            *bytes = NULL;
+    lmn_strokes     *strokes = NULL;
+    lmn_strokes_view view = LMN_STROKES_VIEW_INIT;
+    view.size = 128;
+    view.light = light;
+    view.distance = distance;
+    DO(stroke_sheet_save(s, stx, &error));
+    DO(lmn_strokes_load(&strokes, stx, &error));
+    DO(lmn_strokes_write(strokes, png, NULL, &view, &error));
+    lmn_strokes_destroy(&strokes);
+    assert_true(g_file_get_contents(png, &bytes, size, NULL));
+    g_free(stx);
+    g_free(png);
+    return bytes;
+}
+
+/* What the window shows at two thresholds is what the library draws at them. */
+static void thresholds_are_the_library_s(void **state)
+{
+    (void)state;
+    static const double wanted[][2] = {{0.3, 0}, {0, 0.6}, {0.4, 0.4}, {0.9, 0.2}};
+    stroke_sheet       *s = drawn_sheet();
+    DO(stroke_sheet_order(s, LMN_ORDER_SHUFFLED, LMN_PERSPECTIVE_RANDOM, 7, &error));
+    for (int i = 0; i < 4; i++) {
+        stroke_sheet *seen = stroke_sheet_make();
+        gsize         sizes[2];
+        for (guint k = 0; k < s->strokes->len; k++)
+            if (stroke_is_seen(&g_array_index(s->strokes, lmn_stroke, k), wanted[i][0], wanted[i][1]))
+                g_array_append_val(seen->strokes, g_array_index(s->strokes, lmn_stroke, k));
+        assert_true(seen->strokes->len > 0 && seen->strokes->len < s->strokes->len);
+        char *theirs = picture_of(s, wanted[i][0], wanted[i][1], &sizes[0]), *ours = picture_of(seen, 0, 0, &sizes[1]);
+        assert_int_equal(sizes[0], sizes[1]);
+        assert_memory_equal(theirs, ours, sizes[0]);
+        g_free(theirs);
+        g_free(ours);
+        stroke_sheet_free(seen);
+    }
+    stroke_sheet_free(s);
+}
+
+/* --- presentation ---------------------------------------------------------------------------------------- */
+
+static void turn_for(gint64 ms)
+{
+    for (gint64 until = g_get_monotonic_time() + ms * 1000; g_get_monotonic_time() < until; g_usleep(2000))
+        g_main_context_iteration(NULL, FALSE);
+}
+
+static void a_presentation_stands_still_for_people(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("box.glb"), true, 100, 100);
+    double begin = document_state(d)->view.yaw;
+    tour  *t = tour_make(d);
+    tour_run(t, true);
+    turn_for(200);
+    double then = document_state(d)->view.yaw;
+    assert_true(then > begin + 0.02);
+    tour_interrupt(t);
+    turn_for(100);
+    assert_close(document_state(d)->view.yaw, then, 0);
+    /* All of it is one step. */
+    assert_true(document_undo(d));
+    assert_close(document_state(d)->view.yaw, begin, 0);
+    tour_free(t);
+    document_free(d);
+}
+
 static int set_up(void **state)
 {
     (void)state;
@@ -632,6 +754,10 @@ int main(void)
         cmocka_unit_test(exchanged_techniques_are_settings),
         cmocka_unit_test(names_with_braces_are_no_command),
         cmocka_unit_test(moved_solids_are_no_command),
+        cmocka_unit_test(strokes_are_read_as_they_were_saved),
+        cmocka_unit_test(ends_are_picked_and_moved),
+        cmocka_unit_test(thresholds_are_the_library_s),
+        cmocka_unit_test(a_presentation_stands_still_for_people),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
