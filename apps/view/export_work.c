@@ -45,10 +45,15 @@ static bool poll(double fraction, const char *stage, void *data)
     return tell(1, stage, data);
 }
 
+static lmn_status draw(const work *w, lmn_drawing **out, lmn_error *error)
+{
+    return lmn_draw(out, w->renderer, w->scene->scene, w->state->look->look, &w->desc, error);
+}
+
 static lmn_status write_picture(work *w, lmn_error *error)
 {
     lmn_drawing *drawing = NULL;
-    lmn_status   status = lmn_draw(&drawing, w->renderer, w->scene->scene, w->state->look->look, &w->desc, error);
+    lmn_status   status = draw(w, &drawing, error);
     if (status == LMN_OK)
         status = lmn_drawing_write(drawing, w->wish->path, NULL, NULL, error);
     lmn_drawing_destroy(&drawing);
@@ -71,7 +76,7 @@ static lmn_status write_sheet(work *w, const lmn_format_info *format, lmn_error 
 static lmn_status add_frame(work *w, lmn_film *film, lmn_error *error)
 {
     lmn_drawing *drawing = NULL;
-    lmn_status   status = lmn_draw(&drawing, w->renderer, w->scene->scene, w->state->look->look, &w->desc, error);
+    lmn_status   status = draw(w, &drawing, error);
     if (status == LMN_OK)
         status = lmn_film_add(film, lmn_drawing_pixels(drawing, NULL, NULL), error);
     lmn_drawing_destroy(&drawing);
@@ -116,37 +121,58 @@ static lmn_status write_film(work *w, lmn_error *error)
     return status;
 }
 
+static bool needs_renderer(const work *w)
+{
+    lmn_format_info format;
+    return wish_kind_of(w->wish->path, &format) != WISH_SHEET ||
+           (format.pictures && lmn_look_needs_pixels(w->state->look->look));
+}
+
 static lmn_status write_file(work *w, lmn_error *error)
 {
     lmn_format_info format;
-    lmn_status      status = LMN_OK;
-    lmn_renderer   *own = NULL;
-    wish_kind       kind = wish_kind_of(w->wish->path, &format);
-    bool            pixels = kind != WISH_SHEET || (format.pictures && lmn_look_needs_pixels(w->state->look->look));
-    if (!pixels)
-        w->renderer = NULL;
-    if (pixels && !w->renderer) {
-        lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
-        status = lmn_renderer_create(&own, &desc, error);
-        w->renderer = own;
+    switch (wish_kind_of(w->wish->path, &format)) {
+    case WISH_FILM: return write_film(w, error);
+    case WISH_SHEET: return write_sheet(w, &format, error);
+    default: return write_picture(w, error);
     }
+}
+
+/* Into the file, or into `out` where it is given; with the renderer, or with one that is made for it. */
+static lmn_status begin(work *w, lmn_drawing **out, lmn_error *error)
+{
+    lmn_renderer     *own = NULL;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    lmn_status        status = LMN_OK;
+    char             *selector = state_selector(w->state, w->scene);
+    wish_describe(w->state, w->scene, w->wish, selector, &w->desc);
+    w->desc.progress = tell;
+    w->desc.progress_user = w;
+    w->share = 1;
+    if (!needs_renderer(w))
+        w->renderer = NULL;
+    else if (!w->renderer)
+        status = lmn_renderer_create(&own, &desc, error);
+    if (own)
+        w->renderer = own;
     if (status == LMN_OK)
-        status = kind == WISH_FILM    ? write_film(w, error)
-                 : kind == WISH_SHEET ? write_sheet(w, &format, error)
-                                      : write_picture(w, error);
+        status = out ? draw(w, out, error) : write_file(w, error);
     lmn_renderer_destroy(&own);
+    g_free(selector);
     return status;
 }
 
 lmn_status export_draw(const scene_ref *scene, const view_state *s, const export_wish *wish, lmn_renderer *renderer,
                        lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    char *selector = state_selector(s, scene);
-    work  w = {scene, s, wish, renderer, .progress = progress, .user = user, .share = 1};
-    wish_describe(s, scene, wish, selector, &w.desc);
-    w.desc.progress = tell;
-    w.desc.progress_user = &w;
-    lmn_status status = write_file(&w, error);
-    g_free(selector);
-    return status;
+    work w = {scene, s, wish, renderer, .progress = progress, .user = user};
+    return begin(&w, NULL, error);
+}
+
+lmn_status export_picture(lmn_drawing **out, const scene_ref *scene, const view_state *s, export_wish wish,
+                          lmn_renderer *renderer, lmn_progress_fn progress, void *user, lmn_error *error)
+{
+    wish.path = ".png";
+    work w = {scene, s, &wish, renderer, .progress = progress, .user = user};
+    return begin(&w, out, error);
 }

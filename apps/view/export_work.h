@@ -14,4 +14,8 @@ bool  export_is_film(const char *path);
 lmn_status export_draw(const scene_ref *scene, const view_state *s, const export_wish *wish, lmn_renderer *renderer,
                        lmn_progress_fn progress, void *user, lmn_error *error);
 
+/* The same without a file, as a picture whatever the wish's path. */
+lmn_status export_picture(lmn_drawing **out, const scene_ref *scene, const view_state *s, export_wish wish,
+                          lmn_renderer *renderer, lmn_progress_fn progress, void *user, lmn_error *error);
+
 #endif
