@@ -24,56 +24,95 @@ static void complain(lmn_error *error, const char *message, const char *hint)
 
 /* --- what differs from the origin ------------------------------------------------------------------------ */
 
-static bool same_techniques(const lmn_look *a, const lmn_look *b, size_t rule, const char *kind)
+/* Have they as many rules, of the same names and for the same parts? */
+static bool same_rules(const lmn_look *a, const lmn_look *b)
 {
-    size_t count = lmn_look_technique_count(a, rule, kind);
-    if (count != lmn_look_technique_count(b, rule, kind))
-        return false;
-    for (size_t i = 0; i < count; i++)
-        if (g_strcmp0(lmn_look_technique(a, rule, kind, i), lmn_look_technique(b, rule, kind, i)) != 0)
-            return false;
-    return true;
-}
-
-/* Have they the same rules, and in these the same techniques? */
-static bool same_shape(const lmn_look *a, const lmn_look *b)
-{
-    size_t        rules = lmn_look_rule_count(a);
-    lmn_kind_info kind;
-    bool          same = rules == lmn_look_rule_count(b);
+    size_t rules = lmn_look_rule_count(a);
+    bool   same = rules == lmn_look_rule_count(b);
     for (size_t r = 0; r < rules && same; r++)
         same = g_strcmp0(lmn_look_rule_selector(a, r), lmn_look_rule_selector(b, r)) == 0 &&
                g_strcmp0(lmn_look_rule_name(a, r), lmn_look_rule_name(b, r)) == 0;
-    for (size_t k = 0; same && lmn_kind_at(k, &kind); k++) {
-        if (kind.whole_look)
-            same = same_techniques(a, b, LMN_WHOLE_LOOK, kind.name);
-        for (size_t r = 0; r < rules && same && !kind.whole_look; r++)
-            same = same_techniques(a, b, r, kind.name);
-    }
     return same;
 }
 
-static void add_settings(GArray *out, const lmn_look *now, const lmn_look *before, size_t rule,
-                         const lmn_kind_info *kind)
+/* How a rule is called in a key: not at all where it is the only one, by a name that no other has, or by its number. */
+static char *rule_prefix(const lmn_look *look, size_t rule)
 {
-    for (size_t i = 0; i < lmn_look_technique_count(now, rule, kind->name); i++) {
+    size_t      rules = lmn_look_rule_count(look), same = 0;
+    const char *name = rule == LMN_WHOLE_LOOK ? NULL : lmn_look_rule_name(look, rule);
+    for (size_t r = 0; r < rules && name; r++)
+        same += g_strcmp0(lmn_look_rule_name(look, r), name) == 0;
+    if (rule == LMN_WHOLE_LOOK || rules == 1)
+        return g_strdup("");
+    return name && *name && same == 1 ? g_strdup_printf("%s:", name) : g_strdup_printf("%zu:", rule);
+}
+
+/* One kind of one rule, in both looks. `before` is brought along, so that what follows is compared with what it will
+ * be. */
+typedef struct comparison {
+    GArray              *out;
+    const lmn_look      *now;
+    lmn_look            *before;
+    size_t               rule;
+    const lmn_kind_info *kind;
+    char                *prefix;
+} comparison;
+
+/* Adds what sets one key of the technique at `index`; of a kind's only technique it needs no number. */
+static void add_setting(const comparison *c, size_t index, bool numbered, const char *param, const char *value)
+{
+    char        *number = numbered ? g_strdup_printf("[%zu]", index) : g_strdup("");
+    look_setting s = {g_strdup_printf("%s%s%s.%s", c->prefix, c->kind->name, number, param), g_strdup(value)};
+    lmn_error    error = {0};
+    (void)lmn_look_set(c->before, s.key, s.value, &error); /* what this cannot say comes out at the end */
+    g_array_append_val(c->out, s);
+    g_free(number);
+}
+
+/* Techniques that were exchanged, added at the end or taken from there. */
+static void add_techniques(const comparison *c)
+{
+    size_t now = lmn_look_technique_count(c->now, c->rule, c->kind->name);
+    size_t before = lmn_look_technique_count(c->before, c->rule, c->kind->name);
+    bool   numbered = c->kind->several && MAX(now, before) > 1;
+    for (size_t i = 0; i < now; i++) {
+        const char *technique = lmn_look_technique(c->now, c->rule, c->kind->name, i);
+        if (g_strcmp0(technique, lmn_look_technique(c->before, c->rule, c->kind->name, i)) != 0)
+            add_setting(c, i, numbered, "technique", technique);
+    }
+    for (size_t i = before; i > now; i--)
+        add_setting(c, i - 1, numbered, "technique", "none");
+}
+
+static void add_values(const comparison *c)
+{
+    size_t count = lmn_look_technique_count(c->now, c->rule, c->kind->name);
+    for (size_t i = 0; i < count; i++) {
         lmn_param_info param;
-        const char    *technique = lmn_look_technique(now, rule, kind->name, i);
-        for (size_t p = 0; lmn_param_at(kind->name, technique, p, &param); p++) {
+        const char    *kind = c->kind->name, *technique = lmn_look_technique(c->now, c->rule, kind, i);
+        for (size_t p = 0; lmn_param_at(kind, technique, p, &param); p++) {
             char      text[2][LMN_VALUE_TEXT_MAX];
             lmn_error error = {0};
-            if (lmn_look_get_text(now, rule, kind->name, i, param.key, text[0], sizeof *text, &error) != LMN_OK ||
-                lmn_look_get_text(before, rule, kind->name, i, param.key, text[1], sizeof *text, &error) != LMN_OK ||
-                strcmp(text[0], text[1]) == 0)
-                continue;
-            char        *prefix = kind->whole_look ? g_strdup("") : g_strdup_printf("%zu:", rule);
-            char        *index = kind->several ? g_strdup_printf("[%zu]", i) : g_strdup("");
-            look_setting s = {g_strdup_printf("%s%s%s.%s", prefix, kind->name, index, param.key), g_strdup(text[0])};
-            g_array_append_val(out, s);
-            g_free(prefix);
-            g_free(index);
+            if (lmn_look_get_text(c->now, c->rule, kind, i, param.key, text[0], sizeof *text, &error) == LMN_OK &&
+                lmn_look_get_text(c->before, c->rule, kind, i, param.key, text[1], sizeof *text, &error) == LMN_OK &&
+                strcmp(text[0], text[1]) != 0)
+                add_setting(c, i, c->kind->several && count > 1, param.key, text[0]);
         }
     }
+}
+
+/* Techniques before their values, as the command sets them. */
+static void add_differences(GArray *out, const lmn_look *now, lmn_look *before, void (*add)(const comparison *c))
+{
+    lmn_kind_info kind;
+    size_t        rules = lmn_look_rule_count(now);
+    for (size_t k = 0; lmn_kind_at(k, &kind); k++)
+        for (size_t r = 0; r < (kind.whole_look ? 1 : rules); r++) {
+            comparison c = {out, now, before, kind.whole_look ? LMN_WHOLE_LOOK : r, &kind, NULL};
+            c.prefix = rule_prefix(now, c.rule);
+            add(&c);
+            g_free(c.prefix);
+        }
 }
 
 /* Does setting all of it make the one look of the other? */
@@ -96,23 +135,20 @@ static bool settings_suffice(const GArray *settings, lmn_look *origin, const lmn
 
 GArray *look_settings(const look_ref *look)
 {
-    lmn_look     *origin = NULL;
-    lmn_error     error = {0};
-    lmn_kind_info kind;
-    if (lmn_look_load(&origin, look->origin, &error) != LMN_OK)
-        return NULL;
-    GArray *out = g_array_new(FALSE, FALSE, sizeof(look_setting));
-    g_array_set_clear_func(out, setting_clear);
-    bool same = same_shape(look->look, origin);
-    for (size_t k = 0; same && lmn_kind_at(k, &kind); k++) {
-        if (kind.whole_look)
-            add_settings(out, look->look, origin, LMN_WHOLE_LOOK, &kind);
-        for (size_t r = 0; !kind.whole_look && r < lmn_look_rule_count(look->look); r++)
-            add_settings(out, look->look, origin, r, &kind);
+    lmn_look *origin = NULL, *before = NULL;
+    lmn_error error = {0};
+    GArray   *out = NULL;
+    if (lmn_look_load(&origin, look->origin, &error) == LMN_OK && same_rules(look->look, origin) &&
+        lmn_look_copy(&before, origin, &error) == LMN_OK) {
+        out = g_array_new(FALSE, FALSE, sizeof(look_setting));
+        g_array_set_clear_func(out, setting_clear);
+        add_differences(out, look->look, before, add_techniques);
+        add_differences(out, look->look, before, add_values);
+        if (!settings_suffice(out, origin, look->look))
+            g_clear_pointer(&out, g_array_unref);
     }
-    if (!same || !settings_suffice(out, origin, look->look))
-        g_clear_pointer(&out, g_array_unref);
     lmn_look_destroy(&origin);
+    lmn_look_destroy(&before);
     return out;
 }
 
@@ -137,6 +173,53 @@ char *look_keep(const look_ref *look, lmn_error *error)
     if (!there)
         g_clear_pointer(&path, g_free);
     return path;
+}
+
+/* --- wishes ---------------------------------------------------------------------------------------------- */
+
+static const char *ending_of(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strchr(dot, '/') ? dot : "";
+}
+
+wish_kind wish_kind_of(const char *path, lmn_format_info *format)
+{
+    lmn_film_format_info film;
+    for (size_t i = 0; lmn_format_at(i, format); i++)
+        if (g_ascii_strcasecmp(format->ending, ending_of(path)) == 0)
+            return format->vectors ? WISH_SHEET : WISH_PICTURE;
+    for (size_t i = 0; lmn_film_format_at(i, &film); i++)
+        if (g_ascii_strcasecmp(film.ending, ending_of(path)) == 0) {
+            /* Of its frames. */
+            for (size_t k = 0; lmn_format_at(k, format) && format->vectors;)
+                k++;
+            return WISH_FILM;
+        }
+    return WISH_UNKNOWN;
+}
+
+void wish_frames(const export_wish *wish, long *first, long *last)
+{
+    *first = (long)floor(wish->first * wish->rate + 0.5);
+    *last = MAX(*first, (long)floor(wish->last * wish->rate + 0.5));
+}
+
+void wish_describe(const view_state *s, const scene_ref *scene, const export_wish *wish, const char *selector,
+                   lmn_draw_desc *desc)
+{
+    lmn_format_info format;
+    wish_kind       kind = wish_kind_of(wish->path, &format);
+    bool            pixels = lmn_look_needs_pixels(s->look->look);
+    state_describe(s, selector, wish->width, wish->height, desc);
+    desc->dpi = wish->dpi;
+    desc->samples = kind != WISH_SHEET || (format.pictures && pixels) ? wish->samples : 0;
+    desc->background = wish->transparent && (kind == WISH_UNKNOWN || format.ground) ? "none" : NULL;
+    if (kind == WISH_FILM) {
+        desc->time_given = true;
+        desc->clip = s->clip;
+        desc->fit_time = scene->info.animations > 0;
+    }
 }
 
 /* --- words ----------------------------------------------------------------------------------------------- */
@@ -212,11 +295,13 @@ static void add_camera(GStrvBuilder *words, const lmn_draw_desc *d)
 
 static void add_time(GStrvBuilder *words, const lmn_draw_desc *d, const export_wish *wish)
 {
-    char rate[NUMBER_MAX];
-    if (wish->rate > 0) {
+    char            rate[NUMBER_MAX];
+    long            first, last;
+    lmn_format_info format;
+    if (wish_kind_of(wish->path, &format) == WISH_FILM) {
+        wish_frames(wish, &first, &last);
         add(words, "--frames");
-        add(words, "%.0f:%.0f:%s", floor(wish->first * wish->rate + 0.5), floor(wish->last * wish->rate + 0.5),
-            number_text(wish->rate, rate));
+        add(words, "%ld:%ld:%s", first, last, number_text(wish->rate, rate));
     } else if (d->time_given) {
         add_number(words, "--time", d->time_s);
     }
@@ -226,38 +311,59 @@ static void add_time(GStrvBuilder *words, const lmn_draw_desc *d, const export_w
     }
 }
 
+/* What the command takes of a wish: not what the format has no room for, which it refuses. */
+static void add_page(GStrvBuilder *words, const lmn_draw_desc *d)
+{
+    add(words, "--size");
+    add(words, "%dx%d", d->width, d->height);
+    if (d->dpi > 0)
+        add_number(words, "--dpi", d->dpi);
+    if (d->seed)
+        add_number(words, "--seed", d->seed);
+    if (d->samples)
+        add_number(words, "--samples", d->samples);
+    if (d->background) {
+        add(words, "--background");
+        add(words, "%s", d->background);
+    }
+}
+
+/* Can a command say all of it? */
+static bool is_sayable(const view_state *s, const export_wish *wish, const char *by, lmn_error *error)
+{
+    char *message = NULL;
+    if (s->edits && s->edits->len)
+        message = g_strdup_printf("the solids were moved by hand, which no %s can say", by);
+    if (message) {
+        complain(error, message, "undo the moves, or change the program that the solids come from");
+    } else if (strpbrk(wish->path, "{}")) {
+        message = g_strdup("the file's name has braces, which stand for other names in commands");
+        complain(error, message, "give the file a name without { and }");
+    }
+    g_free(message);
+    return !message;
+}
+
 GStrv command_words(const view_state *s, const scene_ref *scene, const export_wish *wish, lmn_error *error)
 {
-    if (s->edits && s->edits->len) {
-        complain(error, "the solids were moved by hand, which no command can say",
-                 "undo the moves, or change the program that the solids come from");
+    if (!is_sayable(s, wish, "command", error))
         return NULL;
-    }
     lmn_draw_desc d;
     char         *selector = state_selector(s, scene);
     GStrvBuilder *words = g_strv_builder_new();
-    state_describe(s, selector, wish->width, wish->height, &d);
+    wish_describe(s, scene, wish, selector, &d);
     add(words, "limner");
     add(words, "draw");
     for (size_t i = 0; scene->paths[i]; i++)
         add(words, "%s", scene->paths[i]);
     bool good = add_look(words, s->look, error);
-    add(words, "--size");
-    add(words, "%dx%d", wish->width, wish->height);
     add_camera(words, &d);
     if (selector) {
         add(words, "--select");
         add(words, "%s", selector);
     }
     add_time(words, &d, wish);
-    if (d.seed)
-        add_number(words, "--seed", d.seed);
-    if (wish->samples)
-        add_number(words, "--samples", wish->samples);
-    if (wish->transparent) {
-        add(words, "--background");
-        add(words, "none");
-    }
+    add_page(words, &d);
     add(words, "-o");
     add(words, "%s", wish->path);
     GStrv out = good ? g_strv_builder_end(words) : NULL;
@@ -326,7 +432,7 @@ static bool print_look(GString *out, const look_ref *look, lmn_error *error)
     return true;
 }
 
-static void print_desc(GString *out, const lmn_draw_desc *d, const export_wish *wish)
+static void print_desc(GString *out, const lmn_draw_desc *d)
 {
     char t[NUMBER_MAX];
     g_string_append_printf(out, "    desc.width = %d;\n    desc.height = %d;\n    desc.eye_given = true;\n", d->width,
@@ -345,22 +451,84 @@ static void print_desc(GString *out, const lmn_draw_desc *d, const export_wish *
         print_text(out, "    desc.clip = ", d->clip, ";\n");
     if (d->seed)
         g_string_append_printf(out, "    desc.seed = %u;\n", d->seed);
-    if (wish->samples)
-        g_string_append_printf(out, "    desc.samples = %d;\n", wish->samples);
-    if (wish->transparent)
-        g_string_append(out, "    desc.background = \"none\";\n");
+    if (d->dpi > 0)
+        g_string_append_printf(out, "    desc.dpi = %s;\n", number_text(d->dpi, t));
+    if (d->samples)
+        g_string_append_printf(out, "    desc.samples = %d;\n", d->samples);
+    if (d->background)
+        print_text(out, "    desc.background = ", d->background, ";\n");
+}
+
+static void print_picture(GString *out, const export_wish *wish)
+{
+    g_string_append(out, "    lmn_drawing *drawing = NULL;\n"
+                         "    check(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error);\n");
+    print_text(out, "    check(lmn_drawing_write(drawing, ", wish->path, ", NULL, NULL, &error), &error);\n");
+    g_string_append(out, "    lmn_drawing_destroy(&drawing);\n");
+}
+
+static void print_sheet(GString *out, const export_wish *wish, bool lines_only)
+{
+    g_string_append_printf(out,
+                           "    lmn_sheet     *sheet = NULL;\n"
+                           "    lmn_sheet_desc page = LMN_SHEET_DESC_INIT;\n"
+                           "%s"
+                           "    check(lmn_draw_sheet(&sheet, renderer, scene, look, &desc, &page, &error), &error);\n",
+                           lines_only ? "    page.lines_only = true;\n" : "");
+    print_text(out, "    check(lmn_sheet_write(sheet, ", wish->path, ", NULL, NULL, &error), &error);\n");
+    g_string_append(out, "    lmn_sheet_destroy(&sheet);\n");
+}
+
+static void print_film(GString *out, const export_wish *wish)
+{
+    char t[NUMBER_MAX];
+    long first, last;
+    wish_frames(wish, &first, &last);
+    g_string_append_printf(out,
+                           "    lmn_film     *film = NULL;\n"
+                           "    lmn_film_desc frames = LMN_FILM_DESC_INIT;\n"
+                           "    frames.width = desc.width;\n"
+                           "    frames.height = desc.height;\n"
+                           "    frames.rate = %s;\n"
+                           "    frames.frame_count = %ld;\n"
+                           "    desc.fit_time = lmn_scene_info_of(scene).animations > 0;\n",
+                           number_text(wish->rate, t), last - first + 1);
+    print_text(out, "    check(lmn_film_open(&film, ", wish->path, ", &frames, &error), &error);\n");
+    g_string_append_printf(
+        out,
+        "    for (long i = %ld; i <= %ld; i++) {\n"
+        "        lmn_drawing *drawing = NULL;\n"
+        "        desc.time_s = (double)i / frames.rate;\n"
+        "        check(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error);\n"
+        "        check(lmn_film_add(film, lmn_drawing_pixels(drawing, NULL, NULL), &error), &error);\n"
+        "        lmn_drawing_destroy(&drawing);\n"
+        "    }\n"
+        "    check(lmn_film_close(&film, NULL, &error), &error);\n",
+        first, last);
+}
+
+static void print_drawing(GString *out, const view_state *s, const export_wish *wish)
+{
+    lmn_format_info format;
+    wish_kind       kind = wish_kind_of(wish->path, &format);
+    if (kind != WISH_SHEET || (format.pictures && lmn_look_needs_pixels(s->look->look)))
+        g_string_append(out, "    lmn_renderer_desc with = LMN_RENDERER_DESC_INIT;\n"
+                             "    check(lmn_renderer_create(&renderer, &with, &error), &error);\n");
+    if (kind == WISH_SHEET)
+        print_sheet(out, wish, !format.pictures);
+    else if (kind == WISH_FILM)
+        print_film(out, wish);
+    else
+        print_picture(out, wish);
 }
 
 char *command_in_c(const view_state *s, const scene_ref *scene, const export_wish *wish, lmn_error *error)
 {
-    if (s->edits && s->edits->len) {
-        complain(error, "the solids were moved by hand, which the program would have to repeat",
-                 "undo the moves, or change the program that the solids come from");
+    if (!is_sayable(s, wish, "program", error))
         return NULL;
-    }
     lmn_draw_desc d;
     char         *selector = state_selector(s, scene);
-    state_describe(s, selector, wish->width, wish->height, &d);
+    wish_describe(s, scene, wish, selector, &d);
     GString *out = g_string_new("/* cc drawing.c $(pkg-config --cflags --libs limner) */\n"
                                 "#include <limner/limner.h>\n"
                                 "#include <stdio.h>\n"
@@ -370,24 +538,19 @@ char *command_in_c(const view_state *s, const scene_ref *scene, const export_wis
                                 "    fprintf(stderr, \"%s\\n\", error->message);\n"
                                 "    exit(1);\n}\n\n"
                                 "int main(void)\n{\n"
-                                "    lmn_error         error = {0};\n"
-                                "    lmn_scene        *scene = NULL;\n"
-                                "    lmn_look         *look = NULL;\n"
-                                "    lmn_renderer     *renderer = NULL;\n"
-                                "    lmn_drawing      *drawing = NULL;\n"
-                                "    lmn_renderer_desc with = LMN_RENDERER_DESC_INIT;\n"
-                                "    lmn_load_desc     load = LMN_LOAD_DESC_INIT;\n"
-                                "    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;\n"
+                                "    lmn_error     error = {0};\n"
+                                "    lmn_scene    *scene = NULL;\n"
+                                "    lmn_look     *look = NULL;\n"
+                                "    lmn_renderer *renderer = NULL;\n"
+                                "    lmn_load_desc load = LMN_LOAD_DESC_INIT;\n"
+                                "    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;\n"
                                 "    check(lmn_scene_create(&scene, &error), &error);\n");
     for (size_t i = 0; scene->paths[i]; i++)
         print_text(out, "    check(lmn_scene_add_file(scene, ", scene->paths[i], ", &load, &error), &error);\n");
     bool good = print_look(out, s->look, error);
-    print_desc(out, &d, wish);
-    g_string_append(out, "    check(lmn_renderer_create(&renderer, &with, &error), &error);\n"
-                         "    check(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error);\n");
-    print_text(out, "    check(lmn_drawing_write(drawing, ", wish->path, ", NULL, NULL, &error), &error);\n");
-    g_string_append(out, "    lmn_drawing_destroy(&drawing);\n"
-                         "    lmn_renderer_destroy(&renderer);\n"
+    print_desc(out, &d);
+    print_drawing(out, s, wish);
+    g_string_append(out, "    lmn_renderer_destroy(&renderer);\n"
                          "    lmn_look_destroy(&look);\n"
                          "    lmn_scene_destroy(&scene);\n"
                          "    return 0;\n}\n");

@@ -9,8 +9,8 @@ typedef struct look_setting {
     char *key, *value; /* as --set and lmn_look_set take them */
 } look_setting;
 
-/* How `look` differs from its origin, as settings that make the one of the other. NULL where none do: rules or
- * techniques were added or taken away; then the look needs a file. Free with g_array_unref. */
+/* How `look` differs from its origin, as settings that make the one of the other, techniques first. NULL where none
+ * do: rules were added, taken away or moved; then the look needs a file. Free with g_array_unref. */
 GArray *look_settings(const look_ref *look);
 
 /* The look as a file among the user's data, written when it is not there yet; NULL when that fails. g_free. */
@@ -20,10 +20,22 @@ char *look_keep(const look_ref *look, lmn_error *error);
 typedef struct export_wish {
     const char *path;
     int         width, height;
+    double      dpi;     /* pixels an inch; 0: as suits, the longer side is 271 mm */
     int         samples; /* 0: as many as suit */
     bool        transparent;
-    double      first, last, rate; /* of films, seconds; rate 0: none */
+    double      first, last, rate; /* of films: seconds, and frames a second */
 } export_wish;
+
+/* The ending says what a file becomes; `format` is that of its pages or frames. */
+typedef enum wish_kind { WISH_UNKNOWN = 0, WISH_PICTURE, WISH_SHEET, WISH_FILM } wish_kind;
+wish_kind wish_kind_of(const char *path, lmn_format_info *format);
+
+/* Of a film, the numbers of its frames; frame i is at i/rate seconds. */
+void wish_frames(const export_wish *wish, long *first, long *last);
+
+/* As the command describes it; borrows from the state and from `selector`. Of films the time is still missing. */
+void wish_describe(const view_state *s, const scene_ref *scene, const export_wish *wish, const char *selector,
+                   lmn_draw_desc *desc);
 
 /* The words of `limner draw …` that makes the same bytes; NULL with an error. Free with g_strfreev. */
 GStrv command_words(const view_state *s, const scene_ref *scene, const export_wish *wish, lmn_error *error);

@@ -130,7 +130,12 @@ look_ref *look_ref_make(lmn_look *look, const char *origin)
 look_ref *look_ref_load(const char *name_or_path, lmn_error *error)
 {
     lmn_look *look = NULL;
-    return lmn_look_load(&look, name_or_path, error) == LMN_OK ? look_ref_make(look, name_or_path) : NULL;
+    /* A file is called by all of its path, so that it is found from anywhere: by commands that are copied, too. */
+    bool      is_file = strchr(name_or_path, '/') || g_str_has_suffix(name_or_path, ".json");
+    char     *origin = is_file ? g_canonicalize_filename(name_or_path, NULL) : g_strdup(name_or_path);
+    look_ref *out = lmn_look_load(&look, origin, error) == LMN_OK ? look_ref_make(look, origin) : NULL;
+    g_free(origin);
+    return out;
 }
 
 look_ref *look_ref_take(look_ref *l)

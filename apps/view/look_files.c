@@ -99,3 +99,100 @@ void look_files_load(ViewWindow *w)
     g_signal_connect(dialog, "response", G_CALLBACK(chosen_to_load), w);
     gtk_native_dialog_show(GTK_NATIVE_DIALOG(dialog));
 }
+
+/* --- files that change ----------------------------------------------------------------------------------- */
+
+typedef struct look_watch {
+    ViewWindow   *window; /* whose data it is */
+    char         *path;   /* NULL: the look comes from no file */
+    GFileMonitor *monitor;
+    guint         timer;
+} look_watch;
+
+enum { READ_AFTER_MS = 200 };
+
+static bool same_look(const lmn_look *a, const lmn_look *b)
+{
+    char *one = lmn_look_json(a), *other = lmn_look_json(b);
+    bool  same = g_strcmp0(one, other) == 0;
+    lmn_text_free(one);
+    lmn_text_free(other);
+    return same;
+}
+
+/* What is half written is no look: then the one that is there stays, and the message says where the mistake is. */
+static gboolean read_again(gpointer data)
+{
+    look_watch *l = data;
+    lmn_error   error = {0};
+    l->timer = 0;
+    document *d = view_window_document(l->window);
+    look_ref *look = d && l->path ? look_ref_load(l->path, &error) : NULL;
+    if (look && !same_look(look->look, document_state(d)->look->look)) {
+        trace_event("reloaded-look %s", l->path);
+        document_set_look(d, look, _("Look file"));
+        view_window_say(l->window, _("The look was read again"));
+    } else if (look) {
+        look_ref_drop(look);
+    } else if (d && l->path) {
+        char *text = g_strdup_printf("%s:%d:%d: %s%s%s", *error.file ? error.file : l->path, error.line, error.column,
+                                     error.message, *error.hint ? " – " : "", error.hint);
+        trace_event("not-reloaded-look %d:%d %s", error.line, error.column, error.message);
+        view_window_say(l->window, text);
+        g_free(text);
+    }
+    return G_SOURCE_REMOVE;
+}
+
+static void file_changed(GFileMonitor *monitor, GFile *file, GFile *other, GFileMonitorEvent event, gpointer user)
+{
+    (void)monitor;
+    (void)file;
+    (void)other;
+    look_watch *l = user;
+    if (event == G_FILE_MONITOR_EVENT_ATTRIBUTE_CHANGED || event == G_FILE_MONITOR_EVENT_DELETED)
+        return;
+    g_clear_handle_id(&l->timer, g_source_remove);
+    l->timer = g_timeout_add(READ_AFTER_MS, read_again, l);
+}
+
+static void stop(look_watch *l)
+{
+    g_clear_handle_id(&l->timer, g_source_remove);
+    if (l->monitor)
+        g_file_monitor_cancel(l->monitor);
+    g_clear_object(&l->monitor);
+    g_clear_pointer(&l->path, g_free);
+}
+
+static void follow_origin(document *d, unsigned changes, void *user)
+{
+    look_watch *l = user;
+    const char *origin = document_state(d)->look->origin;
+    const char *path = origin && g_path_is_absolute(origin) ? origin : NULL;
+    if (!(changes & DOCUMENT_LOOK) || g_strcmp0(path, l->path) == 0)
+        return;
+    stop(l);
+    if (!path)
+        return;
+    GFile *file = g_file_new_for_path(path);
+    l->path = g_strdup(path);
+    l->monitor = g_file_monitor_file(file, G_FILE_MONITOR_WATCH_MOVES, NULL, NULL);
+    if (l->monitor)
+        g_signal_connect(l->monitor, "changed", G_CALLBACK(file_changed), l);
+    g_object_unref(file);
+}
+
+static void watch_free(void *data)
+{
+    stop(data);
+    g_free(data);
+}
+
+void look_files_watch(ViewWindow *w)
+{
+    look_watch *l = g_new0(look_watch, 1);
+    l->window = w;
+    g_object_set_data_full(G_OBJECT(w), "look-watch", l, watch_free);
+    document_listen(view_window_document(w), follow_origin, l);
+}

@@ -8,6 +8,7 @@ static const struct {
 } rows[] = {
     {N_("Files"), "win.open", {"<Control>o"}, N_("Open")},
     {NULL, "win.export", {"<Control>e"}, N_("Export")},
+    {NULL, "win.print", {"<Control><Shift>p"}, N_("Print")},
     {NULL, "win.save-look", {"<Control>s"}, N_("Save the look")},
     {NULL, "win.copy-picture", {"<Control>c"}, N_("Copy the picture")},
     {NULL, "win.copy-command", {"<Control><Shift>c"}, N_("Copy as command")},

@@ -3,6 +3,7 @@
 #include "controls.h"
 #include "cube.h"
 #include "gallery.h"
+#include "look_files.h"
 #include "parts.h"
 #include "picture.h"
 #include "solids.h"
@@ -95,6 +96,7 @@ static GMenuModel *make_menu(ViewWindow *w)
     g_menu_append(copy, _("Draw strokes"), "win.strokes");
     g_menu_append(copy, _("Save the look"), "win.save-look");
     g_menu_append(copy, _("Load a look"), "win.load-look");
+    g_menu_append(copy, _("Print"), "win.print");
     g_menu_append(copy, _("Copy the picture"), "win.copy-picture");
     g_menu_append(copy, _("Copy as command"), "win.copy-command");
     g_menu_append(copy, _("Copy as C"), "win.copy-c");
@@ -314,6 +316,7 @@ static void view_window_init(ViewWindow *w)
     g_signal_connect(drop, "drop", G_CALLBACK(window_dropped), w);
     gtk_widget_add_controller(GTK_WIDGET(w), GTK_EVENT_CONTROLLER(drop));
     document_listen(w->document, window_document_changed, w);
+    look_files_watch(w);
     window_document_changed(w->document, 0, w);
 }
 

@@ -6,6 +6,7 @@
 #include "export.h"
 #include "look_files.h"
 #include "picture.h"
+#include "picture_out.h"
 #include "section.h"
 #include "shortcuts.h"
 #include "strokes_window.h"
@@ -284,12 +285,13 @@ ACTION(do_load_look)
 ACTION(do_copy_picture)
 {
     UNUSED;
-    ViewWindow *w = user;
-    GdkTexture *texture = picture_texture(LIMNER_PICTURE(w->picture));
-    if (!texture)
-        return;
-    gdk_clipboard_set_texture(gtk_widget_get_clipboard(GTK_WIDGET(w)), texture);
-    view_window_say(w, _("Picture copied"));
+    picture_out_copy(user);
+}
+
+ACTION(do_print)
+{
+    UNUSED;
+    picture_out_print(user);
 }
 
 ACTION(do_strokes)
@@ -334,6 +336,7 @@ static const GActionEntry actions[] = {
     {.name = "save-look", .activate = do_save_look},
     {.name = "load-look", .activate = do_load_look},
     {.name = "copy-picture", .activate = do_copy_picture},
+    {.name = "print", .activate = do_print},
     {.name = "strokes", .activate = do_strokes},
     {.name = "tour", .activate = do_tour, .state = "false"},
     {.name = "play", .activate = do_play},
@@ -361,8 +364,8 @@ void window_document_changed(document *d, unsigned changes, void *user)
     enable(w, "redo", document_redo_name(d) != NULL);
     enable(w, "hide", part);
     enable(w, "alone", part);
-    static const char *const of_scene[] = {"fit",          "view",   "section",  "camera", "export",
-                                           "copy-command", "copy-c", "parallel", "compare"};
+    static const char *const of_scene[] = {"fit",          "view",   "section",      "camera",   "export", "print",
+                                           "copy-command", "copy-c", "copy-picture", "parallel", "compare"};
     for (size_t i = 0; i < G_N_ELEMENTS(of_scene); i++)
         enable(w, of_scene[i], scene);
     if (changes & DOCUMENT_VIEW)

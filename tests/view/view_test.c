@@ -412,35 +412,65 @@ static void urgent_jobs_come_first_and_new_ones_replace_old(void **state)
 
 static char *folder;
 
-static void check_export(document *d, const char *name, int samples, bool transparent)
+static void check_same_file(const char *one, const char *other)
 {
-    lmn_renderer     *renderer = NULL;
-    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
-    char       *ours = g_build_filename(folder, name, NULL), *theirs = g_strdup_printf("%s/command-%s", folder, name);
-    export_wish wish = {theirs, 200, 150, samples, transparent, 0, 0, 0};
-    GStrv       words = command_words(document_state(d), document_scene(d), &wish, &error);
+    char *a = NULL, *b = NULL;
+    gsize a_size = 0, b_size = 0;
+    assert_true(g_file_get_contents(one, &a, &a_size, NULL) && g_file_get_contents(other, &b, &b_size, NULL));
+    assert_true(a_size > 200 && a_size == b_size && memcmp(a, b, a_size) == 0);
+    g_free(a);
+    g_free(b);
+}
+
+/* The state as a program: it is compiled without a warning and draws this file, too. */
+static void check_program(document *d, export_wish wish, const char *wanted)
+{
+    char *name = g_path_get_basename(wanted), *path = g_strdup_printf("%s/program-%s", folder, name);
+    char *source = g_build_filename(folder, "program.c", NULL), *program = g_build_filename(folder, "program", NULL);
+    wish.path = path;
+    char *text = command_in_c(document_state(d), document_scene(d), &wish, &error);
+    if (!text)
+        fail_msg("%s", error.message);
+    assert_true(g_file_set_contents(source, text, -1, NULL));
+    char *compile = g_strdup_printf("%s -std=gnu11 -Wall -Wextra -Werror -I'%s' '%s' -o '%s' '%s' -Wl,-rpath,'%s'",
+                                    COMPILER, INCLUDE, source, program, LIBRARY, LIBRARY_FOLDER);
+    assert_int_equal(system(compile), 0);
+    assert_int_equal(system(program), 0);
+    check_same_file(wanted, path);
+    char *all[] = {name, path, source, program, text, compile};
+    for (size_t i = 0; i < G_N_ELEMENTS(all); i++)
+        g_free(all[i]);
+}
+
+/* What is exported, what the copied command draws and what the copied program draws are the same bytes. */
+static void check_export_of(document *d, const char *name, export_wish wish)
+{
+    char *ours = g_build_filename(folder, name, NULL), *theirs = g_strdup_printf("%s/command-%s", folder, name);
+    wish.path = theirs;
+    wish.width = 200;
+    wish.height = 150;
+    GStrv words = command_words(document_state(d), document_scene(d), &wish, &error);
     if (!words)
         fail_msg("%s", error.message);
     /* Through a shell, as a person pastes it. */
     char *line = command_line((const char *const *)words + 1), *whole = g_strdup_printf("%s %s -q", COMMAND, line);
     assert_int_equal(system(whole), 0);
     wish.path = ours;
-    DO(lmn_renderer_create(&renderer, &rd, &error));
-    DO(export_draw((scene_ref *)document_scene(d), document_state(d), &wish, renderer, NULL, NULL, &error));
-    lmn_renderer_destroy(&renderer);
-    char *a = NULL, *b = NULL;
-    gsize a_size = 0, b_size = 0;
-    assert_true(g_file_get_contents(ours, &a, &a_size, NULL) && g_file_get_contents(theirs, &b, &b_size, NULL));
-    assert_true(a_size > 200 && a_size == b_size && memcmp(a, b, a_size) == 0);
+    DO(export_draw(document_scene(d), document_state(d), &wish, NULL, NULL, NULL, &error));
+    check_same_file(ours, theirs);
+    check_program(d, wish, ours);
     unlink(ours);
     unlink(theirs);
-    g_free(a);
-    g_free(b);
     g_free(ours);
     g_free(theirs);
     g_free(line);
     g_free(whole);
     g_strfreev(words);
+}
+
+static void check_export(document *d, const char *name, int samples, bool transparent)
+{
+    check_export_of(d, name, (export_wish){.samples = samples, .transparent = transparent});
 }
 
 static void set_look(document *d, const char *key, const char *value)
@@ -480,11 +510,78 @@ static void copied_commands_draw_what_is_exported(void **state)
     check_export(d, "rule.png", 1, false);
     document_set_look(d, look_ref_load("line", &error), "Look");
     check_export(d, "drawing.svg", 0, false);
+    /* Neither samples nor a ground: the command has to be spared what its formats have no room for. */
+    check_export(d, "lines.dxf", 4, true);
+    document_set_look(d, look_ref_load("technical", &error), "Look");
+    check_export_of(d, "A sheet of 'paper'.pdf", (export_wish){.dpi = 72.5, .samples = 4});
     document_free(d);
     d = document_make();
     document_set_scene(d, load("fox.glb"), true, 200, 150);
     document_set_time(d, true, 0.31, "3");
     check_export(d, "moment.png", 1, false);
+    check_export_of(d, "film.webp", (export_wish){.samples = 1, .first = 0.1, .last = 0.26, .rate = 12.5});
+    document_free(d);
+}
+
+static void check_settings(document *d, const char *const *wanted)
+{
+    GArray *settings = look_settings(document_state(d)->look);
+    size_t  count = 0;
+    assert_non_null(settings);
+    for (; wanted[2 * count]; count++) {
+        assert_true(count < settings->len);
+        const look_setting *s = &g_array_index(settings, look_setting, count);
+        assert_string_equal(s->key, wanted[2 * count]);
+        assert_string_equal(s->value, wanted[2 * count + 1]);
+    }
+    assert_int_equal(settings->len, count);
+    g_array_unref(settings);
+}
+
+static void exchanged_techniques_are_settings(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_look(d, look_ref_load("pencil", &error), "Look");
+    check_settings(d, (const char *const[]){NULL});
+    const char *before = lmn_look_technique(document_state(d)->look->look, 0, "surface", 0);
+    const char *other = g_strcmp0(before, "toon") == 0 ? "gooch" : "toon";
+    set_look(d, "lines.width", "3.25");
+    set_look(d, "surface.technique", other);
+    check_settings(d, (const char *const[]){"surface.technique", other, "lines.width", "3.25", NULL});
+    /* With several rules each is named. */
+    size_t    rule = 0;
+    lmn_look *look = document_copy_look(d, &error);
+    DO(lmn_look_add_rule(look, "[id=5]", LMN_AT_END, &rule, &error));
+    DO(lmn_look_set_rule_name(look, 0, "all the rest", &error));
+    document_put_look(d, look, "Add rule");
+    char *kept = look_keep(document_state(d)->look, &error);
+    assert_non_null(kept);
+    document_set_look(d, look_ref_load(kept, &error), "Look");
+    set_look(d, "all the rest:lines.width", "2");
+    set_look(d, "1:surface.technique", "flat");
+    /* A kind that the one rule had not, and one that the other had. */
+    const char *lines = lmn_look_technique(document_state(d)->look->look, 0, "lines", 0);
+    set_look(d, "1:lines.technique", lines);
+    set_look(d, "1:lines.width", "7");
+    check_settings(d, (const char *const[]){"1:surface.technique", "flat", "1:lines.technique", lines,
+                                            "all the rest:lines.width", "2", "1:lines.width", "7", NULL});
+    set_look(d, "all the rest:lines.technique", "none");
+    check_settings(d, (const char *const[]){"1:surface.technique", "flat", "all the rest:lines.technique", "none",
+                                            "1:lines.technique", lines, "1:lines.width", "7", NULL});
+    g_free(kept);
+    document_free(d);
+}
+
+static void names_with_braces_are_no_command(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("box.glb"), true, 200, 150);
+    export_wish wish = {.path = "x{name}.png", .width = 10, .height = 10};
+    error = (lmn_error){0};
+    assert_null(command_words(document_state(d), document_scene(d), &wish, &error));
+    assert_true(error.status == LMN_UNSUPPORTED && *error.hint);
     document_free(d);
 }
 
@@ -688,6 +785,8 @@ int main(void)
         cmocka_unit_test(slow_pictures_become_smaller_and_fast_ones_larger),
         cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),
         cmocka_unit_test(copied_commands_draw_what_is_exported),
+        cmocka_unit_test(exchanged_techniques_are_settings),
+        cmocka_unit_test(names_with_braces_are_no_command),
         cmocka_unit_test(moved_solids_are_no_command),
         cmocka_unit_test(parts_get_looks_of_their_own),
         cmocka_unit_test(strokes_are_read_as_they_were_saved),
