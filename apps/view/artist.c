@@ -1,5 +1,9 @@
 #include "artist.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 struct artist {
     GThread    *thread;
     GMutex      lock; /* of everything below */
@@ -78,6 +82,14 @@ static void put_away(artist *a, artist_job *job)
     g_idle_add_full(G_PRIORITY_DEFAULT, deliver, job, NULL);
 }
 
+/* What one thread took and another freed stays with the process otherwise: pictures go from here to the interface's. */
+static void give_back_memory(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 static gpointer draw_jobs(gpointer data)
 {
     artist           *a = data;
@@ -96,6 +108,8 @@ static gpointer draw_jobs(gpointer data)
         /* A context that was lost can only be made anew, with the next job. */
         if (job->status == LMN_GL)
             lmn_renderer_destroy(&renderer);
+        if (job->urgency >= ARTIST_REST)
+            give_back_memory();
         g_mutex_lock(&a->lock);
         a->drawn = NULL;
         put_away(a, job);

@@ -1,27 +1,18 @@
 #include "cameras.h"
 
-#include <jansson.h>
 #include <math.h>
 
 enum { CAMERAS_MAX = 64 };
 
 GMenu *cameras_menu(const scene_ref *scene)
 {
-    GMenu        *out = g_menu_new();
-    json_t       *info = scene && scene->json ? json_loads(scene->json, 0, NULL) : NULL;
-    const json_t *cameras = json_object_get(info, "cameras"), *camera;
-    size_t        i;
-    json_array_foreach(cameras, i, camera)
-    {
-        const char *name = json_string_value(json_object_get(camera, "name"));
-        if (!name || i >= CAMERAS_MAX)
-            continue;
-        GMenuItem *item = g_menu_item_new(name, NULL);
-        g_menu_item_set_action_and_target(item, "win.camera", "s", name);
+    GMenu *out = g_menu_new();
+    for (size_t i = 0; scene && scene->cameras[i] && i < CAMERAS_MAX; i++) {
+        GMenuItem *item = g_menu_item_new(scene->cameras[i], NULL);
+        g_menu_item_set_action_and_target(item, "win.camera", "s", scene->cameras[i]);
         g_menu_append_item(out, item);
         g_object_unref(item);
     }
-    json_decref(info);
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "document.h"
 
+#include <jansson.h>
 #include <string.h>
 
 enum { STEPS_MAX = 500 };
@@ -34,9 +35,42 @@ static void scene_clear(void *data)
     scene_ref *s = data;
     lmn_scene_destroy(&s->scene);
     g_strfreev(s->paths);
-    lmn_text_free(s->json);
+    g_array_unref(s->clips);
+    g_strfreev(s->cameras);
     g_array_unref(s->boxes);
     g_clear_pointer(&s->edited, g_array_unref);
+}
+
+static void clip_clear(void *clip)
+{
+    g_free(((clip_info *)clip)->name);
+}
+
+static void read_lists(scene_ref *s)
+{
+    char         *text = lmn_scene_info_json(s->scene);
+    json_t       *info = text ? json_loads(text, 0, NULL) : NULL;
+    GStrvBuilder *cameras = g_strv_builder_new();
+    const json_t *entry;
+    size_t        i;
+    s->clips = g_array_new(FALSE, FALSE, sizeof(clip_info));
+    g_array_set_clear_func(s->clips, clip_clear);
+    json_array_foreach(json_object_get(info, "animations"), i, entry)
+    {
+        const char *name = json_string_value(json_object_get(entry, "name"));
+        clip_info   clip = {g_strdup(name ? name : ""), json_number_value(json_object_get(entry, "duration"))};
+        g_array_append_val(s->clips, clip);
+    }
+    json_array_foreach(json_object_get(info, "cameras"), i, entry)
+    {
+        const char *name = json_string_value(json_object_get(entry, "name"));
+        if (name)
+            g_strv_builder_add(cameras, name);
+    }
+    s->cameras = g_strv_builder_end(cameras);
+    g_strv_builder_unref(cameras);
+    json_decref(info);
+    lmn_text_free(text);
 }
 
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
@@ -45,7 +79,7 @@ scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
     s->scene = scene;
     s->paths = g_strdupv((char **)paths);
     s->info = lmn_scene_info_of(scene);
-    s->json = lmn_scene_info_json(scene);
+    read_lists(s);
     s->boxes = g_array_new(FALSE, FALSE, sizeof(double[6]));
     lmn_part_info part;
     for (size_t i = 0; lmn_scene_part_at(scene, i, &part); i++) {

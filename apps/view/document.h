@@ -9,19 +9,26 @@
 #include "orbit.h"
 #include "solid_edits.h"
 
+/* An animation, and where it ends. */
+typedef struct clip_info {
+    char  *name; /* "": it has none */
+    double end_s;
+} clip_info;
+
 /* A scene, its files and what lists show of it; shared and never changed but by the artist (solids). */
 typedef struct scene_ref {
     lmn_scene     *scene;
     GStrv          paths;
     lmn_scene_info info;
-    char          *json;   /* lmn_scene_info_json */
-    GArray        *boxes;  /* of double[6]: the bounds of each part, as they were read */
-    GArray        *edited; /* what was done to its solids; the artist's own; NULL: nothing */
+    GArray        *clips;   /* of clip_info */
+    GStrv          cameras; /* their names */
+    GArray        *boxes;   /* of double[6]: the bounds of each part, as they were read */
+    GArray        *edited;  /* what was done to its solids; the artist's own; NULL: nothing */
 } scene_ref;
 /* Makes the scene's solids as a state has them. On the artist's thread. */
 lmn_status scene_ref_edit(scene_ref *s, const GArray *edits, lmn_error *error);
 
-/* Takes the scene. */
+/* Takes the scene. Any thread: what lists need of it is read here, not while they are filled. */
 scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths);
 scene_ref *scene_ref_take(scene_ref *s);
 void       scene_ref_drop(scene_ref *s); /* NULL is accepted */

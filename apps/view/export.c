@@ -1,7 +1,5 @@
 #include "export.h"
 
-#include <jansson.h>
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -67,6 +65,8 @@ static int number_of(GtkWidget *spin)
 
 static export_wish wish_of(const dialog *d)
 {
+    int width, height;
+    view_window_picture_size(d->owner, &width, &height);
     return (export_wish){.path = path_of(d),
                          .width = number_of(d->width),
                          .height = number_of(d->height),
@@ -75,7 +75,8 @@ static export_wish wish_of(const dialog *d)
                          .transparent = gtk_switch_get_active(GTK_SWITCH(d->transparent)),
                          .first = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->first)),
                          .last = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->last)),
-                         .rate = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->rate))};
+                         .rate = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->rate)),
+                         .shown = (double)width / height};
 }
 
 /* --- work ------------------------------------------------------------------------------------------------ */
@@ -454,13 +455,14 @@ static void add_picture(dialog *d, GtkWidget *group)
 static double length_of(document *doc)
 {
     enum { SOME_TIME = 2 };
-    const view_state *s = document_state(doc);
-    json_t           *info = json_loads(document_scene(doc)->json ? document_scene(doc)->json : "{}", 0, NULL);
-    size_t            number = s->clip ? (size_t)g_ascii_strtoull(s->clip, NULL, 10) : 1;
-    const json_t     *clip = json_array_get(json_object_get(info, "animations"), number ? number - 1 : 0);
-    double            out = json_number_value(json_object_get(clip, "duration"));
-    json_decref(info);
-    return out > 0 ? out : SOME_TIME;
+    const GArray *clips = document_scene(doc)->clips;
+    const char   *chosen = document_state(doc)->clip;
+    guint64       number = chosen ? g_ascii_strtoull(chosen, NULL, 10) : 1;
+    double        end = clips->len ? g_array_index(clips, clip_info, 0).end_s : 0;
+    for (guint i = 0; i < clips->len; i++)
+        if (chosen && (i + 1 == number || g_strcmp0(g_array_index(clips, clip_info, i).name, chosen) == 0))
+            end = g_array_index(clips, clip_info, i).end_s;
+    return end > 0 ? end : SOME_TIME;
 }
 
 static void add_film(dialog *d, GtkWidget *box)

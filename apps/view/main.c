@@ -90,10 +90,26 @@ static void find_translations(void)
     g_free(installed);
 }
 
+/* Without a GPU GTK would paint the window by the same software driver that draws the picture, and take its cores:
+ * with cairo the main loop's gaps while a model of 100,000 triangles turns went from 72 to 20 ms. */
+static void paint_without_gpu(void)
+{
+    GDir       *nodes = g_dir_open("/dev/dri", 0, NULL);
+    const char *name = NULL;
+    bool        gpu = false;
+    while (nodes && !gpu && (name = g_dir_read_name(nodes)))
+        gpu = g_str_has_prefix(name, "renderD");
+    if (nodes)
+        g_dir_close(nodes);
+    if (!gpu)
+        g_setenv("GSK_RENDERER", "cairo", FALSE);
+}
+
 int main(int count, char **arguments)
 {
     enum { NO_DISPLAY = 3 }; /* as the command's status where there is no driver */
     trace_begin();
+    paint_without_gpu();
     find_translations();
     if (!gtk_init_check()) {
         g_printerr("limner: there is no display to show a window on\n"

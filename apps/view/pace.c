@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Steps and smoothing as in Google's model-viewer (2020 on); the budget is that of a picture every 40 ms. */
-static const double scales[] = {1, 0.79, 0.62, 0.5, 0.4, 0.31};
+/* Steps and smoothing as in Google's model-viewer (2020 on); the budget is that of a picture every 44 ms. */
+static const double scales[] = {1, 0.79, 0.62, 0.5, 0.4};
 enum { LEVELS = sizeof scales / sizeof *scales };
-static const double TOO_SLOW_MS = 40, FAST_MS = 22, WEIGHT = 0.35;
+static const double TOO_SLOW_MS = 44, FAST_MS = 24, WEIGHT = 0.35;
 
 double pace_scale(const pace *p)
 {

