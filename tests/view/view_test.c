@@ -520,6 +520,13 @@ static void copied_commands_draw_what_is_exported(void **state)
     document_set_scene(d, load("fox.glb"), true, 200, 150);
     document_set_time(d, true, 0.31, "3");
     check_export(d, "moment.png", 1, false);
+    /* Of a film the clip counts also while the window shows the model at rest. */
+    export_wish   wish = {.path = "film.webp", .width = 10, .height = 10, .rate = 5};
+    lmn_draw_desc desc;
+    document_set_time(d, false, 0, "2");
+    wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+    assert_true(desc.time_given && desc.fit_time);
+    assert_string_equal(desc.clip, "2");
     check_export_of(d, "film.webp", (export_wish){.samples = 1, .first = 0.1, .last = 0.26, .rate = 12.5});
     document_free(d);
 }
@@ -661,11 +668,11 @@ static void wait_until_ended(const aside_test *tests, int count)
 static void exports_are_drawn_beside_each_other(void **state)
 {
     (void)state;
-    document   *d = document_make();
-    artist     *a = artist_start();
-    aside_test  tests[3] = {0};
-    char       *paths[3];
-    aside_desc  desc = {.artist = a, .work = draw_aside, .done = aside_ended};
+    document  *d = document_make();
+    artist    *a = artist_start();
+    aside_test tests[3] = {0};
+    char      *paths[3];
+    aside_desc desc = {.artist = a, .work = draw_aside, .done = aside_ended};
     document_set_scene(d, load("pump.glb"), true, 200, 150);
     desc.scene = document_scene(d);
     desc.state = document_state(d);
@@ -696,7 +703,7 @@ static void cancelled_exports_leave_nothing(void **state)
     char                    *path = g_build_filename(folder, "cancelled.png", NULL);
     for (int solid = 0; solid < 2; solid++) {
         document  *d = document_make();
-        aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 16}};
+        aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 1}};
         document_set_scene(d, load(files[solid]), true, 200, 150);
         aside_desc desc = {a, document_scene(d), document_state(d), draw_aside, NULL, aside_ended, &t};
         aside_cancel(aside_begin(&desc));
@@ -708,7 +715,7 @@ static void cancelled_exports_leave_nothing(void **state)
     }
     /* The artist goes before it has begun. */
     document  *d = document_make();
-    aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 16}};
+    aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 1}};
     document_set_scene(d, load("csg/widget.csg"), true, 200, 150);
     aside_desc desc = {a, document_scene(d), document_state(d), draw_aside, NULL, aside_ended, &t};
     (void)aside_begin(&desc);
