@@ -205,13 +205,26 @@ void wish_frames(const export_wish *wish, long *first, long *last)
     *last = MAX(*first, (long)floor(wish->last * wish->rate + 0.5));
 }
 
+/* The angle of view goes by the height, so that narrow pages would cut off what is seen at the sides. */
+static orbit widened(const orbit *o, const export_wish *wish)
+{
+    enum { MOST_DEG = 170 };
+    orbit  out = *o;
+    double factor = wish->shown * wish->height / wish->width;
+    if (factor > 1)
+        out.fov_deg = fmin(MOST_DEG, atan(tan(o->fov_deg * G_PI / 360) * factor) * 360 / G_PI);
+    return out;
+}
+
 void wish_describe(const view_state *s, const scene_ref *scene, const export_wish *wish, const char *selector,
                    lmn_draw_desc *desc)
 {
     lmn_format_info format;
     wish_kind       kind = wish_kind_of(wish->path, &format);
     bool            pixels = lmn_look_needs_pixels(s->look->look);
-    state_describe(s, selector, wish->width, wish->height, desc);
+    view_state      state = *s; /* borrows all of it */
+    state.view = widened(&s->view, wish);
+    state_describe(&state, selector, wish->width, wish->height, desc);
     desc->dpi = wish->dpi;
     desc->samples = kind != WISH_SHEET || (format.pictures && pixels) ? wish->samples : 0;
     desc->background = wish->transparent && (kind == WISH_UNKNOWN || format.ground) ? "none" : NULL;

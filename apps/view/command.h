@@ -24,6 +24,7 @@ typedef struct export_wish {
     int         samples; /* 0: as many as suit */
     bool        transparent;
     double      first, last, rate; /* of films: seconds, and frames a second */
+    double      shown;             /* width : height of what is to be seen in any case; 0: as high as the state says */
 } export_wish;
 
 /* The ending says what a file becomes; `format` is that of its pages or frames. */
@@ -33,7 +34,8 @@ wish_kind wish_kind_of(const char *path, lmn_format_info *format);
 /* Of a film, the numbers of its frames; frame i is at i/rate seconds. */
 void wish_frames(const export_wish *wish, long *first, long *last);
 
-/* As the command describes it; borrows from the state and from `selector`. Of films the time is still missing. */
+/* As the command describes it; borrows from the state and from `selector`. What is narrower than `shown` is seen with a
+ * wider angle. Of films the time is still missing. */
 void wish_describe(const view_state *s, const scene_ref *scene, const export_wish *wish, const char *selector,
                    lmn_draw_desc *desc);
 

@@ -1,6 +1,5 @@
 #include "export.h"
 
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -66,6 +65,8 @@ static int number_of(GtkWidget *spin)
 
 static export_wish wish_of(const dialog *d)
 {
+    int width, height;
+    view_window_picture_size(d->owner, &width, &height);
     return (export_wish){.path = path_of(d),
                          .width = number_of(d->width),
                          .height = number_of(d->height),
@@ -74,7 +75,8 @@ static export_wish wish_of(const dialog *d)
                          .transparent = gtk_switch_get_active(GTK_SWITCH(d->transparent)),
                          .first = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->first)),
                          .last = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->last)),
-                         .rate = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->rate))};
+                         .rate = gtk_spin_button_get_value(GTK_SPIN_BUTTON(d->rate)),
+                         .shown = (double)width / height};
 }
 
 /* --- work ------------------------------------------------------------------------------------------------ */
@@ -453,11 +455,14 @@ static void add_picture(dialog *d, GtkWidget *group)
 static double length_of(document *doc)
 {
     enum { SOME_TIME = 2 };
-    const view_state *s = document_state(doc);
-    const GArray     *clips = document_scene(doc)->clips;
-    guint64           number = s->clip ? g_ascii_strtoull(s->clip, NULL, 10) : 1;
-    double            out = number > 0 && number <= clips->len ? g_array_index(clips, clip_info, number - 1).end_s : 0;
-    return out > 0 ? out : SOME_TIME;
+    const GArray *clips = document_scene(doc)->clips;
+    const char   *chosen = document_state(doc)->clip;
+    guint64       number = chosen ? g_ascii_strtoull(chosen, NULL, 10) : 1;
+    double        end = clips->len ? g_array_index(clips, clip_info, 0).end_s : 0;
+    for (guint i = 0; i < clips->len; i++)
+        if (chosen && (i + 1 == number || g_strcmp0(g_array_index(clips, clip_info, i).name, chosen) == 0))
+            end = g_array_index(clips, clip_info, i).end_s;
+    return end > 0 ? end : SOME_TIME;
 }
 
 static void add_film(dialog *d, GtkWidget *box)

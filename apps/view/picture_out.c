@@ -92,6 +92,7 @@ typedef struct page {
     GtkPrintContext   *context; /* held */
     scene_ref         *scene;   /* what was shown when printing was asked for */
     view_state        *state;
+    double             shown; /* its width : height in the window */
     export_wish        wish;
     lmn_drawing       *drawing;
     aside             *work; /* NULL: none */
@@ -164,8 +165,10 @@ static void begin_page(GtkPrintOperation *printing, GtkPrintContext *context, in
     page  *p = user;
     double width = gtk_print_context_get_width(context), height = gtk_print_context_get_height(context);
     double dpi = fmin(PRINT_DPI, SIDE_MOST * 72 / fmax(width, height));
-    p->wish = (export_wish){
-        .width = MAX(1, (int)floor(width / 72 * dpi)), .height = MAX(1, (int)floor(height / 72 * dpi)), .dpi = dpi};
+    p->wish = (export_wish){.width = MAX(1, (int)floor(width / 72 * dpi)),
+                            .height = MAX(1, (int)floor(height / 72 * dpi)),
+                            .dpi = dpi,
+                            .shown = p->shown};
     p->context = g_object_ref(context);
     gtk_print_operation_set_defer_drawing(printing);
     p->work =
@@ -210,6 +213,7 @@ void picture_out_print(ViewWindow *w)
                                    width > height ? GTK_PAGE_ORIENTATION_LANDSCAPE : GTK_PAGE_ORIENTATION_PORTRAIT);
     p->window = g_object_ref(w);
     p->printing = printing;
+    p->shown = (double)width / height;
     p->scene = scene_ref_take((scene_ref *)scene);
     p->state = state_copy(document_state(d));
     gtk_print_operation_set_default_page_setup(printing, setup);

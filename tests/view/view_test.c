@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "artist.h"
+#include "aside.h"
 #include "command.h"
 #include "controls_value.h"
 #include "document.h"
@@ -519,6 +520,13 @@ static void copied_commands_draw_what_is_exported(void **state)
     document_set_scene(d, load("fox.glb"), true, 200, 150);
     document_set_time(d, true, 0.31, "3");
     check_export(d, "moment.png", 1, false);
+    /* Of a film the clip counts also while the window shows the model at rest. */
+    export_wish   wish = {.path = "film.webp", .width = 10, .height = 10, .rate = 5};
+    lmn_draw_desc desc;
+    document_set_time(d, false, 0, "2");
+    wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+    assert_true(desc.time_given && desc.fit_time);
+    assert_string_equal(desc.clip, "2");
     check_export_of(d, "film.webp", (export_wish){.samples = 1, .first = 0.1, .last = 0.26, .rate = 12.5});
     document_free(d);
 }
@@ -573,6 +581,40 @@ static void exchanged_techniques_are_settings(void **state)
     document_free(d);
 }
 
+/* Whatever shape a page has: what the window shows is on it. */
+static void narrow_pages_show_all_of_a_window(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("box.glb"), true, 400, 200);
+    for (int parallel = 0; parallel < 2; parallel++) {
+        orbit         o = document_state(d)->view, narrow;
+        export_wish   wish = {.path = "x.png", .width = 300, .height = 900, .shown = 2};
+        lmn_draw_desc desc, wide;
+        double        right[3], up[3], forward[3], corner[3], inside[2];
+        o.orthographic = parallel;
+        document_set_view(d, &o, "Projection");
+        wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+        narrow = o;
+        narrow.fov_deg = atan(tan(o.fov_deg * G_PI / 360) * 6) * 360 / G_PI; /* 2 : 1 in 1 : 3 */
+        orbit_axes(&o, right, up, forward);
+        for (int k = 0; k < 3; k++) /* at the window's right border */
+            corner[k] = o.target[k] + right[k] * o.distance * tan(o.fov_deg * G_PI / 360) * 2;
+        assert_true(orbit_project(&narrow, corner, 300, 900, inside));
+        assert_close(inside[0], 300, 1e-6);
+        orbit_describe(&narrow, &wide);
+        assert_close(desc.fov_deg, wide.fov_deg, 1e-9);
+        for (int k = 0; k < 3; k++)
+            assert_close(desc.eye[k], wide.eye[k], 1e-9);
+        wish.width = 900; /* wide ones are as high as the window */
+        wish.height = 300;
+        wish_describe(document_state(d), document_scene(d), &wish, NULL, &desc);
+        orbit_describe(&o, &wide);
+        assert_true(desc.fov_deg == wide.fov_deg && desc.eye[0] == wide.eye[0]);
+    }
+    document_free(d);
+}
+
 static void names_with_braces_are_no_command(void **state)
 {
     (void)state;
@@ -583,6 +625,106 @@ static void names_with_braces_are_no_command(void **state)
     assert_null(command_words(document_state(d), document_scene(d), &wish, &error));
     assert_true(error.status == LMN_UNSUPPORTED && *error.hint);
     document_free(d);
+}
+
+/* --- work aside ------------------------------------------------------------------------------------------ */
+
+typedef struct aside_test {
+    export_wish wish;
+    int         ended;
+    lmn_status  status;
+    bool        own; /* renderer */
+} aside_test;
+
+static lmn_status draw_aside(const scene_ref *scene, const view_state *s, lmn_renderer *renderer,
+                             lmn_progress_fn progress, void *progress_user, void *user, lmn_error *e)
+{
+    aside_test *t = user;
+    t->own = !renderer;
+    return export_draw(scene, s, &t->wish, renderer, progress, progress_user, e);
+}
+
+static void aside_ended(lmn_status status, const lmn_error *e, void *user)
+{
+    (void)e;
+    aside_test *t = user;
+    t->ended++;
+    t->status = status;
+}
+
+static void wait_until_ended(const aside_test *tests, int count)
+{
+    gint64 until = g_get_monotonic_time() + 60 * G_TIME_SPAN_SECOND;
+    int    ended = 0;
+    while (ended < count && g_get_monotonic_time() < until) {
+        g_main_context_iteration(NULL, FALSE);
+        ended = 0;
+        for (int i = 0; i < count; i++)
+            ended += tests[i].ended;
+    }
+    assert_int_equal(ended, count);
+}
+
+static void exports_are_drawn_beside_each_other(void **state)
+{
+    (void)state;
+    document  *d = document_make();
+    artist    *a = artist_start();
+    aside_test tests[3] = {0};
+    char      *paths[3];
+    aside_desc desc = {.artist = a, .work = draw_aside, .done = aside_ended};
+    document_set_scene(d, load("pump.glb"), true, 200, 150);
+    desc.scene = document_scene(d);
+    desc.state = document_state(d);
+    for (int i = 0; i < 3; i++) {
+        paths[i] = g_strdup_printf("%s/aside-%d.png", folder, i);
+        tests[i].wish = (export_wish){.path = paths[i], .width = 300, .height = 200};
+        desc.user = &tests[i];
+        (void)aside_begin(&desc);
+    }
+    wait_until_ended(tests, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_true(tests[i].status == LMN_OK && tests[i].own);
+        check_same_file(paths[0], paths[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        unlink(paths[i]);
+        g_free(paths[i]);
+    }
+    artist_end(a);
+    document_free(d);
+}
+
+static void cancelled_exports_leave_nothing(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"pump.glb", "csg/widget.csg"};
+    artist                  *a = artist_start();
+    char                    *path = g_build_filename(folder, "cancelled.png", NULL);
+    for (int solid = 0; solid < 2; solid++) {
+        document  *d = document_make();
+        aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 1}};
+        document_set_scene(d, load(files[solid]), true, 200, 150);
+        aside_desc desc = {a, document_scene(d), document_state(d), draw_aside, NULL, aside_ended, &t};
+        aside_cancel(aside_begin(&desc));
+        wait_until_ended(&t, 1);
+        assert_int_equal(t.status, LMN_CANCELLED);
+        assert_false(g_file_test(path, G_FILE_TEST_EXISTS));
+        assert_true(t.own == !solid); /* solids are the artist's */
+        document_free(d);
+    }
+    /* The artist goes before it has begun. */
+    document  *d = document_make();
+    aside_test t = {.wish = {.path = path, .width = 3000, .height = 3000, .samples = 1}};
+    document_set_scene(d, load("csg/widget.csg"), true, 200, 150);
+    aside_desc desc = {a, document_scene(d), document_state(d), draw_aside, NULL, aside_ended, &t};
+    (void)aside_begin(&desc);
+    artist_end(a);
+    wait_until_ended(&t, 1);
+    assert_int_equal(t.status, LMN_CANCELLED);
+    assert_false(g_file_test(path, G_FILE_TEST_EXISTS));
+    document_free(d);
+    g_free(path);
 }
 
 static void moved_solids_are_no_command(void **state)
@@ -786,7 +928,10 @@ int main(void)
         cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),
         cmocka_unit_test(copied_commands_draw_what_is_exported),
         cmocka_unit_test(exchanged_techniques_are_settings),
+        cmocka_unit_test(narrow_pages_show_all_of_a_window),
         cmocka_unit_test(names_with_braces_are_no_command),
+        cmocka_unit_test(exports_are_drawn_beside_each_other),
+        cmocka_unit_test(cancelled_exports_leave_nothing),
         cmocka_unit_test(moved_solids_are_no_command),
         cmocka_unit_test(parts_get_looks_of_their_own),
         cmocka_unit_test(strokes_are_read_as_they_were_saved),

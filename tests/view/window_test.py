@@ -141,6 +141,60 @@ def copied_and_exported(v):
     act(find_below(dialog, "Close", "push button"), "click")
 
 
+def exported_meanwhile(v):
+    since = v.mark()
+    v.click("Export", "push button")
+    whole = os.path.join(FOLDER, "whole.png")
+    v.wait("preview", since=since)
+    dialog = [w for w in v.windows() if w.get_name() == "Export"][-1]
+    find_below(dialog, "File", "text").set_text_contents(whole)
+    for side in ("Width", "Height"):
+        find_below(dialog, side, "spin button").set_current_value(4000)
+    time.sleep(0.3)
+    since = v.mark()
+    act(find_below(dialog, "Export", "push button"), "click")
+    time.sleep(0.3)
+    v.click("Undo")
+    drawn = v.wait("drawn |exported", since=since, seconds=30).group(0)
+    check("the window goes on while a file is drawn", drawn == "drawn ")
+    act(find_below(dialog, "Cancel", "push button"), "click")
+    v.wait("export-cancelled", since=since, seconds=60)
+    check("what is cancelled leaves nothing", not os.path.exists(whole))
+    act(find_below(dialog, "Close", "push button"), "click")
+    v.click("Redo")
+
+
+def picture_copied(v):
+    since = v.mark()
+    v.click("Main menu")
+    time.sleep(0.4)
+    v.click("Copy the picture")
+    v.wait("copied-picture", since=since)
+    check("the picture is copied", True)
+
+
+def look_file_changed():
+    look = os.path.join(FOLDER, "my.json")
+    text = '{"version": 1, "rules": [{"select": "*", "surface": "%s"}]}'
+    with open(look, "w") as file:
+        file.write(text % "flat")
+    v = Viewer(VIEWER, [MODEL, "--look", look])
+    v.wait("loaded parts")
+    v.rests()
+    since = v.mark()
+    with open(look, "w") as file:
+        file.write(text % "toon" + "\n,")
+    v.wait("not-reloaded-look 2:", since=since)
+    check("a look file that is half written is said, with the line", True)
+    since = v.mark()
+    with open(look, "w") as file:
+        file.write(text % "toon")
+    v.wait("[0-9] reloaded-look", since=since)
+    v.rests(since)
+    check("a look file that changes is read again", True)
+    check("it ends with a watched look", v.close() == 0)
+
+
 def watched(v):
     since = v.mark()
     shutil.copy(os.path.join(SOURCE, "examples", "box.glb"), MODEL)
@@ -189,7 +243,7 @@ def main():
     try:
         shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
         v = Viewer(VIEWER, [MODEL])
-        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, parameter_changed, time_scrubbed, copied_and_exported, watched, ends):
+        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, parameter_changed, time_scrubbed, copied_and_exported, exported_meanwhile, picture_copied, watched, ends):
             try:
                 step(v)
             except Failure as e:
@@ -198,7 +252,7 @@ def main():
                     break
         if v.process.poll() is None:
             v.process.send_signal(signal.SIGKILL)
-        for step in (goes_on_where_it_was, says_what_is_wrong):
+        for step in (goes_on_where_it_was, look_file_changed, says_what_is_wrong):
             try:
                 step()
             except Failure as e:
