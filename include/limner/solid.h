@@ -204,6 +204,11 @@ LMN_API lmn_status lmn_solid_set_matrix(lmn_scene *scene, uint32_t solid, uint32
 LMN_API lmn_status lmn_solid_set_colour(lmn_scene *scene, uint32_t solid, uint32_t node, const float colour[4],
                                         lmn_error *error);
 
+/* Leaves a node, with all below it, out of the solid as if it were no operand, or brings it back: of a difference
+ * without its first operand the second is the first, what is left of an intersection is that of the others. Ids, counts
+ * and parts are the same meanwhile; the bounds of what is left out are empty. New nodes are shown. */
+LMN_API lmn_status lmn_solid_set_shown(lmn_scene *scene, uint32_t solid, uint32_t node, bool shown, lmn_error *error);
+
 /* Turns an operation into another. */
 LMN_API lmn_status lmn_solid_set_operation(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_operation operation,
                                            lmn_error *error);
@@ -246,6 +251,9 @@ typedef struct lmn_solid_info {
 /* How many solids the scene has, and the id of one (0 … count−1; 0 when out of range). */
 LMN_API size_t   lmn_scene_solid_count(const lmn_scene *scene);
 LMN_API uint32_t lmn_scene_solid_at(const lmn_scene *scene, size_t index);
+
+/* Is the node no operand that was left out? What is above it may be. False when there is no such solid or node. */
+LMN_API bool lmn_solid_is_shown(const lmn_scene *scene, uint32_t solid, uint32_t node);
 
 /* False when there is no such solid or node. */
 LMN_API bool lmn_solid_info_of(const lmn_scene *scene, uint32_t solid, uint32_t node, lmn_solid_info *out);

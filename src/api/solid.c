@@ -271,6 +271,13 @@ lmn_status lmn_solid_set_colour(lmn_scene *scene, uint32_t solid, uint32_t node,
     return LMN_OK;
 }
 
+lmn_status lmn_solid_set_shown(lmn_scene *scene, uint32_t solid, uint32_t node, bool shown, lmn_error *error)
+{
+    found      it;
+    lmn_status status = find(&it, scene, solid, node, "lmn_solid_set_shown", error);
+    return status == LMN_OK ? solid_edit_set_shown(scene, it.solid, it.node, shown, error) : status;
+}
+
 lmn_status lmn_solid_set_operation(lmn_scene *scene, uint32_t solid, uint32_t node, lmn_operation operation,
                                    lmn_error *error)
 {
@@ -362,6 +369,13 @@ static void put_bounds(lmn_solid_info *out, box3 b)
         return;
     memcpy(out->bounds_min, (double[]){(double)b.min.x, (double)b.min.y, (double)b.min.z}, sizeof out->bounds_min);
     memcpy(out->bounds_max, (double[]){(double)b.max.x, (double)b.max.y, (double)b.max.z}, sizeof out->bounds_max);
+}
+
+bool lmn_solid_is_shown(const lmn_scene *scene, uint32_t solid_id, uint32_t node_id)
+{
+    const solid *s = solid_of(scene, solid_id);
+    int32_t      at = s ? node_of(s, node_id) : NONE;
+    return at != NONE && !s->nodes[at].hidden;
 }
 
 bool lmn_solid_info_of(const lmn_scene *scene, uint32_t solid_id, uint32_t node_id, lmn_solid_info *out)

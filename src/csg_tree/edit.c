@@ -252,6 +252,7 @@ static bool append_tree(solid *into, int32_t parent, const solid *from, int32_t 
         made->matrix = n.matrix;
         made->has_colour = n.has_colour;
         made->colour = n.colour;
+        made->hidden = n.hidden;
         made->mesh = n.mesh == NONE || !meshes ? n.mesh : meshes[n.mesh];
         made->line = n.line;
         made->name = mem_copy_text(n.name);
@@ -414,6 +415,20 @@ lmn_status solid_edit_set_matrix(lmn_scene *scene, size_t index, int32_t node, c
     lmn_status status = settle_below(scene, index, node, error);
     if (status != LMN_OK) {
         n->matrix = before;
+        restore(scene, index, node);
+    }
+    return status;
+}
+
+lmn_status solid_edit_set_shown(lmn_scene *scene, size_t index, int32_t node, bool shown, lmn_error *error)
+{
+    solid_node *n = &scene->solids[index].nodes[node];
+    if (n->hidden == !shown)
+        return LMN_OK;
+    n->hidden = !shown;
+    lmn_status status = settle_below(scene, index, node, error);
+    if (status != LMN_OK) {
+        n->hidden = shown;
         restore(scene, index, node);
     }
     return status;

@@ -30,6 +30,7 @@ lmn_status solid_edit_graft(lmn_scene *scene, size_t index, int32_t parent, lmn_
 lmn_status solid_edit_set_mesh(lmn_scene *scene, size_t index, int32_t node, mesh *shape, lmn_error *error);
 lmn_status solid_edit_set_matrix(lmn_scene *scene, size_t index, int32_t node, const mat4 *matrix, lmn_error *error);
 void       solid_edit_set_colour(lmn_scene *scene, size_t index, int32_t node, const vec4 *colour); /* NULL: none */
+lmn_status solid_edit_set_shown(lmn_scene *scene, size_t index, int32_t node, bool shown, lmn_error *error);
 lmn_status solid_edit_set_operation(lmn_scene *scene, size_t index, int32_t node, solid_kind kind, lmn_error *error);
 lmn_status solid_edit_set_name(lmn_scene *scene, size_t index, int32_t node, const char *name, lmn_error *error);
 

@@ -83,14 +83,14 @@ static int32_t make_union(solid_form *f, const solid *s, int32_t node, const int
 static int32_t make_intersection(solid_form *f, const solid *s, int32_t node, const int32_t *made)
 {
     bool    takes_away = s->nodes[node].kind == SOLID_DIFFERENCE;
-    int32_t first = s->nodes[node].first_child;
+    int32_t first = solid_first_shown(s, node);
     if (first == NONE || made[first] == EMPTY)
         return EMPTY;
     int32_t out = add_term(f, TERM_AND);
     if (out == NO_MEMORY)
         return out;
     add_dissolved(f, out, made[first], false);
-    for (int32_t c = s->nodes[first].next_sibling; c != NONE; c = s->nodes[c].next_sibling) {
+    for (int32_t c = solid_next_shown(s, first); c != NONE; c = solid_next_shown(s, c)) {
         if (made[c] == EMPTY && !takes_away)
             return EMPTY;
         if (made[c] != EMPTY)

@@ -64,7 +64,7 @@ void solid_release(solid *s)
 /* What a node inherits. */
 typedef struct inherited {
     mat4 matrix;
-    bool has_colour;
+    bool has_colour, hidden;
     vec4 colour;
 } inherited;
 
@@ -78,6 +78,7 @@ static inherited *hand_down(const solid *s)
         out[i].matrix = above ? mat4_multiply(&above->matrix, &n->matrix) : n->matrix;
         out[i].has_colour = (above && above->has_colour) || n->has_colour;
         out[i].colour = above && above->has_colour ? above->colour : n->colour;
+        out[i].hidden = (above && above->hidden) || n->hidden;
     }
     return out;
 }
@@ -100,12 +101,38 @@ int32_t solid_next(const solid *s, int32_t top, int32_t current)
     return current == top ? NONE : s->nodes[current].next_sibling;
 }
 
-static void measure_operand(const lmn_scene *scene, solid *s, solid_node *n, const mat4 *position)
+static int32_t shown_from(const solid *s, int32_t operand)
 {
+    while (operand != NONE && s->nodes[operand].hidden)
+        operand = s->nodes[operand].next_sibling;
+    return operand;
+}
+
+int32_t solid_first_shown(const solid *s, int32_t operation)
+{
+    return shown_from(s, s->nodes[operation].first_child);
+}
+
+int32_t solid_next_shown(const solid *s, int32_t operand)
+{
+    return shown_from(s, s->nodes[operand].next_sibling);
+}
+
+bool solid_is_hidden(const solid *s, int32_t node)
+{
+    while (node != NONE && !s->nodes[node].hidden)
+        node = s->nodes[node].parent;
+    return node != NONE;
+}
+
+/* Triangles of hidden operands count: whether a solid is a part does not depend on what of it is shown. */
+static void measure_operand(const lmn_scene *scene, solid *s, int32_t index, const mat4 *position, bool hidden)
+{
+    solid_node *n = &s->nodes[index];
     s->triangles -= n->triangles;
     n->triangles = n->mesh == NONE ? 0 : mesh_triangle_count(&scene->meshes[n->mesh]);
     s->triangles += n->triangles;
-    n->box = n->triangles ? mesh_box(&scene->meshes[n->mesh], position) : box3_empty();
+    n->box = n->triangles && !hidden ? mesh_box(&scene->meshes[n->mesh], position) : box3_empty();
 }
 
 bool solid_measure(const lmn_scene *scene, solid *s)
@@ -113,7 +140,7 @@ bool solid_measure(const lmn_scene *scene, solid *s)
     inherited *from = hand_down(s);
     for (size_t i = 0; from && i < s->node_count; i++)
         if (s->nodes[i].kind == SOLID_OPERAND)
-            measure_operand(scene, s, &s->nodes[i], &from[i].matrix);
+            measure_operand(scene, s, (int32_t)i, &from[i].matrix, from[i].hidden);
     solid_sum_up(s);
     mem_free(from);
     return from != NULL;
@@ -150,16 +177,19 @@ bool solid_measure_below(const lmn_scene *scene, solid *s, int32_t top)
         if (s->nodes[i].kind != SOLID_OPERAND)
             continue;
         mat4 position = position_of(s, i);
-        measure_operand(scene, s, &s->nodes[i], &position);
-        good = good && is_within_reach(&s->nodes[i]);
+        bool hidden = solid_is_hidden(s, i);
+        measure_operand(scene, s, i, &position, hidden);
+        good = good && (hidden || is_within_reach(&s->nodes[i]));
     }
     return good;
 }
 
-static box3 box_of_operation(const solid *s, const solid_node *n)
+static box3 box_of_operation(const solid *s, int32_t index)
 {
-    box3 box = n->first_child == NONE ? box3_empty() : s->nodes[n->first_child].box;
-    for (int32_t c = n->first_child; c != NONE && n->kind != SOLID_DIFFERENCE; c = s->nodes[c].next_sibling) {
+    const solid_node *n = &s->nodes[index];
+    int32_t           first = solid_first_shown(s, index);
+    box3              box = first == NONE ? box3_empty() : s->nodes[first].box;
+    for (int32_t c = first; c != NONE && n->kind != SOLID_DIFFERENCE; c = solid_next_shown(s, c)) {
         box = n->kind == SOLID_UNION ? box3_union(box, s->nodes[c].box) : box3_intersection(box, s->nodes[c].box);
         if (box3_is_empty(box))
             box = box3_empty();
@@ -175,7 +205,7 @@ void solid_sum_up(solid *s)
     for (size_t i = s->node_count; i-- > 0;) {
         solid_node *n = &s->nodes[i];
         if (n->kind != SOLID_OPERAND)
-            n->box = box_of_operation(s, n);
+            n->box = box_of_operation(s, (int32_t)i);
         s->operand_count += n->kind == SOLID_OPERAND;
         s->triangles += n->triangles;
     }
@@ -184,7 +214,7 @@ void solid_sum_up(solid *s)
 void solid_sum_up_above(solid *s, int32_t node)
 {
     for (int32_t i = s->nodes[node].parent; i != NONE; i = s->nodes[i].parent)
-        s->nodes[i].box = box_of_operation(s, &s->nodes[i]);
+        s->nodes[i].box = box_of_operation(s, i);
 }
 
 bool solid_operands(const solid *s, solid_operand **out, size_t *count)
@@ -202,7 +232,7 @@ bool solid_operands(const solid *s, solid_operand **out, size_t *count)
     /* In the order of the tree; that of the array is the order of appending, which may differ. */
     for (int32_t i = 0; i != NONE; i = solid_next(s, 0, i)) {
         const solid_node *n = &s->nodes[i];
-        if (n->triangles == 0)
+        if (n->triangles == 0 || from[i].hidden)
             continue;
         (*out)[made++] = (solid_operand){.node = i,
                                          .mesh = n->mesh,

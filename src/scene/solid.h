@@ -17,10 +17,11 @@ typedef struct solid_node {
     mat4       matrix;
     bool       has_colour; /* of all operands below that have no colour from above: the outermost decides */
     vec4       colour;     /* linear, straight alpha */
+    bool       hidden;     /* it and all below are no operands, as if the tree were without them */
     int32_t    mesh;       /* operand: the scene's mesh, NONE: empty */
     char      *name;       /* "cylinder"; may be NULL */
     uint32_t   line;       /* of the file; 0: unknown */
-    box3       box;        /* where it can be at most, solid's space; measured, as are the triangles */
+    box3       box;        /* where it can be at most, solid's space; measured, as are the triangles; hidden: empty */
     uint64_t   triangles;  /* operand: its mesh's */
 } solid_node;
 
@@ -57,6 +58,11 @@ bool scene_append_removed(lmn_scene *scene, int32_t node_index);
 bool scene_update_removed(lmn_scene *scene, size_t index);
 /* The node after this one, depth first, within the tree below `top`; NONE at the end. */
 int32_t solid_next(const solid *s, int32_t top, int32_t current);
+/* The first operand of an operation that is not hidden itself, and the one after this one; NONE at the end. */
+int32_t solid_first_shown(const solid *s, int32_t operation);
+int32_t solid_next_shown(const solid *s, int32_t operand);
+/* Is the node hidden, or anything above it? */
+bool solid_is_hidden(const solid *s, int32_t node);
 
 /* What boxes and counts say comes from here: scene_finish calls it once all meshes are there. False when memory is
  * gone. */
@@ -78,7 +84,7 @@ typedef struct solid_operand {
     box3    box; /* solid's space */
 } solid_operand;
 
-/* The operands in the order of the tree that have a mesh with triangles; free with mem_free. False when memory is
+/* The operands in the order of the tree that are shown and have a mesh with triangles; free with mem_free. False when memory is
  * gone. */
 bool solid_operands(const solid *s, solid_operand **out, size_t *count);
 /* Where the solid can be at most: boxes of operands, united, intersected, or that of the first. */

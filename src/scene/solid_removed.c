@@ -13,11 +13,11 @@ typedef struct removal {
     int32_t     *copies;    /* per node: its copy in `into`; NONE */
 } removal;
 
-/* Is the node's whole subtree taken away by the operation above it? */
+/* Is the node's whole subtree taken away by the operation above it? Hidden ones may be called so, too. */
 static bool is_taken_away(const solid *s, const solid_node *n, int32_t index)
 {
     return n->parent != NONE && s->nodes[n->parent].kind == SOLID_DIFFERENCE &&
-           s->nodes[n->parent].first_child != index;
+           solid_first_shown(s, n->parent) != index;
 }
 
 static bool takes_away(const solid *s)
@@ -41,6 +41,7 @@ static bool copy_node(removal *r, int32_t index, int32_t parent)
     c->has_colour = painter != NONE;
     if (c->has_colour)
         c->colour = r->from->nodes[painter].colour;
+    c->hidden = outermost ? solid_is_hidden(r->from, index) : n->hidden;
     c->mesh = n->mesh;
     c->line = n->line;
     c->name = mem_copy_text(n->name);

@@ -563,6 +563,11 @@ CALL(lmn_solid_set_shape)
 {
     return lmn_solid_set_shape(P(0, w->scene), w->solid, w->box, P(1, w->desc[0]), P(2, &w->error));
 }
+CALL(lmn_solid_set_shown)
+{
+    return lmn_solid_set_shown(P(0, w->scene), w->solid, w->box, false, P(1, &w->error));
+}
+
 CALL(lmn_solid_set_name)
 {
     return lmn_solid_set_name(P(0, w->scene), w->solid, w->box, P(1, "b"), P(2, &w->error));
@@ -582,6 +587,10 @@ CALL(lmn_scene_solid_count)
 CALL(lmn_scene_solid_at)
 {
     return neutral(lmn_scene_solid_at(P(0, w->scene), 0) == 0);
+}
+CALL(lmn_solid_is_shown)
+{
+    return neutral(!lmn_solid_is_shown(P(0, w->scene), w->solid, w->box));
 }
 CALL(lmn_solid_info_of)
 {
@@ -842,11 +851,13 @@ static const row rows[] = {
     ROW(lmn_solid_set_colour, 3, B | C),
     ROW(lmn_solid_set_operation, 2, B),
     ROW(lmn_solid_set_shape, 3, C, STATUS, {DESC(shape)}),
+    ROW(lmn_solid_set_shown, 2, B),
     ROW(lmn_solid_set_name, 3, B | C),
     ROW(lmn_solid_remove, 2, B),
     ROW(lmn_solid_move, 2, B),
     ROW(lmn_scene_solid_count, 1, 0, VALUE),
     ROW(lmn_scene_solid_at, 1, 0, VALUE),
+    ROW(lmn_solid_is_shown, 1, 0, VALUE),
     ROW(lmn_solid_info_of, 2, 0, VALUE),
     ROW(lmn_strokes_create, 3, B | C, STATUS, {DESC(pattern_desc)}),
     ROW(lmn_strokes_load, 3, C),

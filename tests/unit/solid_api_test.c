@@ -376,6 +376,8 @@ static void wrong_ids_are_refused(void **state)
         REFUSED(s, lmn_solid_set_matrix(s, a, n, m, &error));
         REFUSED(s, lmn_solid_set_colour(s, a, n, NULL, &error));
         REFUSED(s, lmn_solid_set_operation(s, a, n, LMN_UNION, &error));
+        REFUSED(s, lmn_solid_set_shown(s, a, n, false, &error));
+        assert_false(lmn_solid_is_shown(s, a, n));
         REFUSED(s, lmn_solid_set_shape(s, a, n, &b, &error));
         REFUSED(s, lmn_solid_set_name(s, a, n, "x", &error));
         REFUSED(s, lmn_solid_remove(s, a, n, &error));
