@@ -346,9 +346,9 @@ static bool is_sayable(const view_state *s, const export_wish *wish, const char 
 {
     char *message = NULL;
     if (s->edits && s->edits->len)
-        message = g_strdup_printf("the solids were moved by hand, which no %s can say", by);
+        message = g_strdup_printf("the solids were edited by hand, which no %s can say", by);
     if (message) {
-        complain(error, message, "undo the moves, or change the program that the solids come from");
+        complain(error, message, "undo the edits, or change the program that the solids come from");
     } else if (strpbrk(wish->path, "{}")) {
         message = g_strdup("the file's name has braces, which stand for other names in commands");
         complain(error, message, "give the file a name without { and }");

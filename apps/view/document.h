@@ -65,7 +65,7 @@ typedef enum document_change {
     DOCUMENT_TIME = 16,
     DOCUMENT_HISTORY = 32,  /* what can be undone */
     DOCUMENT_SELECTED = 64, /* the marked part or node */
-    DOCUMENT_SOLIDS = 128   /* where nodes of solids stand */
+    DOCUMENT_SOLIDS = 128   /* where nodes of solids stand, and which are hidden */
 } document_change;
 typedef void (*document_listener)(document *d, unsigned changes, void *user);
 
@@ -107,7 +107,7 @@ typedef struct node_handle {
 } node_handle;
 void               document_set_handle(document *d, const node_handle *handle);
 const node_handle *document_handle(const document *d);
-/* Puts a node elsewhere. */
+/* Puts a node elsewhere, hides it or shows it. */
 void document_edit_solid(document *d, const solid_edit *edit, const char *what);
 
 bool        document_undo(document *d);

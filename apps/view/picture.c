@@ -3,14 +3,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "handles.h"
 #include "pace.h"
 #include "part_look.h"
-#include "section.h"
+#include "picking.h"
 #include "trace.h"
 #include "words.h"
 
 enum { SLOT_VIEW = 1, SLOT_COMPARED, SLOT_PICK };
-enum { REST_MS = 150, COMPARE_HANDLE = 8, CLICK_SLACK = 4, HANDLE_RADIUS = 9 };
+enum { REST_MS = 150, COMPARE_HANDLE = 8, CLICK_SLACK = 4 };
 /* Samples of the last picture, when nothing moves. */
 enum { REST_SAMPLES = 4 };
 
@@ -20,28 +21,23 @@ typedef struct shown {
     bool        whole;   /* as good as it becomes, of the state as it is */
 } shown;
 
-typedef enum handle_kind { HANDLE_NONE = 0, HANDLE_SECTION, HANDLE_NODE } handle_kind;
-
 struct _Picture {
-    GtkWidget      widget;
-    document      *document; /* NULL after picture_close */
-    artist        *artist;
-    shown          now, compared;
-    look_ref      *other;   /* on the left of the divider; NULL: no comparison */
-    double         divider; /* 0 … 1 */
-    bool           divider_held;
-    section        section, section_begin; /* the look's, and as it was when a drag began */
-    handle_kind    handle;                 /* what is held */
-    node_handle    node_begin;             /* the marked node when a drag began */
-    section_handle held;
-    pace           pace;
-    guint          rest; /* the timer until the whole picture */
-    double         last_x, last_y, hover_x, hover_y;
-    bool           pans;  /* the drag moves instead of turning */
-    bool           moved; /* by this drag: its end is no click */
-    bool           walking;
-    gint64         input_at; /* of the oldest input that no picture shows yet; 0: none */
-    uint64_t       revision;
+    GtkWidget widget;
+    document *document; /* NULL after picture_close */
+    artist   *artist;
+    shown     now, compared;
+    look_ref *other;   /* on the left of the divider; NULL: no comparison */
+    double    divider; /* 0 … 1 */
+    bool      divider_held;
+    handles   handles;
+    pace      pace;
+    guint     rest; /* the timer until the whole picture */
+    double    last_x, last_y, hover_x, hover_y;
+    bool      pans;  /* the drag moves instead of turning */
+    bool      moved; /* by this drag: its end is no click */
+    bool      walking;
+    gint64    input_at; /* of the oldest input that no picture shows yet; 0: none */
+    uint64_t  revision;
 };
 G_DEFINE_TYPE(Picture, picture, GTK_TYPE_WIDGET)
 
@@ -220,8 +216,6 @@ static void refresh(Picture *p)
     p->rest = g_timeout_add(REST_MS, at_rest, p);
 }
 
-static void read_section(Picture *p);
-
 static void document_changed(document *d, unsigned changes, void *user)
 {
     (void)d;
@@ -229,7 +223,7 @@ static void document_changed(document *d, unsigned changes, void *user)
     if (changes & DOCUMENT_SELECTED)
         gtk_widget_queue_draw(GTK_WIDGET(p));
     if (changes & DOCUMENT_LOOK) {
-        read_section(p);
+        handles_read_look(&p->handles);
         gtk_widget_queue_draw(GTK_WIDGET(p));
     }
     if (changes & DOCUMENT_LOOK)
@@ -259,143 +253,6 @@ static bool near_divider(const Picture *p, double x)
     return p->other && fabs(x - p->divider * gtk_widget_get_width(GTK_WIDGET(p))) < COMPARE_HANDLE;
 }
 
-/* --- handles --------------------------------------------------------------------------------------------- */
-
-/* Of the marked node of a solid: one along each axis of the scene, a fixed way from its middle. */
-static int node_handles(const Picture *p, section_handle out[3])
-{
-    enum { ARM = 56 };
-    const node_handle *h = document_handle(p->document);
-    int                width = MAX(1, gtk_widget_get_width(GTK_WIDGET(p))), count = 0;
-    int                height = MAX(1, gtk_widget_get_height(GTK_WIDGET(p)));
-    orbit              o = view_of(p);
-    double             middle[2];
-    if (!h->edit.node || !orbit_project(&o, h->at, width, height, middle))
-        return 0;
-    for (int k = 0; k < 3; k++) {
-        double beside[3] = {h->at[0], h->at[1], h->at[2]}, at[2], by = o.distance / 100;
-        beside[k] += by;
-        if (!orbit_project(&o, beside, width, height, at))
-            continue;
-        section_handle handle = {.axis = k, .step = {(at[0] - middle[0]) / by, (at[1] - middle[1]) / by}};
-        double         length = hypot(handle.step[0], handle.step[1]);
-        for (int i = 0; i < 2; i++)
-            handle.at[i] = middle[i] + (length > 0 ? handle.step[i] / length * ARM : 0);
-        out[count++] = handle;
-    }
-    return count;
-}
-
-/* Those of the section, then those of the marked node, from *nodes on. */
-static int find_handles(const Picture *p, section_handle out[SECTION_HANDLES + 3], int *nodes)
-{
-    double box_min[3], box_max[3];
-    int    count = 0;
-    *nodes = 0;
-    if (!has_view(p))
-        return 0;
-    if (p->section.kind != SECTION_NONE) {
-        orbit o = view_of(p);
-        state_bounds(document_state(p->document), document_scene(p->document), box_min, box_max);
-        count = section_handles(&p->section, box_min, box_max, &o, MAX(1, gtk_widget_get_width(GTK_WIDGET(p))),
-                                MAX(1, gtk_widget_get_height(GTK_WIDGET(p))), out);
-    }
-    *nodes = count;
-    return count + node_handles(p, out + count);
-}
-
-static handle_kind handle_at(Picture *p, double x, double y)
-{
-    section_handle handles[SECTION_HANDLES + 3];
-    int            nodes, count = find_handles(p, handles, &nodes);
-    for (int i = count - 1; i >= 0; i--)
-        if (hypot(handles[i].at[0] - x, handles[i].at[1] - y) <= HANDLE_RADIUS + 3) {
-            p->held = handles[i];
-            p->section_begin = p->section;
-            p->node_begin = *document_handle(p->document);
-            return i < nodes ? HANDLE_SECTION : HANDLE_NODE;
-        }
-    return HANDLE_NONE;
-}
-
-static void drag_section(Picture *p, double x, double y)
-{
-    section   s = p->section;
-    char      text[SECTION_TEXT_MAX];
-    lmn_error error = {0};
-    section_drag(&s, &p->held, &p->section_begin, x, y);
-    section_write(&s, text);
-    lmn_look *look = document_copy_look(p->document, &error);
-    if (look && lmn_look_set(look, "scene.cut", text, &error) == LMN_OK)
-        document_put_look(p->document, look, "Section");
-    else
-        lmn_look_destroy(&look);
-}
-
-static void drag_node(Picture *p, double x, double y)
-{
-    const section_handle *h = &p->held;
-    double                squared = h->step[0] * h->step[0] + h->step[1] * h->step[1], shift[3] = {0, 0, 0};
-    if (squared <= 0)
-        return;
-    solid_edit edit = p->node_begin.edit;
-    shift[h->axis] = (x * h->step[0] + y * h->step[1]) / squared;
-    solid_shift(p->node_begin.edit.matrix, p->node_begin.above, shift, edit.matrix);
-    document_edit_solid(p->document, &edit, "Move solid");
-}
-
-/* From the node's middle to its handles. */
-static void snapshot_arms(Picture *p, GtkSnapshot *snapshot, const section_handle *handles, int count)
-{
-    double middle[2];
-    int    width = gtk_widget_get_width(GTK_WIDGET(p)), height = gtk_widget_get_height(GTK_WIDGET(p));
-    if (count == 0 || width <= 0 || height <= 0)
-        return;
-    orbit    o = view_of(p);
-    cairo_t *cr = gtk_snapshot_append_cairo(snapshot, &GRAPHENE_RECT_INIT(0, 0, (float)width, (float)height));
-    orbit_project(&o, document_handle(p->document)->at, width, height, middle);
-    for (int round = 0; round < 2; round++) {
-        cairo_set_line_width(cr, round ? 2 : 4);
-        cairo_set_source_rgba(cr, round ? 0.2 : 1, round ? 0.2 : 1, round ? 0.2 : 1, 0.9);
-        for (int i = 0; i < count; i++) {
-            cairo_move_to(cr, middle[0], middle[1]);
-            cairo_line_to(cr, handles[i].at[0], handles[i].at[1]);
-        }
-        cairo_stroke(cr);
-    }
-    cairo_destroy(cr);
-}
-
-static void snapshot_handles(Picture *p, GtkSnapshot *snapshot)
-{
-    static const GdkRGBA colours[3] = {{0.85f, 0.2f, 0.2f, 1}, {0.15f, 0.6f, 0.2f, 1}, {0.15f, 0.4f, 0.9f, 1}};
-    section_handle       handles[SECTION_HANDLES + 3];
-    int                  nodes, count = find_handles(p, handles, &nodes);
-    snapshot_arms(p, snapshot, handles + nodes, count - nodes);
-    for (int i = 0; i < count; i++) {
-        const section_handle *h = &handles[i];
-        const float           r = HANDLE_RADIUS;
-        graphene_rect_t       box = GRAPHENE_RECT_INIT((float)h->at[0] - r, (float)h->at[1] - r, 2 * r, 2 * r);
-        GskRoundedRect        round;
-        const float           widths[4] = {2, 2, 2, 2};
-        const GdkRGBA         white = {1, 1, 1, 1}, rims[4] = {white, white, white, white};
-        gsk_rounded_rect_init_from_rect(&round, &box, i < nodes ? r : 3);
-        gtk_snapshot_push_rounded_clip(snapshot, &round);
-        gtk_snapshot_append_color(snapshot, &colours[h->axis], &box);
-        gtk_snapshot_pop(snapshot);
-        gtk_snapshot_append_border(snapshot, &round, widths, rims);
-    }
-}
-
-static void read_section(Picture *p)
-{
-    char      text[LMN_VALUE_TEXT_MAX] = "";
-    lmn_error error = {0};
-    lmn_look_get_text(document_state(p->document)->look->look, LMN_WHOLE_LOOK, "scene", 0, "cut", text, sizeof text,
-                      &error);
-    p->section = section_parse(text);
-}
-
 /* --- pointer --------------------------------------------------------------------------------------------- */
 
 static void drag_begin(GtkGestureDrag *gesture, double x, double y, gpointer user)
@@ -404,12 +261,13 @@ static void drag_begin(GtkGestureDrag *gesture, double x, double y, gpointer use
     GdkModifierType keys = gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
     guint           button = gtk_gesture_single_get_current_button(GTK_GESTURE_SINGLE(gesture));
     p->pans = button == GDK_BUTTON_MIDDLE || button == GDK_BUTTON_SECONDARY || (keys & GDK_SHIFT_MASK);
-    p->handle = button == GDK_BUTTON_PRIMARY ? handle_at(p, x, y) : HANDLE_NONE;
+    p->handles.held.kind = HANDLE_NONE;
+    if (button == GDK_BUTTON_PRIMARY)
+        handles_take(&p->handles, x, y, gtk_widget_get_width(GTK_WIDGET(p)), gtk_widget_get_height(GTK_WIDGET(p)));
     p->divider_held = button == GDK_BUTTON_PRIMARY && near_divider(p, x);
     p->last_x = 0;
     p->last_y = 0;
     p->moved = false;
-    (void)y;
     gtk_widget_grab_focus(GTK_WIDGET(p));
     document_end_step(p->document);
 }
@@ -430,8 +288,9 @@ static void drag_update(GtkGestureDrag *gesture, double x, double y, gpointer us
         return;
     }
     note_input(p);
-    if (p->handle != HANDLE_NONE) {
-        (p->handle == HANDLE_SECTION ? drag_section : drag_node)(p, x, y);
+    if (p->handles.held.kind != HANDLE_NONE) {
+        GdkModifierType keys = gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
+        handles_drag(&p->handles, x, y, keys & GDK_CONTROL_MASK);
         return;
     }
     orbit o = view_of(p);
@@ -481,9 +340,9 @@ static void hovered(GtkEventControllerMotion *motion, double x, double y, gpoint
     Picture *p = user;
     p->hover_x = x;
     p->hover_y = y;
-    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x)                  ? "col-resize"
-                                                   : handle_at(p, x, y) != HANDLE_NONE ? "grab"
-                                                                                       : NULL);
+    int         width = gtk_widget_get_width(GTK_WIDGET(p)), height = gtk_widget_get_height(GTK_WIDGET(p));
+    const char *cursor = handles_is_at(&p->handles, x, y, width, height) ? "grab" : NULL;
+    gtk_widget_set_cursor_from_name(GTK_WIDGET(p), near_divider(p, x) ? "col-resize" : cursor);
 }
 
 static void pinched(GtkGestureZoom *zoom, double scale, gpointer user)
@@ -505,34 +364,6 @@ static void pinch_begin(GtkGesture *gesture, GdkEventSequence *sequence, gpointe
 
 /* --- what is seen at a pixel ------------------------------------------------------------------------------ */
 
-typedef struct pick_job {
-    artist_job  job;
-    Picture    *picture;
-    scene_ref  *scene;
-    view_state *state;
-    int         width, height, x, y;
-    bool        centre; /* turn around what is there from now on */
-    bool        menu;
-    look_ref   *dropped; /* to draw the part with from now on; NULL: none */
-    lmn_pick    pick;
-} pick_job;
-
-static lmn_status pick(artist_job *base, lmn_renderer *renderer, lmn_error *error)
-{
-    pick_job     *j = (pick_job *)base;
-    lmn_draw_desc desc;
-    char         *selector = state_selector(j->state, j->scene);
-    state_describe(j->state, selector, j->width, j->height, &desc);
-    desc.samples = 1;
-    desc.lenient = true;
-    desc.progress = artist_goes_on;
-    desc.progress_user = base;
-    lmn_status status =
-        lmn_draw_pick(renderer, j->scene->scene, j->state->look->look, &desc, j->x, j->y, &j->pick, error);
-    g_free(selector);
-    return status;
-}
-
 /* Beside all parts a look is that of the whole. */
 static void put_look(Picture *p, uint32_t part, look_ref *dropped)
 {
@@ -552,61 +383,42 @@ static void put_look(Picture *p, uint32_t part, look_ref *dropped)
     }
 }
 
-static void picked(artist_job *base, lmn_status status, const lmn_error *error)
+static void centre_on(Picture *p, const double position[3])
 {
-    pick_job *j = (pick_job *)base;
-    Picture  *p = j->picture;
-    (void)error;
-    if (!p->document || status != LMN_OK)
+    orbit o = view_of(p);
+    memcpy(o.target, position, sizeof o.target);
+    document_set_view(p->document, &o, "Centre");
+}
+
+static void picked(GObject *owner, const pick_wish *wish, const lmn_pick *pick)
+{
+    Picture *p = LIMNER_PICTURE(owner);
+    if (!p->document)
         return;
-    trace_event("picked part=%u", j->pick.part);
-    if (j->dropped) {
-        put_look(p, j->pick.part, j->dropped);
-        return;
-    }
-    if (j->centre && j->pick.part) {
-        orbit o = view_of(p);
-        for (int k = 0; k < 3; k++)
-            o.target[k] = j->pick.position[k];
-        document_set_view(p->document, &o, "Centre");
-        return;
-    }
-    document_select(p->document, j->pick.part);
-    if (j->menu) {
-        double scale = gtk_widget_get_scale_factor(GTK_WIDGET(p));
-        g_signal_emit(p, signals[SIGNAL_MENU], 0, j->x / scale, j->y / scale, (guint)j->pick.part);
+    trace_event("picked part=%u", pick->part);
+    if (wish->use == PICK_DROP) {
+        put_look(p, pick->part, wish->dropped);
+    } else if (wish->use == PICK_CENTRE && pick->part) {
+        centre_on(p, pick->position);
+    } else {
+        document_select(p->document, pick->part);
+        if (wish->use == PICK_MENU) {
+            double scale = gtk_widget_get_scale_factor(GTK_WIDGET(p));
+            g_signal_emit(p, signals[SIGNAL_MENU], 0, wish->x / scale, wish->y / scale, (guint)pick->part);
+        }
     }
 }
 
-static void pick_release(artist_job *base)
+/* Takes `dropped`. */
+static void ask_pick(Picture *p, double x, double y, pick_use use, look_ref *dropped)
 {
-    pick_job *j = (pick_job *)base;
-    look_ref_drop(j->dropped);
-    scene_ref_drop(j->scene);
-    state_free(j->state);
-    g_object_unref(j->picture);
-    g_free(j);
-}
-
-static void ask_pick(Picture *p, double x, double y, bool centre, bool menu, look_ref *dropped)
-{
-    if (!has_view(p)) {
-        look_ref_drop(dropped);
-        return;
-    }
     int       scale = gtk_widget_get_scale_factor(GTK_WIDGET(p));
-    pick_job *j = g_new0(pick_job, 1);
-    j->job = (artist_job){ARTIST_ASK, SLOT_PICK, pick, picked, pick_release};
-    j->picture = g_object_ref(p);
-    j->scene = scene_ref_take((scene_ref *)document_scene(p->document));
-    j->state = state_copy(document_state(p->document));
-    picture_size(p, &j->width, &j->height);
-    j->x = (int)(x * scale);
-    j->y = (int)(y * scale);
-    j->centre = centre;
-    j->menu = menu;
-    j->dropped = dropped; /* taken */
-    artist_ask(p->artist, &j->job);
+    pick_wish wish = {.x = (int)(x * scale), .y = (int)(y * scale), .use = use, .dropped = dropped};
+    picture_size(p, &wish.width, &wish.height);
+    if (has_view(p))
+        pick_ask(p->artist, p->document, &wish, SLOT_PICK, G_OBJECT(p), picked);
+    else
+        look_ref_drop(dropped);
 }
 
 static void clicked(GtkGestureClick *click, int presses, double x, double y, gpointer user)
@@ -616,9 +428,9 @@ static void clicked(GtkGestureClick *click, int presses, double x, double y, gpo
     if (p->moved)
         return;
     if (button == GDK_BUTTON_PRIMARY && !near_divider(p, x))
-        ask_pick(p, x, y, presses == 2, false, NULL);
+        ask_pick(p, x, y, presses == 2 ? PICK_CENTRE : PICK_SELECT, NULL);
     else if (button == GDK_BUTTON_SECONDARY)
-        ask_pick(p, x, y, false, true, NULL);
+        ask_pick(p, x, y, PICK_MENU, NULL);
 }
 
 /* "look:NAME", from the gallery. */
@@ -631,7 +443,7 @@ static gboolean look_dropped(GtkDropTarget *target, const GValue *value, double 
         return FALSE;
     look_ref *look = look_ref_load(text + strlen("look:"), &error);
     if (look)
-        ask_pick(user, x, y, false, false, look);
+        ask_pick(user, x, y, PICK_DROP, look);
     else
         say_failure(user, &error);
     return look != NULL;
@@ -706,7 +518,7 @@ static void picture_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     float    width = (float)gtk_widget_get_width(widget), height = (float)gtk_widget_get_height(widget);
     if (p->now.texture)
         gtk_snapshot_append_texture(snapshot, p->now.texture, &GRAPHENE_RECT_INIT(0, 0, width, height));
-    snapshot_handles(p, snapshot);
+    handles_snapshot(&p->handles, snapshot, (int)width, (int)height);
     if (!p->other || !p->compared.texture)
         return;
     float x = (float)p->divider * width;
@@ -764,7 +576,7 @@ void picture_set_walking(Picture *p, bool walking)
 void picture_close(Picture *p)
 {
     g_clear_handle_id(&p->rest, g_source_remove);
-    p->document = NULL;
+    p->document = p->handles.document = NULL;
     p->artist = NULL;
 }
 
@@ -833,7 +645,7 @@ static void picture_init(Picture *p)
 GtkWidget *picture_new(document *d, artist *a)
 {
     Picture *p = g_object_new(PICTURE_TYPE, NULL);
-    p->document = d;
+    p->document = p->handles.document = d;
     p->artist = a;
     document_listen(d, document_changed, p);
     return GTK_WIDGET(p);

@@ -21,8 +21,20 @@ GArray *solid_edits_with(const GArray *edits, const solid_edit *edit)
         if (e->solid != edit->solid || e->node != edit->node)
             g_array_append_val(out, *e);
     }
-    g_array_append_val(out, *edit);
+    if (edit->hidden || memcmp(edit->matrix, edit->original, sizeof edit->matrix) != 0)
+        g_array_append_val(out, *edit);
     return out;
+}
+
+static lmn_status bring(lmn_scene *scene, const solid_edit *node, const double from[16], const double to[16],
+                        bool was_hidden, bool hidden, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    if (memcmp(from, to, 16 * sizeof *to) != 0)
+        status = lmn_solid_set_matrix(scene, node->solid, node->node, to, error);
+    if (status == LMN_OK && was_hidden != hidden)
+        status = lmn_solid_set_shown(scene, node->solid, node->node, !hidden, error);
+    return status;
 }
 
 lmn_status solid_edits_apply(lmn_scene *scene, const GArray *applied, const GArray *wanted, lmn_error *error)
@@ -31,13 +43,13 @@ lmn_status solid_edits_apply(lmn_scene *scene, const GArray *applied, const GArr
     for (guint i = 0; applied && i < applied->len && status == LMN_OK; i++) {
         const solid_edit *e = &g_array_index(applied, solid_edit, i);
         if (!solid_edits_find(wanted, e->solid, e->node))
-            status = lmn_solid_set_matrix(scene, e->solid, e->node, e->original, error);
+            status = bring(scene, e, e->matrix, e->original, e->hidden, false, error);
     }
     for (guint i = 0; wanted && i < wanted->len && status == LMN_OK; i++) {
         const solid_edit *e = &g_array_index(wanted, solid_edit, i),
                          *before = solid_edits_find(applied, e->solid, e->node);
-        if (!before || memcmp(before->matrix, e->matrix, sizeof e->matrix) != 0)
-            status = lmn_solid_set_matrix(scene, e->solid, e->node, e->matrix, error);
+        status = bring(scene, e, before ? before->matrix : e->original, e->matrix, before && before->hidden, e->hidden,
+                       error);
     }
     return status;
 }
@@ -96,4 +108,24 @@ void solid_shift(const double matrix[16], const double above[16], const double s
         return;
     for (int k = 0; k < 3; k++)
         out[12 + k] += local[k];
+}
+
+void solid_turn(const double matrix[16], const double above[16], const double point[3], int axis, double angle,
+                double out[16])
+{
+    int    i = (axis + 1) % 3, j = (axis + 2) % 3;
+    double all[16], turned[16];
+    matrix_multiply(above, matrix, all);
+    memcpy(turned, all, sizeof turned);
+    for (int column = 0; column < 4; column++) {
+        double from_i = column == 3 ? point[i] : 0, from_j = column == 3 ? point[j] : 0;
+        double u = all[4 * column + i] - from_i, v = all[4 * column + j] - from_j;
+        turned[4 * column + i] = u * cos(angle) - v * sin(angle) + from_i;
+        turned[4 * column + j] = u * sin(angle) + v * cos(angle) + from_j;
+    }
+    memcpy(out, matrix, 16 * sizeof *out);
+    for (int column = 0; column < 3; column++)
+        if (!solve(above, turned + 4 * column, out + 4 * column))
+            return;
+    matrix_solve_point(above, turned + 12, out + 12);
 }

@@ -1,5 +1,5 @@
-/* What a person did to the solids of a scene: which nodes stand elsewhere. A list of edits never changes once it is
- * there; states share it. No window. */
+/* What a person did to the solids of a scene: which nodes stand elsewhere or are hidden. A list of edits never changes
+ * once it is there; states share it. No window. */
 #ifndef LIMNER_VIEW_SOLID_EDITS_H
 #define LIMNER_VIEW_SOLID_EDITS_H
 
@@ -10,9 +10,11 @@
 typedef struct solid_edit {
     uint32_t solid, node;
     double   matrix[16], original[16];
+    bool     hidden;
 } solid_edit;
 
-/* The same list with this node elsewhere; `edits` may be NULL. The new list is the caller's. */
+/* The same list with this edit of a node, or without any when it leaves the node as it was; `edits` may be NULL. The
+ * new list is the caller's. */
 GArray *solid_edits_with(const GArray *edits, const solid_edit *edit);
 
 /* The edit of a node, or NULL. */
@@ -24,6 +26,10 @@ lmn_status solid_edits_apply(lmn_scene *scene, const GArray *applied, const GArr
 /* A node moved by `shift`, in the axes of the scene: its matrix, when `above` is the product of the matrices above it.
  */
 void solid_shift(const double matrix[16], const double above[16], const double shift[3], double out[16]);
+
+/* Turned by an angle around an axis of the scene (0 … 2) through a point. */
+void solid_turn(const double matrix[16], const double above[16], const double point[3], int axis, double angle,
+                double out[16]);
 
 /* Products and points of matrices, column after column. */
 void matrix_multiply(const double a[16], const double b[16], double out[16]);

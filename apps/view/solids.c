@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "trace.h"
 #include "words.h"
 
 /* --- rows ------------------------------------------------------------------------------------------------ */
@@ -109,6 +110,7 @@ static void put_handle(solids *s)
         h.edit = (solid_edit){.solid = s->marked->solid, .node = s->marked->node};
         memcpy(h.edit.original, s->marked->original, sizeof h.edit.original);
         memcpy(h.edit.matrix, edit ? edit->matrix : s->marked->original, sizeof h.edit.matrix);
+        h.edit.hidden = edit && edit->hidden;
         chain(s->marked, edits, true, false, h.above);
         chain(s->marked, edits, true, true, all);
         matrix_move_point(all, s->marked->middle, h.at);
@@ -138,6 +140,52 @@ static void reset_clicked(GtkButton *button, gpointer user)
     memcpy(edit.matrix, s->marked->original, sizeof edit.matrix);
     document_end_step(s->document);
     document_edit_solid(s->document, &edit, "Put back");
+}
+
+/* --- eyes ------------------------------------------------------------------------------------------------ */
+
+static const solid_edit *edit_of(const solids *s, const SolidRow *row)
+{
+    return solid_edits_find(document_state(s->document)->edits, row->solid, row->node);
+}
+
+static void eye_clicked(GtkToggleButton *eye, gpointer user)
+{
+    solids   *s = user;
+    SolidRow *row = g_object_get_data(G_OBJECT(eye), "row");
+    if (!row || g_object_get_data(G_OBJECT(eye), "binds"))
+        return;
+    const solid_edit *now = edit_of(s, row);
+    solid_edit        edit = {.solid = row->solid, .node = row->node};
+    memcpy(edit.original, row->original, sizeof edit.original);
+    memcpy(edit.matrix, now ? now->matrix : row->original, sizeof edit.matrix);
+    edit.hidden = !gtk_toggle_button_get_active(eye);
+    document_end_step(s->document);
+    document_edit_solid(s->document, &edit, edit.hidden ? _("Hide solid") : _("Show solid"));
+    trace_event("solid node=%u hidden=%d", row->node, edit.hidden);
+}
+
+static void show_eye(const solids *s, GtkWidget *eye, SolidRow *row)
+{
+    const solid_edit *edit = edit_of(s, row);
+    bool              shown = !edit || !edit->hidden;
+    char             *name = g_strdup_printf(_("Show %s"), row->name);
+    g_object_set_data(G_OBJECT(eye), "binds", GINT_TO_POINTER(1));
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(eye), shown);
+    gtk_button_set_icon_name(GTK_BUTTON(eye), shown ? "view-reveal-symbolic" : "view-conceal-symbolic");
+    g_object_set_data(G_OBJECT(eye), "binds", NULL);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(eye), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+    g_free(name);
+}
+
+/* Eyes of the rows that are on the screen now. */
+static void refresh_eyes(const solids *s, GtkWidget *widget)
+{
+    SolidRow *row = GTK_IS_TOGGLE_BUTTON(widget) ? g_object_get_data(G_OBJECT(widget), "row") : NULL;
+    if (row)
+        show_eye(s, widget, row);
+    for (GtkWidget *c = gtk_widget_get_first_child(widget); c; c = gtk_widget_get_next_sibling(c))
+        refresh_eyes(s, c);
 }
 
 /* --- the panel ------------------------------------------------------------------------------------------- */
@@ -171,33 +219,43 @@ static void fill(solids *s)
 static void row_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
 {
     (void)factory;
-    (void)user;
-    GtkWidget *expander = gtk_tree_expander_new(), *label = gtk_label_new(NULL);
+    GtkWidget *expander = gtk_tree_expander_new(), *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
+    GtkWidget *label = gtk_label_new(NULL), *eye = gtk_toggle_button_new();
     gtk_label_set_xalign(GTK_LABEL(label), 0);
     gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-    gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), label);
+    gtk_widget_set_hexpand(label, TRUE);
+    gtk_widget_add_css_class(eye, "flat");
+    gtk_widget_set_tooltip_text(eye, _("Show or hide"));
+    g_signal_connect(eye, "toggled", G_CALLBACK(eye_clicked), user);
+    gtk_box_append(GTK_BOX(box), label);
+    gtk_box_append(GTK_BOX(box), eye);
+    gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
     gtk_list_item_set_child(item, expander);
 }
 
 static void row_bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
 {
     (void)factory;
-    (void)user;
     GtkTreeListRow *row = gtk_list_item_get_item(item);
     SolidRow       *solid = gtk_tree_list_row_get_item(row);
     GtkWidget      *expander = gtk_list_item_get_child(item);
+    GtkWidget      *label = gtk_widget_get_first_child(gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander)));
+    GtkWidget      *eye = gtk_widget_get_next_sibling(label);
     gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), row);
-    gtk_label_set_text(GTK_LABEL(gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander))), solid->name);
-    g_object_unref(solid);
+    gtk_label_set_text(GTK_LABEL(label), solid->name);
+    g_object_set_data_full(G_OBJECT(eye), "row", solid, g_object_unref);
+    show_eye(user, eye, solid);
 }
 
 static void document_changed(document *d, unsigned changes, void *user)
 {
     solids *s = user;
-    if (changes & DOCUMENT_SCENE && document_scene(d) != s->shown)
+    if (changes & DOCUMENT_SCENE && document_scene(d) != s->shown) {
         fill(s);
-    else if (changes & DOCUMENT_SOLIDS)
+    } else if (changes & DOCUMENT_SOLIDS) {
         put_handle(s);
+        refresh_eyes(s, s->list);
+    }
 }
 
 static void solids_free(void *data)
@@ -224,7 +282,7 @@ GtkWidget *solids_new(document *d)
     gtk_accessible_update_property(GTK_ACCESSIBLE(s->list), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Solids"), -1);
     GtkWidget *scrolled = gtk_scrolled_window_new(), *head = gtk_label_new(_("Solids")),
               *back = gtk_button_new_with_label(_("Put back"));
-    gtk_widget_set_tooltip_text(back, _("The marked operand goes where the file has it"));
+    gtk_widget_set_tooltip_text(back, _("The marked operand is shown and goes where the file has it"));
     g_signal_connect(back, "clicked", G_CALLBACK(reset_clicked), s);
     gtk_widget_add_css_class(head, "heading");
     gtk_widget_set_margin_top(head, 6);

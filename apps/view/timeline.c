@@ -1,7 +1,9 @@
 #include "timeline.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "trace.h"
 #include "words.h"
 
 enum { FRAME_MS = 33, CLIP_LIMIT = 200 };
@@ -10,7 +12,7 @@ static const double FRAME_S = 1.0 / 24;
 typedef struct timeline {
     document        *document;
     const scene_ref *shown; /* whose clips are listed; compared only */
-    GtkWidget       *bar, *play, *scale, *time, *clips, *rest;
+    GtkWidget       *bar, *play, *scale, *time, *clips, *rest, *motion, *exposure;
     GArray          *ends; /* of double: where each clip ends, seconds */
     bool             follows;
     guint            timer;
@@ -111,6 +113,86 @@ static void clip_chosen(GObject *clips, GParamSpec *pspec, gpointer user)
     go_to(t, 0);
 }
 
+/* --- motion ---------------------------------------------------------------------------------------------- */
+
+/* Changes the look of the whole; what it refuses stays as it was. */
+static void set_motion(timeline *t, const char *key, const char *value, const char *what)
+{
+    lmn_error error = {0};
+    lmn_look *look = document_copy_look(t->document, &error);
+    if (look && lmn_look_set(look, key, value, &error) == LMN_OK) {
+        document_put_look(t->document, look, what);
+    } else {
+        trace_event("refused %s", error.message);
+        lmn_look_destroy(&look);
+    }
+}
+
+static void motion_chosen(GObject *motion, GParamSpec *pspec, gpointer user)
+{
+    (void)pspec;
+    timeline          *t = user;
+    lmn_technique_info technique;
+    guint              chosen = gtk_drop_down_get_selected(GTK_DROP_DOWN(motion));
+    if (t->follows || chosen == GTK_INVALID_LIST_POSITION)
+        return;
+    bool known = chosen > 0 && lmn_technique_at("motion", chosen - 1, &technique);
+    document_end_step(t->document);
+    set_motion(t, "motion.technique", known ? technique.name : "none", _("Motion"));
+}
+
+static void exposure_changed(GtkSpinButton *exposure, gpointer user)
+{
+    timeline *t = user;
+    char      text[G_ASCII_DTOSTR_BUF_SIZE];
+    if (t->follows)
+        return;
+    g_ascii_formatd(text, sizeof text, "%.3f", gtk_spin_button_get_value(exposure));
+    set_motion(t, "motion.exposure", text, _("Exposure"));
+}
+
+/* What the first rule has; rules of a look have one exposure. */
+static void follow_motion(timeline *t)
+{
+    const lmn_look    *look = document_state(t->document)->look->look;
+    char               value[LMN_VALUE_TEXT_MAX] = "";
+    lmn_error          error = {0};
+    lmn_technique_info technique;
+    guint              chosen = 0;
+    const char *now = lmn_look_technique_count(look, 0, "motion") ? lmn_look_technique(look, 0, "motion", 0) : NULL;
+    for (guint i = 0; now && lmn_technique_at("motion", i, &technique) && !chosen; i++)
+        chosen = strcmp(technique.name, now) == 0 ? i + 1 : 0;
+    bool has = now && lmn_look_get_text(look, 0, "motion", 0, "exposure", value, sizeof value, &error) == LMN_OK;
+    t->follows = true;
+    gtk_drop_down_set_selected(GTK_DROP_DOWN(t->motion), chosen);
+    if (has)
+        gtk_spin_button_set_value(GTK_SPIN_BUTTON(t->exposure), g_ascii_strtod(value, NULL));
+    gtk_widget_set_visible(t->exposure, has);
+    t->follows = false;
+}
+
+static void add_motion(timeline *t)
+{
+    GtkStringList     *names = gtk_string_list_new(NULL);
+    lmn_technique_info technique;
+    gtk_string_list_append(names, _("no motion"));
+    for (size_t i = 0; lmn_technique_at("motion", i, &technique); i++)
+        gtk_string_list_append(names, technique.name);
+    t->motion = gtk_drop_down_new(G_LIST_MODEL(names), NULL);
+    gtk_widget_set_tooltip_text(t->motion, _("How motion is drawn"));
+    gtk_accessible_update_property(GTK_ACCESSIBLE(t->motion), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Motion"), -1);
+    g_signal_connect(t->motion, "notify::selected", G_CALLBACK(motion_chosen), t);
+    gtk_box_append(GTK_BOX(t->bar), t->motion);
+    t->exposure = gtk_spin_button_new_with_range(0, 10, 0.01);
+    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(t->exposure), 3);
+    gtk_widget_set_tooltip_text(t->exposure, _("How long the shutter is open, in seconds"));
+    gtk_accessible_update_property(GTK_ACCESSIBLE(t->exposure), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Exposure"), -1);
+    g_signal_connect(t->exposure, "value-changed", G_CALLBACK(exposure_changed), t);
+    gtk_box_append(GTK_BOX(t->bar), t->exposure);
+}
+
+/* --- the bar --------------------------------------------------------------------------------------------- */
+
 static void follow(timeline *t)
 {
     const view_state *s = document_state(t->document);
@@ -154,6 +236,8 @@ static void document_changed(document *d, unsigned changes, void *user)
         list_clips(t);
     if (changes & (DOCUMENT_TIME | DOCUMENT_SCENE))
         follow(t);
+    if (changes & DOCUMENT_LOOK)
+        follow_motion(t);
 }
 
 static GtkWidget *button(timeline *t, const char *icon, const char *name, GCallback clicked, int step)
@@ -197,6 +281,7 @@ GtkWidget *timeline_new(document *d)
     gtk_accessible_update_property(GTK_ACCESSIBLE(t->clips), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Clip"), -1);
     g_signal_connect(t->clips, "notify::selected", G_CALLBACK(clip_chosen), t);
     gtk_box_append(GTK_BOX(t->bar), t->clips);
+    add_motion(t);
     t->rest = button(t, "media-playback-stop-symbolic", _("At rest"), G_CALLBACK(rest_clicked), 0);
     gtk_widget_set_visible(t->bar, FALSE);
     g_object_set_data_full(G_OBJECT(t->bar), "timeline", t, timeline_free);

@@ -103,6 +103,7 @@ static void copy_text(ViewWindow *w, char *text, const lmn_error *error, const c
 {
     if (!text) {
         view_window_say_error(w, error);
+        trace_event("not-copied %s", error->message);
         return;
     }
     gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(w)), text);

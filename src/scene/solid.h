@@ -84,8 +84,8 @@ typedef struct solid_operand {
     box3    box; /* solid's space */
 } solid_operand;
 
-/* The operands in the order of the tree that are shown and have a mesh with triangles; free with mem_free. False when memory is
- * gone. */
+/* The operands in the order of the tree that are shown and have a mesh with triangles; free with mem_free. False when
+ * memory is gone. */
 bool solid_operands(const solid *s, solid_operand **out, size_t *count);
 /* Where the solid can be at most: boxes of operands, united, intersected, or that of the first. */
 box3 solid_bounds(const solid *s);

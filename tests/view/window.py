@@ -135,6 +135,12 @@ def centre(node):
     return e.x + e.width // 2 + 5, e.y + e.height // 2 + 5
 
 
+def corner(node):
+    """Its upper left corner, in the same way."""
+    e = node.get_extents(Atspi.CoordType.WINDOW)
+    return e.x + 5, e.y + 5
+
+
 def xdo(*words):
     subprocess.run(["xdotool"] + [str(w) for w in words], check=True)
 

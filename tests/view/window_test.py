@@ -9,7 +9,9 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from window import Failure, Viewer, act, centre, drag, find_below, start_display, xdo
+from window import Failure, Viewer, act, centre, corner, drag, find_below, start_display, xdo
+
+SOLID = "sphere"
 
 VIEWER, COMMAND, SOURCE, FOLDER = sys.argv[1:5]
 MODEL = os.path.join(FOLDER, "model.glb")
@@ -116,6 +118,107 @@ def time_scrubbed(v):
     check("time is scrubbed, stepped, and goes back to rest", True)
 
 
+def motion_drawn(v):
+    since = v.mark()
+    v.find("Time", "slider").set_current_value(0.4)
+    v.rests(since)
+    chosen = v.find("Motion", "combo box")
+    before = v.mark()
+    x, y = centre(chosen)
+    xdo("mousemove", x, y, "click", 1)
+    time.sleep(0.5)
+    xdo("key", "Down", "Return")
+    v.rests(before)
+    exposure = v.find("Exposure", "spin button")
+    before = v.mark()
+    exposure.set_current_value(0.25)
+    v.rests(before)
+    check("motion and its exposure are chosen beside the time", abs(exposure.get_current_value() - 0.25) < 1e-6)
+    for _ in range(3):
+        before = v.mark()
+        v.click("Undo")
+        v.rests(before)
+    check("undo takes the motion away, too", v.find("Drawing") is not None)
+
+
+def section_dragged(v):
+    at = v.wait(r"handle kind=1 axis=0 x=([0-9.]+) y=([0-9.]+)")
+    x, y = corner(v.find("Drawing"))
+    since = v.mark()
+    drag(x + int(at.group(1)), y + int(at.group(2)), 40, 0)
+    v.wait("drawn .*whole=0", since=since)
+    v.rests(since)
+    moved = v.wait(r"handle kind=1 axis=0 x=([0-9.]+) y=([0-9.]+)", since=since)
+    check("the section follows its handle", moved.group(0) != at.group(0))
+    since = v.mark()
+    v.click("Undo")
+    v.rests(since)
+
+
+def look_dropped(v):
+    x, y = centre(v.find("blueprint", "push button"))
+    to_x, to_y = picture_middle(v)
+    since = v.mark()
+    drag(x, y, to_x - x, to_y - y, steps=30)
+    part = int(v.wait(r"dropped look=blueprint part=(\d+)", since=since).group(1))
+    v.rests(since)
+    check("a look is dragged on a part", part > 0)
+    since = v.mark()
+    v.click("Undo")
+    v.rests(since)
+
+
+def file_opened(v):
+    since = v.mark()
+    x, y = picture_middle(v)
+    xdo("mousemove", x, y)
+    xdo("key", "ctrl+o")
+    time.sleep(1.5)
+    xdo("key", "slash")
+    xdo("type", "--delay", "5", os.path.join(SOURCE, "examples", "box.glb")[1:])
+    time.sleep(0.3)
+    xdo("key", "Return")
+    v.wait("loaded parts=1", since=since)
+    v.rests(since)
+    check("a file is opened by the dialog", True)
+
+
+def solid_edited():
+    v = Viewer(VIEWER, [os.path.join(SOURCE, "examples", "csg", "widget.csg")])
+    v.wait("loaded parts")
+    v.rests()
+    row = find_below(v.find("Solids", "list"), SOLID, "label")
+    xdo("mousemove", *centre(row), "click", 1)
+    seen = v.wait(r"handle kind=2 axis=0 x=([0-9.]+) y=([0-9.]+)")
+    turn = v.wait(r"handle kind=3 axis=2 x=([0-9.]+) y=([0-9.]+)")
+    check("a marked operand has handles that move and turn it", True)
+    x, y = corner(v.find("Drawing"))
+    for what, at in (("moves", seen), ("turns", turn)):
+        since = v.mark()
+        drag(x + int(at.group(1)), y + int(at.group(2)), 30, 12)
+        v.rests(since)
+        moving = [line for line in v.lines[since:] if "whole=0" in line]
+        check(f"a handle {what} it, and the drawing follows: {len(moving)} pictures", len(moving) > 0)
+        since = v.mark()
+        v.click("Undo")
+        v.rests(since)
+    since = v.mark()
+    v.click("Show " + SOLID)
+    v.wait("solid node=[0-9]+ hidden=1", since=since)
+    v.rests(since)
+    check("an operand is hidden", True)
+    since = v.mark()
+    v.click("Main menu")
+    time.sleep(0.4)
+    v.click("Copy as command")
+    v.wait("not-copied", since=since)
+    check("what no command can say is not copied", True)
+    since = v.mark()
+    v.click("Put back")
+    v.rests(since)
+    check("it ends after solids were edited", v.close() == 0)
+
+
 def copied_and_exported(v):
     since = v.mark()
     v.click("Main menu")
@@ -219,7 +322,7 @@ def ends(v):
 
 def goes_on_where_it_was():
     v = Viewer(VIEWER, [])
-    v.wait("loaded parts=24")
+    v.wait("loaded parts=1")
     v.rests()
     check("the next start goes on with the same file", True)
     check("it ends again", v.close() == 0)
@@ -243,7 +346,7 @@ def main():
     try:
         shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
         v = Viewer(VIEWER, [MODEL])
-        for step in (opened_and_turned, undone, look_chosen, part_hidden, section_cut, parameter_changed, time_scrubbed, copied_and_exported, exported_meanwhile, picture_copied, watched, ends):
+        for step in (opened_and_turned, undone, look_dropped, look_chosen, part_hidden, section_cut, section_dragged, parameter_changed, time_scrubbed, motion_drawn, copied_and_exported, exported_meanwhile, picture_copied, watched, file_opened, ends):
             try:
                 step(v)
             except Failure as e:
@@ -252,7 +355,7 @@ def main():
                     break
         if v.process.poll() is None:
             v.process.send_signal(signal.SIGKILL)
-        for step in (goes_on_where_it_was, look_file_changed, says_what_is_wrong):
+        for step in (goes_on_where_it_was, solid_edited, look_file_changed, says_what_is_wrong):
             try:
                 step()
             except Failure as e:
