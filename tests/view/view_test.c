@@ -276,6 +276,52 @@ static void nodes_move_in_the_scene_s_axes(void **state)
         assert_close(back[k], p[k], 1e-12);
 }
 
+/* A quarter turn around an axis of the scene through a point: the point stays, what lies beside it goes around. */
+static void nodes_turn_around_the_scene_s_axes(void **state)
+{
+    (void)state;
+    const double above[16] = {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 1.5, 0, 7, 8, 9, 1};
+    const double own[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}, around[3] = {1, -2, 3};
+    const double p[3] = {0.5, -1, 2};
+    double       all[16], turned[16], before[3], after[3];
+    matrix_multiply(above, own, all);
+    matrix_move_point(all, p, before);
+    for (int axis = 0; axis < 3; axis++) {
+        int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        solid_turn(own, above, around, axis, G_PI_2, turned);
+        matrix_multiply(above, turned, all);
+        matrix_move_point(all, p, after);
+        assert_close(after[axis], before[axis], 1e-12);
+        assert_close(after[i] - around[i], -(before[j] - around[j]), 1e-12);
+        assert_close(after[j] - around[j], before[i] - around[i], 1e-12);
+    }
+}
+
+static void hidden_operands_come_back(void **state)
+{
+    (void)state;
+    scene_ref     *scene = load("csg/widget.csg");
+    uint32_t       solid = lmn_scene_solid_at(scene->scene, 0);
+    lmn_solid_info root;
+    assert_true(lmn_solid_info_of(scene->scene, solid, LMN_SOLID_ROOT, &root));
+    solid_edit edit = {.solid = solid, .node = root.first_child, .hidden = true};
+    lmn_solid_info info;
+    assert_true(lmn_solid_info_of(scene->scene, solid, edit.node, &info));
+    memcpy(edit.original, info.matrix, sizeof edit.original);
+    memcpy(edit.matrix, info.matrix, sizeof edit.matrix);
+    GArray *hidden = solid_edits_with(NULL, &edit);
+    DO(scene_ref_edit(scene, hidden, &error));
+    assert_false(lmn_solid_is_shown(scene->scene, solid, edit.node));
+    edit.hidden = false;
+    GArray *none = solid_edits_with(hidden, &edit);
+    assert_int_equal(none->len, 0); /* as the file has it: commands can say so again */
+    DO(scene_ref_edit(scene, none, &error));
+    assert_true(lmn_solid_is_shown(scene->scene, solid, edit.node));
+    g_array_unref(hidden);
+    g_array_unref(none);
+    scene_ref_drop(scene);
+}
+
 static void edits_of_solids_are_taken_back(void **state)
 {
     (void)state;
@@ -922,6 +968,8 @@ int main(void)
         cmocka_unit_test(selectors_say_what_is_shown),
         cmocka_unit_test(sections_are_read_and_written),
         cmocka_unit_test(nodes_move_in_the_scene_s_axes),
+        cmocka_unit_test(nodes_turn_around_the_scene_s_axes),
+        cmocka_unit_test(hidden_operands_come_back),
         cmocka_unit_test(edits_of_solids_are_taken_back),
         cmocka_unit_test(sliders_go_there_and_back),
         cmocka_unit_test(slow_pictures_become_smaller_and_fast_ones_larger),
