@@ -90,24 +90,39 @@ static void give_back_memory(void)
 #endif
 }
 
+static void draw(artist_job *job, lmn_renderer **renderer)
+{
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    job->error = (lmn_error){0};
+    job->status = *renderer ? LMN_OK : lmn_renderer_create(renderer, &desc, &job->error);
+    if (job->status == LMN_OK)
+        job->status = job->draw(job, *renderer, &job->error);
+}
+
+/* A context that was lost can only be made anew; then the job is tried once more. What fails with a new one, too, is
+ * the job's own failure. */
+static void draw_or_start_anew(artist_job *job, lmn_renderer **renderer)
+{
+    bool was_there = *renderer != NULL;
+    draw(job, renderer);
+    if (job->status != LMN_GL)
+        return;
+    lmn_renderer_destroy(renderer);
+    if (was_there)
+        draw(job, renderer);
+    if (job->status == LMN_GL)
+        lmn_renderer_destroy(renderer);
+}
+
 static gpointer draw_jobs(gpointer data)
 {
-    artist           *a = data;
-    lmn_renderer     *renderer = NULL;
-    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    artist       *a = data;
+    lmn_renderer *renderer = NULL;
     g_mutex_lock(&a->lock);
     for (artist_job *job = take(a); job; job = take(a)) {
         a->drawn = job;
         g_mutex_unlock(&a->lock);
-        job->error = (lmn_error){0};
-        job->status = LMN_OK;
-        if (!renderer)
-            job->status = lmn_renderer_create(&renderer, &desc, &job->error);
-        if (job->status == LMN_OK)
-            job->status = job->draw(job, renderer, &job->error);
-        /* A context that was lost can only be made anew, with the next job. */
-        if (job->status == LMN_GL)
-            lmn_renderer_destroy(&renderer);
+        draw_or_start_anew(job, &renderer);
         if (job->urgency >= ARTIST_REST)
             give_back_memory();
         g_mutex_lock(&a->lock);

@@ -32,7 +32,7 @@ static lmn_status ask_camera(artist_job *base, lmn_renderer *renderer, lmn_error
     camera_job   *j = (camera_job *)base;
     lmn_drawing  *drawing = NULL;
     lmn_draw_desc desc;
-    state_describe(j->state, NULL, 1, 1, &desc);
+    state_describe(j->state, j->scene, NULL, 1, 1, &desc);
     desc.eye_given = desc.orthographic = false;
     desc.camera = j->name;
     desc.fov_deg = 30;

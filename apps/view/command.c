@@ -224,7 +224,7 @@ void wish_describe(const view_state *s, const scene_ref *scene, const export_wis
     bool            pixels = lmn_look_needs_pixels(s->look->look);
     view_state      state = *s; /* borrows all of it */
     state.view = widened(&s->view, wish);
-    state_describe(&state, selector, wish->width, wish->height, desc);
+    state_describe(&state, scene, selector, wish->width, wish->height, desc);
     desc->dpi = wish->dpi;
     desc->samples = kind != WISH_SHEET || (format.pictures && pixels) ? wish->samples : 0;
     desc->background = wish->transparent && (kind == WISH_UNKNOWN || format.ground) ? "none" : NULL;

@@ -221,16 +221,25 @@ void state_bounds(const view_state *s, const scene_ref *scene, double box_min[3]
     }
 }
 
-void state_describe(const view_state *s, const char *selector, int width, int height, lmn_draw_desc *desc)
+/* Clips go by number, from 1 on. */
+static bool has_clip(const view_state *s, const scene_ref *scene)
 {
+    guint64 clip = s->clip ? g_ascii_strtoull(s->clip, NULL, 10) : 0;
+    return scene->clips->len > 0 && clip <= scene->clips->len;
+}
+
+void state_describe(const view_state *s, const scene_ref *scene, const char *selector, int width, int height,
+                    lmn_draw_desc *desc)
+{
+    bool timed = s->timed && has_clip(s, scene);
     *desc = (lmn_draw_desc)LMN_DRAW_DESC_INIT;
     desc->width = width;
     desc->height = height;
     orbit_describe(&s->view, desc);
     desc->select = selector;
-    desc->time_given = s->timed;
-    desc->time_s = s->timed ? s->time_s : 0;
-    desc->clip = s->timed ? s->clip : NULL;
+    desc->time_given = timed;
+    desc->time_s = timed ? s->time_s : 0;
+    desc->clip = timed ? s->clip : NULL;
     desc->seed = s->seed;
 }
 

@@ -125,8 +125,10 @@ char *state_selector(const view_state *s, const scene_ref *scene);
 /* The bounds of the state's parts, at rest. */
 void state_bounds(const view_state *s, const scene_ref *scene, double box_min[3], double box_max[3]);
 
-/* Fills size, camera, time, seed; `select` and `clip` point into the state and into `selector`. */
-void state_describe(const view_state *s, const char *selector, int width, int height, lmn_draw_desc *desc);
+/* Fills size, camera, seed, and the time when the scene has the clip (files that are read again may have lost it);
+ * `select` and `clip` point into the state and into `selector`. */
+void state_describe(const view_state *s, const scene_ref *scene, const char *selector, int width, int height,
+                    lmn_draw_desc *desc);
 
 view_state *state_copy(const view_state *s);
 void        state_free(view_state *s);

@@ -15,7 +15,7 @@ static lmn_status pick(artist_job *base, lmn_renderer *renderer, lmn_error *erro
     pick_job     *j = (pick_job *)base;
     lmn_draw_desc desc;
     char         *selector = state_selector(j->state, j->scene);
-    state_describe(j->state, selector, j->wish.width, j->wish.height, &desc);
+    state_describe(j->state, j->scene, selector, j->wish.width, j->wish.height, &desc);
     desc.samples = 1;
     desc.lenient = true;
     desc.progress = artist_goes_on;

@@ -65,7 +65,7 @@ static lmn_status draw_view(artist_job *base, lmn_renderer *renderer, lmn_error 
     view_job     *j = (view_job *)base;
     lmn_draw_desc desc;
     char         *selector = state_selector(j->state, j->scene);
-    state_describe(j->state, selector, j->width, j->height, &desc);
+    state_describe(j->state, j->scene, selector, j->width, j->height, &desc);
     desc.samples = j->samples;
     desc.draft = j->job.urgency == ARTIST_MOVING;
     desc.lenient = true;

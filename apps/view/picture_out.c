@@ -26,7 +26,7 @@ static lmn_status draw_copy(artist_job *base, lmn_renderer *renderer, lmn_error 
     copy_job     *j = (copy_job *)base;
     lmn_draw_desc desc;
     char         *selector = state_selector(j->state, j->scene);
-    state_describe(j->state, selector, j->width, j->height, &desc);
+    state_describe(j->state, j->scene, selector, j->width, j->height, &desc);
     desc.samples = COPY_SAMPLES;
     desc.lenient = true;
     desc.progress = artist_goes_on;

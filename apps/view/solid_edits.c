@@ -29,7 +29,10 @@ GArray *solid_edits_with(const GArray *edits, const solid_edit *edit)
 static lmn_status bring(lmn_scene *scene, const solid_edit *node, const double from[16], const double to[16],
                         bool was_hidden, bool hidden, lmn_error *error)
 {
-    lmn_status status = LMN_OK;
+    lmn_status     status = LMN_OK;
+    lmn_solid_info info;
+    if (!lmn_solid_info_of(scene, node->solid, node->node, &info))
+        return LMN_OK; /* the file was read again and has no such node any more */
     if (memcmp(from, to, 16 * sizeof *to) != 0)
         status = lmn_solid_set_matrix(scene, node->solid, node->node, to, error);
     if (status == LMN_OK && was_hidden != hidden)

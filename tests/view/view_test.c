@@ -304,7 +304,7 @@ static void hidden_operands_come_back(void **state)
     uint32_t       solid = lmn_scene_solid_at(scene->scene, 0);
     lmn_solid_info root;
     assert_true(lmn_solid_info_of(scene->scene, solid, LMN_SOLID_ROOT, &root));
-    solid_edit edit = {.solid = solid, .node = root.first_child, .hidden = true};
+    solid_edit     edit = {.solid = solid, .node = root.first_child, .hidden = true};
     lmn_solid_info info;
     assert_true(lmn_solid_info_of(scene->scene, solid, edit.node, &info));
     memcpy(edit.original, info.matrix, sizeof edit.original);
@@ -320,6 +320,25 @@ static void hidden_operands_come_back(void **state)
     g_array_unref(hidden);
     g_array_unref(none);
     scene_ref_drop(scene);
+}
+
+/* A file that is read again may have lost what a state says of it. */
+static void states_outlive_what_files_lose(void **state)
+{
+    (void)state;
+    scene_ref    *moving = load("pump.glb"), *still = load("box.glb");
+    view_state    s = {.timed = true, .time_s = 0.5, .clip = (char *)"1"};
+    lmn_draw_desc desc;
+    state_describe(&s, moving, NULL, 10, 10, &desc);
+    assert_true(desc.time_given && desc.time_s == 0.5 && strcmp(desc.clip, "1") == 0);
+    state_describe(&s, still, NULL, 10, 10, &desc);
+    assert_true(!desc.time_given && desc.time_s == 0 && !desc.clip);
+    solid_edit edit = {.solid = 1, .node = 7, .hidden = true};
+    GArray    *edits = solid_edits_with(NULL, &edit);
+    DO(scene_ref_edit(still, edits, &error));
+    g_array_unref(edits);
+    scene_ref_drop(moving);
+    scene_ref_drop(still);
 }
 
 static void edits_of_solids_are_taken_back(void **state)
@@ -453,6 +472,48 @@ static void urgent_jobs_come_first_and_new_ones_replace_old(void **state)
     wait_for("1 0 6 ");
     artist_end(a);
     g_string_free(drawn, TRUE);
+}
+
+/* A job whose context is lost while it is drawn, once or each time, is tried once more with another renderer. */
+static int           losses, tries;
+static lmn_renderer *lost_with;
+
+static lmn_status lose_context(artist_job *base, lmn_renderer *renderer, lmn_error *e)
+{
+    (void)e;
+    test_job *j = (test_job *)base;
+    if (j->number != 2)
+        return LMN_OK;
+    tries++;
+    lost_with = renderer;
+    return tries <= losses ? LMN_GL : LMN_OK;
+}
+
+static void ask_to_lose(artist *a, int number)
+{
+    test_job *j = g_new0(test_job, 1);
+    j->job = (artist_job){ARTIST_REST, 0, lose_context, note_done, free_job};
+    j->number = number;
+    artist_ask(a, &j->job);
+}
+
+static void lost_contexts_are_made_anew(void **state)
+{
+    (void)state;
+    const char *const told[] = {"1 2 3 ", "1 2! 3 "};
+    for (losses = 1; losses <= 2; losses++) {
+        artist *a = artist_start();
+        drawn = g_string_new(NULL);
+        tries = 0;
+        ask_to_lose(a, 1);
+        ask_to_lose(a, 2);
+        ask_to_lose(a, 3);
+        wait_for(told[losses - 1]);
+        assert_int_equal(tries, 2);
+        assert_non_null(lost_with);
+        artist_end(a);
+        g_string_free(drawn, TRUE);
+    }
 }
 
 /* --- commands and exports -------------------------------------------------------------------------------- */
@@ -970,7 +1031,9 @@ int main(void)
         cmocka_unit_test(nodes_move_in_the_scene_s_axes),
         cmocka_unit_test(nodes_turn_around_the_scene_s_axes),
         cmocka_unit_test(hidden_operands_come_back),
+        cmocka_unit_test(states_outlive_what_files_lose),
         cmocka_unit_test(edits_of_solids_are_taken_back),
+        cmocka_unit_test(lost_contexts_are_made_anew),
         cmocka_unit_test(sliders_go_there_and_back),
         cmocka_unit_test(slow_pictures_become_smaller_and_fast_ones_larger),
         cmocka_unit_test(urgent_jobs_come_first_and_new_ones_replace_old),

@@ -54,7 +54,8 @@ class Viewer:
             if self.process.poll() is not None:
                 raise Failure(f"the viewer ended with {self.process.returncode}: {self.process.stderr.read().decode()}")
             time.sleep(0.005)
-        raise Failure(f"no '{pattern}' in {seconds} s; the last lines: {self.lines[-5:]}")
+        last = [line for line in self.lines if " thumbnail " not in line][-8:]
+        raise Failure(f"no '{pattern}' in {seconds} s; the last lines: {last}")
 
     def mark(self):
         """How many lines there are now, for `since`."""
@@ -133,6 +134,17 @@ def centre(node):
     """The middle of a widget on the display. Without a window manager the window lies in the corner, its frame 5 wide."""
     e = node.get_extents(Atspi.CoordType.WINDOW)
     return e.x + e.width // 2 + 5, e.y + e.height // 2 + 5
+
+
+def editable(node):
+    """The node, or what is below it, that holds a text."""
+    if node.get_editable_text_iface():
+        return node
+    for i in range(node.get_child_count()):
+        found = editable(node.get_child_at_index(i))
+        if found:
+            return found
+    return None
 
 
 def corner(node):

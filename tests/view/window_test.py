@@ -9,7 +9,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from window import Failure, Viewer, act, centre, corner, drag, find_below, start_display, xdo
+from window import Failure, Viewer, act, centre, corner, drag, editable, find_below, start_display, xdo
 
 SOLID = "sphere"
 
@@ -116,6 +116,21 @@ def time_scrubbed(v):
     v.click("At rest", "push button")
     v.rests(since)
     check("time is scrubbed, stepped, and goes back to rest", True)
+
+
+def huge_texts_typed(v):
+    """Nobody types a million letters, but anybody may paste them."""
+    for name, text in (("Which parts the rule draws", "a" * 1000000), ("Search parameters", "b" * 1000000), ("Search parts", "c" * 1000000)):
+        entry = editable(v.find(name))
+        before = entry.get_text(0, 200)
+        entry.set_text_contents(text)
+        time.sleep(0.3)
+        entry.set_text_contents(before)
+    since = v.mark()
+    v.click("Undo")
+    v.click("Redo")
+    v.rests(since)
+    check("huge texts in entries change nothing", v.process.poll() is None)
 
 
 def motion_drawn(v):
@@ -346,7 +361,7 @@ def main():
     try:
         shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
         v = Viewer(VIEWER, [MODEL])
-        for step in (opened_and_turned, undone, look_dropped, look_chosen, part_hidden, section_cut, section_dragged, parameter_changed, time_scrubbed, motion_drawn, copied_and_exported, exported_meanwhile, picture_copied, watched, file_opened, ends):
+        for step in (opened_and_turned, undone, look_dropped, look_chosen, part_hidden, section_cut, section_dragged, parameter_changed, huge_texts_typed, time_scrubbed, motion_drawn, copied_and_exported, exported_meanwhile, picture_copied, watched, file_opened, ends):
             try:
                 step(v)
             except Failure as e:
