@@ -38,6 +38,8 @@ struct _Picture {
     bool      walking;
     gint64    input_at; /* of the oldest input that no picture shows yet; 0: none */
     uint64_t  revision;
+    gint64    moved_at;   /* when the last picture of something moving came */
+    double    per_second; /* such pictures, smoothed; 0: nothing moves */
 };
 G_DEFINE_TYPE(Picture, picture, GTK_TYPE_WIDGET)
 
@@ -113,6 +115,27 @@ static void say_failure(Picture *p, const lmn_error *error)
 
 static void ask_next(Picture *p, bool compared);
 
+/* Pictures a second while they follow one another. */
+static void count_pictures(Picture *p, bool moving)
+{
+    const double SMOOTH = 0.2;
+    gint64       now = g_get_monotonic_time(), by = now - p->moved_at;
+    bool         follows = moving && by > 0 && by < G_USEC_PER_SEC / 2;
+    double       rate = follows ? G_USEC_PER_SEC / (double)by : 0;
+    p->per_second = follows && p->per_second > 0 ? p->per_second + SMOOTH * (rate - p->per_second) : rate;
+    p->moved_at = moving ? now : p->moved_at;
+}
+
+static char *picture_text(const Picture *p, const view_job *j)
+{
+    char *size = g_strdup_printf("%d × %d, %.0f ms", j->width, j->height, j->ms);
+    if (p->per_second <= 0)
+        return size;
+    char *out = g_strdup_printf(_("%s, %.0f pictures a second"), size, p->per_second);
+    g_free(size);
+    return out;
+}
+
 static void view_drawn(artist_job *base, lmn_status status, const lmn_error *error)
 {
     view_job *j = (view_job *)base;
@@ -126,7 +149,9 @@ static void view_drawn(artist_job *base, lmn_status status, const lmn_error *err
     }
     if (!j->whole && !j->compared)
         pace_told(&p->pace, j->ms);
-    char *text = g_strdup_printf("%d × %d, %.0f ms", j->width, j->height, j->ms);
+    if (!j->compared)
+        count_pictures(p, !j->whole);
+    char *text = picture_text(p, j);
     g_clear_object(&s->texture);
     s->texture = texture_of(j);
     s->whole = j->whole && j->revision == p->revision;
