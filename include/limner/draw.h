@@ -52,11 +52,11 @@ typedef struct lmn_draw_desc {
     const char *camera; /* name of a camera of the scene, or NULL */
     bool        orthographic;
     double      fov_deg; /* vertical, 1 … 170 */
-    double      fit;     /* fraction of the frame that the projected bounds fill, 0.01 … 10 */
-    double      time_s;  /* seconds on the scene's timeline */
-    uint32_t    seed;
-    int samples; /* supersamples a pixel, a square number 1 … 64; 0: one, and more for pictures of less than 64
-                    pixels an inch */
+    double   fit; /* fraction of the frame that what is drawn fills, 0.01 … 10; solids and `fit_time`: their boxes */
+    double   time_s; /* seconds on the scene's timeline */
+    uint32_t seed;
+    int      samples; /* supersamples a pixel, a square number 1 … 64; 0: one, and more for pictures of less than 64
+                         pixels an inch */
     const char     *background; /* colour, "none", or NULL for the look's ground */
     const char     *select;     /* selector that restricts what is drawn and fitted, or NULL */
     bool            maps;       /* keep the AOVs for lmn_drawing_write_maps */

@@ -173,7 +173,7 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
     if (options->camera)
         f->camera = *options->camera;
     else
-        status = camera_place(&f->camera, options->desc, now, s->plan.fit_box, error);
+        status = camera_place(&f->camera, options->desc, now, &s->plan.fit, error);
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
@@ -183,7 +183,7 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
         view_camera *past = &f->camera_past[k];
         if (!options->desc->camera || options->camera)
             continue;
-        status = camera_place(past, options->desc, now->past[k], s->plan.fit_box, error);
+        status = camera_place(past, options->desc, now->past[k], &s->plan.fit, error);
         /* The same depths as now. */
         camera_set_range(past, f->camera.near, f->camera.far);
         past->near = f->camera.near;

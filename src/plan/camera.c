@@ -57,80 +57,88 @@ static void corners_of(box3 box, double out[8][3])
     }
 }
 
-/* How far the points reach beyond rays of slope t through depth `eye_z`, to the plus and to the minus side. */
-static double overreach(const double x[8], const double z[8], double eye_z, double t, double *centre)
+/* How far what is fitted reaches beyond rays of slope t through depth `eye_z`, to the plus and to the minus side. */
+static double overreach(const fit_reach *r, double eye_z, double t, double most, double *centre)
 {
-    double plus = -INFINITY, minus = -INFINITY;
-    for (int i = 0; i < 8; i++) {
-        plus = fmax(plus, x[i] - t * (z[i] - eye_z));
-        minus = fmax(minus, -x[i] - t * (z[i] - eye_z));
-    }
+    double plus = fit_plus(r, t, most) + t * eye_z, minus = fit_minus(r, t, most) + t * eye_z;
     *centre = (plus - minus) / 2;
     return plus + minus;
 }
 
-/* The farthest eye depth at which the points fit between rays of slope ±t. */
-static double fitting_depth(const double x[8], const double z[8], double t)
+/* The farthest eye depth at which it fits between rays of slope ±t. */
+static double fitting_depth(const fit_reach *r, double t)
 {
     double centre;
-    return -overreach(x, z, 0.0, t, &centre) / (2 * t);
+    return -overreach(r, 0.0, t, t, &centre) / (2 * t);
 }
 
-/* The eye's position across, so that the points reach equally far to both sides on the picture. */
-static double fitting_centre(const double x[8], const double z[8], double eye_z, double t)
+/* The eye's position across, so that it reaches equally far to both sides on the picture. */
+static double fitting_centre(const fit_reach *r, double eye_z, double t)
 {
     double low = 0, high = t, centre = 0;
     for (int i = 0; i < 100; i++) {
         double middle = (low + high) / 2;
-        if (overreach(x, z, eye_z, middle, &centre) > 0)
+        if (overreach(r, eye_z, middle, t, &centre) > 0)
             low = middle;
         else
             high = middle;
     }
-    overreach(x, z, eye_z, high, &centre);
+    overreach(r, eye_z, high, t, &centre);
     return centre;
 }
 
-/* Moves the eye so that the projected corners of the box fill the fraction `fit` of the frame. */
-static void fit_box(view_camera *c, box3 bounds, double fit, const double right[3], const double up[3],
-                    const double forward[3])
+static double half_diagonal(box3 box)
 {
-    double corner[8][3], x[8], y[8], z[8], middle[3];
-    corners_of(bounds, corner);
-    for (int k = 0; k < 3; k++)
-        middle[k] = (corner[0][k] + corner[7][k]) / 2;
-    double extent = 0;
-    for (int i = 0; i < 8; i++) {
-        double v[3] = {corner[i][0] - middle[0], corner[i][1] - middle[1], corner[i][2] - middle[2]};
-        x[i] = dot3(v, right);
-        y[i] = dot3(v, up);
-        z[i] = dot3(v, forward);
-        extent = fmax(extent, sqrt(dot3(v, v)));
-    }
-    if (extent <= 0)
-        extent = 1;
-    double ex = 0, ey = 0, ez;
+    double x = (double)box.max.x - (double)box.min.x, y = (double)box.max.y - (double)box.min.y,
+           z = (double)box.max.z - (double)box.min.z, half = sqrt(x * x + y * y + z * z) / 2;
+    return half > 0 && isfinite(half) ? half : 1;
+}
+
+/* The eye's position across, up and in depth, measured from the middle. */
+static void fit_rays(view_camera *c, const fit_view *view, const fit_reach reach[2], double extent, double fit,
+                     double out[3])
+{
     if (c->orthographic) {
-        double half_x = 0, half_y = 0;
-        for (int i = 0; i < 8; i++) {
-            half_x = fmax(half_x, fabs(x[i]));
-            half_y = fmax(half_y, fabs(y[i]));
+        for (int k = 0; k < 2; k++) {
+            out[k] = (reach[k].plus[0] - reach[k].minus[0]) / 2;
+            c->half_size[k] = (reach[k].plus[0] + reach[k].minus[0]) / 2;
         }
-        c->half_height = fmax(half_y, half_x / c->aspect) / fit;
-        if (c->half_height <= 0)
+        c->half_height = fmax(c->half_size[1], c->half_size[0] / c->aspect) / fit;
+        if (!(c->half_height > 0))
             c->half_height = extent;
-        ez = -3 * extent;
+        out[2] = -3 * extent;
     } else {
-        double ty = tan(c->fov_y / 2) * fit, tx = ty * c->aspect;
-        ez = fmin(fitting_depth(x, z, tx), fitting_depth(y, z, ty));
-        if (!(ez < 0))
-            ez = -3 * extent;
-        ex = fitting_centre(x, z, ez, tx);
-        ey = fitting_centre(y, z, ez, ty);
+        out[2] = fmin(fitting_depth(&reach[0], view->slope[0]), fitting_depth(&reach[1], view->slope[1]));
+        if (!(out[2] < 0))
+            out[2] = -3 * extent;
+        for (int k = 0; k < 2; k++)
+            out[k] = fitting_centre(&reach[k], out[2], view->slope[k]);
     }
+}
+
+/* Moves the eye so that what is drawn fills the fraction `fit` of the frame. */
+static void fit_to(view_camera *c, const fit_body *body, double fit, const double right[3], const double up[3],
+                   const double forward[3])
+{
+    bool      empty = box3_is_empty(body->box);
+    box3      box = empty ? (box3){{0, 0, 0}, {0, 0, 0}} : body->box;
+    double    extent = half_diagonal(box), at[3] = {0, 0, -3 * extent}, t = tan(c->fov_y / 2) * fit;
+    fit_view  view = {.middle = {((double)box.min.x + (double)box.max.x) / 2,
+                                 ((double)box.min.y + (double)box.max.y) / 2,
+                                 ((double)box.min.z + (double)box.max.z) / 2}};
+    fit_reach reach[2];
+    memcpy(view.right, right, sizeof view.right);
+    memcpy(view.up, up, sizeof view.up);
+    memcpy(view.forward, forward, sizeof view.forward);
+    view.slope[0] = c->orthographic ? 0 : t * c->aspect;
+    view.slope[1] = c->orthographic ? 0 : t;
+    c->half_height = extent;
+    fit_measure(reach, body, &view);
+    if (isfinite(reach[0].plus[0]))
+        fit_rays(c, &view, reach, extent, fit, at);
     for (int k = 0; k < 3; k++) {
-        c->eye[k] = middle[k] + ex * right[k] + ey * up[k] + ez * forward[k];
-        c->target[k] = c->eye[k] - ez * forward[k];
+        c->eye[k] = view.middle[k] + at[0] * right[k] + at[1] * up[k] + at[2] * forward[k];
+        c->target[k] = c->eye[k] - at[2] * forward[k];
         c->up[k] = up[k];
     }
 }
@@ -279,7 +287,8 @@ static lmn_status place_matrices(view_camera *c, const lmn_draw_desc *desc, lmn_
     return status;
 }
 
-lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error)
+lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *pose, const fit_body *body,
+                        lmn_error *error)
 {
     memset(c, 0, sizeof *c);
     c->aspect = (double)desc->width / desc->height;
@@ -313,7 +322,7 @@ lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *p
         for (int k = 0; k < 3; k++)
             forward[k] = -to_eye[k];
         frame_of(forward, wanted, right, up);
-        fit_box(c, bounds, desc->fit, right, up, forward);
+        fit_to(c, body, desc->fit, right, up, forward);
     }
     set_view(c, right, up, forward);
     return LMN_OK;

@@ -3,23 +3,26 @@
 #define LIMNER_PLAN_CAMERA_H
 
 #include "limner/draw.h"
+#include "plan/fit.h"
 #include "pose/pose.h"
 
 typedef struct view_camera {
     double eye[3], target[3], up[3];
     bool   orthographic;
-    double fov_y;       /* radians */
-    double half_height; /* orthographic */
+    double fov_y;        /* radians */
+    double half_height;  /* orthographic */
+    double half_size[2]; /* orthographic, fitted: of what is fitted, across and up; else 0 */
     double aspect, near, far;
     bool   limited; /* near and far stay within the limits, those of a projection that was given */
     double limits[2];
     mat4   view, projection;
 } view_camera;
 
-/* Sets everything but the clip planes. `bounds` is what is to be fitted.
+/* Sets everything but the clip planes. `body` is what is to be fitted.
  * Errors: LMN_USAGE (eye equals target, unknown camera: nearest in the hint; matrices of no camera), LMN_UNSUPPORTED (a
  * perspective with a shifted middle). */
-lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, box3 bounds, lmn_error *error);
+lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, const fit_body *body,
+                        lmn_error *error);
 
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */
 void camera_set_range(view_camera *camera, double nearest, double farthest);

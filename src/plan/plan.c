@@ -299,7 +299,10 @@ static void fit_to(plan *p, size_t part_index, bool ghost)
 {
     const box3 *now = p->pose->part_boxes, *ever = p->pose->fit_boxes;
     p->box = box3_union(p->box, ghost ? fitted_box(p, now, part_index) : now[part_index]);
-    p->fit_box = box3_union(p->fit_box, ghost ? fitted_box(p, ever, part_index) : ever[part_index]);
+    box3 box = ghost ? fitted_box(p, ever, part_index) : ever[part_index];
+    p->fitted[part_index] = true;
+    p->ghost_boxes[part_index] = box;
+    p->fit.box = box3_union(p->fit.box, box);
 }
 
 /* Gives every selected part to the last rule that selects it. A part that no rule selects is not drawn, so it hides
@@ -569,7 +572,7 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->look = look = out->own_look = paper_look_create(look, options->pixels_per_mm * MM_PER_POINT);
     if (!look)
         return error_memory(error);
-    out->box = out->fit_box = box3_empty();
+    out->box = out->fit.box = box3_empty();
     out->crease_angle =
         (double)((const scene_values *)look->wide[KIND_SCENE].values)->crease_angle * (3.14159265358979323846 / 180);
     out->meshes = needs_of(look, pose);
@@ -577,11 +580,15 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->part_count = pose->part_count + (out->has_removed ? pose->ghost_count : 0);
     out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);
     out->selected = mem_calloc(out->part_count, sizeof *out->selected);
+    out->fitted = mem_calloc(out->part_count, sizeof *out->fitted);
+    out->ghost_boxes = mem_calloc(out->part_count, sizeof *out->ghost_boxes);
     out->opaque = mem_calloc(out->part_count, sizeof *out->opaque);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
-    if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules)
+    if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules || !out->fitted ||
+        !out->ghost_boxes)
         return error_memory(error);
+    out->fit = (fit_body){pose, out->fitted, out->ghost_boxes, out->part_count, box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
     if (status == LMN_OK && !options->surfaces_only && !options->parts_only)
         status = section_find(&out->section, pose, look, options->select, error);
@@ -655,6 +662,8 @@ void plan_release(plan *p)
     mem_free(p->rule_of);
     section_release(&p->section);
     mem_free(p->selected);
+    mem_free(p->fitted);
+    mem_free(p->ghost_boxes);
     mem_free(p->opaque);
     paper_look_destroy(&p->own_look);
     memset(p, 0, sizeof *p);

@@ -49,8 +49,10 @@ typedef struct plan {
     bool    *selected; /* per part: drawn by some rule */
     bool    *opaque;   /* per part: drawn by a figure that is not seen through, so that it may hide others */
     size_t   selected_count, opaque_count;
-    box3     box;     /* of the selection, before it is cut */
-    box3     fit_box; /* what the picture is fitted to: the same, or where it comes over time */
+    box3     box;         /* of the selection, before it is cut */
+    fit_body fit;         /* what the picture is fitted to: the same, or where it comes over time */
+    bool    *fitted;      /* per part: it is a part of that */
+    box3    *ghost_boxes; /* per part: of ghosts, what of them counts for it */
     /* figures */
     colour  ground; /* of the page */
     rule   *rules;  /* the look's, and variants of them */

@@ -160,13 +160,15 @@ static lmn_status measure_view(const vector_job *j, const vector_view *v, double
     view_camera c;
     square.width = square.height = 64;
     lmn_draw_desc d = view_desc(j, &square);
-    lmn_status    status = camera_place(&c, &d, &j->pose, j->plan.fit_box, error);
-    out[0] = out[1] = 0;
-    for (int i = 0; i < 8 && status == LMN_OK && !box3_is_empty(j->plan.fit_box); i++) {
+    lmn_status    status = camera_place(&c, &d, &j->pose, &j->plan.fit, error);
+    out[0] = 2 * c.half_size[0];
+    out[1] = 2 * c.half_size[1];
+    bool fitted = out[0] > 0 || out[1] > 0;
+    for (int i = 0; i < 8 && status == LMN_OK && !fitted && !box3_is_empty(j->plan.fit.box); i++) {
         const double *m = c.view.m,
-                     corner[3] = {(double)(i & 1 ? j->plan.fit_box.max.x : j->plan.fit_box.min.x),
-                                  (double)(i & 2 ? j->plan.fit_box.max.y : j->plan.fit_box.min.y),
-                                  (double)(i & 4 ? j->plan.fit_box.max.z : j->plan.fit_box.min.z)},
+                     corner[3] = {(double)(i & 1 ? j->plan.fit.box.max.x : j->plan.fit.box.min.x),
+                                  (double)(i & 2 ? j->plan.fit.box.max.y : j->plan.fit.box.min.y),
+                                  (double)(i & 4 ? j->plan.fit.box.max.z : j->plan.fit.box.min.z)},
                      middle[3] = {c.target[0], c.target[1], c.target[2]};
         for (int k = 0; k < 2; k++) {
             double from_middle = 0;
@@ -201,7 +203,7 @@ static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error
 static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
 {
     lmn_draw_desc d = view_desc(j, v);
-    lmn_status    status = camera_place(&v->camera, &d, &j->pose, j->plan.fit_box, error);
+    lmn_status    status = camera_place(&v->camera, &d, &j->pose, &j->plan.fit, error);
     if (status != LMN_OK)
         return status;
     double scale = j->out->scale; /* paper over model */

@@ -1,0 +1,202 @@
+#include "plan/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Points are measured by the block, so that a compiler can take several at once. */
+enum { BLOCK = 256, LANES = 8 };
+/* More vertices, instances counted, are measured by the boxes of their meshes: that takes longer than it is worth. */
+static const double VERTICES_MOST = 8e6;
+
+typedef struct lanes {
+    float most[LANES];
+} lanes;
+
+/* A measurement under way, in single precision around the middle. */
+typedef struct measuring {
+    const fit_view *view;
+    lanes           sides[2][2][FIT_STEPS + 1]; /* axis, plus or minus, step */
+    float           x[2][BLOCK], z[BLOCK];
+    size_t          count;
+} measuring;
+
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void widen(lanes *l, const float *x, const float *z, float sign, float slope)
+{
+    for (size_t i = 0; i < BLOCK; i += LANES)
+        for (size_t k = 0; k < LANES; k++) {
+            float reach = sign * x[i + k] - slope * z[i + k];
+            l->most[k] = reach > l->most[k] ? reach : l->most[k];
+        }
+}
+
+/* A block that is not full repeats its first point. */
+static void measure_block(measuring *m)
+{
+    if (m->count == 0)
+        return;
+    for (size_t i = m->count; i < BLOCK; i++) {
+        m->x[0][i] = m->x[0][0];
+        m->x[1][i] = m->x[1][0];
+        m->z[i] = m->z[0];
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        int steps = m->view->slope[axis] > 0 ? FIT_STEPS : 0;
+        for (int s = 0; s <= steps; s++) {
+            float slope = (float)(m->view->slope[axis] * s / FIT_STEPS);
+            widen(&m->sides[axis][0][s], m->x[axis], m->z, 1, slope);
+            widen(&m->sides[axis][1][s], m->x[axis], m->z, -1, slope);
+        }
+    }
+    m->count = 0;
+}
+
+/* The axes of the view, seen from what a matrix takes to the world. */
+typedef struct local_view {
+    float axes[3][4]; /* right, up, forward: point · axis + the last */
+} local_view;
+
+static local_view localise(const fit_view *view, const mat4 *world)
+{
+    const double *axes[3] = {view->right, view->up, view->forward};
+    local_view    out;
+    for (int a = 0; a < 3; a++) {
+        for (int k = 0; k < 3; k++)
+            out.axes[a][k] = (float)dot3(axes[a], world->m + 4 * k);
+        const double origin[3] = {world->m[12] - view->middle[0], world->m[13] - view->middle[1],
+                                  world->m[14] - view->middle[2]};
+        out.axes[a][3] = (float)dot3(axes[a], origin);
+    }
+    return out;
+}
+
+static float along(const float axis[4], vec3 p)
+{
+    return axis[0] * p.x + axis[1] * p.y + axis[2] * p.z + axis[3];
+}
+
+static void measure_points(measuring *m, const local_view *l, const vec3 *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        m->x[0][m->count] = along(l->axes[0], points[i]);
+        m->x[1][m->count] = along(l->axes[1], points[i]);
+        m->z[m->count++] = along(l->axes[2], points[i]);
+        if (m->count == BLOCK)
+            measure_block(m);
+    }
+}
+
+static void measure_box(measuring *m, const local_view *l, box3 box)
+{
+    vec3 corners[8];
+    for (int i = 0; i < 8; i++)
+        corners[i] =
+            (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+    if (!box3_is_empty(box))
+        measure_points(m, l, corners, 8);
+}
+
+static box3 box_of(const vec3 *points, size_t count)
+{
+    box3 box = box3_empty();
+    for (size_t i = 0; i < count; i++)
+        box = box3_with_point(box, points[i]);
+    return box;
+}
+
+/* False: where the vertices are is known to nobody yet. */
+static bool measure_primitive(measuring *m, const fit_body *body, size_t part, const primitive *p)
+{
+    const pose           *pose = body->pose;
+    const node           *n = &pose->scene->nodes[pose->scene->parts[part].node];
+    const part_pose      *own = &pose->parts[part];
+    const posed_vertices *posed = pose_deforms(own, p) ? pose_vertices_of(own, p) : NULL;
+    if (pose_deforms(own, p) && !posed)
+        return false;
+    const vec3 *points = posed ? posed->positions : p->positions;
+    size_t      instances = node_draw_count(n);
+    bool        whole = (double)p->vertex_count * (double)instances <= VERTICES_MOST;
+    box3        box = whole ? box3_empty() : box_of(points, p->vertex_count);
+    for (size_t i = 0; i < instances; i++) {
+        mat4       world = pose_instance(pose, part, i);
+        local_view l = localise(m->view, &world);
+        if (whole)
+            measure_points(m, &l, points, p->vertex_count);
+        else
+            measure_box(m, &l, box);
+    }
+    return true;
+}
+
+static bool measure_mesh(measuring *m, const fit_body *body, size_t part)
+{
+    const lmn_scene *scene = body->pose->scene;
+    const node      *n = &scene->nodes[scene->parts[part].node];
+    if (part >= body->pose->part_count || n->mesh == NONE || body->pose->fit_boxes != body->pose->part_boxes)
+        return false;
+    bool        good = true;
+    const mesh *mesh = &scene->meshes[n->mesh];
+    for (size_t i = 0; i < mesh->primitive_count; i++)
+        good = measure_primitive(m, body, part, &mesh->primitives[i]) && good;
+    return good;
+}
+
+static void begin(measuring *m, const fit_view *view)
+{
+    m->view = view;
+    m->count = 0;
+    lanes *all = &m->sides[0][0][0];
+    for (size_t i = 0; i < sizeof m->sides / sizeof *all; i++)
+        for (int k = 0; k < LANES; k++)
+            all[i].most[k] = -INFINITY;
+}
+
+static double most_of(const lanes *l)
+{
+    float most = l->most[0];
+    for (int k = 1; k < LANES; k++)
+        most = fmaxf(most, l->most[k]);
+    return (double)most;
+}
+
+void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view)
+{
+    measuring  m;
+    const mat4 identity = mat4_identity();
+    local_view world = localise(view, &identity);
+    begin(&m, view);
+    for (size_t i = 0; i < body->part_count && body->fitted; i++) {
+        bool ghost = body->pose->scene->parts[i].ghost;
+        if (body->fitted[i] && (ghost || !measure_mesh(&m, body, i)))
+            measure_box(&m, &world, ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i]);
+    }
+    measure_block(&m);
+    for (int axis = 0; axis < 2; axis++)
+        for (int s = 0; s <= FIT_STEPS; s++) {
+            int from = view->slope[axis] > 0 ? s : 0;
+            out[axis].plus[s] = most_of(&m.sides[axis][0][from]);
+            out[axis].minus[s] = most_of(&m.sides[axis][1][from]);
+        }
+}
+
+/* The most of functions that are linear in the slope is convex: between steps a straight line lies above it. */
+static double between_steps(const double steps[FIT_STEPS + 1], double slope, double most)
+{
+    double at = most > 0 ? fmin(fmax(slope / most, 0), 1) * FIT_STEPS : 0;
+    int    s = (int)at < FIT_STEPS ? (int)at : FIT_STEPS - 1;
+    return steps[s] + (steps[s + 1] - steps[s]) * (at - s);
+}
+
+double fit_plus(const fit_reach *r, double slope, double most)
+{
+    return between_steps(r->plus, slope, most);
+}
+
+double fit_minus(const fit_reach *r, double slope, double most)
+{
+    return between_steps(r->minus, slope, most);
+}
