@@ -28,6 +28,6 @@ GdkTexture *picture_texture(const Picture *p);
 void picture_set_walking(Picture *p, bool walking);
 
 /* Signals: "status" (const char *text): what was drawn, or why it could not be; "menu" (double x, double y, uint part):
- * a context menu is asked for. */
+ * a context menu is asked for; "resized". */
 
 #endif

@@ -334,6 +334,7 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
             d.up[k] = v->camera.up[k];
         }
         d.eye_given = true;
+        d.fit_direction = false;
         d.orthographic = v->camera.orthographic;
     }
     lmn_status   status = j->draw_surfaces(&pixels, &d, j->user, error);
