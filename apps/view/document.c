@@ -1,6 +1,7 @@
 #include "document.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <string.h>
 
 enum { STEPS_MAX = 500 };
@@ -427,8 +428,9 @@ void document_fit_view(document *d, const orbit *before, const orbit *view)
 {
     step        *now = step_at(d, d->now);
     const orbit *view_now = &now->state->view;
-    if (!now->state->fitted || view_now->yaw != before->yaw || view_now->pitch != before->pitch ||
-        view_now->orthographic != before->orthographic)
+    const double NEAR = 1e-6; /* a camera that was read back is turned by less */
+    if (!now->state->fitted || !(fabs(view_now->yaw - before->yaw) < NEAR) ||
+        !(fabs(view_now->pitch - before->pitch) < NEAR) || view_now->orthographic != before->orthographic)
         return;
     view_state *s = state_copy(now->state);
     s->view = *view;

@@ -176,6 +176,11 @@ static void view_release(artist_job *base)
     g_free(j);
 }
 
+document *picture_document(const Picture *p)
+{
+    return p->document;
+}
+
 void picture_size(const Picture *p, int *width, int *height)
 {
     GtkWidget *w = GTK_WIDGET((Picture *)p);

@@ -18,6 +18,9 @@ void       picture_close(Picture *p);
 /* Shows this look on the left of a divider and the document's on the right; takes the reference; NULL: no more. */
 void picture_compare(Picture *p, look_ref *look);
 
+/* What it shows; NULL after picture_close. */
+document *picture_document(const Picture *p);
+
 /* The picture's size in device pixels. */
 void picture_size(const Picture *p, int *width, int *height);
 

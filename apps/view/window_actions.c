@@ -42,9 +42,10 @@ ACTION(do_redo)
     document_redo(LIMNER_VIEW_WINDOW(user)->document);
 }
 
-static document *document_of(GObject *window)
+/* Jobs hold the picture and not the window, which would outlive its application else. */
+static document *document_of(GObject *picture)
 {
-    return LIMNER_VIEW_WINDOW(window)->document;
+    return picture_document(LIMNER_PICTURE(picture));
 }
 
 void view_window_fit(ViewWindow *w, const char *what)
@@ -53,8 +54,8 @@ void view_window_fit(ViewWindow *w, const char *what)
     int              width, height;
     view_window_picture_size(w, &width, &height);
     if (scene)
-        cameras_fit(G_OBJECT(w), document_of, w->artist, (scene_ref *)scene, document_state(w->document), width, height,
-                    what);
+        cameras_fit(G_OBJECT(w->picture), document_of, w->artist, (scene_ref *)scene, document_state(w->document),
+                    width, height, what);
 }
 
 ACTION(do_fit)
@@ -262,7 +263,7 @@ ACTION(do_camera)
 {
     (void)action;
     ViewWindow *w = user;
-    cameras_go(G_OBJECT(w), document_of, w->artist, (scene_ref *)document_scene(w->document),
+    cameras_go(G_OBJECT(w->picture), document_of, w->artist, (scene_ref *)document_scene(w->document),
                document_state(w->document), g_variant_get_string(value, NULL));
 }
 
