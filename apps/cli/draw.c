@@ -71,7 +71,10 @@ static const option options[] = {
     {"camera", 0, OPTION_TEXT, AT(camera), "NAME", "A camera of the file."},
     {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
     {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
-    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR", "Fraction of the frame that the model fills. Default: 0.9.", 0.01, 10},
+    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR",
+     "Fraction of the frame that the model fills. With --eye only its direction counts then. Default: 0.9; with --eye "
+     "nothing is fitted.",
+     0.01, 10},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS",
      "Draw the model as it is at this time of its animation; also the time of what changes by itself (perturb.boil, "
      "surface.change). Default: the model at rest.",
@@ -227,7 +230,6 @@ static int check_effect(const session *s)
         {v->fill && v->plotter, "fill", "does not go with --plotter, which draws lines alone"},
         {v->angle >= 0 && !v->views, "projection", "says how --views lie, and there are none"},
         {v->verify && !v->report, "verify", "puts its result into the report; add --report FILE"},
-        {v->fit.given && v->eye.given, "fit", "does not go with --eye, which says how near the model is"},
         {v->fit.given && v->camera, "fit", "does not go with --camera, which says how near the model is"},
         {v->fit.given && v->views, "fit", "does not go with --views, which fill the page"},
         {v->fit.given && v->scale, "fit", "does not go with --scale"},
@@ -541,6 +543,7 @@ static void place_view(session *s, const lmn_scene *scene)
     lmn_scene_info     info = lmn_scene_info_of(scene);
     s->desc.fit_time = v->fit_time || (v->frames && info.animations > 0);
     s->desc.eye_given = v->eye.given;
+    s->desc.fit_direction = v->eye.given && v->fit.given;
     for (int i = 0; i < 3; i++) {
         s->desc.eye[i] = v->eye.value[i];
         s->desc.target[i] = v->target.given ? v->target.value[i] : (info.bounds_min[i] + info.bounds_max[i]) / 2;

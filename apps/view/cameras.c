@@ -3,6 +3,8 @@
 #include <math.h>
 
 enum { CAMERAS_MAX = 64 };
+/* Of the artist's jobs, beside those of the picture. */
+enum { SLOT_FIT = 4 };
 
 GMenu *cameras_menu(const scene_ref *scene)
 {
@@ -22,7 +24,9 @@ typedef struct camera_job {
     document *(*document_of)(GObject *owner);
     scene_ref  *scene;
     view_state *state;
-    char       *name;
+    char       *name;          /* NULL: fits */
+    int         width, height; /* of a small picture */
+    const char *what;
     double      view[16], projection[16];
 } camera_job;
 
@@ -32,18 +36,25 @@ static lmn_status ask_camera(artist_job *base, lmn_renderer *renderer, lmn_error
     camera_job   *j = (camera_job *)base;
     lmn_drawing  *drawing = NULL;
     lmn_draw_desc desc;
-    state_describe(j->state, j->scene, NULL, 1, 1, &desc);
-    desc.eye_given = desc.orthographic = false;
-    desc.camera = j->name;
-    desc.fov_deg = 30;
+    char         *selector = state_selector(j->state, j->scene);
+    state_describe(j->state, j->scene, selector, j->width, j->height, &desc);
+    desc.fit_direction = !j->name;
+    if (j->name) {
+        desc.eye_given = desc.orthographic = false;
+        desc.camera = j->name;
+        desc.fov_deg = 30;
+    }
     desc.samples = 1;
     desc.lenient = desc.draft = true;
     desc.progress = artist_goes_on;
     desc.progress_user = base;
-    lmn_status status = lmn_draw(&drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
+    lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    if (status == LMN_OK)
+        status = lmn_draw(&drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
     if (status == LMN_OK)
         lmn_drawing_camera(drawing, j->view, j->projection);
     lmn_drawing_destroy(&drawing);
+    g_free(selector);
     return status;
 }
 
@@ -73,8 +84,13 @@ static void camera_told(artist_job *base, lmn_status status, const lmn_error *er
     else
         o.fov_deg = 360 / G_PI * atan(1 / j->projection[5]);
     orbit_place(&o, eye, target);
-    document_end_step(d);
-    document_set_view(d, &o, "Camera");
+    if (!j->what) {
+        document_fit_view(d, &j->state->view, &o);
+        return;
+    }
+    if (j->name)
+        document_end_step(d);
+    document_set_view(d, &o, j->what);
 }
 
 static void camera_release(artist_job *base)
@@ -97,5 +113,24 @@ void cameras_go(GObject *owner, document *(*document_of)(GObject *owner), artist
     j->scene = scene_ref_take(scene);
     j->state = state_copy(state);
     j->name = g_strdup(name);
+    j->width = j->height = 1;
+    j->what = "Camera";
+    artist_ask(a, &j->job);
+}
+
+void cameras_fit(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                 const view_state *state, int width, int height, const char *what)
+{
+    enum { SIDE = 256 }; /* its shape matters, not its size */
+    camera_job *j = g_new0(camera_job, 1);
+    int         longer = MAX(1, MAX(width, height));
+    j->job = (artist_job){ARTIST_ASK, SLOT_FIT, ask_camera, camera_told, camera_release};
+    j->owner = g_object_ref(owner);
+    j->document_of = document_of;
+    j->scene = scene_ref_take(scene);
+    j->state = state_copy(state);
+    j->width = MAX(1, SIDE * width / longer);
+    j->height = MAX(1, SIDE * height / longer);
+    j->what = what;
     artist_ask(a, &j->job);
 }

@@ -1,6 +1,7 @@
 #include "document.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <string.h>
 
 enum { STEPS_MAX = 500 };
@@ -390,6 +391,7 @@ static void forget_files(document *d, const scene_ref *scene, int width, int hei
 {
     view_state *s = state_copy(document_state(d));
     s->view = orbit_make(scene->info.up);
+    s->fitted = true;
     orbit_fit(&s->view, scene->info.bounds_min, scene->info.bounds_max, width, height);
     g_clear_pointer(&s->hidden, g_array_unref);
     g_clear_pointer(&s->edits, g_array_unref);
@@ -418,7 +420,24 @@ void document_set_view(document *d, const orbit *view, const char *what)
         return;
     view_state *s = state_copy(document_state(d));
     s->view = *view;
+    s->fitted = false;
     change(d, s, what, DOCUMENT_VIEW);
+}
+
+void document_fit_view(document *d, const orbit *before, const orbit *view)
+{
+    step        *now = step_at(d, d->now);
+    const orbit *view_now = &now->state->view;
+    const double NEAR = 1e-6; /* a camera that was read back is turned by less */
+    if (!now->state->fitted || !(fabs(view_now->yaw - before->yaw) < NEAR) ||
+        !(fabs(view_now->pitch - before->pitch) < NEAR) || view_now->orthographic != before->orthographic)
+        return;
+    view_state *s = state_copy(now->state);
+    s->view = *view;
+    s->fitted = true;
+    state_free(now->state);
+    now->state = s;
+    tell(d, DOCUMENT_VIEW);
 }
 
 void document_set_time(document *d, bool timed, double time_s, const char *clip)

@@ -52,6 +52,7 @@ typedef struct view_state {
     char     *clip;  /* as lmn_draw_desc.clip */
     GArray   *edits; /* of solid_edit; NULL: none */
     uint32_t  seed;
+    bool      fitted; /* nobody has moved the view since it was made to fill the picture */
 } view_state;
 
 typedef struct document document;
@@ -83,6 +84,9 @@ const view_state *document_state(const document *d);
 /* --- changes: each is a step that undo goes back by. Changes with the same `what` (static text, for people) that
  * follow one another within a moment become one step. */
 void document_set_view(document *d, const orbit *view, const char *what);
+/* The view fills the picture now. No step of its own; nothing when it was moved, or is seen from
+ * another side than `before`. */
+void document_fit_view(document *d, const orbit *before, const orbit *view);
 void document_set_time(document *d, bool timed, double time_s, const char *clip);
 void document_set_look(document *d, look_ref *look, const char *what); /* takes the reference */
 /* Hides or shows parts; `alone`: shows these and no other. */

@@ -44,6 +44,7 @@ static lmn_status draw_thumb(artist_job *base, lmn_renderer *renderer, lmn_error
     lmn_draw_desc desc;
     char         *selector = state_selector(j->state, j->scene);
     state_describe(j->state, j->scene, selector, THUMB_WIDTH * j->scale, THUMB_HEIGHT * j->scale, &desc);
+    desc.fit_direction = true;
     desc.lenient = true;
     /* Lines of a small drawing instead of a large drawing made small: they are to be told apart. */
     desc.dpi = 60.0 * j->scale;

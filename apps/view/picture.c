@@ -38,12 +38,13 @@ struct _Picture {
     bool      walking;
     gint64    input_at; /* of the oldest input that no picture shows yet; 0: none */
     uint64_t  revision;
-    gint64    moved_at;   /* when the last picture of something moving came */
-    double    per_second; /* such pictures, smoothed; 0: nothing moves */
+    int       width, height; /* when it was told last */
+    gint64    moved_at;      /* when the last picture of something moving came */
+    double    per_second;    /* such pictures, smoothed; 0: nothing moves */
 };
 G_DEFINE_TYPE(Picture, picture, GTK_TYPE_WIDGET)
 
-enum { SIGNAL_STATUS, SIGNAL_MENU, SIGNALS };
+enum { SIGNAL_STATUS, SIGNAL_MENU, SIGNAL_RESIZED, SIGNALS };
 static guint signals[SIGNALS];
 
 /* --- jobs ------------------------------------------------------------------------------------------------ */
@@ -173,6 +174,11 @@ static void view_release(artist_job *base)
     state_free(j->state);
     g_object_unref(j->picture);
     g_free(j);
+}
+
+document *picture_document(const Picture *p)
+{
+    return p->document;
 }
 
 void picture_size(const Picture *p, int *width, int *height)
@@ -555,10 +561,14 @@ static void picture_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 
 static void picture_size_allocate(GtkWidget *widget, int width, int height, int baseline)
 {
-    (void)width;
-    (void)height;
     (void)baseline;
-    refresh(LIMNER_PICTURE(widget));
+    Picture *p = LIMNER_PICTURE(widget);
+    if (width != p->width || height != p->height) {
+        p->width = width;
+        p->height = height;
+        g_signal_emit(widget, signals[SIGNAL_RESIZED], 0);
+    }
+    refresh(p);
 }
 
 static void picture_map(GtkWidget *widget)
@@ -627,6 +637,8 @@ static void picture_class_init(PictureClass *class)
     gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_IMG);
     signals[SIGNAL_STATUS] =
         g_signal_new("status", PICTURE_TYPE, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 1, G_TYPE_STRING);
+    signals[SIGNAL_RESIZED] =
+        g_signal_new("resized", PICTURE_TYPE, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
     signals[SIGNAL_MENU] = g_signal_new("menu", PICTURE_TYPE, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 3,
                                         G_TYPE_DOUBLE, G_TYPE_DOUBLE, G_TYPE_UINT);
 }

@@ -18,6 +18,9 @@ void       picture_close(Picture *p);
 /* Shows this look on the left of a divider and the document's on the right; takes the reference; NULL: no more. */
 void picture_compare(Picture *p, look_ref *look);
 
+/* What it shows; NULL after picture_close. */
+document *picture_document(const Picture *p);
+
 /* The picture's size in device pixels. */
 void picture_size(const Picture *p, int *width, int *height);
 
@@ -28,6 +31,6 @@ GdkTexture *picture_texture(const Picture *p);
 void picture_set_walking(Picture *p, bool walking);
 
 /* Signals: "status" (const char *text): what was drawn, or why it could not be; "menu" (double x, double y, uint part):
- * a context menu is asked for. */
+ * a context menu is asked for; "resized". */
 
 #endif

@@ -174,6 +174,15 @@ static void menu_closed(GtkPopover *popover, gpointer user)
     g_idle_add(drop_menu, popover);
 }
 
+/* What filled the picture goes on to fill it. */
+static void picture_resized(Picture *picture, gpointer user)
+{
+    (void)picture;
+    ViewWindow *w = user;
+    if (w->document && document_scene(w->document) && document_state(w->document)->fitted)
+        view_window_fit(w, NULL);
+}
+
 static void picture_said(Picture *p, const char *text, gpointer user)
 {
     (void)p;
@@ -209,6 +218,7 @@ static GtkWidget *make_middle(ViewWindow *w)
     adw_status_page_set_icon_name(ADW_STATUS_PAGE(empty), "document-open-symbolic");
     w->picture = picture_new(w->document, w->artist);
     g_signal_connect_object(w->picture, "status", G_CALLBACK(picture_said), w, 0);
+    g_signal_connect_object(w->picture, "resized", G_CALLBACK(picture_resized), w, 0);
     g_signal_connect_object(w->picture, "menu", G_CALLBACK(picture_menu), w, 0);
     w->pages = gtk_stack_new();
     gtk_stack_add_named(GTK_STACK(w->pages), empty, "empty");

@@ -29,5 +29,7 @@ void view_window_say_error(ViewWindow *w, const lmn_error *error);
 document *view_window_document(ViewWindow *w);
 artist   *view_window_artist(ViewWindow *w);
 void      view_window_picture_size(ViewWindow *w, int *width, int *height);
+/* Comes as near as fills the picture, soon; `what` as cameras_fit takes it. */
+void view_window_fit(ViewWindow *w, const char *what);
 
 #endif

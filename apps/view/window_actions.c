@@ -42,31 +42,45 @@ ACTION(do_redo)
     document_redo(LIMNER_VIEW_WINDOW(user)->document);
 }
 
+/* Jobs hold the picture and not the window, which would outlive its application else. */
+static document *document_of(GObject *picture)
+{
+    return picture_document(LIMNER_PICTURE(picture));
+}
+
+void view_window_fit(ViewWindow *w, const char *what)
+{
+    const scene_ref *scene = document_scene(w->document);
+    int              width, height;
+    view_window_picture_size(w, &width, &height);
+    if (scene)
+        cameras_fit(G_OBJECT(w->picture), document_of, w->artist, (scene_ref *)scene, document_state(w->document),
+                    width, height, what);
+}
+
 ACTION(do_fit)
 {
     UNUSED;
-    ViewWindow      *w = user;
-    const scene_ref *scene = document_scene(w->document);
-    if (!scene)
-        return;
-    int   width, height;
-    orbit o = document_state(w->document)->view;
-    view_window_picture_size(w, &width, &height);
-    orbit_fit(&o, scene->info.bounds_min, scene->info.bounds_max, width, height);
-    document_set_view(w->document, &o, "Fit");
+    view_window_fit(user, "Fit");
 }
 
 ACTION(do_view)
 {
     static const char *const names[] = {"iso", "front", "back", "left", "right", "top", "bottom"};
     (void)action;
-    ViewWindow *w = user;
-    orbit       o = document_state(w->document)->view;
+    ViewWindow      *w = user;
+    const scene_ref *scene = document_scene(w->document);
+    orbit            o = document_state(w->document)->view;
+    int              width, height;
     for (size_t i = 0; i < G_N_ELEMENTS(names); i++)
         if (g_strcmp0(names[i], g_variant_get_string(value, NULL)) == 0)
             orbit_turn_to(&o, (lmn_view)i);
+    view_window_picture_size(w, &width, &height);
+    if (scene)
+        orbit_fit(&o, scene->info.bounds_min, scene->info.bounds_max, width, height);
+    document_end_step(w->document);
     document_set_view(w->document, &o, "View");
-    do_fit(NULL, NULL, w);
+    view_window_fit(w, "View");
 }
 
 ACTION(do_export)
@@ -245,16 +259,11 @@ ACTION(do_section)
     }
 }
 
-static document *document_of(GObject *window)
-{
-    return LIMNER_VIEW_WINDOW(window)->document;
-}
-
 ACTION(do_camera)
 {
     (void)action;
     ViewWindow *w = user;
-    cameras_go(G_OBJECT(w), document_of, w->artist, (scene_ref *)document_scene(w->document),
+    cameras_go(G_OBJECT(w->picture), document_of, w->artist, (scene_ref *)document_scene(w->document),
                document_state(w->document), g_variant_get_string(value, NULL));
 }
 

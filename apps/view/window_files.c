@@ -124,6 +124,8 @@ static void loaded(GObject *source, GAsyncResult *result, gpointer user)
             trace_event("loaded parts=%zu reload=%d", scene->info.parts, w->reloads);
             gtk_stack_set_visible_child_name(GTK_STACK(w->pages), "picture");
             document_set_scene(w->document, scene_ref_take(scene), !w->reloads, width, height);
+            if (!w->restored.has_view && !w->reloads)
+                view_window_fit(w, NULL);
             if (w->restored.has_view && !w->reloads)
                 document_set_view(w->document, &w->restored.view, "Restore");
             w->restored.has_view = false;

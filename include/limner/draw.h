@@ -84,12 +84,15 @@ typedef struct lmn_draw_desc {
      * left out. Lines found in pictures lie to the pixel only, without the exact edges of meshes. Sheets do not heed
      * it. Since 0.1. */
     bool draft;
+    /* With eye_given: eye, target and up say only from which direction and which way up; how near the eye is follows
+     * from `fit`, as with named views. Since 0.1. */
+    bool fit_direction;
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
             0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0}, {0},       \
-            false, false                                                                                               \
+            false, false, false                                                                                        \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window, or one that draws in the caller's (adopt).

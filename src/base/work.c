@@ -34,7 +34,7 @@ static void begin(work *w, const lmn_task_desc *conditions, lmn_progress_fn prog
                 .conditions = conditions,
                 .progress = progress,
                 .user = user,
-                .stage = "",
+                .stage = "beginning",
                 .poll_ms = now + POLL_MS};
     w->limits = conditions ? conditions->limits : lmn_limits_standard();
     w->memory = w->limits.memory ? (size_t)w->limits.memory : machine_memory() / 4 * 3;

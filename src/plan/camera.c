@@ -315,6 +315,8 @@ lmn_status camera_place(view_camera *c, const lmn_draw_desc *desc, const pose *p
         memcpy(c->up, up, sizeof up);
         /* Parallel rays show at the target what a perspective of the same angle would. */
         c->half_height = distance * tan(c->fov_y / 2);
+        if (desc->fit_direction)
+            fit_to(c, body, desc->fit, right, up, forward);
     } else {
         double to_eye[3], wanted[3];
         named_view(desc->view, pose->scene->up, to_eye, wanted);

@@ -8,6 +8,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/paper.h"
+#include "base/work.h"
 #include "plan/plan.h"
 #include "plan/refuse.h"
 #include "plan/time.h"
@@ -41,19 +42,13 @@ typedef struct vector_job {
     double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
 } vector_job;
 
-static lmn_status check_cancelled(const vector_job *j, double fraction, const char *stage, lmn_error *error)
-{
-    if (!j->desc->progress || j->desc->progress(fraction, stage, j->desc->progress_user))
-        return LMN_OK;
-    return error_set(error, LMN_CANCELLED, "cancelled");
-}
-
 /* Progress of a part of the work, as a part of the whole. */
 static bool report_part(double fraction, const char *stage, void *user)
 {
     vector_job *j = user;
+    lmn_error   error;
     j->reported = fmax(j->reported, fmin(j->begun + fraction * j->fraction, 1)); /* each rule begins anew */
-    return !j->desc->progress || j->desc->progress(j->reported, stage, j->desc->progress_user);
+    return work_progress(j->reported, stage, &error) == LMN_OK;
 }
 
 static refusal refusal_of(const vector_job *j, lmn_error *error)
@@ -334,6 +329,7 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
             d.up[k] = v->camera.up[k];
         }
         d.eye_given = true;
+        d.fit_direction = false;
         d.orthographic = v->camera.orthographic;
     }
     lmn_status   status = j->draw_surfaces(&pixels, &d, j->user, error);
@@ -622,7 +618,7 @@ static lmn_status finish_page(vector_job *j, lmn_error *error)
 static lmn_status draw_sheet(vector_job *j, lmn_error *error)
 {
     lmn_sheet *s = j->out;
-    lmn_status status = check_cancelled(j, 0.3, "drawing", error);
+    lmn_status status = work_progress(0.3, "drawing", error);
     j->begun = 0.3;
     j->fraction = 0.2;
     if (status == LMN_OK)
@@ -638,7 +634,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
         status = vector_order_for_plotter(&s->page, error);
     if (status == LMN_OK && s->page.failed)
         status = error_memory(error);
-    return status == LMN_OK ? check_cancelled(j, 0.95, "drawing", error) : status;
+    return status == LMN_OK ? work_progress(0.95, "drawing", error) : status;
 }
 
 /* Marks of vector drawings know the look's lights, and no more than these. */

@@ -117,6 +117,25 @@ static void models_fill_the_frame(void)
     }
 }
 
+/* From any side, whatever the distance of the eye that was given. */
+static void directions_fill_the_frame(void)
+{
+    lmn_scene *scene = load("gearbox.stl");
+    double     worst = 0;
+    for (int step = 0; step < 6; step++) {
+        lmn_draw_desc desc = describe(SIDE, SIDE * 3 / 4);
+        desc.eye_given = desc.fit_direction = true;
+        desc.orthographic = step % 2;
+        desc.eye[0] = cos(step) * 1000;
+        desc.eye[1] = sin(step) * 1000;
+        desc.eye[2] = 300 - 100 * step;
+        desc.up[2] = 1;
+        worst = fmax(worst, misfit(scene, &desc));
+    }
+    check_at_most("FIT", worst, PIXELS_OFF, "the gearbox from six sides: pixels off");
+    lmn_scene_destroy(&scene);
+}
+
 /* Vertices are where joints put them. */
 static void postures_fill_the_frame(void)
 {
@@ -175,10 +194,8 @@ static void solids_lie_in_the_frame(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"models", models_fill_the_frame},
-                                       {"postures", postures_fill_the_frame},
-                                       {"selections", selections_fill_the_frame},
-                                       {"times", all_times_are_held},
-                                       {"solids", solids_lie_in_the_frame}};
+    static const check_case cases[] = {{"models", models_fill_the_frame},     {"directions", directions_fill_the_frame},
+                                       {"postures", postures_fill_the_frame}, {"selections", selections_fill_the_frame},
+                                       {"times", all_times_are_held},         {"solids", solids_lie_in_the_frame}};
     return check_main(argc, argv, "fit", cases, sizeof cases / sizeof *cases);
 }

@@ -143,7 +143,7 @@ group_usage() {
     row 1 "is 'in-own.stl', which is an input" '' draw in-own.stl -o in-own.stl --format png
     row 1 "is 'in-link.stl', which is an input" '' draw in-own.stl -o in-link.stl --format png
     row 1 'are the same file' '' draw nosuch.stl -o x.png --report x.png
-    row 1 '--fit does not go with --eye' '' draw nosuch.stl --eye 1,2,3 --fit 0.5
+    row 0 '' 'x.png' draw "$gear" $small -o x.png --eye 1,2,3 --fit 0.5
     row 1 '--fit does not go with --camera' '' draw nosuch.stl --camera a --fit 0.5
     row 1 '--ortho does not go with --camera' '' draw nosuch.stl --camera a --ortho
     row 1 '--define goes with OpenSCAD programs' '' draw "$gear" -D a=1

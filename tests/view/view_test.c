@@ -322,6 +322,27 @@ static void hidden_operands_come_back(void **state)
     scene_ref_drop(scene);
 }
 
+/* Fitting is no step of undo, and leaves a view alone that somebody has moved meanwhile. */
+static void views_are_fitted_until_they_are_moved(void **state)
+{
+    (void)state;
+    document *d = document_make();
+    document_set_scene(d, load("box.glb"), true, 100, 100);
+    orbit first = document_state(d)->view, better = first, moved = first;
+    better.distance *= 0.9;
+    moved.yaw += 1;
+    assert_true(document_state(d)->fitted);
+    document_fit_view(d, &first, &better);
+    assert_true(document_state(d)->fitted && document_state(d)->view.distance == better.distance);
+    assert_null(document_undo_name(d));
+    document_set_view(d, &moved, "Turn");
+    assert_false(document_state(d)->fitted);
+    document_fit_view(d, &better, &first);
+    assert_true(document_state(d)->view.yaw == moved.yaw);
+    assert_true(document_undo(d) && document_state(d)->fitted);
+    document_free(d);
+}
+
 /* A file that is read again may have lost what a state says of it. */
 static void states_outlive_what_files_lose(void **state)
 {
@@ -1031,6 +1052,7 @@ int main(void)
         cmocka_unit_test(nodes_move_in_the_scene_s_axes),
         cmocka_unit_test(nodes_turn_around_the_scene_s_axes),
         cmocka_unit_test(hidden_operands_come_back),
+        cmocka_unit_test(views_are_fitted_until_they_are_moved),
         cmocka_unit_test(states_outlive_what_files_lose),
         cmocka_unit_test(edits_of_solids_are_taken_back),
         cmocka_unit_test(lost_contexts_are_made_anew),

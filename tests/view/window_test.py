@@ -332,7 +332,10 @@ def watched(v):
 
 
 def ends(v):
-    check("it ends with status 0", v.close() == 0)
+    status = v.close()
+    check(f"it ends with status 0: {status}", status == 0)
+    if status:
+        print(v.process.stderr.read().decode()[-2000:], flush=True)
 
 
 def goes_on_where_it_was():
