@@ -76,11 +76,27 @@ static void print_use(const json_t *use)
     }
 }
 
+static void print_controls(const json_t *controls)
+{
+    size_t  i, k;
+    json_t *control, *map;
+    if (json_array_size(controls))
+        printf("\n  controls: -1 to 1, 0 is the look as it is. --set weight=0.5\n");
+    json_array_foreach(controls, i, control)
+    {
+        printf("    %-26s = %-10g  (", text_at(control, "name", ""), number_at(control, "value", 0));
+        json_array_foreach(json_object_get(control, "maps"), k, map)
+            printf("%s%s %s", k ? "; " : "", text_at(map, "param", ""), text_at(map, "change", ""));
+        printf(")\n%33s%s\n", "", text_at(control, "doc", ""));
+    }
+}
+
 static void print_look(const json_t *root)
 {
     size_t  i, k;
     json_t *rule, *use;
     printf("%s: %s\n", text_at(root, "name", ""), text_at(root, "doc", ""));
+    print_controls(json_object_get(root, "controls"));
     json_array_foreach(json_object_get(root, "uses"), k, use) print_use(use);
     json_array_foreach(json_object_get(root, "rules"), i, rule)
     {
@@ -164,6 +180,11 @@ static void print_markdown(const json_t *root)
            "that ships, `--look FILE.json` your own, `--set KIND.PARAM=VALUE` changes a parameter.\n\n"
            "| look | |\n|---|---|\n");
     json_array_foreach(json_object_get(root, "looks"), i, item)
+        printf("| `%s` | %s |\n", text_at(item, "name", ""), text_at(item, "doc", ""));
+    printf(
+        "\n## Controls\n\nNumbers from -1 to 1; 0 is the look as it is. `--set weight=0.5` sets one; what it changes, "
+        "`limner looks NAME` says first.\n\n| control | |\n|---|---|\n");
+    json_array_foreach(json_object_get(root, "controls"), i, item)
         printf("| `%s` | %s |\n", text_at(item, "name", ""), text_at(item, "doc", ""));
     json_array_foreach(json_object_get(root, "kinds"), i, item) print_kind(item);
 }

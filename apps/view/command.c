@@ -133,6 +133,21 @@ static bool settings_suffice(const GArray *settings, lmn_look *origin, const lmn
     return same;
 }
 
+/* What controls are set to. */
+static void add_controls(GArray *out, const lmn_look *now, const lmn_look *before)
+{
+    lmn_control_info info;
+    lmn_error        error = {0};
+    double           is, was;
+    for (size_t i = 0; lmn_control_at(i, &info); i++)
+        if (lmn_look_get_control(now, info.name, &is, &error) == LMN_OK &&
+            lmn_look_get_control(before, info.name, &was, &error) == LMN_OK && is != was) {
+            char         value[G_ASCII_DTOSTR_BUF_SIZE];
+            look_setting s = {g_strdup(info.name), g_strdup(g_ascii_dtostr(value, sizeof value, is))};
+            g_array_append_val(out, s);
+        }
+}
+
 GArray *look_settings(const look_ref *look)
 {
     lmn_look *origin = NULL, *before = NULL;
@@ -144,6 +159,7 @@ GArray *look_settings(const look_ref *look)
         g_array_set_clear_func(out, setting_clear);
         add_differences(out, look->look, before, add_techniques);
         add_differences(out, look->look, before, add_values);
+        add_controls(out, look->look, before);
         if (!settings_suffice(out, origin, look->look))
             g_clear_pointer(&out, g_array_unref);
     }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "controls_row.h"
+#include "controls_scale.h"
 #include "trace.h"
 #include "words.h"
 
@@ -16,6 +17,8 @@ typedef struct group {
 typedef struct controls {
     document  *document;
     GtkWidget *box, *rules, *selector, *list, *search;
+    GtkWidget *whole;  /* the group of scales */
+    GPtrArray *scales; /* of scale_row */
     GPtrArray *groups; /* of group */
     char      *shape;  /* which techniques the groups show: another one, and they are made anew */
     size_t     rule;
@@ -52,6 +55,15 @@ static bool set_value(void *owner, const place *where, const char *key, const ch
     bool       done = put(c, look, status, error, g_intern_string(name));
     g_free(name);
     return done;
+}
+
+static bool set_control(void *owner, const char *name, double value)
+{
+    controls  *c = owner;
+    lmn_error  error = {0};
+    lmn_look  *look = document_copy_look(c->document, &error);
+    lmn_status status = look ? lmn_look_set_control(look, name, value, &error) : error.status;
+    return put(c, look, status, &error, g_intern_string(name));
 }
 
 static void technique_chosen(GObject *row, GParamSpec *pspec, gpointer user)
@@ -143,6 +155,20 @@ static void add_group(controls *c, const lmn_kind_info *kind, size_t rule, size_
     gtk_box_append(GTK_BOX(c->list), g->widget);
 }
 
+/* The look's controls, above all parameters. */
+static GtkWidget *make_scales(controls *c)
+{
+    lmn_control_info info;
+    c->whole = adw_preferences_group_new();
+    c->scales = g_ptr_array_new_with_free_func((GDestroyNotify)scale_row_free);
+    for (size_t i = 0; lmn_control_at(i, &info); i++) {
+        scale_row *row = scale_row_new(&info, set_control, c);
+        adw_preferences_group_add(ADW_PREFERENCES_GROUP(c->whole), scale_row_widget(row));
+        g_ptr_array_add(c->scales, row);
+    }
+    return c->whole;
+}
+
 /* What the groups show, as text: rule, kinds and techniques. */
 static char *shape_of(const controls *c)
 {
@@ -187,6 +213,10 @@ static void build_groups(controls *c)
 static void show_found(controls *c)
 {
     char *wanted = g_utf8_casefold(gtk_editable_get_text(GTK_EDITABLE(c->search)), -1);
+    bool  some = false;
+    for (guint i = 0; i < c->scales->len; i++)
+        some |= scale_row_show(g_ptr_array_index(c->scales, i), look_of(c), wanted);
+    gtk_widget_set_visible(c->whole, some);
     for (guint i = 0; i < c->groups->len; i++) {
         group *g = g_ptr_array_index(c->groups, i);
         bool   any = !*wanted;
@@ -237,6 +267,8 @@ static void refresh(controls *c)
         c->shape = g_strdup(shape);
     }
     g_free(shape);
+    for (guint i = 0; i < c->scales->len; i++)
+        scale_row_refresh(g_ptr_array_index(c->scales, i), look_of(c));
     for (guint i = 0; i < c->groups->len; i++) {
         group *g = g_ptr_array_index(c->groups, i);
         for (guint k = 0; k < g->rows->len; k++)
@@ -333,6 +365,7 @@ static void document_changed(document *d, unsigned changes, void *user)
 static void controls_free(void *data)
 {
     controls *c = data;
+    g_ptr_array_unref(c->scales);
     g_ptr_array_unref(c->groups);
     g_free(c->shape);
     g_free(c);
@@ -367,6 +400,7 @@ GtkWidget *controls_new(document *d)
     gtk_widget_set_margin_start(c->box, 6);
     gtk_widget_set_margin_end(c->box, 6);
     gtk_box_append(GTK_BOX(c->box), c->search);
+    gtk_box_append(GTK_BOX(c->box), make_scales(c));
     gtk_box_append(GTK_BOX(c->box), make_rules(c));
     gtk_box_append(GTK_BOX(c->box), c->selector);
     gtk_box_append(GTK_BOX(c->box), scrolled);

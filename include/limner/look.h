@@ -22,8 +22,8 @@ LMN_API lmn_status lmn_look_parse(lmn_look **out, const char *json, const char *
 LMN_API void lmn_look_destroy(lmn_look **look);
 
 /* Sets one parameter from text: key is "KIND.PARAM", "KIND[i].PARAM" or "RULE:KIND.PARAM"; without RULE all rules are
- * set. `KIND.technique` exchanges the technique. Errors: LMN_USAGE (unknown key: nearest in the hint; bad value: the
- * message names the range). */
+ * set. A control's name alone ("weight") sets the control. `KIND.technique` exchanges the technique. Errors: LMN_USAGE
+ * (unknown key: nearest in the hint; bad value: the message names the range). */
 LMN_API lmn_status lmn_look_set(lmn_look *look, const char *key, const char *value, lmn_error *error);
 
 /* The look as JSON, only what differs from the defaults. Free with lmn_text_free. NULL when memory is gone. */

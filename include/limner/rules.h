@@ -237,6 +237,42 @@ LMN_API lmn_status lmn_look_set_auto(lmn_look *look, size_t rule, const char *ki
 LMN_API lmn_status lmn_look_reset(lmn_look *look, size_t rule, const char *kind, size_t index, const char *key,
                                   lmn_error *error);
 
+/* --- controls ------------------------------------------------------------------------------------------- */
+
+/* Five numbers from -1 to 1 that change many parameters at once, each as the look's file says under "controls"
+ * (docs/reference/look-files.md); 0 is the look as its parameters are. Parameters keep their values beside them: what
+ * is drawn is both together. */
+typedef struct lmn_control_info {
+    const char *name, *doc; /* static */
+} lmn_control_info;
+
+/* The controls, the same for all looks: how many, and one of them; false when out of range. */
+LMN_API size_t lmn_control_count(void);
+LMN_API bool   lmn_control_at(size_t index, lmn_control_info *out);
+
+/* Does the look say what this control does? False for unknown names and NULL, too. */
+LMN_API bool lmn_look_has_control(const lmn_look *look, const char *name);
+
+/* Errors: LMN_USAGE (an unknown name; setting: the look does not have it, or the value is outside -1 … 1). One that the
+ * look does not have is 0. */
+LMN_API lmn_status lmn_look_get_control(const lmn_look *look, const char *name, double *out, lmn_error *error);
+LMN_API lmn_status lmn_look_set_control(lmn_look *look, const char *name, double value, lmn_error *error);
+
+/* What a control does to one parameter. */
+typedef struct lmn_control_map {
+    const char *param;     /* as lmn_look_set takes it: "lines.width"; of a number. Borrowed where it is given out */
+    bool        times;     /* multiplied, with a geometric way between 0 and an end; else added */
+    double      low, high; /* the factor, above 0, or what is added, at -1 and at 1 */
+} lmn_control_map;
+
+/* One of a control's maps; false when there is no such control or index. */
+LMN_API bool lmn_look_control_map(const lmn_look *look, const char *name, size_t index, lmn_control_map *out);
+
+/* Says what a control does, which is copied; 0 maps: the look has it no more. Its value becomes 0. `maps` may be NULL
+ * for none. Errors: LMN_USAGE (an unknown name or parameter, no number, a factor that is not above 0), LMN_LIMIT. */
+LMN_API lmn_status lmn_look_set_control_maps(lmn_look *look, const char *name, const lmn_control_map *maps,
+                                             size_t count, lmn_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -376,3 +376,78 @@ lmn_status lmn_look_reset(lmn_look *look, size_t rule, const char *kind, size_t 
     lmn_status status = look_find_param(&place, look, rule, kind, index, key, error);
     return status == LMN_OK ? look_change_param(look, &place, NULL, error) : status;
 }
+
+/* --- controls ------------------------------------------------------------------------------------------- */
+
+size_t lmn_control_count(void)
+{
+    return CONTROL_COUNT;
+}
+
+bool lmn_control_at(size_t index, lmn_control_info *out)
+{
+    if (index >= CONTROL_COUNT || !out)
+        return false;
+    *out = (lmn_control_info){control_rows[index].name, control_rows[index].doc};
+    return true;
+}
+
+bool lmn_look_has_control(const lmn_look *look, const char *name)
+{
+    size_t index;
+    return look && name && control_find(&index, name, NULL) == LMN_OK && look->controls[index].map_count;
+}
+
+lmn_status lmn_look_get_control(const lmn_look *look, const char *name, double *out, lmn_error *error)
+{
+    CHECK(look);
+    CHECK(name);
+    CHECK(out);
+    size_t     index;
+    lmn_status status = control_find(&index, name, error);
+    if (status == LMN_OK)
+        *out = look->controls[index].value;
+    return status;
+}
+
+lmn_status lmn_look_set_control(lmn_look *look, const char *name, double value, lmn_error *error)
+{
+    CHECK(look);
+    CHECK(name);
+    size_t     index;
+    lmn_look  *before;
+    lmn_status status = control_find(&index, name, error);
+    if (status == LMN_OK)
+        status = look_edit_begin(&before, look, error);
+    if (status != LMN_OK)
+        return status;
+    return look_edit_end(look, &before, look_set_control(look, index, value, error));
+}
+
+bool lmn_look_control_map(const lmn_look *look, const char *name, size_t index, lmn_control_map *out)
+{
+    size_t at;
+    if (!out || !lmn_look_has_control(look, name) || control_find(&at, name, NULL) != LMN_OK ||
+        index >= look->controls[at].map_count)
+        return false;
+    const control_map *map = &look->controls[at].maps[index];
+    *out = (lmn_control_map){map->key, map->times, map->low, map->high};
+    return true;
+}
+
+lmn_status lmn_look_set_control_maps(lmn_look *look, const char *name, const lmn_control_map *maps, size_t count,
+                                     lmn_error *error)
+{
+    CHECK(look);
+    CHECK(name);
+    if (count)
+        CHECK(maps);
+    size_t     index;
+    lmn_look  *before;
+    lmn_status status = control_find(&index, name, error);
+    if (status == LMN_OK)
+        status = look_edit_begin(&before, look, error);
+    if (status != LMN_OK)
+        return status;
+    return look_edit_end(look, &before, look_set_control_maps(look, index, maps, count, error));
+}

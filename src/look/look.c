@@ -125,6 +125,8 @@ static lmn_status copy_content(lmn_look *out, const lmn_look *from, lmn_error *e
     if (!out->name || (from->doc && !out->doc) || !out->rules)
         return error_memory(error);
     out->rule_count = from->rule_count;
+    if (!controls_copy(out->controls, from->controls))
+        return error_memory(error);
     for (size_t k = 0; k < KIND_COUNT; k++)
         if (!use_copy(&out->wide[k], kinds[k], &from->wide[k]))
             return error_memory(error);
@@ -157,6 +159,7 @@ void look_destroy(lmn_look **look)
         rule_release(&(*look)->rules[i]);
     for (size_t k = 0; k < KIND_COUNT; k++)
         use_release(&(*look)->wide[k]);
+    controls_release((*look)->controls);
     mem_free((*look)->rules);
     mem_free((*look)->name);
     mem_free((*look)->doc);

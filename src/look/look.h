@@ -4,6 +4,7 @@
 
 #include "limner/look.h"
 #include "limner/rules.h"
+#include "look/control.h"
 #include "look/selector.h"
 #include "look/technique_set.h"
 #include "technique/technique.h"
@@ -23,6 +24,7 @@ struct lmn_look {
     technique_use   wide[KIND_COUNT]; /* technique NULL for kinds that are not look-wide */
     rule           *rules;
     size_t          rule_count;
+    control         controls[CONTROL_COUNT];
     lmn_techniques *techniques; /* held; NULL: none but the library's */
     uint64_t        revision;   /* changes whenever the content does; no two looks of a process share one */
     uint64_t        changed[LOOK_CHANGE_BITS]; /* the revision at which each of lmn_look_change was last so */

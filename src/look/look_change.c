@@ -274,7 +274,7 @@ static unsigned rule_changes(const rule *a, const rule *b)
     return changes;
 }
 
-static unsigned difference(const lmn_look *a, const lmn_look *b)
+static unsigned content_difference(const lmn_look *a, const lmn_look *b)
 {
     if (a->rule_count != b->rule_count)
         return LOOK_CHANGE_ALL;
@@ -283,6 +283,28 @@ static unsigned difference(const lmn_look *a, const lmn_look *b)
         changes |= use_changes(kinds[k], &a->wide[k], &b->wide[k]);
     for (size_t i = 0; i < a->rule_count; i++)
         changes |= rule_changes(&a->rules[i], &b->rules[i]);
+    return changes;
+}
+
+/* A look whose parameters are what its controls make of them; NULL when memory is gone. */
+static lmn_look *controlled(const lmn_look *look)
+{
+    lmn_look *out = NULL;
+    if (look_copy(&out, look, NULL) == LMN_OK)
+        look_apply_controls(out);
+    return out;
+}
+
+/* What is drawn decides, so parameters are compared behind the controls. */
+static unsigned difference(const lmn_look *a, const lmn_look *b)
+{
+    unsigned changes = look_controls_are_alike(a, b) ? 0 : LMN_CHANGE_VALUES;
+    if (!look_controls_are_set(a) && !look_controls_are_set(b))
+        return changes | content_difference(a, b);
+    lmn_look *one = controlled(a), *other = controlled(b);
+    changes |= one && other ? content_difference(one, other) : LOOK_CHANGE_ALL;
+    look_destroy(&one);
+    look_destroy(&other);
     return changes;
 }
 

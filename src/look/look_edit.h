@@ -25,6 +25,15 @@ typedef struct param_place {
 lmn_status look_find_param(param_place *out, const lmn_look *look, size_t rule_index, const char *kind_name,
                            size_t index, const char *key, lmn_error *error);
 
+/* Calls `visit` with each of the look's parameters that a key ("lines.width", as look_set takes it) means. A key that
+ * means none is none. */
+typedef void (*param_visitor)(const param *p, void *values, void *user);
+void look_visit_params(lmn_look *look, const char *key, param_visitor visit, void *user);
+
+/* The row of the parameter that a key means: the look's, or else the first technique's of the kind that has one.
+ * Errors: LMN_USAGE. */
+lmn_status look_param_of_key(const param **out, const lmn_look *look, const char *key, lmn_error *error);
+
 /* Gives a parameter the value that this text says, or its default (NULL; of all parameters where `param` is NULL). The
  * error names its kind. */
 lmn_status look_change_param(lmn_look *look, const param_place *place, const char *value, lmn_error *error);

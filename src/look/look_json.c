@@ -85,6 +85,45 @@ static json_t *rule_json(const rule *r)
     return NULL;
 }
 
+static json_t *map_json(const control_map *map)
+{
+    json_t *object = json_object(), *ends = json_array();
+    if (put(object, map->times ? "times" : "plus", ends) && json_array_append_new(ends, value_number(map->low)) == 0 &&
+        json_array_append_new(ends, value_number(map->high)) == 0 && put(object, "param", json_string(map->key)))
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+static bool put_control(json_t *controls, const control *c, const char *name)
+{
+    json_t *object = json_object(), *maps = json_array();
+    if (!put(controls, name, object)) {
+        json_decref(maps);
+        return false;
+    }
+    if (!put(object, "maps", maps) || (c->value != 0 && !put(object, "value", json_real(c->value))))
+        return false;
+    for (size_t m = 0; m < c->map_count; m++)
+        if (json_array_append_new(maps, map_json(&c->maps[m])) != 0)
+            return false;
+    return true;
+}
+
+static bool put_controls(json_t *root, const lmn_look *look)
+{
+    json_t *controls = NULL;
+    for (size_t i = 0; i < CONTROL_COUNT; i++) {
+        if (!look->controls[i].map_count)
+            continue;
+        if (!controls && !put(root, "controls", controls = json_object()))
+            return false;
+        if (!put_control(controls, &look->controls[i], control_rows[i].name))
+            return false;
+    }
+    return true;
+}
+
 static bool put_rules(json_t *root, const lmn_look *look)
 {
     json_t *rules = json_array();
@@ -106,7 +145,7 @@ char *look_json(const lmn_look *look)
         if (k->look_wide && look->wide[i].technique && !is_standard(k, &look->wide[i], 1))
             done = put(root, k->name, use_json(k, &look->wide[i]));
     }
-    if (done && put_rules(root, look))
+    if (done && put_controls(root, look) && put_rules(root, look))
         return value_text(root);
     json_decref(root);
     return NULL;

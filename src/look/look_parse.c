@@ -308,6 +308,84 @@ static lmn_status read_rules(reader *r, json_t *json, lmn_look *look)
     return LMN_OK;
 }
 
+/* The text stays the document's. */
+static lmn_status read_map(reader *r, const json_t *json, lmn_control_map *out)
+{
+    const json_t *times = json_object_get(json, "times"), *ends = times ? times : json_object_get(json, "plus");
+    const char   *key = times ? "times" : "plus";
+    *out = (lmn_control_map){.param = json_string_value(json_object_get(json, "param")), .times = times};
+    if (!json_is_object(json) || !out->param || !ends || json_object_size(json) != 2)
+        return fail(r, NULL, "must be an object with 'param' and either 'times' or 'plus'");
+    if (json_array_size(ends) != 2 || !json_is_number(json_array_get(ends, 0)) ||
+        !json_is_number(json_array_get(ends, 1)))
+        return fail(r, key, "%s must be two numbers, for -1 and for 1", key);
+    out->low = json_number_value(json_array_get(ends, 0));
+    out->high = json_number_value(json_array_get(ends, 1));
+    return LMN_OK;
+}
+
+static lmn_status read_maps(reader *r, lmn_look *look, const json_t *json, size_t index)
+{
+    lmn_error       inner = {0};
+    lmn_control_map maps[LIMIT_LOOK_TECHNIQUES];
+    size_t          count = json_array_size(json);
+    if (count == 0)
+        return fail(r, NULL, "must be an array of what the control changes");
+    if (count > LIMIT_LOOK_TECHNIQUES)
+        return fail_limit(r, "maps", count, LIMIT_LOOK_TECHNIQUES);
+    for (size_t i = 0; i < count; i++) {
+        enter_index(r, i);
+        lmn_status status = read_map(r, json_array_get(json, i), &maps[i]);
+        leave(r);
+        if (status != LMN_OK)
+            return status;
+    }
+    if (look_set_control_maps(look, index, maps, count, &inner) == LMN_OK)
+        return LMN_OK;
+    enter_index(r, look->controls[index].map_count); /* the one that is wrong */
+    lmn_status status = fail_with(r, NULL, &inner);
+    leave(r);
+    return status;
+}
+
+static lmn_status read_control(reader *r, lmn_look *look, const json_t *json, size_t index)
+{
+    lmn_error     inner = {0};
+    const json_t *value = json_object_get(json, "value"), *maps = json_object_get(json, "maps");
+    if (!json_is_object(json) || !maps || json_object_size(json) != (value ? 2u : 1u))
+        return fail(r, NULL, "must be an object with 'maps' and at most 'value' besides");
+    enter_key(r, "maps");
+    lmn_status status = read_maps(r, look, maps, index);
+    leave(r);
+    if (status != LMN_OK || !value)
+        return status;
+    if (!json_is_number(value))
+        return fail(r, "value", "value must be a number from -1 to 1");
+    status = look_set_control(look, index, json_number_value(value), &inner);
+    return status == LMN_OK ? LMN_OK : fail_with(r, "value", &inner);
+}
+
+/* Behind the rules, whose techniques may have parameters that no other has. */
+static lmn_status read_controls(reader *r, json_t *json, lmn_look *look)
+{
+    const char *key;
+    json_t     *value;
+    lmn_status  status = json_is_object(json) ? LMN_OK : fail(r, NULL, "must be an object");
+    json_object_foreach(json, key, value)
+    {
+        lmn_error inner = {0};
+        size_t    index;
+        if (status != LMN_OK || is_foreign(key))
+            continue;
+        if (control_find(&index, key, &inner) != LMN_OK)
+            return fail_with(r, key, &inner);
+        enter_key(r, key);
+        status = read_control(r, look, value, index);
+        leave(r);
+    }
+    return status;
+}
+
 static lmn_status read_wide(reader *r, const kind *k, json_t *value, technique_use *out)
 {
     use_release(out);
@@ -316,9 +394,9 @@ static lmn_status read_wide(reader *r, const kind *k, json_t *value, technique_u
 
 static lmn_status read_root_member(reader *r, const char *key, json_t *value, lmn_look *look)
 {
-    static const char *const words[] = {"version", "name", "doc", "rules"};
+    static const char *const words[] = {"version", "name", "doc", "rules", "controls"};
     lmn_status               status;
-    if (strcmp(key, "version") == 0)
+    if (strcmp(key, "version") == 0 || strcmp(key, "controls") == 0)
         return LMN_OK;
     if (strcmp(key, "name") == 0)
         return read_text(r, key, value, &look->name);
@@ -369,6 +447,12 @@ static lmn_status read_root(reader *r, json_t *root, lmn_look *look)
     if (status == LMN_OK && look->rule_count == 0) {
         status = fail(r, NULL, "there is no rule, so nothing would be drawn");
         error_hint(r->error, "add \"rules\": [{\"select\": \"*\"}]");
+    }
+    json_t *controls = json_object_get(root, "controls");
+    if (status == LMN_OK && controls) {
+        enter_key(r, "controls");
+        status = read_controls(r, controls, look);
+        leave(r);
     }
     return status;
 }

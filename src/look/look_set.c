@@ -1,4 +1,5 @@
-/* Setting one parameter of a look from text: "KIND.PARAM", "KIND[i].PARAM" or "RULE:KIND.PARAM". */
+/* Setting one parameter of a look from text: "KIND.PARAM", "KIND[i].PARAM" or "RULE:KIND.PARAM", or
+ * one control by its name. */
 #include "look/look.h"
 #include "look/look_change.h"
 #include "look/look_edit.h"
@@ -32,7 +33,8 @@ static bool copy_word(char out[WORD_SIZE], const char *from, size_t length)
 static lmn_status wrong_form(const address *a, lmn_error *error)
 {
     lmn_status status = error_set(error, LMN_USAGE, "'%.120s' does not name a parameter", a->whole);
-    error_hint(error, "the form is KIND.PARAM, KIND[i].PARAM or RULE:KIND.PARAM, for example lines.width");
+    error_hint(error, "the form is KIND.PARAM, KIND[i].PARAM or RULE:KIND.PARAM, for example lines.width; controls are "
+                      "weight, darkness, detail, looseness and scale");
     return status;
 }
 
@@ -166,70 +168,144 @@ static lmn_status set_technique(lmn_look *look, const address *a, const char *va
 
 /* --- setting values ------------------------------------------------------------------------------------- */
 
-/* What a walk over the uses that an address means has met. */
-typedef struct walk {
-    const technique *without; /* a technique in use that has no such parameter */
-    size_t           met;     /* uses that have it */
-} walk;
+typedef void (*use_visitor)(const kind *k, technique_use *use, void *user);
 
-/* Sets the value in one use, on a copy when only trying. */
-static lmn_status set_in_use(const address *a, technique_use *use, const char *value, bool trying, walk *w,
-                             lmn_error *error)
-{
-    const param *p = kind_find_param(a->kind, use->technique, a->key);
-    if (!p) {
-        w->without = use->technique;
-        return LMN_OK;
-    }
-    w->met++;
-    if (!trying)
-        return value_set_text(p, use->values, value, error);
-    technique_use scratch;
-    if (!use_create(&scratch, a->kind, use->technique))
-        return error_memory(error);
-    lmn_status status = value_set_text(p, scratch.values, value, error);
-    use_release(&scratch);
-    return status;
-}
-
-static lmn_status set_in_all(lmn_look *look, const address *a, const char *value, bool trying, walk *w,
-                             lmn_error *error)
+/* Calls `visit` with every use that an address means. */
+static void visit_uses(lmn_look *look, const address *a, use_visitor visit, void *user)
 {
     const kind *k = a->kind;
-    lmn_status  status = LMN_OK;
-    if (k->look_wide)
-        return set_in_use(a, &look->wide[k->id], value, trying, w, error);
-    for (size_t i = 0; i < look->rule_count; i++)
-        for (size_t u = 0; rule_is_meant(look, a, i) && u < look->rules[i].use_counts[k->id] && status == LMN_OK; u++)
+    if (k->look_wide && look->wide[k->id].technique)
+        visit(k, &look->wide[k->id], user);
+    for (size_t i = 0; i < look->rule_count && !k->look_wide; i++)
+        for (size_t u = 0; rule_is_meant(look, a, i) && u < look->rules[i].use_counts[k->id]; u++)
             if (a->index == ALL || a->index == (long long)u)
-                status = set_in_use(a, &look->rules[i].uses[k->id][u], value, trying, w, error);
-    return status;
+                visit(k, &look->rules[i].uses[k->id][u], user);
+}
+
+/* Sets a value in each use that is met. */
+typedef struct walk {
+    const char      *key, *value;
+    bool             trying;  /* on copies */
+    const technique *without; /* a technique in use that has no such parameter */
+    size_t           met;     /* uses that have it */
+    lmn_status       status;
+    lmn_error       *error;
+} walk;
+
+static void set_in_use(const kind *k, technique_use *use, void *user)
+{
+    walk        *w = user;
+    const param *p = kind_find_param(k, use->technique, w->key);
+    if (w->status != LMN_OK)
+        return;
+    if (!p) {
+        w->without = use->technique;
+        return;
+    }
+    w->met++;
+    technique_use scratch = *use;
+    if (w->trying && !use_create(&scratch, k, use->technique))
+        w->status = error_memory(w->error);
+    else
+        w->status = value_set_text(p, scratch.values, w->value, w->error);
+    if (w->trying)
+        use_release(&scratch);
 }
 
 static lmn_status set_value(lmn_look *look, const address *a, const char *value, lmn_error *error)
 {
-    walk w = {0};
+    walk w = {.key = a->key, .value = value, .trying = true, .error = error};
     if (!a->kind->look_wide && a->index != ALL) {
         lmn_status status = check_index(look, a, false, error);
         if (status != LMN_OK)
             return status;
     }
-    lmn_status status = set_in_all(look, a, value, true, &w, error);
-    error_name_kind(a->kind, status, error);
-    if (status != LMN_OK)
-        return status;
-    if (w.met)
-        return set_in_all(look, a, value, false, &w, error);
+    visit_uses(look, a, set_in_use, &w);
+    if (w.status != LMN_OK)
+        return error_name_kind(a->kind, w.status, error);
+    if (w.met) {
+        w.trying = false;
+        visit_uses(look, a, set_in_use, &w);
+        return w.status;
+    }
     if (w.without)
         return kind_missing_param(a->kind, w.without, a->key, error);
-    status = error_set(error, LMN_USAGE, "'%.120s': look '%.60s' has no %s", a->whole, look->name, a->kind->name);
+    lmn_status status =
+        error_set(error, LMN_USAGE, "'%.120s': look '%.60s' has no %s", a->whole, look->name, a->kind->name);
     error_hint(error, "set %s.%s first", a->kind->name, a->kind->selector_key);
     return status;
 }
 
-static lmn_status set_anywhere(lmn_look *look, const char *key, const char *value, lmn_error *error)
+/* --- parameters by key ---------------------------------------------------------------------------------- */
+
+typedef struct param_walk {
+    const char   *key;
+    param_visitor visit;
+    void         *user;
+} param_walk;
+
+static void visit_param(const kind *k, technique_use *use, void *user)
+{
+    const param_walk *w = user;
+    const param      *p = kind_find_param(k, use->technique, w->key);
+    if (p)
+        w->visit(p, use->values, w->user);
+}
+
+void look_visit_params(lmn_look *look, const char *key, param_visitor visit, void *user)
+{
+    address a;
+    if (parse_address(&a, key, NULL) == LMN_OK)
+        visit_uses(look, &a, visit_param, &(param_walk){a.key, visit, user});
+}
+
+static void keep_first(const kind *k, technique_use *use, void *user)
+{
+    param_walk   *w = user;
+    const param **out = w->user;
+    if (!*out)
+        *out = kind_find_param(k, use->technique, w->key);
+}
+
+lmn_status look_param_of_key(const param **out, const lmn_look *look, const char *key, lmn_error *error)
 {
     address    a;
+    lmn_status status = parse_address(&a, key, error);
+    *out = NULL;
+    if (status != LMN_OK)
+        return status;
+    visit_uses((lmn_look *)look, &a, keep_first, &(param_walk){a.key, NULL, out}); /* changes nothing */
+    for (size_t i = 0; i < a.kind->technique_count && !*out; i++)
+        *out = kind_find_param(a.kind, a.kind->techniques[i], a.key);
+    return *out ? LMN_OK : kind_missing_param(a.kind, a.kind->techniques[0], a.key, error);
+}
+
+/* --- from outside --------------------------------------------------------------------------------------- */
+
+/* Keys without a kind are controls. */
+static lmn_status set_control(lmn_look *look, const char *key, const char *value, lmn_error *error)
+{
+    size_t     index;
+    double     number;
+    lmn_status status = control_find(&index, key, error);
+    if (status != LMN_OK)
+        return status;
+    if (!text_is_double(value, &number))
+        return error_set(error, LMN_USAGE, "%s is '%.60s'; allowed is -1 to 1", key, value);
+    return look_set_control(look, index, number, error);
+}
+
+static bool is_control(const char *key)
+{
+    size_t index;
+    return control_find(&index, key, NULL) == LMN_OK;
+}
+
+static lmn_status set_anywhere(lmn_look *look, const char *key, const char *value, lmn_error *error)
+{
+    address a;
+    if (is_control(key))
+        return set_control(look, key, value, error);
     lmn_status status = parse_address(&a, key, error);
     if (status != LMN_OK)
         return status;

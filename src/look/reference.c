@@ -148,11 +148,22 @@ static lmn_status put_looks(json_t *root, lmn_error *error)
     return LMN_OK;
 }
 
+static bool put_control_rows(json_t *root)
+{
+    json_t *array = json_array();
+    if (!put(root, "controls", array))
+        return false;
+    for (size_t i = 0; i < CONTROL_COUNT; i++)
+        if (!append(array, json_pack("{s:s,s:s}", "name", control_rows[i].name, "doc", control_rows[i].doc)))
+            return false;
+    return true;
+}
+
 static lmn_status reference_of_all(json_t *root, lmn_error *error)
 {
     lmn_status status = put_looks(root, error);
     json_t    *array = json_array();
-    if (!put(root, "kinds", array))
+    if (!put(root, "kinds", array) || !put_control_rows(root))
         return status != LMN_OK ? status : error_memory(error);
     for (size_t i = 0; i < KIND_COUNT && status == LMN_OK; i++)
         if (!append(array, kind_json(kinds[i])))
@@ -204,12 +215,48 @@ static json_t *rule_json(const rule *r)
     return NULL;
 }
 
+/* "x0.5 to x2", "-0.2 to +0.2". */
+static json_t *map_json(const control_map *map)
+{
+    char ends[96];
+    snprintf(ends, sizeof ends, map->times ? "x%g to x%g" : "%+g to %+g", map->low, map->high);
+    json_t *object = json_object();
+    if (put(object, "param", json_string(map->key)) && put(object, "change", json_string(ends)))
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+static json_t *control_json(const control *c, const control_row *row)
+{
+    json_t *object = json_object(), *maps = json_array();
+    bool    done = put(object, "maps", maps) && put(object, "name", json_string(row->name)) &&
+                put(object, "doc", json_string(row->doc)) && put(object, "value", value_number(c->value));
+    for (size_t m = 0; m < c->map_count && done; m++)
+        done = append(maps, map_json(&c->maps[m]));
+    if (done)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+static bool put_controls(json_t *root, const lmn_look *look)
+{
+    json_t *array = json_array();
+    if (!put(root, "controls", array))
+        return false;
+    for (size_t i = 0; i < CONTROL_COUNT; i++)
+        if (look->controls[i].map_count && !append(array, control_json(&look->controls[i], &control_rows[i])))
+            return false;
+    return true;
+}
+
 static bool put_look(json_t *root, const lmn_look *look)
 {
     json_t *wide = json_array(), *rules = json_array();
     bool    has_wide = put(root, "uses", wide), has_rules = put(root, "rules", rules);
     if (!has_wide || !has_rules || !put(root, "name", json_string(look->name)) ||
-        !put(root, "doc", json_string(look->doc ? look->doc : "")))
+        !put(root, "doc", json_string(look->doc ? look->doc : "")) || !put_controls(root, look))
         return false;
     for (size_t k = 0; k < KIND_COUNT; k++)
         if (look->wide[k].technique && !append_use(wide, kinds[k], &look->wide[k], 0, 1))

@@ -6,7 +6,7 @@
 
 /* Copies a rule's uses, with all lengths, points, in pixels; selector and names stay those of `from`. False when memory
  * is gone; end it with paper_rule_release either way. */
-bool paper_rule_create(rule *out, const rule *from, double pixels_per_point);
+bool paper_rule_create(rule *out, const rule *from);
 void paper_rule_release(rule *r);
 
 /* The same for all of a look, whose selectors and names it borrows. NULL when memory is gone. */

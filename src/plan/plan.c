@@ -353,7 +353,7 @@ static lmn_status make_figures(plan *p, const plan_options *options, warnings *w
 {
     for (size_t r = 0; r < p->look->rule_count; r++) {
         p->rule_count++;
-        if (!paper_rule_create(&p->rules[r], &p->look->rules[r], 1))
+        if (!paper_rule_create(&p->rules[r], &p->look->rules[r]))
             return error_memory(error);
         if (options->surfaces_only)
             drop_lines(&p->rules[r]);
@@ -413,7 +413,7 @@ static lmn_status split_mirrors(plan *p, lmn_error *error)
 static rule *add_rule(plan *p, const rule *from)
 {
     rule *r = &p->rules[p->rule_count++]; /* there is room for two variants of each */
-    return paper_rule_create(r, from, 1) ? r : NULL;
+    return paper_rule_create(r, from) ? r : NULL;
 }
 
 /* The same lines as hidden layers have them. */

@@ -353,6 +353,22 @@ static void copy_kind(lmn_look *to, const lmn_look *from, size_t rule, const lmn
 }
 
 /* The same by calls alone, as a user interface would. */
+static void copy_controls(lmn_look *to, const lmn_look *from)
+{
+    lmn_control_info info;
+    lmn_control_map  maps[64];
+    for (size_t i = 0; lmn_control_at(i, &info); i++) {
+        size_t count = 0;
+        double value;
+        while (lmn_look_control_map(from, info.name, count, &maps[count]))
+            count++;
+        DO(lmn_look_set_control_maps(to, info.name, count ? maps : NULL, count, &error));
+        DO(lmn_look_get_control(from, info.name, &value, &error));
+        if (count)
+            DO(lmn_look_set_control(to, info.name, value, &error));
+    }
+}
+
 static lmn_look *built(const lmn_look *from)
 {
     lmn_look     *to = create();
@@ -369,6 +385,7 @@ static lmn_look *built(const lmn_look *from)
     for (size_t i = 0; lmn_kind_at(i, &k); i++)
         for (size_t r = 0; r < (k.whole_look ? 1 : lmn_look_rule_count(from)); r++)
             copy_kind(to, from, k.whole_look ? LMN_WHOLE_LOOK : r, &k);
+    copy_controls(to, from);
     return to;
 }
 
@@ -713,9 +730,121 @@ static void test_time(void **state)
     lmn_look_destroy(&look);
 }
 
+/* --- controls ------------------------------------------------------------------------------------------- */
+
+static const char with_controls[] =
+    "{\"version\": 2, \"controls\": {\"weight\": {\"value\": 0.5, \"maps\": [\n"
+    "  {\"param\": \"lines.width\", \"times\": [0.25, 4]}, {\"param\": \"surface.ambient\", \"plus\": [0.5, "
+    "-0.5]}]}},\n"
+    " \"rules\": [{\"select\": \"*\", \"surface\": \"lit\", \"lines\": \"discontinuity\"}]}";
+
+/* What a control makes of a number, by the laws that the header gives. */
+static void check_applied(double value, double width, double ambient)
+{
+    lmn_look *look = parse(with_controls);
+    double    is;
+    DO(lmn_look_set_control(look, "weight", value, &error));
+    look_apply_controls(look);
+    DO(lmn_look_get_number(look, 0, "lines", 0, "width", &is, &error));
+    assert_true(fabs(is - width) < 1e-5);
+    DO(lmn_look_get_number(look, 0, "surface", 0, "ambient", &is, &error));
+    assert_true(fabs(is - ambient) < 1e-5);
+    lmn_look_destroy(&look);
+}
+
+static void controls_change_numbers(void **state)
+{
+    (void)state;
+    check_applied(0, 1.5, 0.35);
+    check_applied(1, 6, 0); /* 0.35 - 0.5 ends at the range */
+    check_applied(0.5, 3, 0.1);
+    check_applied(-0.5, 0.75, 0.6);
+    check_applied(-1, 0.375, 0.85);
+}
+
+static void controls_stay_beside_values(void **state)
+{
+    (void)state;
+    lmn_look *look = parse(with_controls), *other = NULL;
+    double    is;
+    DO(lmn_look_get_control(look, "weight", &is, &error));
+    assert_true(is == 0.5);
+    DO(lmn_look_get_number(look, 0, "lines", 0, "width", &is, &error));
+    assert_true(is == 1.5);
+    DO(lmn_look_copy(&other, look, &error));
+    assert_alike(look, other);
+    char     *json = lmn_look_json(look);
+    lmn_look *again = parse(json);
+    assert_alike(look, again);
+    DO(lmn_look_get_control(again, "weight", &is, &error));
+    assert_true(is == 0.5);
+    uint64_t since = lmn_look_revision(look);
+    DO(lmn_look_set(look, "weight", "0.5", &error));
+    assert_int_equal(lmn_look_changes(look, since), 0);
+    DO(lmn_look_set(look, "weight", "-0.25", &error));
+    assert_int_equal(lmn_look_changes(look, since) & LMN_CHANGE_VALUES, LMN_CHANGE_VALUES);
+    lmn_text_free(json);
+    lmn_look_destroy(&again);
+    lmn_look_destroy(&other);
+    lmn_look_destroy(&look);
+}
+
+static void wrong_file(const char *controls, const char *message)
+{
+    char      json[512];
+    lmn_look *look = NULL;
+    snprintf(json, sizeof json, "{\"version\": 2, \"controls\": %s, \"rules\": [{\"lines\": \"discontinuity\"}]}",
+             controls);
+    assert_int_equal(lmn_look_parse(&look, json, "test", &error), LMN_FORMAT);
+    if (!strstr(error.message, message))
+        fail_msg("'%s' instead of '%s'", error.message, message);
+    assert_null(look);
+}
+
+static void controls_are_refused(void **state)
+{
+    (void)state;
+    lmn_look *look = parse(with_controls), *bare = create();
+    double    is;
+    refused(lmn_look_set(look, "weight", "1.5", &error), "allowed is -1 to 1", "");
+    refused(lmn_look_set(look, "weight", "nan", &error), "weight is", "");
+    refused(lmn_look_set(look, "weight", "heavy", &error), "weight is 'heavy'", "");
+    refused(lmn_look_set(look, "scale", "1", &error), "has no control 'scale'", "it has weight");
+    refused(lmn_look_set(bare, "weight", "1", &error), "has no control 'weight'", "controls");
+    refused(lmn_look_set_control(look, "wieght", 1, &error), "no control 'wieght'", "weight");
+    refused(lmn_look_get_control(look, "heft", &is, &error), "no control 'heft'", "");
+    assert_true(lmn_look_has_control(look, "weight") && !lmn_look_has_control(look, "scale"));
+    refused(lmn_look_set_control_maps(look, "scale", &(lmn_control_map){"lines.width", true, -1, 2}, 1, &error),
+            "above 0", "");
+    refused(lmn_look_set_control_maps(look, "scale", &(lmn_control_map){"lines", true, 1, 2}, 1, &error),
+            "does not name", "");
+    refused(lmn_look_set_control_maps(look, "scale", &(lmn_control_map){NULL, true, 1, 2}, 1, &error), "NULL", "");
+    assert_true(lmn_look_has_control(look, "weight") && !lmn_look_has_control(look, "scale"));
+    DO(lmn_look_set_control_maps(look, "weight", NULL, 0, &error));
+    assert_false(lmn_look_has_control(look, "weight"));
+    lmn_look_destroy(&look);
+    look = parse(with_controls);
+    wrong_file("[]", "must be an object");
+    wrong_file("{\"heft\": {\"maps\": []}}", "no control 'heft'");
+    wrong_file("{\"weight\": {\"maps\": []}}", "controls.weight.maps: must be an array");
+    wrong_file("{\"weight\": {\"maps\": [{\"param\": \"lines.widht\", \"times\": [1, 2]}]}}", "widht");
+    wrong_file("{\"weight\": {\"maps\": [{\"param\": \"lines.colour\", \"times\": [1, 2]}]}}", "is no number");
+    wrong_file("{\"weight\": {\"maps\": [{\"param\": \"lines.width\", \"times\": [0, 2]}]}}", "above 0");
+    wrong_file("{\"weight\": {\"maps\": [{\"param\": \"lines.width\", \"times\": [1]}]}}", "two numbers");
+    wrong_file("{\"weight\": {\"maps\": [{\"param\": \"lines.width\", \"plus\": [0, 1], \"times\": [1, 2]}]}}",
+               "either 'times' or 'plus'");
+    wrong_file("{\"weight\": {\"value\": 2, \"maps\": [{\"param\": \"lines.width\", \"times\": [1, 2]}]}}",
+               "weight is 2");
+    lmn_look_destroy(&bare);
+    lmn_look_destroy(&look);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(controls_change_numbers),
+        cmocka_unit_test(controls_stay_beside_values),
+        cmocka_unit_test(controls_are_refused),
         cmocka_unit_test(test_every_parameter),
         cmocka_unit_test(test_conditions),
         cmocka_unit_test(test_looks_by_calls),

@@ -19,6 +19,7 @@
 static const char two_rules[] =
     "{\"version\": 1, \"name\": \"two\", \"doc\": \"Two rules.\", \"x-author\": {\"any\": 1},\n"
     " \"scene\": {\"crease_angle\": 45}, \"finish\": {\"ground\": \"#eeeeff\"},\n"
+    " \"controls\": {\"scale\": {\"value\": 0.5, \"maps\": [{\"param\": \"lines.width\", \"times\": [0.5, 2]}]}},"
     " \"rules\": [\n"
     "  {\"name\": \"wheels\", \"select\": \"Wheel*\", \"surface\": {\"technique\": \"toon\", \"bands\": 4, \"x-note\": "
     "null},\n"

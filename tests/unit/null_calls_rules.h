@@ -262,3 +262,43 @@ CALL(lmn_look_reset)
     lmn_look_destroy(&look);
     return status;
 }
+CALL(lmn_control_count)
+{
+    return neutral(!(w->null == 0 && lmn_control_count() > 0));
+}
+CALL(lmn_control_at)
+{
+    lmn_control_info info;
+    return neutral(!(lmn_control_at(0, P(0, &info))));
+}
+CALL(lmn_look_has_control)
+{
+    return neutral(!(lmn_look_has_control(P(0, w->look), P(1, "weight"))));
+}
+CALL(lmn_look_get_control)
+{
+    double value;
+    return lmn_look_get_control(P(0, w->look), P(1, "weight"), P(2, &value), P(3, &w->error));
+}
+CALL(lmn_look_set_control)
+{
+    lmn_look *look = NULL;
+    lmn_look_copy(&look, w->look, NULL);
+    lmn_status status = lmn_look_set_control(P(0, look), P(1, "weight"), 0.5, P(2, &w->error));
+    lmn_look_destroy(&look);
+    return status;
+}
+CALL(lmn_look_control_map)
+{
+    lmn_control_map map;
+    return neutral(!(lmn_look_control_map(P(0, w->look), P(1, "weight"), 0, P(2, &map))));
+}
+CALL(lmn_look_set_control_maps)
+{
+    lmn_look             *look = NULL;
+    const lmn_control_map map = {"lines.width", true, 0.5, 2};
+    lmn_look_copy(&look, w->look, NULL);
+    lmn_status status = lmn_look_set_control_maps(P(0, look), P(1, "scale"), P(2, &map), 1, P(3, &w->error));
+    lmn_look_destroy(&look);
+    return status;
+}

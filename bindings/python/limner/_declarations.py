@@ -364,6 +364,22 @@ class lmn_param_state(Structure):
     ]
 
 
+class lmn_control_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+    ]
+
+
+class lmn_control_map(Structure):
+    _fields_ = [
+        ("param", c_char_p),
+        ("times", c_bool),
+        ("low", c_double),
+        ("high", c_double),
+    ]
+
+
 class lmn_importer(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -726,6 +742,13 @@ FUNCTIONS = {
     "lmn_look_set_direction": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
     "lmn_look_set_auto": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
     "lmn_look_reset": (c_int, [c_void_p, c_size_t, c_char_p, c_size_t, c_char_p, POINTER(lmn_error)]),
+    "lmn_control_count": (c_size_t, []),
+    "lmn_control_at": (c_bool, [c_size_t, POINTER(lmn_control_info)]),
+    "lmn_look_has_control": (c_bool, [c_void_p, c_char_p]),
+    "lmn_look_get_control": (c_int, [c_void_p, c_char_p, POINTER(c_double), POINTER(lmn_error)]),
+    "lmn_look_set_control": (c_int, [c_void_p, c_char_p, c_double, POINTER(lmn_error)]),
+    "lmn_look_control_map": (c_bool, [c_void_p, c_char_p, c_size_t, POINTER(lmn_control_map)]),
+    "lmn_look_set_control_maps": (c_int, [c_void_p, c_char_p, POINTER(lmn_control_map), c_size_t, POINTER(lmn_error)]),
     "lmn_scene_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_scene_destroy": (None, [POINTER(c_void_p)]),
     "lmn_scene_add_file": (c_int, [c_void_p, c_char_p, POINTER(lmn_load_desc), POINTER(lmn_error)]),

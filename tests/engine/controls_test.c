@@ -1,0 +1,140 @@
+/* Controls of the looks that ship: each changes the drawing at both ends and between, heavier is more ink, darker is
+ * darker, and 0 is the look without its controls, byte for byte. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "checked.h"
+
+static int wrong; /* all are said before the test fails */
+
+#define WRONG(...) (wrong++, print_error(__VA_ARGS__), print_error("\n"))
+
+enum { SIDE = 220, PIXELS = SIDE * SIDE };
+
+typedef struct fixture {
+    lmn_renderer *renderer;
+    lmn_scene    *house;
+} fixture;
+
+static int set_up(void **state)
+{
+    static fixture    f;
+    lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
+    DO(lmn_renderer_create(&f.renderer, &desc, &error));
+    DO(lmn_scene_create(&f.house, &error));
+    DO(lmn_scene_add_file(f.house, EXAMPLES "/house.glb", NULL, &error));
+    *state = &f;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    lmn_scene_destroy(&f->house);
+    lmn_renderer_destroy(&f->renderer);
+    return 0;
+}
+
+static void draw(const fixture *f, const lmn_look *look, uint8_t *out)
+{
+    lmn_drawing  *drawing = NULL;
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    desc.width = desc.height = SIDE;
+    desc.dpi = 40;
+    DO(lmn_draw(&drawing, f->renderer, f->house, look, &desc, &error));
+    memcpy(out, lmn_drawing_pixels(drawing, NULL, NULL), 4 * PIXELS);
+    lmn_drawing_destroy(&drawing);
+}
+
+static double mean(const uint8_t *rgba)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 4 * PIXELS; i++)
+        sum += i % 4 == 3 ? 0 : rgba[i];
+    return sum / (3 * PIXELS);
+}
+
+/* How much is on the page: the mean distance from its ground, which the first pixel shows. */
+static double ink(const uint8_t *rgba)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 4 * PIXELS; i++)
+        sum += i % 4 == 3 ? 0 : abs(rgba[i] - rgba[i % 4]);
+    return sum / (3 * PIXELS);
+}
+
+static lmn_look *load(const char *name, const char *control, double value)
+{
+    lmn_look *look = NULL;
+    DO(lmn_look_load(&look, name, &error));
+    if (control)
+        DO(lmn_look_set_control(look, control, value, &error));
+    return look;
+}
+
+/* At -1, -0.5, 0, 0.5 and 1. */
+static void check_control(const fixture *f, const char *name, const char *control, const uint8_t *shipped)
+{
+    static uint8_t drawn[5][4 * PIXELS];
+    for (int i = 0; i < 5; i++) {
+        lmn_look *look = load(name, control, (i - 2) / 2.0);
+        draw(f, look, drawn[i]);
+        lmn_look_destroy(&look);
+    }
+    if (memcmp(drawn[2], shipped, sizeof drawn[2]) != 0)
+        WRONG("%s: %s at 0 is not the look as it ships", name, control);
+    if (memcmp(drawn[0], drawn[4], sizeof drawn[0]) == 0 || memcmp(drawn[3], drawn[4], sizeof drawn[0]) == 0 ||
+        memcmp(drawn[2], drawn[4], sizeof drawn[0]) == 0)
+        WRONG("%s: %s does nothing", name, control);
+    for (int i = 1; i < 5; i++) {
+        if (strcmp(control, "weight") == 0 && !(ink(drawn[i]) > ink(drawn[i - 1])))
+            WRONG("%s: weight %g has no more ink: %.3f after %.3f", name, (i - 2) / 2.0, ink(drawn[i]),
+                  ink(drawn[i - 1]));
+        if (strcmp(control, "darkness") == 0 && !(mean(drawn[i]) < mean(drawn[i - 1])))
+            WRONG("%s: darkness %g is no darker: %.3f after %.3f", name, (i - 2) / 2.0, mean(drawn[i]),
+                  mean(drawn[i - 1]));
+    }
+}
+
+static void all_looks(void **state)
+{
+    static uint8_t shipped[4 * PIXELS];
+    int            controls = 0;
+    for (size_t i = 0; i < lmn_look_count(); i++) {
+        lmn_control_info info;
+        lmn_look        *look = load(lmn_look_name_at(i), NULL, 0);
+        draw(*state, look, shipped);
+        for (size_t c = 0; lmn_control_at(c, &info); c++)
+            if (lmn_look_has_control(look, info.name)) {
+                check_control(*state, lmn_look_name_at(i), info.name, shipped);
+                controls++;
+            }
+        lmn_look_destroy(&look);
+    }
+    assert_true(controls > 100);
+    assert_int_equal(wrong, 0);
+}
+
+/* A drawing says what changes: what a control changes is changed by its parameters, too. */
+static void as_by_parameters(void **state)
+{
+    static uint8_t one[4 * PIXELS], other[4 * PIXELS];
+    lmn_look      *look = load("edges", "weight", 1);
+    draw(*state, look, one);
+    uint64_t before = lmn_look_revision(look);
+    DO(lmn_look_set_control(look, "weight", 0.75, &error));
+    assert_true(lmn_look_changes(look, before) & LMN_CHANGE_VALUES);
+    DO(lmn_look_set(look, "weight", "0", &error));
+    DO(lmn_look_set(look, "lines.width", "3", &error));
+    draw(*state, look, other);
+    assert_memory_equal(one, other, sizeof one);
+    lmn_look_destroy(&look);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_looks), cmocka_unit_test(as_by_parameters)};
+    return cmocka_run_group_tests_name("controls", tests, set_up, tear_down);
+}
