@@ -410,18 +410,22 @@ lmn_status lmn_look_get_control(const lmn_look *look, const char *name, double *
     return status;
 }
 
+/* Finds a control and opens the look for a change of it. */
+static lmn_status begin_control(lmn_look **before, size_t *index, const lmn_look *look, const char *name,
+                                lmn_error *error)
+{
+    lmn_status status = control_find(index, name, error);
+    return status == LMN_OK ? look_edit_begin(before, look, error) : status;
+}
+
 lmn_status lmn_look_set_control(lmn_look *look, const char *name, double value, lmn_error *error)
 {
     CHECK(look);
     CHECK(name);
     size_t     index;
     lmn_look  *before;
-    lmn_status status = control_find(&index, name, error);
-    if (status == LMN_OK)
-        status = look_edit_begin(&before, look, error);
-    if (status != LMN_OK)
-        return status;
-    return look_edit_end(look, &before, look_set_control(look, index, value, error));
+    lmn_status status = begin_control(&before, &index, look, name, error);
+    return status == LMN_OK ? look_edit_end(look, &before, look_set_control(look, index, value, error)) : status;
 }
 
 bool lmn_look_control_map(const lmn_look *look, const char *name, size_t index, lmn_control_map *out)
@@ -444,10 +448,7 @@ lmn_status lmn_look_set_control_maps(lmn_look *look, const char *name, const lmn
         CHECK(maps);
     size_t     index;
     lmn_look  *before;
-    lmn_status status = control_find(&index, name, error);
-    if (status == LMN_OK)
-        status = look_edit_begin(&before, look, error);
-    if (status != LMN_OK)
-        return status;
-    return look_edit_end(look, &before, look_set_control_maps(look, index, maps, count, error));
+    lmn_status status = begin_control(&before, &index, look, name, error);
+    return status == LMN_OK ? look_edit_end(look, &before, look_set_control_maps(look, index, maps, count, error))
+                            : status;
 }
