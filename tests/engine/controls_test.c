@@ -74,19 +74,19 @@ static lmn_look *load(const char *name, const char *control, double value)
     return look;
 }
 
-/* At -1, -0.5, 0, 0.5 and 1. */
+/* At -1, 0 and 1; and at -0.5 and 0.5 where each step has its law. */
 static void check_control(const fixture *f, const char *name, const char *control, const uint8_t *shipped)
 {
     static uint8_t drawn[5][4 * PIXELS];
-    for (int i = 0; i < 5; i++) {
+    const bool     has_law = strcmp(control, "weight") == 0 || strcmp(control, "darkness") == 0;
+    for (int i = 0; i < 5; i += has_law ? 1 : 2) {
         lmn_look *look = load(name, control, (i - 2) / 2.0);
         draw(f, look, drawn[i]);
         lmn_look_destroy(&look);
     }
     if (memcmp(drawn[2], shipped, sizeof drawn[2]) != 0)
         WRONG("%s: %s at 0 is not the look as it ships", name, control);
-    if (memcmp(drawn[0], drawn[4], sizeof drawn[0]) == 0 || memcmp(drawn[3], drawn[4], sizeof drawn[0]) == 0 ||
-        memcmp(drawn[2], drawn[4], sizeof drawn[0]) == 0)
+    if (memcmp(drawn[0], drawn[4], sizeof drawn[0]) == 0 || memcmp(drawn[2], drawn[4], sizeof drawn[0]) == 0)
         WRONG("%s: %s does nothing", name, control);
     for (int i = 1; i < 5; i++) {
         if (strcmp(control, "weight") == 0 && !(ink(drawn[i]) > ink(drawn[i - 1])))
