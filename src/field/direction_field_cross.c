@@ -22,6 +22,8 @@ static const double sharpness = 0.02, upright_reach = 1;
 /* Of creases, and of borders, where what is sure goes on beyond more often than not, to a link. */
 static const double hold_of_crease = 2.5, hold_of_border = 1;
 static const double straight_from = 0.9;
+/* How much less an arm is held by its own bend than a cross is: few changes of arms matter more. */
+static const double by_bend = 0.03;
 static const double settled = 0.5; /* an arm that is this sure is */
 
 typedef struct crosser {
@@ -303,7 +305,8 @@ static void wish_arms(size_t begin, size_t end, void *user)
         double steep = level_of(c, e, &line);
         add_wish(g, e, (complex_number){alike(line, c->lines[e]), 0}, c->by_upright * steep);
         double sure = c->flat[e] ? line_of(c, &c->units[e], e, &line) : line_of(c, &c->own[e], e, &line);
-        add_wish(g, e, (complex_number){alike(line, c->lines[e]), 0}, (c->flat[e] ? 10 : c->by_data) * sure * sure);
+        add_wish(g, e, (complex_number){alike(line, c->lines[e]), 0},
+                 (c->flat[e] ? 10 * sure : by_bend * c->by_data) * sure);
     }
 }
 

@@ -31,6 +31,7 @@ typedef struct flow_maker {
     const flow_surface *f;
     flow_grid           grid;
     double              turn, apart; /* of the level */
+    bool                measures;    /* strips are asked for */
     int                 level;
     random_source       random;
     flow_point         *points; /* of the line that is being walked: backwards from the seed, then forwards */
@@ -217,10 +218,12 @@ static bool hugs_an_edge(const flow_maker *m, const flow_position *p)
 /* A seed, if nothing is near. */
 static bool try_seed(flow_maker *m, flow_position *p, d3 like)
 {
-    if (!flow_direction(m->f, p, m->turn, like, &p->direction))
+    p->direction = like;
+    flow_sample s = sample_of(m, p, flow_face_normal(m->f, p->triangle), UINT32_MAX, 0);
+    if (flow_grid_is_near(&m->grid, &s, FREE * m->apart, 0) || !flow_direction(m->f, p, m->turn, like, &p->direction) ||
+        hugs_an_edge(m, p))
         return true;
-    flow_sample s = sample_of(m, p, flow_normal(m->f, p), UINT32_MAX, 0);
-    return flow_grid_is_near(&m->grid, &s, FREE * m->apart, 0) || hugs_an_edge(m, p) || trace_line(m, p);
+    return trace_line(m, p);
 }
 
 /* --- gaps beside a line --------------------------------------------------------------------------------- */
@@ -359,7 +362,8 @@ static void measure_spaces(size_t begin, size_t end, void *user)
         flow_line         *line = &m->out->lines[s->line];
         int                after = m->level - line->level;
         double             gaps[2], space = 0;
-        if (after >= FLOW_SPACES)
+        /* Every second one will do: what lies between is interpolated. */
+        if (after >= FLOW_SPACES || (i & 1))
             continue;
         flow_grid_gaps(&m->grid, s, 1.8 * m->apart, gaps);
         for (int k = 0; k < 2; k++)
@@ -425,6 +429,8 @@ static bool make_level(flow_maker *m, size_t expected)
             return false;
     if (!fill_rest(m))
         return false;
+    if (!m->measures)
+        return true;
     if (!flow_grid_open(&m->grid, m->apart, expected) || !add_samples(m, FADED))
         return false;
     space_job job = {m, m->level};
@@ -432,17 +438,20 @@ static bool make_level(flow_maker *m, size_t expected)
     return !work_stopped();
 }
 
-lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, double turn, double apart, int levels, uint32_t seed,
-                           lmn_error *error)
+lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    out->apart = apart;
-    out->levels = levels;
-    flow_maker m = {.out = out, .f = f, .turn = turn, .random = random_start(seed, 0xF10E)};
+    out->apart = ldexp(w->apart, w->levels - 1);
+    out->levels = w->levels;
+    flow_maker m = {.out = out,
+                    .f = f,
+                    .turn = set * (double)w->turn,
+                    .measures = !w->whole,
+                    .random = random_start(w->seed + (uint32_t)set * 7919u, 0xF10E)};
     double     area = mark_surface_area(f->surface);
     bool       done = area > 0;
-    for (m.level = 0; m.level < levels && done; m.level++) {
-        m.apart = ldexp(apart, -m.level);
+    for (m.level = 0; m.level < w->levels && done; m.level++) {
+        m.apart = ldexp(out->apart, -m.level);
         done = make_level(&m, (size_t)fmin(area / (m.apart * m.apart * STEP), 1e8));
     }
     flow_grid_release(&m.grid);

@@ -88,10 +88,9 @@ typedef struct flow_lines {
 } flow_lines;
 void flow_lines_release(flow_lines *l);
 
-/* Lines along the field turned by `turn`: of `levels` levels, those of level 0 `apart` from each other and those of
- * each further one half as far, among those that were there before. Errors: LMN_MEMORY, LMN_CANCELLED, LMN_LIMIT. */
-lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, double turn, double apart, int levels, uint32_t seed,
-                           lmn_error *error);
+/* Lines of a set: of as many levels as are asked for, each half as far from each other as those of the level before,
+ * among which they lie. Errors: LMN_MEMORY, LMN_LIMIT. */
+lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error);
 
 /* --- who is near (streamlines_grid.c) ------------------------------------------------------------------- */
 
@@ -108,8 +107,8 @@ typedef struct flow_grid {
     uint32_t    *buckets;
     size_t       count, capacity;
     uint32_t     mask;
-    double       apart; /* of lines: the side of the cells */
-    float        cells; /* to a unit */
+    double       apart; /* of lines */
+    float        cells; /* to a unit; their side is 1.2 distances of lines */
 } flow_grid;
 
 /* Of lines `apart` from each other, for about `count` samples; false when memory is gone. */

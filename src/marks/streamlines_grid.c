@@ -5,7 +5,8 @@
 #include "base/memory.h"
 #include "marks/streamlines.h"
 
-static const double SAME_SIDE = 0.3;      /* cosine of normals above which surfaces are not each other's backs */
+static const double SAME_SIDE =
+    0.6; /* cosine of normals above which it is one surface, not its back nor beyond a crease */
 static const double SAME_DIRECTION = 0.5; /* and of lines above which they run side by side */
 
 /* Cells of a block of four by four by four lie together, so that neighbours do in memory. */
@@ -39,7 +40,7 @@ bool flow_grid_open(flow_grid *g, double apart, size_t count)
     memset(g->buckets, 0xFF, (size_t)size * sizeof *g->buckets);
     g->mask = size - 1;
     g->apart = apart;
-    g->cells = (float)(1 / apart);
+    g->cells = (float)(1 / (1.2 * apart));
     return true;
 }
 

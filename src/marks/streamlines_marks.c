@@ -185,8 +185,7 @@ static lmn_status add_set(marks *out, const flow_surface *f, const flow_options 
     flow_cutter c = {.out = out, .lines = &lines, .options = w, .set = set};
     size_t      first = out->line_count;
     c.random = random_start(w->seed, (uint32_t)set + 0xC07);
-    lmn_status status = flow_lines_make(&lines, f, set * (double)w->turn, out->apart, w->levels,
-                                        w->seed + (uint32_t)set * 7919u, error);
+    lmn_status status = flow_lines_make(&lines, f, w, set, error);
     for (size_t i = 0; i < lines.line_count && status == LMN_OK; i++) {
         if (!cut_line(&c, &lines.lines[i]))
             status = error_memory(error);

@@ -7,7 +7,7 @@
 #include "surface/surface.h"
 
 static const param params[] = {
-    MARK_ROWS(220, "Lines along the diagonal, one beside the other, where all are there,"),
+    MARK_ROWS(180, "Lines along the diagonal, one beside the other, where all are there,"),
     PARAM_FLOAT_ROW(surface_lines_values, scale, .def = 3.75, .min = 0.75, .max = 150, .soft_min = 1.5, .soft_max = 15,
                     .unit = UNIT_PT, .doc = "Distance of lines on the page; it stays between 0.7 and 1.4 times that."),
     PARAM_FLOAT_ROW(surface_lines_values, length, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 0.5,

@@ -17,7 +17,7 @@ void main()
     }
     vec4 seen = texelFetch(t_normal_depth, ivec2(v_ends.xy + at * chord), 0);
     float half_width = max(v_half_width, 0.0);
-    float reach = min(0.2 * half_width, 0.5); /* bends leave no gap on their outer side */
+    float reach = clamp(half_width - 0.25, 0.0, 0.5); /* where two wide pieces meet no seam is left, where thin ones do nothing is inked twice */
     float cover = clamp(min(along, size - along) + reach + 0.5, 0.0, 1.0) * clamp(half_width + 0.5 - off, 0.0, min(2.0 * half_width, 1.0));
     /* Far from its own depth only what is turned as it is can be its surface. */
     float like = dot(seen.xyz, v_normal);

@@ -34,7 +34,7 @@ static lmn_status check_strokes(const char *words, lmn_error *error)
 }
 
 static const param params[] = {
-    MARK_ROWS(15000, "Strokes"),
+    MARK_ROWS(30000, "Strokes"),
     PARAM_ENUM_ROW(
         surface_strokes_values, placed, .names = placed_names, .variant = true,
         .doc = "form: strokes lie side by side along the directions in which the surface bends; planes: where planes "
@@ -136,10 +136,10 @@ static lmn_status make_traced(marks *out, const mark_surface *surface, double ex
                                             .turn = turn,
                                             .seed = (uint32_t)v->common.pattern_seed},
                            error);
-    /* As close as so many strokes of this length lie. */
+    /* As close as so many strokes of this length lie, or as pictures of the whole model need. */
     double apart = mark_surface_area(surface) * v->series / ((double)count * length);
     return marks_streamlines(out, surface,
-                             &(flow_options){.apart = fmax(apart, extent / 2000),
+                             &(flow_options){.apart = fmax(apart, extent / 500),
                                              .levels = LEVELS,
                                              .length = length,
                                              .uneven = v->uneven,

@@ -43,9 +43,9 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Median and 95th percentile of the angles between the field and the truth, degrees. */
-static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool rotated, double *median,
-                          double *most)
+/* Median and 95th percentile of the angles between the field, or its crosses, and the truth, degrees. */
+static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool crosses, bool rotated,
+                          double *median, double *most)
 {
     double *angles = mem_alloc(p->vertex_count * sizeof *angles);
     size_t  count = 0;
@@ -62,8 +62,9 @@ static void measure_field(const primitive *p, const direction_field *f, truth_fn
         }
         double sure;
         place3 own = axis_of(f->tensors[v], n, &sure);
-        double cosine = fabs(own.x * d.x + own.y * d.y + own.z * d.z);
-        angles[count++] = acos(cosine > 1 ? 1 : cosine) * 180 / field_pi;
+        double cosine = fabs(own.x * d.x + own.y * d.y + own.z * d.z),
+               angle = acos(cosine > 1 ? 1 : cosine) * 180 / field_pi;
+        angles[count++] = crosses ? fmin(angle, 90 - angle) : angle;
     }
     qsort(angles, count, sizeof *angles, by_size);
     *median = angles[count / 2];
@@ -128,20 +129,25 @@ static bool saddle_truth(place3 p, place3 *n, place3 *d)
     return implicit_truth((place3){-2 * p.x, p.y, 1}, h, n, d);
 }
 
-static void check_accuracy(const char *name, primitive p, truth_fn truth)
+static void check_crosses(const char *name, primitive p, truth_fn truth, bool crosses)
 {
     for (int rotated = 0; rotated < 2; rotated++) {
         double median, most;
         if (rotated)
             turn_primitive(&p);
         direction_field f = make_field(&p);
-        measure_field(&p, &f, truth, rotated, &median, &most);
+        measure_field(&p, &f, truth, crosses, rotated, &median, &most);
         printf("%-28s %s %6u triangles: median %.2f, 95 %% %.2f degrees\n", name, rotated ? "turned" : "      ",
                p.index_count / 3, median, most);
         direction_field_release(&f);
         assert_true(median <= 5 && most <= 15);
     }
     primitive_release(&p);
+}
+
+static void check_accuracy(const char *name, primitive p, truth_fn truth)
+{
+    check_crosses(name, p, truth, false);
 }
 
 static void directions_agree_with_known_surfaces(void **state)
@@ -158,8 +164,10 @@ static void directions_agree_with_known_surfaces(void **state)
     check_accuracy("cylinder, slivers", grid_surface(cylinder_at, 32, 1, true, false, 0), cylinder_truth);
     check_accuracy("cylinder, irregular", grid_surface(cylinder_at, 32, 24, true, false, 0.8), cylinder_truth);
     check_accuracy("cylinder, very irregular", grid_surface(cylinder_at, 60, 12, true, false, 1), cylinder_truth);
-    check_accuracy("saddle", grid_surface(saddle_at, 24, 24, false, false, 0), saddle_truth);
-    check_accuracy("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth);
+    /* Towards its corners a saddle bends nearly as much one way as the other, and which is more changes: arms go on
+     * there, so only crosses are compared; which arm is meant in the middle is looked at below. */
+    check_crosses("saddle", grid_surface(saddle_at, 24, 24, false, false, 0), saddle_truth, true);
+    check_crosses("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth, true);
 }
 
 /* --- what always holds ---------------------------------------------------------------------------------- */
@@ -452,7 +460,7 @@ static void noise_is_looked_through(void **state)
             p.positions[v] = (vec3){by * p.positions[v].x, by * p.positions[v].y, by * p.positions[v].z};
         }
         direction_field f = make_field(&p);
-        measure_field(&p, &f, ellipsoid_truth, false, &median, &most);
+        measure_field(&p, &f, ellipsoid_truth, false, false, &median, &most);
         printf("ellipsoid, noise %g: median %.2f, 95 %% %.2f degrees\n", rows[i].noise, median, most);
         assert_true(median <= rows[i].median && most <= rows[i].most);
         direction_field_release(&f);
@@ -720,7 +728,7 @@ static void a_million_triangles_do_not_take_long(void **state)
     double          before = seconds_now(), median, most;
     direction_field f = make_field(&p);
     double          taken = seconds_now() - before;
-    measure_field(&p, &f, torus_truth, false, &median, &most);
+    measure_field(&p, &f, torus_truth, false, false, &median, &most);
     printf("torus of %u triangles: %.2f s; median %.2f, 95 %% %.2f degrees\n", p.index_count / 3, taken, median, most);
     assert_true(median <= 5 && most <= 15);
     direction_field_release(&f);
