@@ -136,10 +136,11 @@ static lmn_status make_traced(marks *out, const mark_surface *surface, double ex
                                             .turn = turn,
                                             .seed = (uint32_t)v->common.pattern_seed},
                            error);
-    /* As close as so many strokes of this length lie, or as pictures of the whole model need. */
+    /* As close as so many strokes of this length lie, but no closer than pictures of the whole model need, and no
+     * farther apart than there are lines on it. */
     double apart = mark_surface_area(surface) * v->series / ((double)count * length);
     return marks_streamlines(out, surface,
-                             &(flow_options){.apart = fmax(apart, extent / 500),
+                             &(flow_options){.apart = fmin(fmax(apart, extent / 500), extent / 40),
                                              .levels = LEVELS,
                                              .length = length,
                                              .uneven = v->uneven,
