@@ -1,7 +1,7 @@
-/* The law. A line that is one of many chords of a circle makes half of the turn at either end with its arc. So lines
- * between two turns that are alike get half of them (their geometric mean), lines that are much longer than their
- * neighbours stay straight, as beside a fillet, and at each point what both arcs make is stretched to what the polyline
- * turns there: then they meet smoothly. */
+/* The law. A line that is one of many chords of a circle makes a share of the turn at either end with its arc, by its
+ * length and that of its neighbour there. So lines between two turns that are alike get that share of them (the
+ * geometric mean of both), lines that are much longer than their neighbours stay straight, as beside a fillet, and at
+ * each point what both arcs make is stretched to what the polyline turns there: then they meet smoothly. */
 #include "stroke/curve_arcs.h"
 
 #include <math.h>
@@ -91,17 +91,20 @@ static void judge_steps(polyline *p)
             p->points[i].turn = 0;
 }
 
-/* The turn at one end of a line, NAN where nothing is known of it: at corners, and where a much longer line is next. */
-static double turn_of_end(const polyline *p, size_t line, bool at_end)
+/* The line's share of the turn at one of its ends, NAN where nothing is known of it: at corners, and where a much
+ * longer line is next. */
+static double share_of_turn(const polyline *p, size_t line, bool at_end)
 {
     const arc_point *q = at_end ? end_of(p, line) : &p->points[line];
     size_t           other = at_end ? (size_t)(q - p->points) : line_before(p, line);
-    if (q->kind == ARC_POINT_CORNER || p->points[other].length > ALIKE * p->points[line].length)
+    double           own = p->points[line].length;
+    if (q->kind == ARC_POINT_CORNER || p->points[other].length > ALIKE * own)
         return NAN;
-    return q->turn;
+    return q->turn * own / (own + p->points[other].length);
 }
 
-/* 1 for a line that may be bent, 0 for one that is much longer than one beside it and not parted from it by a corner. */
+/* 1 for a line that may be bent, 0 for one that is much longer than one beside it and not parted from it by a corner.
+ */
 static double bends(const polyline *p, size_t line)
 {
     double           longer = 1;
@@ -116,13 +119,11 @@ static double bends(const polyline *p, size_t line)
 /* What a line's arc makes of the turn at either end, as if it were part of a circle. */
 static double half_turn(const polyline *p, size_t line)
 {
-    double a = turn_of_end(p, line, false), b = turn_of_end(p, line, true), half = 0;
-    if (isnan(a) && isnan(b))
-        return 0;
+    double a = share_of_turn(p, line, false), b = share_of_turn(p, line, true), half = 0;
     if (isnan(a) || isnan(b))
-        half = 0.5 * (isnan(a) ? b : a);
+        half = !isnan(a) ? a : !isnan(b) ? b : 0;
     else if (a * b > 0)
-        half = copysign(0.5 * sqrt(a * b), a);
+        half = copysign(sqrt(a * b), a);
     return half * bends(p, line);
 }
 

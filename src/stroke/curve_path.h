@@ -33,8 +33,8 @@ void curve_path_close(curve_path *c);
 bool curve_path_bends(const curve_path *c, stroke_class kind);
 
 /* Takes a chain: half-lines 2 · line + end that they begin at, which stay with the caller. The curve ends, and begins
- * anew, at corners: where three sharp edges meet, two that turn by more than 75° (arcs: 40°), and where a smooth outline
- * comes to a sharp one. */
+ * anew, at corners: where three sharp edges meet, two that turn by more than 75° (arcs: 40°), and where a smooth
+ * outline comes to a sharp one. */
 bool curve_path_take(curve_path *c, const uint32_t *path, size_t count, bool closed);
 
 /* Straight pieces that the chain's i-th line is drawn in, in the chain's direction, and where piece k begins: the
