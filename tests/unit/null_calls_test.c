@@ -774,9 +774,10 @@ static lmn_scene *make_scene(world *w)
 
 static int set_up(void **state)
 {
-    static const char *const meshes_only =
-        "{\"version\":2,\"doc\":\"Meshes.\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":\"strokes\"}]}";
-    static world w;
+    static const char *const meshes_only = "{\"version\":2,\"doc\":\"Meshes.\",\"controls\":{\"weight\":{\"maps\":[{"
+                                           "\"param\":\"lines.width\",\"times\":[0.5,2]}]}},"
+                                           "\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":\"strokes\"}]}";
+    static world             w;
     mkdir(FOLDER, 0777);
     draw_desc.width = draw_desc.height = SIDE;
     draw_desc.samples = 1;
