@@ -392,6 +392,7 @@ static bool make_bodies(finder *f)
         if (!(f->fits[k].area > 0) || f->fits[k].farthest / f->fraction < LEAST_WAY)
             continue;
         settle_motion(&b, &f->fits[k], f->fraction);
+        b.node = memcmp(&f->now->worlds[k], &f->before->worlds[k], sizeof *f->now->worlds) != 0 ? (int32_t)k : NONE;
         if (b.speed * f->fraction < LEAST_SPEED * fastest)
             continue;
         good = mem_grow((void **)&t->bodies, &f->body_capacity, t->body_count + 1, sizeof *t->bodies);

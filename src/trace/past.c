@@ -30,7 +30,7 @@ static lmn_status find_moments(trace_job *j, double *out, size_t count, lmn_erro
     while (mesh + 1 < j->bodies.mesh_count && j->bodies.meshes[mesh + 1].first <= vertex)
         mesh++;
     uint32_t     own = vertex - j->bodies.meshes[mesh].first;
-    trace_origin origin = {.mesh = mesh, .vertex = {own, own}};
+    trace_origin origin = {.mesh = mesh, .vertex = {own, own}, .body = (uint32_t)(b - j->bodies.bodies)};
     trace_ways   w;
     lmn_status   status = ways_follow(&w, o, &j->bodies, &origin, 1, error);
     if (status != LMN_OK)

@@ -40,6 +40,7 @@ typedef enum body_motion {
  * units of radius and radians. */
 typedef struct trace_body {
     body_motion motion;
+    int32_t     node;         /* that it moves with; NONE: its vertices move by themselves */
     double      way[2];       /* of its middle on the page, unit; MOVES_ALONG */
     double      centre[2];    /* of turning, or the middle */
     double      sense;        /* of turning: 1 or −1; towards the viewer 1, away −1 */

@@ -1,4 +1,6 @@
-/* Where positions were: each earlier pose puts both vertices of an origin somewhere, and the origin lies between. */
+/* Where positions were: what is on a body goes with the node that the body moves with, also where parts of it turn by
+ * themselves, as wheels do; of bodies whose vertices move by themselves, both vertices of an origin say where it was.
+ */
 #include "trace/trace_private.h"
 
 #include <math.h>
@@ -22,8 +24,7 @@ lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_err
     return pose_create(out, o->pose->scene, &when, error);
 }
 
-static bool place(const traces_options *o, const pose *p, const trace_bodies *bodies, const trace_origin *origin,
-                  double out[3])
+static vec3 place(const pose *p, const trace_bodies *bodies, const trace_origin *origin)
 {
     const trace_mesh *m = &bodies->meshes[origin->mesh];
     const part_pose  *own = &p->parts[m->part];
@@ -38,9 +39,18 @@ static bool place(const traces_options *o, const pose *p, const trace_bodies *bo
     for (int k = 0; k < 2; k++)
         at[k] = mat4_transform_point(&world, at[k]);
     float f = (float)origin->fraction;
-    vec3  between = {at[0].x + f * (at[1].x - at[0].x), at[0].y + f * (at[1].y - at[0].y),
-                     at[0].z + f * (at[1].z - at[0].z)};
-    return page_project(&o->camera, between, out);
+    return (vec3){at[0].x + f * (at[1].x - at[0].x), at[0].y + f * (at[1].y - at[0].y),
+                  at[0].z + f * (at[1].z - at[0].z)};
+}
+
+static vec3 place_earlier(const traces_options *o, const pose *earlier, const trace_bodies *bodies,
+                          const trace_origin *origin)
+{
+    int32_t node = bodies->bodies[origin->body].node;
+    if (node == NONE)
+        return place(earlier, bodies, origin);
+    mat4 back = mat4_inverse(&o->pose->worlds[node]), moved = mat4_multiply(&earlier->worlds[node], &back);
+    return mat4_transform_point(&moved, place(o->pose, bodies, origin));
 }
 
 /* Positions at one step; what is behind the viewer stays where it was one step later. */
@@ -51,7 +61,8 @@ static lmn_status put_step(trace_ways *w, const traces_options *o, const trace_b
     lmn_status status = k ? pose_ago(&earlier, o, (double)k / w->steps, error) : LMN_OK;
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         double *at = w->at[i * (w->steps + 1) + k];
-        if (!place(o, k ? &earlier : o->pose, bodies, &origins[i], at))
+        vec3    world = k ? place_earlier(o, &earlier, bodies, &origins[i]) : place(o->pose, bodies, &origins[i]);
+        if (!page_project(&o->camera, world, at))
             memcpy(at, k ? at - 3 : (double[3]){NAN, NAN, NAN}, 3 * sizeof *at);
     }
     if (k)
