@@ -261,7 +261,8 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     double cover =
         mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set, g->style->series) *
         mark_flow_swell(l, (double)g->style->swell);
-    double thin = least > 0 ? fmin(fmax((cover - 0.25 * least) / (0.75 * least), 0), 1) : 1;
+    double low = least / (1 + 5 * (double)g->style->fade),
+           thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
            left = fmin(fmax((double)l->ends[end].to_end / fmax(taper, 1e-20), 0), 1);
     cover *= thin * thin * (3 - 2 * thin) * pow(left, (double)g->style->tip);

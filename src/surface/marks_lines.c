@@ -42,7 +42,7 @@ static void describe(text *out, const void *values)
  * for. */
 static lmn_status make(marks *out, const mark_surface *surface, double extent, const void *values, lmn_error *error)
 {
-    enum { LINES_MOST = 4000, LENGTH_MOST = 1500 /* diagonals, of a set */, LEVELS_MOST = 12 };
+    enum { LINES_MOST = 1000, LENGTH_MOST = 800 /* diagonals, of a set */, LEVELS_MOST = 12 };
     const surface_lines_values *v = values;
     double                      apart = extent / fmin(v->common.count, LINES_MOST), area = mark_surface_area(surface);
     int                         levels = 1;
