@@ -8,7 +8,7 @@
 #include "base/memory.h"
 
 /* Ways are looked at so often: units. */
-#define APART 3.0
+#define APART 1.5
 /* Shorter pieces are left out: widths. */
 #define SHORTEST 2.0
 /* A step that is longer than this fraction of the way, and than so many mean ones, is a jump. */
