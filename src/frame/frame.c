@@ -157,6 +157,7 @@ static void draw_page(frame *f)
         visibility_draw(f);
     if (!gpu_failed(f->g)) {
         clear_page(f);
+        ground_draw(f);
         draw_figures(f);
     }
     if (f->keeps_depth && !gpu_failed(f->g))

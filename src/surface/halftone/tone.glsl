@@ -26,6 +26,9 @@ float darkness_of(float tone)
 
 float tone_of_light(surface_point p, float light)
 {
+#ifdef ON_GROUND
+    return p.albedo.a; /* found already: src/frame/ground.c */
+#endif
     float bent = pow(clamp(light, 0.0, 1.0), u_contrast);
 #ifdef WITH_TEXTURE
     return mix(u_shadow, u_light, bent) * mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
