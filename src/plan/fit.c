@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
+#include "scene/mesh.h"
+
 /* Points are measured by the block, so that a compiler can take several at once. */
 enum { BLOCK = 256, LANES = 8 };
 /* More vertices, instances counted, are measured by the boxes of their meshes: that takes longer than it is worth. */
@@ -108,16 +111,29 @@ static box3 box_of(const vec3 *points, size_t count)
     return box;
 }
 
-/* False: where the vertices are is known to nobody yet. */
+/* Where vertices are that nobody has posed yet, as at rest, where boxes are known without; the caller frees them. NULL
+ * when memory is gone. */
+static vec3 *pose_points(const primitive *p, const part_pose *own)
+{
+    vec3 *out = mem_alloc((size_t)p->vertex_count * sizeof *out);
+    if (out)
+        mesh_pose(p, own->weights, own->weight_count, own->joints, own->joint_count, NULL, NULL, p->vertex_count, out,
+                  NULL);
+    return out;
+}
+
+/* False when memory is gone: the part's box serves. */
 static bool measure_primitive(measuring *m, const fit_body *body, size_t part, const primitive *p)
 {
     const pose           *pose = body->pose;
     const node           *n = &pose->scene->nodes[pose->scene->parts[part].node];
     const part_pose      *own = &pose->parts[part];
-    const posed_vertices *posed = pose_deforms(own, p) ? pose_vertices_of(own, p) : NULL;
-    if (pose_deforms(own, p) && !posed)
+    bool                  deforms = pose_deforms(own, p);
+    const posed_vertices *posed = deforms ? pose_vertices_of(own, p) : NULL;
+    vec3                 *made = deforms && !posed ? pose_points(p, own) : NULL;
+    if (deforms && !posed && !made)
         return false;
-    const vec3 *points = posed ? posed->positions : p->positions;
+    const vec3 *points = posed ? posed->positions : made ? made : p->positions;
     size_t      instances = node_draw_count(n);
     bool        whole = (double)p->vertex_count * (double)instances <= VERTICES_MOST;
     box3        box = whole ? box3_empty() : box_of(points, p->vertex_count);
@@ -129,6 +145,7 @@ static bool measure_primitive(measuring *m, const fit_body *body, size_t part, c
         else
             measure_box(m, &l, box);
     }
+    mem_free(made);
     return true;
 }
 

@@ -272,14 +272,17 @@ static bool put_piece(chainer *c, const chain_point *p, const chain_point *q)
     return put_point(c, from) && (cut[1] >= 1 || put_point(c, (between(p, q, cut[1], OUTSIDE))));
 }
 
-/* What lies between two fractions of the i-th line; curves have more than one straight piece there. */
+/* What lies between two fractions of the i-th line, counted in the chain's direction; curves have more than one
+ * straight piece there. */
 static bool put_stretch(chainer *c, size_t i, double from, double to, int32_t count)
 {
-    double pieces = c->curved ? 1 << c->curve.steps : 1, heading = to > from ? 1 : -1, at = from;
-    while (at != to) {
-        double next = heading > 0 ? floor(at * pieces + 1) / pieces : ceil(at * pieces - 1) / pieces;
-        next = (to - next) * heading > 0 ? next : to;
-        chain_point p = point_at(c, i, at, count), q = point_at(c, i, next, count);
+    bool   back = c->path[i] & 1;
+    size_t pieces = c->curved ? curve_path_pieces(&c->curve, i) : 1, k = 1;
+    for (double at = from; at < to; k++) {
+        double stop = k < pieces ? curve_path_stop(&c->curve, i, k) : 1, next = stop < to ? stop : to;
+        if (next <= at)
+            continue;
+        chain_point p = point_at(c, i, back ? 1 - at : at, count), q = point_at(c, i, back ? 1 - next : next, count);
         if (!put_piece(c, &p, &q))
             return false;
         at = next;
@@ -297,7 +300,7 @@ static bool put_line_points(chainer *c, size_t i)
         size_t  k = half & 1 ? count - 1 - j : j;
         double  from = spans[k].from, to = k + 1 < count ? (double)spans[k + 1].from : 1;
         int32_t number = spans[k].count < INT32_MAX ? (int32_t)spans[k].count : INT32_MAX;
-        if (!put_stretch(c, i, half & 1 ? to : from, half & 1 ? from : to, number))
+        if (!put_stretch(c, i, half & 1 ? 1 - to : from, half & 1 ? 1 - from : to, number))
             return false;
     }
     return true;
@@ -588,7 +591,7 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                  .seen = seen,
                  .options = options,
                  .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5])};
-    bool    good = link_ends(&c) && curve_path_open(&c.curve, v, lines, options->curve);
+    bool    good = link_ends(&c) && curve_path_open(&c.curve, v, lines, options);
     for (int kind = 0; kind < STROKE_CLASS_COUNT && good; kind++)
         for (uint32_t i = 0; i < lines->count && good; i++)
             if ((int)lines->lines[i].kind == kind && !c.used[i])

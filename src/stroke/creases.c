@@ -526,6 +526,41 @@ static void drop_short(judge *j, const crease_net *n, uint32_t start, uint8_t *s
         j->verdicts[n->stack[i]] = NO_CREASE;
 }
 
+/* The crease at a vertex that is not `from`, and how many there are, `from` among them. */
+static uint32_t crease_at(const judge *j, const crease_net *n, uint32_t vertex, uint32_t from, int *count)
+{
+    uint32_t found = from;
+    *count = 0;
+    for (uint32_t i = n->starts[vertex]; i < n->starts[vertex + 1]; i++)
+        if (j->verdicts[n->edges[i]] == IS_CREASE) {
+            found = n->edges[i] != from ? n->edges[i] : found;
+            ++*count;
+        }
+    return found;
+}
+
+/* Creases of samplings fray: a short one that begins anywhere and ends on a longer one is noise. */
+static void drop_twig(judge *j, const crease_net *n, uint32_t vertex, double least)
+{
+    const edge_mesh *m = j->m;
+    int              degree;
+    size_t           count = 0;
+    double           length = 0;
+    uint32_t         edge = crease_at(j, n, vertex, EDGE_NO_FACE, &degree);
+    if (degree != 1)
+        return;
+    do {
+        const mesh_edge *e = &m->edges[edge];
+        vector           way = minus(vector_of(m->positions[e->vertex[0]]), vector_of(m->positions[e->vertex[1]]));
+        length += sqrt(dot(way, way));
+        n->stack[count++] = edge;
+        vertex = e->vertex[0] == vertex ? e->vertex[1] : e->vertex[0];
+        edge = crease_at(j, n, vertex, edge, &degree);
+    } while (degree == 2 && length < least && count < m->edge_count);
+    for (size_t i = 0; degree > 2 && length < least && i < count; i++)
+        j->verdicts[n->stack[i]] = NO_CREASE;
+}
+
 static bool follow_chains(judge *j)
 {
     crease_net n = {0};
@@ -539,6 +574,8 @@ static bool follow_chains(judge *j)
         if (!seen[i] && (narrow || (j->verdicts[i] == IS_CREASE && j->noise >= 0)))
             drop_short(j, &n, i, seen, narrow ? NARROW_LONG * j->size : least);
     }
+    for (uint32_t v = 0; good && j->noise >= 0 && v < j->m->vertex_count; v++)
+        drop_twig(j, &n, v, least);
     close_net(&n);
     mem_free(seen);
     return good;

@@ -253,6 +253,55 @@ static void edges_of_scans_stay(void **state)
     }
 }
 
+/* Creases at a vertex. */
+static uint32_t degree_of(const edge_mesh *e, uint32_t vertex)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < e->edge_count; i++)
+        count +=
+            (e->edges[i].flags & EDGE_CREASE) && (e->edges[i].vertex[0] == vertex || e->edges[i].vertex[1] == vertex);
+    return count;
+}
+
+/* How many edges it is from an end of a crease to where three meet, 0 where the crease has no free end. */
+static uint32_t twig_length(const edge_mesh *e, uint32_t first, int end)
+{
+    uint32_t at = first, vertex = e->edges[first].vertex[end], count = 1;
+    if (degree_of(e, vertex) != 1)
+        return 0;
+    for (;; count++) {
+        vertex = e->edges[at].vertex[0] == vertex ? e->edges[at].vertex[1] : e->edges[at].vertex[0];
+        uint32_t next = at;
+        for (uint32_t i = 0; i < e->edge_count; i++)
+            if (i != at && (e->edges[i].flags & EDGE_CREASE) &&
+                (e->edges[i].vertex[0] == vertex || e->edges[i].vertex[1] == vertex))
+                next = i;
+        if (degree_of(e, vertex) != 2)
+            return degree_of(e, vertex) > 2 ? count : 0;
+        at = next;
+    }
+}
+
+/* A modelled cow without normals: its mouth is a crease, but nothing as short as whiskers grows out of it. */
+static void creases_do_not_fray(void **state)
+{
+    (void)state;
+    lmn_scene *scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/spot.obj");
+    edge_mesh  e;
+    uint32_t   creases = 0, twigs = 0;
+    assert_int_equal(edge_mesh_create(&e, &scene->meshes[0], NULL, 40 * degree, NULL), LMN_OK);
+    for (uint32_t i = 0; i < e.edge_count; i++)
+        for (int k = 0; k < 2 && e.edges[i].flags & EDGE_CREASE; k++) {
+            uint32_t length = twig_length(&e, i, k);
+            creases += k == 0;
+            twigs += length > 0 && length < 4;
+        }
+    assert_true(creases > 20); /* the mouth */
+    assert_int_equal(twigs, 0);
+    edge_mesh_release(&e);
+    lmn_scene_destroy(&scene);
+}
+
 /* --- the file's normals ---------------------------------------------------------------------------------- */
 
 /* Four walls that turn by 50 degrees, with normals that go on smoothly over the second edge if `smooth`, over none
@@ -367,6 +416,6 @@ int main(void)
         cmocka_unit_test(narrow_fillets_are_one_line),     cmocka_unit_test(thin_rods_have_no_creases),
         cmocka_unit_test(noise_of_scans_is_no_crease),     cmocka_unit_test(edges_of_scans_stay),
         cmocka_unit_test(normals_of_files_are_believed),   cmocka_unit_test(sharp_edges_stand_alone),
-        cmocka_unit_test(creases_fade_out_whole)};
+        cmocka_unit_test(creases_fade_out_whole),          cmocka_unit_test(creases_do_not_fray)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

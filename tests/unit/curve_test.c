@@ -1,14 +1,17 @@
-/* Four-point curves: stencils by hand, positions on known curves. Rows OE-12, OE-13. */
+/* Four-point curves: stencils by hand, positions on known curves. Rows OE-12, OE-13. Arcs over chords: circles,
+ * fillets, corners. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "stroke/curve.h"
+#include "stroke/curve_arcs.h"
 
 static const double pi = 3.14159265358979323846;
 enum { CAPACITY = 4096 };
@@ -116,12 +119,155 @@ static void projecting_first_or_last_is_the_same(void **state)
                                                 turn[k][2] * fine[3 * i + 2])) < 1e-12);
 }
 
+/* How far arcs lie from a circle, at most; `first` … `last` are the lines that are looked at. */
+static double off_circle(const arc_point *p, const arc *arcs, size_t count, size_t first, size_t last,
+                         const double middle[2], double radius)
+{
+    double most = 0;
+    for (size_t i = first; i <= last; i++) {
+        const arc_point *a = &p[i], *b = &p[(i + 1) % count];
+        for (int k = 0; k <= 16; k++) {
+            double u = k / 16.0, away = arc_height(arcs[i], u), x = b->x - a->x, y = b->y - a->y;
+            most = fmax(most,
+                        fabs(hypot(a->x + u * x - away * y - middle[0], a->y + u * y + away * x - middle[1]) - radius));
+        }
+    }
+    return most;
+}
+
+/* Either way round, whatever the sharpness. */
+static void chords_of_circles_become_round(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2)
+        for (int kind = ARC_POINT_SMOOTH; kind <= ARC_POINT_STEP; kind++) {
+            arc_point p[12];
+            arc       arcs[12];
+            for (int i = 0; i < 12; i++)
+                p[i] =
+                    (arc_point){.x = 100 * cos(2 * pi * i / 12), .y = way * 100 * sin(2 * pi * i / 12), .kind = kind};
+            curve_arcs(arcs, p, 12, true, 100);
+            assert_true(off_circle(p, arcs, 12, 0, 11, (const double[2]){0, 0}, 100) < 0.1); /* the polygon: 3.4 */
+        }
+}
+
+/* A part of a circle that ends in corners. */
+static void open_arcs_are_round_to_their_ends(void **state)
+{
+    (void)state;
+    arc_point p[7];
+    arc       arcs[6];
+    for (int i = 0; i < 7; i++)
+        p[i] = (arc_point){.x = 100 * cos(0.3 * i), .y = 100 * sin(0.3 * i), .kind = ARC_POINT_STEP};
+    curve_arcs(arcs, p, 7, false, 100);
+    assert_true(off_circle(p, arcs, 7, 0, 5, (const double[2]){0, 0}, 100) < 0.05); /* the polyline: 1.1 */
+}
+
+/* A plate with fillets of five steps: its sides stay straight, its fillets are round, up to where they begin. */
+static void fillets_begin_where_sides_end(void **state)
+{
+    (void)state;
+    enum { STEPS = 5, COUNT = 4 * (STEPS + 1) };
+    static const double middles[4][2] = {{300, 80}, {20, 80}, {20, 20}, {300, 20}};
+    arc_point           p[COUNT];
+    arc                 arcs[COUNT];
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i <= STEPS; i++) {
+            double turn = 0.5 * pi * (k + (double)i / STEPS);
+            p[k * (STEPS + 1) + i] = (arc_point){
+                .x = middles[k][0] + 20 * cos(turn), .y = middles[k][1] + 20 * sin(turn), .kind = ARC_POINT_STEP};
+        }
+    curve_arcs(arcs, p, COUNT, true, 100);
+    for (size_t k = 0; k < 4; k++) {
+        size_t first = k * (STEPS + 1);
+        assert_true(off_circle(p, arcs, COUNT, first, first + STEPS - 1, middles[k], 20) < 0.05); /* polyline: 0.25 */
+        assert_true(arcs[first + STEPS].begin == 0 && arcs[first + STEPS].end == 0);
+    }
+}
+
+/* An ellipse of uneven corners: arcs make up the whole turn between them, and come nearer to it than chords do. */
+static void arcs_meet_without_corners(void **state)
+{
+    (void)state;
+    enum { COUNT = 18 };
+    arc_point p[COUNT];
+    arc       arcs[COUNT];
+    double    polyline = 0, curve = 0;
+    for (int i = 0; i < COUNT; i++) {
+        double turn = 2 * pi * (i + 0.3 * sin(2.0 * i)) / COUNT;
+        p[i] = (arc_point){.x = 200 * cos(turn), .y = 100 * sin(turn)};
+    }
+    curve_arcs(arcs, p, COUNT, true, 100);
+    for (int i = 0; i < COUNT; i++) {
+        const arc_point *a = &p[i], *b = &p[(i + 1) % COUNT];
+        double           made = -atan(arcs[(i + COUNT - 1) % COUNT].end) - atan(arcs[i].begin);
+        assert_true(fabs(made - a->turn) < 1e-9 && a->turn > 0);
+        for (int k = 1; k < 16; k++) {
+            double u = k / 16.0, away = arc_height(arcs[i], u), x = a->x + u * (b->x - a->x),
+                   y = a->y + u * (b->y - a->y), over_x = x - away * (b->y - a->y), over_y = y + away * (b->x - a->x);
+            polyline = fmax(polyline, 1 - hypot(x / 200, y / 100));
+            curve = fmax(curve, fabs(1 - hypot(over_x / 200, over_y / 100)));
+        }
+    }
+    printf("an ellipse: chords off by %.4f, arcs by %.4f\n", polyline, curve);
+    assert_true(curve < 0.25 * polyline);
+}
+
+/* What turns once or twice between sharp edges is meant, and so is what turns far; what goes to and fro bends nowhere.
+ */
+static void corners_are_no_arcs(void **state)
+{
+    (void)state;
+    static const struct {
+        double at[6][2];
+        size_t count;
+        bool   closed;
+        int    kind;
+    } shapes[] = {
+        {{{0, 0}, {100, 0}, {100, 100}, {0, 100}}, 4, true, ARC_POINT_SMOOTH},           /* a square */
+        {{{0, 0}, {100, 0}, {190, 40}}, 3, false, ARC_POINT_STEP},                       /* one bend */
+        {{{0, 0}, {100, 0}, {170, 30}, {200, 100}}, 4, false, ARC_POINT_STEP},           /* two, a chamfer */
+        {{{0, 0}, {50, 10}, {100, 0}, {150, 10}, {200, 0}}, 5, false, ARC_POINT_SMOOTH}, /* a zigzag */
+        {{{0, 0}, {100, 0}, {100, 0}, {150, 40}}, 4, false, ARC_POINT_SMOOTH}, /* nothing between two points */
+    };
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
+        arc_point p[6];
+        arc       arcs[6];
+        size_t    count = shapes[s].count, lines = shapes[s].closed ? count : count - 1;
+        for (size_t i = 0; i < count; i++)
+            p[i] = (arc_point){.x = shapes[s].at[i][0], .y = shapes[s].at[i][1], .kind = shapes[s].kind};
+        curve_arcs(arcs, p, count, shapes[s].closed, 100);
+        /* A zigzag's first and last lines have one turn each; all it has in common with a curve. */
+        for (size_t i = 0; i < lines; i++)
+            if (s != 3 || (i > 0 && i + 1 < lines))
+                assert_true(arcs[i].begin == 0 && arcs[i].end == 0);
+    }
+}
+
+static void arcs_stay_near_their_chords(void **state)
+{
+    (void)state;
+    arc_point p[8];
+    arc       arcs[8];
+    double    most = 0;
+    for (int i = 0; i < 8; i++)
+        p[i] = (arc_point){.x = 100 * cos(2 * pi * i / 8), .y = 60 * sin(2 * pi * i / 8)};
+    curve_arcs(arcs, p, 8, true, 1.5);
+    for (size_t i = 0; i < 8; i++)
+        for (int k = 0; k <= 64; k++)
+            most = fmax(most, fabs(arc_height(arcs[i], k / 64.0)) * p[i].length);
+    assert_true(most <= 1.5 && most > 1); /* without a bound: 7 */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fractions_of_each_point),      cmocka_unit_test(closed_chains_have_no_ends),
-        cmocka_unit_test(short_chains_stay_straight),   cmocka_unit_test(cubics_are_exact),
-        cmocka_unit_test(twelve_corners_make_a_circle), cmocka_unit_test(projecting_first_or_last_is_the_same),
+        cmocka_unit_test(fractions_of_each_point),        cmocka_unit_test(closed_chains_have_no_ends),
+        cmocka_unit_test(short_chains_stay_straight),     cmocka_unit_test(cubics_are_exact),
+        cmocka_unit_test(twelve_corners_make_a_circle),   cmocka_unit_test(projecting_first_or_last_is_the_same),
+        cmocka_unit_test(chords_of_circles_become_round), cmocka_unit_test(open_arcs_are_round_to_their_ends),
+        cmocka_unit_test(fillets_begin_where_sides_end),  cmocka_unit_test(corners_are_no_arcs),
+        cmocka_unit_test(arcs_stay_near_their_chords),    cmocka_unit_test(arcs_meet_without_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,13 +22,17 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
-/* Does depth go on evenly over this pixel and its neighbour? */
+bool even(float slope, float other)
+{
+    return abs(slope - other) <= EVEN * max(abs(slope), abs(other)) + DEPTH_NOISE;
+}
+
+/* Does depth go on evenly from this pixel to its neighbour, or from there on? Faces may be only two pixels wide. */
 bool goes_on(vec2 side)
 {
     vec4 along = vec4(neighbour(t_depth, -side).r, neighbour(t_depth, vec2(0.0)).r, neighbour(t_depth, side).r, neighbour(t_depth, 2.0 * side).r);
     vec3 slopes = along.yzw - along.xyz;
-    float low = min(slopes.x, min(slopes.y, slopes.z)), high = max(slopes.x, max(slopes.y, slopes.z));
-    return high - low <= EVEN * max(abs(low), abs(high)) + DEPTH_NOISE;
+    return even(slopes.x, slopes.y) || even(slopes.y, slopes.z);
 }
 
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`. `turned`: the normal was turned to the viewer. */
