@@ -5,6 +5,7 @@
 #include "gpu/profile.h"
 #include "limner/maps.h"
 #include "plan/camera.h"
+#include "plan/tone_range.h"
 #include "plan/ground.h"
 #include "plan/plan.h"
 #include "stage/plan_textures.h"
@@ -40,6 +41,7 @@ typedef struct frame {
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
+    tone_range    tone_range;
     ground_plane  ground_plane;                /* what the model stands on */
     float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
     int           layers;                      /* drawn by the deepest stack */

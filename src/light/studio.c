@@ -4,6 +4,7 @@
 #include "cut/cut.h"
 
 static const char *const source_names[] = {"studio", "file", NULL};
+static const char *const tone_range_names[] = {"none", "auto", NULL};
 static const char *const ground_names[] = {"none", "contact", NULL};
 
 /* Percentages need no bounds to be well-formed. */
@@ -40,6 +41,9 @@ static const param params[] = {
         scene_values, occlusion_radius, .def = 0.1, .min = 0.001, .max = 1, .soft_min = 0.02, .soft_max = 0.4,
         .unit = UNIT_FRACTION, .logarithmic = true, .cpu_only = true, .only_if = "occlusion",
         .doc = "How far off something may stand to keep the sky from a place, fraction of the model's diagonal."),
+    PARAM_ENUM_ROW(scene_values, tone_range, .names = tone_range_names, .cpu_only = true,
+                   .doc = "auto: the lightest of what is seen is drawn as full light and the darkest as no light, so "
+                          "that halftones and pencils use all their tones on any model."),
     PARAM_ENUM_ROW(scene_values, ground, .names = ground_names, .cpu_only = true,
                    .doc = "contact: the model stands on a ground, which is darker where it is touched or nearly so; "
                           "pencils and printed screens draw that, others lay a tone. Not seen from below, nor in "
