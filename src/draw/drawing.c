@@ -292,6 +292,11 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
     memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
+    d->traces = s->frame.traces;
+    for (size_t i = 0; i < s->plan.figure_count; i++)
+        d->has_traces = d->has_traces || (traces_of_rule(s->plan.figures[i].rule) && !s->plan.figures[i].unmarked);
+    if (d->has_traces && s->renderer->pose.at_rest)
+        trace_warn(&d->traces, &d->warnings);
     d->layers = s->frame.producer ? s->frame.layers : 1;
     d->producer = s->frame.producer;
     if (s->frame.lists_full)

@@ -19,6 +19,8 @@ struct lmn_drawing {
     double       frame_ms;
     gpu_profile  profile;
     uint64_t     strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
+    trace_facts  traces;
+    bool         has_traces; /* some rule wants them */
     int          layers;
     const char  *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
     size_t       programs; /* compiled by the renderer so far */

@@ -152,6 +152,7 @@ static void draw_page(frame *f)
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     memset(f->strokes, 0, sizeof f->strokes);
+    memset(&f->traces, 0, sizeof f->traces);
     shadow_draw(f);
     if (!gpu_failed(f->g))
         visibility_draw(f);
@@ -160,6 +161,8 @@ static void draw_page(frame *f)
         ground_draw(f);
         draw_figures(f);
     }
+    if (!gpu_failed(f->g) && !f->maps)
+        traces_draw(f);
     if (f->keeps_depth && !gpu_failed(f->g))
         keep_seen_depth(f);
 }

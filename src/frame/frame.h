@@ -11,6 +11,7 @@
 #include "stage/plan_textures.h"
 #include "stage/upload.h"
 #include "stroke/stroke.h"
+#include "trace/trace.h"
 
 typedef struct frame_maps frame_maps;
 
@@ -49,6 +50,7 @@ typedef struct frame {
     bool          lists_full;                  /* lists had no room, so that layers were peeled instead */
     const figure *mirror;                      /* whose view is drawn; NULL: the scene itself */
     uint64_t      strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
+    trace_facts   traces;                      /* of all figures */
 } frame;
 
 /* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */

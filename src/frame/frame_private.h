@@ -3,6 +3,8 @@
 #define LIMNER_FRAME_FRAME_PRIVATE_H
 
 #include "frame/frame.h"
+#include "stage/stroke_store.h"
+#include "stroke/ribbon.h"
 #include "solids/solids.h"
 #include "stage/view.h"
 #include "stage/uniforms.h"
@@ -200,6 +202,17 @@ void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
 
 /* --- strokes.c: lines with geometry --- */
 void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group);
+/* What strokes of a figure are found with, NULL after an error; and as the frame's camera sees it, on the sheet. */
+stroke_store *strokes_find_store(frame *f, const figure *fig, int32_t refine);
+lmn_status    strokes_look(stroke_store *store, const frame *f, lmn_error *error);
+double        strokes_pixels_a_unit(const frame *f);
+/* From units of the sheet to pixels; and onto the GPU, NULL after an error. */
+void       strokes_scale_ribbons(ribbon_set *r, const frame *f);
+gpu_marks *strokes_upload_ribbons(frame *f, ribbon_set *ribbons);
+
+/* --- traces.c: lines that tell of motion --- */
+/* Over the finished page: those of all figures whose rules draw traces. */
+void traces_draw(frame *f);
 
 /* Edges of the figure's meshes into the pass's picture: where on the page those are that are lines. Nothing where
  * meshes are not what is drawn, or have no edges that last. */

@@ -14,7 +14,7 @@
 
 /* Of parts that may hide the figure's lines: of what is not seen through, for layers of all, of movers themselves.
  * NULL after an error. */
-static stroke_store *find_store(frame *f, const figure *fig, int32_t refine)
+stroke_store *strokes_find_store(frame *f, const figure *fig, int32_t refine)
 {
     bool       *hides = mem_calloc(f->up->part_count, sizeof *hides);
     const bool *wanted = fig->mover ? fig->designated : fig->layered ? f->plan->selected : f->plan->opaque;
@@ -189,17 +189,17 @@ static void draw_sampled(frame *f, figure_state *s, stroke_store *store, const p
 
 /* Strokes are found on the sheet, which is 96 units an inch however many pixels a picture of it has: which lines there
  * are, and where they begin and end, is the same for pictures of all sizes, and for vector drawings. */
-static double pixels_a_unit(const frame *f)
+double strokes_pixels_a_unit(const frame *f)
 {
     return f->pixels_per_mm * (MM_PER_INCH / PX_PER_INCH);
 }
 
 static int on_sheet(const frame *f, int pixels)
 {
-    return (int)fmin(fmax(round(pixels / pixels_a_unit(f)), 1), LIMIT_PICTURE_SIDE);
+    return (int)fmin(fmax(round(pixels / strokes_pixels_a_unit(f)), 1), LIMIT_PICTURE_SIDE);
 }
 
-static lmn_status look_at(stroke_store *store, const frame *f, lmn_error *error)
+lmn_status strokes_look(stroke_store *store, const frame *f, lmn_error *error)
 {
     stroke_camera camera;
     memset(&camera, 0, sizeof camera); /* compared byte by byte */
@@ -234,9 +234,9 @@ static strokes_values values_on_sheet(const strokes_values *v, double pixels)
     return out;
 }
 
-static void scale_ribbons(ribbon_set *r, const frame *f)
+void strokes_scale_ribbons(ribbon_set *r, const frame *f)
 {
-    float unit = (float)pixels_a_unit(f), right = (float)f->width / (float)on_sheet(f, f->width),
+    float unit = (float)strokes_pixels_a_unit(f), right = (float)f->width / (float)on_sheet(f, f->width),
           down = (float)f->height / (float)on_sheet(f, f->height);
     for (size_t i = 0; i < r->point_count; i++) {
         r->points[i].x *= right;
@@ -261,14 +261,14 @@ static void lift_strokes(stroke_set *set)
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
                                const strokes_values *v, lmn_error *error)
 {
-    const strokes_values seen = values_on_sheet(v, pixels_a_unit(f));
+    const strokes_values seen = values_on_sheet(v, strokes_pixels_a_unit(f));
     stroke_options       options = strokes_options_of(&seen);
     stroke_style         style = strokes_style_of(&seen);
     stroke_set           set = {0};
     if (s->figure->layered)
         options.hidden = true;
     memset(out, 0, sizeof *out);
-    lmn_status status = look_at(store, f, error);
+    lmn_status status = strokes_look(store, f, error);
     if (status == LMN_OK)
         status = stroke_find(&set, store->view, &options, s->figure->designated, NULL, NULL, error);
     set.perspective = !f->camera.orthographic;
@@ -280,7 +280,7 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     if (status == LMN_OK)
         status = ribbons_make(out, &set, &style, f->seed, error);
     if (status == LMN_OK)
-        scale_ribbons(out, f);
+        strokes_scale_ribbons(out, f);
     stroke_set_release(&set);
     return status;
 }
@@ -295,24 +295,30 @@ static void project_depths(ribbon_set *r, const view_camera *c)
     }
 }
 
+gpu_marks *strokes_upload_ribbons(frame *f, ribbon_set *ribbons)
+{
+    size_t count;
+    project_depths(ribbons, &f->camera);
+    float     *records = strokes_ribbon_records(ribbons, f->height, &count);
+    gpu_marks *marks = NULL;
+    if (records)
+        marks = gpu_marks_create(f->g, RIBBON_RECORD_VECTORS, records, count);
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(records);
+    return marks;
+}
+
 static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)
 {
     ribbon_set ribbons = {0};
     lmn_error  error = {0};
     lmn_status status = make_ribbons(&ribbons, store, f, s, v, &error);
     gpu_marks *marks = NULL;
-    if (status == LMN_OK) {
-        size_t count;
-        project_depths(&ribbons, &f->camera);
-        float *records = strokes_ribbon_records(&ribbons, f->height, &count);
-        if (records)
-            marks = gpu_marks_create(f->g, RIBBON_RECORD_VECTORS, records, count);
-        else
-            gpu_fail(f->g, LMN_MEMORY, "out of memory");
-        mem_free(records);
-    } else {
+    if (status == LMN_OK)
+        marks = strokes_upload_ribbons(f, &ribbons);
+    else
         gpu_fail(f->g, status, "%s", error.message);
-    }
     ribbon_set_release(&ribbons);
     return marks;
 }
@@ -326,7 +332,7 @@ static void draw_exact(frame *f, figure_state *s, stroke_store *store, const str
     if (program && !gpu_failed(f->g)) {
         gpu_use(f->g, program, drawn);
         frame_set_common(f, s);
-        gpu_set_float(f->g, "u_pixel", (float)pixels_a_unit(f));
+        gpu_set_float(f->g, "u_pixel", (float)strokes_pixels_a_unit(f));
         gpu_draw_marks(f->g, marks);
     }
     if (marks)
@@ -339,7 +345,7 @@ void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *
     bool                  exact = v->visibility == VISIBILITY_EXACT || v->style.hidden != HIDDEN_NONE ||
                  (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch     w = watch_start(&f->profile);
-    stroke_store *store = gpu_failed(f->g) ? NULL : find_store(f, s->figure, v->options.refine);
+    stroke_store *store = gpu_failed(f->g) ? NULL : strokes_find_store(f, s->figure, v->options.refine);
     if (store)
         stroke_store_fix(store, f->g, v->options.intersections, stroke_options_bend(&v->options));
     if (store && exact)

@@ -18,7 +18,7 @@ float code_of(int line)
 {
     int bits = int(a_begin.w);
     float cosine = dot(a_first.xyz, a_second.xyz);
-    float crease = (bits & RECORD_CREASE) != 0 ? clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) : 0.0;
+    float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) : 0.0;
     return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
 }
 

@@ -2,7 +2,8 @@
 #include "motion/motion.h"
 
 static const technique *const techniques[] = {&motion_accumulate, &motion_blur,      &motion_streak_map,
-                                              &motion_streaks,    &motion_stretched, &motion_stochastic};
+                                              &motion_streaks,    &motion_stretched, &motion_stochastic,
+                                              &motion_traces};
 
 static const param common[] = {
     PARAM_FLOAT_ROW(motion_common, exposure, .def = 0.04, .min = 0.0001, .max = 60, .soft_min = 0.005, .soft_max = 1,

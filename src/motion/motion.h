@@ -7,7 +7,7 @@
 extern const kind kind_motion;
 
 extern const technique motion_stochastic, motion_accumulate, motion_blur, motion_streak_map, motion_stretched;
-extern const technique motion_streaks;
+extern const technique motion_streaks, motion_traces;
 
 /* What all techniques of the kind have first. */
 typedef struct motion_common {

@@ -626,7 +626,8 @@ static void set_flags(judge *j)
         if (half == EDGE_NO_FACE || is_said(j->m, half, j->facts->opposite[half]))
             continue;
         if (j->verdicts[i] >= IS_CREASE)
-            e->flags = (e->flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE;
+            e->flags =
+                (e->flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE | (j->verdicts[i] == IS_NARROW ? EDGE_ROUNDED : 0);
         else if (e->flags & EDGE_CREASE)
             e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE;
     }

@@ -33,9 +33,9 @@
 enum { DIRECTIONS = 4, WINDOW = 1 /* cells to each side */, CHAINS_A_CELL = 64 };
 
 static const double strengths[STROKE_CLASS_COUNT] = {
-    [STROKE_CONTOUR] = 0.9,  [STROKE_BORDER] = 0.7,   [STROKE_CREASE] = 0.6,      [STROKE_INTERSECTION] = 0.5,
-    [STROKE_MATERIAL] = 0.5, [STROKE_DRAWN] = 0.55,   [STROKE_SUGGESTIVE] = 0.35, [STROKE_RIDGE] = 0.35,
-    [STROKE_VALLEY] = 0.35,  [STROKE_APPARENT] = 0.35};
+    [STROKE_CONTOUR] = 0.9,  [STROKE_BORDER] = 0.7,    [STROKE_CREASE] = 0.6,      [STROKE_INTERSECTION] = 0.5,
+    [STROKE_MATERIAL] = 0.5, [STROKE_DRAWN] = 0.55,    [STROKE_SUGGESTIVE] = 0.35, [STROKE_RIDGE] = 0.35,
+    [STROKE_VALLEY] = 0.35,  [STROKE_APPARENT] = 0.35, [STROKE_SPEED] = 0.5,       [STROKE_PAST] = 0.5};
 
 /* Ink that is there, of one line in one cell. */
 typedef struct trace {

@@ -4,6 +4,7 @@
 #include "stroke/stroke_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -20,6 +21,15 @@ typedef struct near_face {
     uint32_t item, face;
 } near_face;
 
+/* A face that comes to another one's plane with an edge, and stays on one side of it. Where the face beyond the edge is
+ * on the other side, the surfaces cross along the edge: a wall that ends in the middle of a round tower. */
+typedef struct face_touch {
+    uint32_t      item, vertices[2]; /* of the edge, ascending */
+    uint32_t      other;             /* the near face whose plane it is */
+    int32_t       side;
+    face_crossing crossing;
+} face_touch;
+
 typedef struct crossing_search {
     const stroke_scene *scene;
     uint32_t           *first_piece; /* per item */
@@ -35,6 +45,8 @@ typedef struct crossing_search {
     size_t              face_count, face_capacity, box_capacity, kin_capacity;
     double              same;
     float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
+    face_touch         *touches;
+    size_t              touch_count, touch_capacity;
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -317,6 +329,61 @@ static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, 
     return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
 }
 
+static bool put_crossing(crossing_search *s, const face_crossing *c)
+{
+    if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
+        s->failed = true;
+        return false;
+    }
+    s->out->crossings[s->out->count++] = *c;
+    return true;
+}
+
+/* On which side of the other plane a face is that has an edge on it: 1 or −1; 0 where it has none. */
+static int touching_side(const world_face *f)
+{
+    int on = 0, side = 0;
+    for (int k = 0; k < 3; k++) {
+        on += f->heights[k] == 0;
+        side = f->heights[k] == 0 ? side : f->heights[k] > 0 ? 1 : -1;
+    }
+    return on == 2 ? side : 0;
+}
+
+static bool put_touch(crossing_search *s, const world_face *f, uint32_t item, uint32_t other, const face_crossing *c)
+{
+    face_touch t = {.item = item, .other = other, .side = touching_side(f), .crossing = *c};
+    int        count = 0;
+    for (int k = 0; k < 3; k++)
+        if (f->heights[k] == 0 && count < 2)
+            t.vertices[count++] = f->vertices[k];
+    if (t.vertices[0] > t.vertices[1]) {
+        uint32_t first = t.vertices[0];
+        t.vertices[0] = t.vertices[1];
+        t.vertices[1] = first;
+    }
+    if (!mem_grow((void **)&s->touches, &s->touch_capacity, s->touch_count + 1, sizeof *s->touches)) {
+        s->failed = true;
+        return false;
+    }
+    s->touches[s->touch_count++] = t;
+    return true;
+}
+
+/* What two faces have in common of the line in which their planes cross; false where that is nothing. */
+static bool common_line(const crossing_search *s, const world_face *a, const world_face *b, double3 ends[2])
+{
+    double3 along = double3_cross(a->normal, b->normal), p[2], q[2];
+    rim_at_plane(a, p);
+    rim_at_plane(b, q);
+    int p0 = double3_dot(along, p[0]) <= double3_dot(along, p[1]) ? 0 : 1,
+        q0 = double3_dot(along, q[0]) <= double3_dot(along, q[1]) ? 0 : 1;
+    ends[0] = double3_dot(along, p[p0]) >= double3_dot(along, q[q0]) ? p[p0] : q[q0];
+    ends[1] = double3_dot(along, p[1 - p0]) <= double3_dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
+    double3 length = double3_minus(ends[1], ends[0]);
+    return double3_dot(along, length) > 0 && double3_dot(length, length) > s->same * s->same;
+}
+
 static bool cross_faces(void *user, uint32_t first, uint32_t second)
 {
     crossing_search *s = user;
@@ -336,27 +403,43 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
             return true;
     }
     world_face a = load_face(s, n), b = load_face(s, m);
-    if (!find_heights(s, &a, &b) || !find_heights(s, &b, &a))
+    bool       crosses = find_heights(s, &a, &b), crossed = find_heights(s, &b, &a);
+    bool       touches = !crosses && crossed && touching_side(&a), touched = !crossed && crosses && touching_side(&b);
+    if (!(crosses && crossed) && !touches && !touched)
         return true;
-    double3 along = double3_cross(a.normal, b.normal), p[2], q[2];
-    rim_at_plane(&a, p);
-    rim_at_plane(&b, q);
-    int p0 = double3_dot(along, p[0]) <= double3_dot(along, p[1]) ? 0 : 1,
-        q0 = double3_dot(along, q[0]) <= double3_dot(along, q[1]) ? 0 : 1;
-    double3 begin = double3_dot(along, p[p0]) >= double3_dot(along, q[q0]) ? p[p0] : q[q0],
-            end = double3_dot(along, p[1 - p0]) <= double3_dot(along, q[1 - q0]) ? p[1 - p0] : q[1 - q0];
-    double3 length = double3_minus(end, begin);
-    if (double3_dot(along, length) <= 0 || double3_dot(length, length) <= s->same * s->same)
+    face_crossing c = {.items = {n->item, m->item}, .faces = {n->face, m->face}};
+    if (!common_line(s, &a, &b, c.ends))
         return true;
-    if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
-        s->failed = true;
-        return false;
+    c.pieces[0] = s->pieces[first];
+    c.pieces[1] = s->pieces[second];
+    c.one_surface = is_one_surface(s, first, second, &a, &b);
+    return touches   ? put_touch(s, &a, n->item, second, &c)
+           : touched ? put_touch(s, &b, m->item, first, &c)
+                     : put_crossing(s, &c);
+}
+
+static int compare_touches(const void *a, const void *b)
+{
+    const face_touch *p = a, *q = b;
+    const uint32_t    keys[2][4] = {{p->item, p->vertices[0], p->vertices[1], p->other},
+                                    {q->item, q->vertices[0], q->vertices[1], q->other}};
+    for (int k = 0; k < 4; k++)
+        if (keys[0][k] != keys[1][k])
+            return keys[0][k] < keys[1][k] ? -1 : 1;
+    return p->side - q->side;
+}
+
+/* Edges that faces on both sides of a plane have on it. */
+static bool cross_along_edges(crossing_search *s)
+{
+    if (s->touch_count)
+        qsort(s->touches, s->touch_count, sizeof *s->touches, compare_touches);
+    for (size_t i = 1; i < s->touch_count; i++) {
+        const face_touch *p = &s->touches[i - 1], *q = &s->touches[i];
+        bool same_edge = p->item == q->item && p->vertices[0] == q->vertices[0] && p->vertices[1] == q->vertices[1];
+        if (same_edge && p->other == q->other && p->side < q->side && !put_crossing(s, &p->crossing))
+            return false;
     }
-    s->out->crossings[s->out->count++] = (face_crossing){{begin, end},
-                                                         {n->item, m->item},
-                                                         {n->face, m->face},
-                                                         {s->pieces[first], s->pieces[second]},
-                                                         is_one_surface(s, first, second, &a, &b)};
     return true;
 }
 
@@ -383,6 +466,7 @@ static lmn_status search(crossing_search *s, lmn_error *error)
         return status;
     hierarchy_pairs(&tree, s->boxes, s->pieces, cross_faces, s);
     hierarchy_release(&tree);
+    s->failed = s->failed || (!s->cancelled && !cross_along_edges(s));
     if (s->cancelled)
         return error_set(error, LMN_CANCELLED, "cancelled while intersections were found");
     return s->failed ? error_memory(error) : LMN_OK;
@@ -407,6 +491,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     mem_free(s.faces);
     mem_free(s.boxes);
     mem_free(s.pieces);
+    mem_free(s.touches);
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);
     mem_free(s.turns);

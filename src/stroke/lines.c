@@ -8,8 +8,9 @@
 #include "base/memory.h"
 #include "stroke/butterfly_mesh.h"
 
-static const char *const class_names[STROKE_CLASS_COUNT] = {
-    "contour", "border", "crease", "intersection", "material", "drawn", "suggestive", "ridge", "valley", "apparent"};
+static const char *const class_names[STROKE_CLASS_COUNT] = {"contour",  "border",   "crease",     "intersection",
+                                                            "material", "drawn",    "suggestive", "ridge",
+                                                            "valley",   "apparent", "speed",      "past"};
 
 const char *stroke_class_name(stroke_class c)
 {

@@ -27,6 +27,8 @@ typedef enum stroke_class {
     STROKE_RIDGE,
     STROKE_VALLEY,
     STROKE_APPARENT, /* apparent ridge: where what is seen bends most */
+    STROKE_SPEED,    /* behind what moves, along the way that it came (src/trace) */
+    STROKE_PAST,     /* a contour where something has been */
     STROKE_CLASS_COUNT
 } stroke_class;
 /* "contour", "border" …: names in files, reports and looks. */

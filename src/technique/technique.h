@@ -173,6 +173,7 @@ typedef struct motion_row {
     unsigned (*moved)(const void *values); /* channels that they read of what moves, besides its velocity; NULL: none */
     bool stretched;                        /* they read TARGET_STRETCHED */
     bool of_meshes;                        /* they draw vertices: solids have none */
+    bool traces;                           /* lines with geometry behind what moves (src/trace) */
 } motion_row;
 
 /* What a line technique is. */

@@ -114,7 +114,7 @@ static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 {
     refusal r = refusal_of(j, error);
     for (size_t i = 0; j->pose.at_rest && i < j->look->rule_count; i++)
-        if (rule_use(&j->look->rules[i], KIND_MOTION))
+        if (rule_use(&j->look->rules[i], KIND_MOTION) && !traces_of_rule(&j->look->rules[i]))
             return refuse(&r, LMN_USAGE, WARNING_UNUSED, "draw a picture (.png), or set motion.technique=none",
                           "motion '%s' has no lines in vector drawings, which show one time",
                           rule_use(&j->look->rules[i], KIND_MOTION)->technique->name);
@@ -457,16 +457,47 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     return status;
 }
 
-static lmn_status draw_lines(vector_job *j, stroke_view *view, const vector_ink *ink, lmn_error *error)
+/* Speed lines and contours of the past of a rule's parts. */
+static lmn_status draw_traces(vector_job *j, const stroke_view *view, const stroke_camera *camera, const rule *r,
+                              ribbon_set *out, lmn_error *error)
+{
+    size_t      count = 0;
+    trace_facts facts = {0};
+    bool       *parts = traces_of_rule(r) ? parts_of(j, r, &count) : NULL;
+    if (!traces_of_rule(r))
+        return LMN_OK;
+    if (!parts)
+        return error_memory(error);
+    traces_options options = {.pose = &j->pose,
+                              .parts = parts,
+                              .values = traces_of_rule(r),
+                              .camera = *camera,
+                              .seen = view,
+                              .crease_angle = j->plan.crease_angle,
+                              .seed = j->desc->seed};
+    traces_take_lines(&options, r);
+    lmn_status status = count ? traces_make(out, &facts, &options, error) : LMN_OK;
+    for (size_t i = 0; i < out->ribbon_count && status == LMN_OK; i++)
+        j->out->counts[out->ribbons[i].kind]++;
+    trace_facts_add(&j->out->traces, &facts);
+    j->out->has_traces = true;
+    mem_free(parts);
+    return status;
+}
+
+static lmn_status draw_lines(vector_job *j, stroke_view *view, const stroke_camera *camera, const vector_ink *ink,
+                             lmn_error *error)
 {
     size_t      rules = j->look->rule_count;
-    ribbon_set *sets = mem_calloc(rules, sizeof *sets);
+    ribbon_set *sets = mem_calloc(2 * rules + 1, sizeof *sets); /* lines, then traces */
     lmn_status  status = sets ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < rules && status == LMN_OK; i++)
         status = draw_rule(j, view, &j->look->rules[i], &sets[i], error);
+    for (size_t i = 0; i < rules && status == LMN_OK; i++)
+        status = draw_traces(j, view, camera, &j->look->rules[i], &sets[rules + i], error);
     if (status == LMN_OK)
-        status = vector_put_ribbons(ink, sets, rules, error);
-    for (size_t i = 0; sets && i < rules; i++)
+        status = vector_put_ribbons(ink, sets, 2 * rules, error);
+    for (size_t i = 0; sets && i < 2 * rules; i++)
         ribbon_set_release(&sets[i]);
     mem_free(sets);
     return status;
@@ -486,7 +517,9 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
     if (status == LMN_OK)
-        status = draw_lines(j, view, ink, error);
+        status = draw_lines(j, view, &camera, ink, error);
+    if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)
+        trace_warn(&j->out->traces, &j->out->warnings);
     stroke_view_destroy(&view);
     return status;
 }

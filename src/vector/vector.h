@@ -11,6 +11,7 @@
 #include "plan/facts.h"
 #include "sheet/sheet.h"
 #include "stroke/ribbon.h"
+#include "trace/trace.h"
 
 enum { VIEWS_MOST = 7 };
 
@@ -36,6 +37,8 @@ struct lmn_sheet {
     uint64_t    *part_strokes;   /* visible ones of each part */
     uint64_t    *part_marks;     /* dots and strokes on its surface */
     double       frame_ms;
+    trace_facts  traces;
+    bool         has_traces; /* some rule wants them */
     uint64_t     counts[STROKE_CLASS_COUNT], hidden;
     uint64_t     dots, marks; /* that lie on surfaces: dots, strokes */
     bool         verified;

@@ -774,7 +774,10 @@ static lmn_scene *make_scene(world *w)
 
 static int set_up(void **state)
 {
-    static world w;
+    static const char *const meshes_only = "{\"version\":2,\"doc\":\"Meshes.\",\"controls\":{\"weight\":{\"maps\":[{"
+                                           "\"param\":\"lines.width\",\"times\":[0.5,2]}]}},"
+                                           "\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":\"strokes\"}]}";
+    static world             w;
     mkdir(FOLDER, 0777);
     draw_desc.width = draw_desc.height = SIDE;
     draw_desc.samples = 1;
@@ -784,7 +787,7 @@ static int set_up(void **state)
     shape = lmn_shape_box(1, 1, 1);
     w.scene = make_scene(&w);
     if (lmn_renderer_create(&w.renderer, NULL, &w.error) != LMN_OK ||
-        lmn_look_load(&w.look, "line", &w.error) != LMN_OK ||
+        lmn_look_parse(&w.look, meshes_only, "meshes", &w.error) != LMN_OK ||
         lmn_draw(&w.drawing, w.renderer, w.scene, w.look, &draw_desc, &w.error) != LMN_OK ||
         lmn_draw_sheet(&w.sheet, NULL, w.scene, w.look, &draw_desc, NULL, &w.error) != LMN_OK)
         fail_msg("%s", w.error.message);

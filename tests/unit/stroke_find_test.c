@@ -235,6 +235,40 @@ static void pieces_that_cross_have_a_line(void **state)
     shot_release(&shot);
 }
 
+/* A post of eight sides in the middle of a wall's end: the wall's plane passes through two of its upright edges, where
+ * no face is on both sides of the plane. The seams are there all the same, as when the post stands a little beside. */
+static void walls_meet_edges_of_posts(void **state)
+{
+    (void)state;
+    for (int beside = 0; beside < 2; beside++) {
+        lmn_scene *s = stroke_scene_begin();
+        vec3       positions[16];
+        uint32_t   corners[48];
+        for (uint32_t k = 0; k < 16; k++) {
+            double turn = 2 * stroke_pi * (k % 8) / 8;
+            positions[k] = (vec3){(float)cos(turn), (float)(sin(turn) + (beside ? 0.05 : 0)), k < 8 ? 0.0f : 3.0f};
+        }
+        positions[0].y = positions[8].y = positions[4].y = positions[12].y = beside ? 0.05f : 0;
+        for (uint32_t k = 0; k < 8; k++) {
+            const uint32_t j = (k + 1) % 8, quad[6] = {k, j, j + 8, k, j + 8, k + 8};
+            memcpy(corners + 6 * k, quad, sizeof quad);
+        }
+        add_part(s, positions, 16, corners, 48);
+        const vec3     wall[4] = {{0, 0, 0.5f}, {4, 0, 0.5f}, {4, 0, 2.5f}, {0, 0, 2.5f}};
+        const uint32_t faces[6] = {0, 1, 2, 0, 2, 3};
+        add_part(s, wall, 4, faces, 6);
+        stroke_options w = all_lines();
+        w.shortest = 0;
+        w.simplify = 0;
+        stroke_shot shot = shoot(s, look_along(-0.4, 1, 0, (const double[3]){1, 0, 1.5}, 20, 5, true, 800, 800), w);
+        double      crossing;
+        count_strokes(&shot.set, STROKE_INTERSECTION, -1, &crossing);
+        printf("a seam %s the edge: %.1f\n", beside ? "beside" : "on", crossing);
+        assert_true(fabs(crossing - 2 * 80) < 0.5); /* 2 of 10 that are 800 high */
+        shot_release(&shot);
+    }
+}
+
 /* What only touches does not cross, and what lies in a face is not hidden by it. */
 static void flush_parts_are_calm(void **state)
 {
@@ -617,6 +651,7 @@ int main(void)
         cmocka_unit_test(pipes_that_cross_have_whole_lines),
         cmocka_unit_test(thin_plates_hide),
         cmocka_unit_test(pieces_that_cross_have_a_line),
+        cmocka_unit_test(walls_meet_edges_of_posts),
         cmocka_unit_test(flush_parts_are_calm),
         cmocka_unit_test(coplanar_plates_do_not_hide),
         cmocka_unit_test(heaps_agree_with_rays),

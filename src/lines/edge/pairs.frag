@@ -12,7 +12,7 @@ const float DEPTH_NOISE = 16.0 * 5.96e-8;
 /* Normals that differ by less go on smoothly: cosine. */
 const float GOES_ON = 0.5;
 /* Slopes that differ by less than this fraction are those of one surface. */
-const float EVEN = 0.5;
+const float EVEN = 0.5, PLANE = 0.02; /* … of one plane */
 
 /* Part of the step `across` that the slopes before and behind it do not explain. */
 float unexplained(float before, float across, float behind)
@@ -22,17 +22,18 @@ float unexplained(float before, float across, float behind)
     return excess - u_line_slope * max(abs(before), abs(behind));
 }
 
-bool even(float slope, float other)
+bool even(float slope, float other, float fraction)
 {
-    return abs(slope - other) <= EVEN * max(abs(slope), abs(other)) + DEPTH_NOISE;
+    return abs(slope - other) <= fraction * max(abs(slope), abs(other)) + DEPTH_NOISE;
 }
 
-/* Does depth go on evenly from this pixel to its neighbour, or from there on? Faces may be only two pixels wide. */
+/* Does depth go on evenly over this pixel and its neighbour? Faces may be only two pixels wide: then as it does on a plane, from there on or before. */
 bool goes_on(vec2 side)
 {
     vec4 along = vec4(neighbour(t_depth, -side).r, neighbour(t_depth, vec2(0.0)).r, neighbour(t_depth, side).r, neighbour(t_depth, 2.0 * side).r);
     vec3 slopes = along.yzw - along.xyz;
-    return even(slopes.x, slopes.y) || even(slopes.y, slopes.z);
+    bool both = even(slopes.x, slopes.y, EVEN) && even(slopes.y, slopes.z, EVEN) && even(slopes.x, slopes.z, EVEN);
+    return both || even(slopes.x, slopes.y, PLANE) || even(slopes.y, slopes.z, PLANE);
 }
 
 /* x: inner ink, y: id ink between this pixel and the neighbour at `side`. `turned`: the normal was turned to the viewer. */

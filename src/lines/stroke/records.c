@@ -19,7 +19,7 @@ static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e)
     bool pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
     int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
-               (closed ? RECORD_CLOSED : 0);
+               (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
     float outward = m->inward[m->pieces[e->face[0]]] ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);

@@ -1,0 +1,34 @@
+/* What the technique `traces` and who draws it share. */
+#ifndef LIMNER_MOTION_TRACES_H
+#define LIMNER_MOTION_TRACES_H
+
+#include "base/colour.h"
+#include "motion/motion.h"
+
+/* Where lines begin. */
+typedef enum traces_origin {
+    TRACES_OUTLINE, /* rearmost position of the outline, at heights that are spread unevenly */
+    TRACES_VERTICES /* the rearmost vertex of each of equal strips (Hanl) */
+} traces_origin;
+
+/* How lines end: what their width and opacity do from the mover backwards. */
+typedef enum traces_ends { TRACES_FADING, TRACES_HEAVY, TRACES_WEDGES } traces_ends;
+
+/* When contours of the past are taken. */
+typedef enum traces_moments { TRACES_AT_TIMES, TRACES_AT_LENGTHS } traces_moments;
+
+/* Lengths in pixels of the picture, as all of a plan's look. */
+typedef struct traces_values {
+    motion_common common;
+    colour        colour; /* NaN red: that of the rule's lines */
+    float         width;
+    int32_t       lines, origin, ends; /* lines: for each picture of a mover's figure */
+    float         length, uneven, begin;
+    int32_t       groups;
+    float         group_apart, probability;
+    int32_t       contours, moments;
+    float         fade, contour_width;
+    bool          trailing, creases;
+} traces_values;
+
+#endif

@@ -1,0 +1,116 @@
+/* The requirements of speed lines, measured on the ribbons themselves: nothing is asked of what made them but which
+ * body each is of. */
+#include "trace/trace_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+/* So near to the outline, units, a line begins on it, once it is followed back over the gap. */
+#define ON_OUTLINE 2.0
+/* Density is counted over this fraction of the extent. */
+#define WINDOW 0.2
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* Is what moves met where a line begins, followed straight back? Lines at the extremes pass it at a tangent. */
+static bool meets(const trace_job *j, const ribbon_point *p, double reach)
+{
+    double x = (double)p[0].x - (double)p[1].x, y = (double)p[0].y - (double)p[1].y, length = fmax(hypot(x, y), 1e-9);
+    for (double d = 0; d <= reach; d += 0.5)
+        for (int aside = -1; aside <= 1; aside++)
+            if (page_mask_has(&j->mask, (double)p->x + (d * x - aside * ON_OUTLINE * y) / length,
+                              (double)p->y + (d * y + aside * ON_OUTLINE * x) / length))
+                return true;
+    return false;
+}
+
+/* Of one body that moves along: how uneven and how crowded the heights of its lines are. */
+static void measure_heights(trace_measures *m, const trace_body *b, double *heights, size_t count)
+{
+    double mean = 0, square = 0, range = b->across[1] - b->across[0];
+    qsort(heights, count, sizeof *heights, compare_numbers);
+    m->extent = fmax(m->extent, fmax(fabs(heights[0] - b->across[0]), fabs(heights[count - 1] - b->across[1])));
+    for (size_t i = 1; i < count; i++)
+        mean += (heights[i] - heights[i - 1]) / (double)(count - 1);
+    for (size_t i = 1; i < count; i++)
+        square += pow(heights[i] - heights[i - 1] - mean, 2) / (double)(count - 1);
+    m->uneven = fmax(m->uneven, mean > 0 ? sqrt(square) / mean : 0);
+    for (size_t i = 0; i < count && range > 0; i++) {
+        size_t within = 0;
+        for (size_t k = i; k < count && heights[k] - heights[i] <= WINDOW * range; k++)
+            within++;
+        m->crowded = fmax(m->crowded, (double)within / fmax(WINDOW * (double)(count - 1) + 1, 1));
+    }
+}
+
+static void measure_body(trace_measures *m, const trace_job *j, uint32_t number, double *heights)
+{
+    const trace_body *b = &j->bodies.bodies[number];
+    size_t            count = 0;
+    for (size_t i = 0; i < j->out->ribbon_count; i++) {
+        const ribbon *r = &j->out->ribbons[i];
+        if (r->kind != STROKE_SPEED || r->id >> 32 != number)
+            continue;
+        const ribbon_point *p = &j->out->points[r->first];
+        double              along, page[3] = {(double)p->x, (double)p->y, 0};
+        body_coordinates(b, page, &along, &heights[count++]);
+    }
+    if (count > 2 && b->motion == MOVES_ALONG)
+        measure_heights(m, b, heights, count);
+}
+
+lmn_status measures_take(trace_job *j, lmn_error *error)
+{
+    trace_measures *m = &j->facts->measures;
+    size_t          on_outline = 0;
+    double         *heights = mem_alloc((j->out->ribbon_count + 1) * sizeof *heights), lengths = 0;
+    if (!heights)
+        return error_memory(error);
+    for (size_t i = 0; i < j->out->ribbon_count; i++) {
+        const ribbon *r = &j->out->ribbons[i];
+        if (r->kind != STROKE_SPEED)
+            continue;
+        const ribbon_point *p = &j->out->points[r->first];
+        m->lines++;
+        on_outline += meets(j, p, (double)j->o->values->begin + ON_OUTLINE);
+        for (uint32_t k = 1; k < r->count; k++)
+            if (page_mask_has(&j->mask, (double)p[k].x, (double)p[k].y))
+                m->inside += (double)(p[k].arc - p[k - 1].arc);
+        double speed = j->bodies.bodies[r->id >> 32].speed;
+        lengths += speed > 0 ? (double)(p[r->count - 1].arc - p[0].arc) / speed : 0;
+    }
+    for (uint32_t i = 0; i < j->bodies.body_count; i++)
+        measure_body(m, j, i, heights);
+    m->salient = m->lines ? (double)on_outline / (double)m->lines : 0;
+    m->length = m->lines ? lengths / (double)m->lines : 0;
+    mem_free(heights);
+    return LMN_OK;
+}
+
+static double mean_of(double a, size_t of_a, double b, size_t of_b)
+{
+    return of_a + of_b ? (a * (double)of_a + b * (double)of_b) / (double)(of_a + of_b) : 0;
+}
+
+void trace_facts_add(trace_facts *all, const trace_facts *one)
+{
+    trace_measures       *m = &all->measures;
+    const trace_measures *n = &one->measures;
+    all->bodies += one->bodies;
+    all->towards += one->towards;
+    all->jumps += one->jumps;
+    all->contours += one->contours;
+    m->extent = fmax(m->extent, n->extent);
+    m->salient = mean_of(m->salient, m->lines, n->salient, n->lines);
+    m->length = mean_of(m->length, m->lines, n->length, n->lines);
+    m->uneven = m->lines && n->lines ? fmin(m->uneven, n->uneven) : fmax(m->uneven, n->uneven);
+    m->crowded = fmax(m->crowded, n->crowded);
+    m->inside += n->inside;
+    m->lines += n->lines;
+}

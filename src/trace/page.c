@@ -1,0 +1,83 @@
+#include "trace/trace_private.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+enum { SAMPLES_A_UNIT = 2 };
+
+bool page_project(const stroke_camera *c, vec3 world, double out[3])
+{
+    double        eye[3];
+    const double *v = c->view.m, *p = c->projection.m;
+    for (int k = 0; k < 3; k++)
+        eye[k] = v[k] * (double)world.x + v[4 + k] * (double)world.y + v[8 + k] * (double)world.z + v[12 + k];
+    double w = c->orthographic ? 1 : -eye[2];
+    if (!(-eye[2] > (c->orthographic ? -INFINITY : c->near)))
+        return false;
+    out[0] = 0.5 * c->width * (1 + (p[0] * eye[0] + p[8] * eye[2]) / w);
+    out[1] = 0.5 * c->height * (1 - (p[5] * eye[1] + p[9] * eye[2]) / w);
+    out[2] = -eye[2];
+    return true;
+}
+
+void page_unproject(const stroke_camera *c, const double page[3], double out[3])
+{
+    mat4          back = mat4_inverse(&c->view);
+    const double *p = c->projection.m, *m = back.m;
+    double        w = c->orthographic ? 1 : page[2];
+    double        x = ((2 * page[0] / c->width - 1) * w + p[8] * page[2]) / p[0],
+           y = ((1 - 2 * page[1] / c->height) * w + p[9] * page[2]) / p[5], z = -page[2];
+    for (int k = 0; k < 3; k++)
+        out[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
+}
+
+bool page_mask_open(page_mask *m, const stroke_camera *c)
+{
+    m->columns = c->width * SAMPLES_A_UNIT;
+    m->rows = c->height * SAMPLES_A_UNIT;
+    m->covered = mem_calloc((size_t)m->columns * (size_t)m->rows + 1, 1);
+    return m->covered != NULL;
+}
+
+void page_mask_close(page_mask *m)
+{
+    mem_free(m->covered);
+    m->covered = NULL;
+}
+
+/* Where the edge from p to q crosses a row of samples widens the span. */
+static void cross_row(const double *p, const double *q, double y, double span[2])
+{
+    if ((p[1] < y) == (q[1] < y))
+        return;
+    double x = p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
+    span[0] = fmin(span[0], x);
+    span[1] = fmax(span[1], x);
+}
+
+void page_mask_add(page_mask *m, const double *a, const double *b, const double *c)
+{
+    const double step = 1.0 / SAMPLES_A_UNIT;
+    double       low = fmin(a[1], fmin(b[1], c[1])), high = fmax(a[1], fmax(b[1], c[1]));
+    if (!(low <= high) || !isfinite(low) || !isfinite(high))
+        return;
+    int first = (int)fmax(ceil(low / step - 0.5), 0), last = (int)fmin(floor(high / step - 0.5), m->rows - 1);
+    for (int row = first; row <= last; row++) {
+        double span[2] = {INFINITY, -INFINITY}, y = (row + 0.5) * step;
+        cross_row(a, b, y, span);
+        cross_row(b, c, y, span);
+        cross_row(c, a, y, span);
+        int from = (int)fmax(ceil(fmax(span[0], -1) / step - 0.5), 0),
+            to = (int)fmin(floor(fmin(span[1], m->columns * step + 1) / step - 0.5), m->columns - 1);
+        for (int column = from; span[0] <= span[1] && column <= to; column++)
+            m->covered[(size_t)row * (size_t)m->columns + (size_t)column] = 1;
+    }
+}
+
+bool page_mask_has(const page_mask *m, double x, double y)
+{
+    double column = floor(x * SAMPLES_A_UNIT), row = floor(y * SAMPLES_A_UNIT);
+    return column >= 0 && row >= 0 && column < m->columns && row < m->rows &&
+           m->covered[(size_t)row * (size_t)m->columns + (size_t)column];
+}

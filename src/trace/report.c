@@ -1,0 +1,24 @@
+/* Traces in reports and warnings. */
+#include "trace/trace.h"
+
+json_t *trace_facts_json(const trace_facts *facts)
+{
+    const trace_measures *m = &facts->measures;
+    return json_pack("{s:I, s:I, s:f, s:f, s:I, s:f, s:f, s:f, s:f}", "bodies", (json_int_t)facts->bodies, "contours",
+                     (json_int_t)facts->contours, "A1", m->extent, "A2", m->salient, "A3", (json_int_t)m->lines, "A4",
+                     m->uneven, "A5", m->crowded, "A6", m->inside, "A7", m->length);
+}
+
+void trace_warn(const trace_facts *facts, warnings *warnings)
+{
+    if (facts->bodies == 0)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion 'traces': nothing moves on the page at this time, so nothing is drawn; --time and "
+                     "motion.exposure say when and for how long");
+    if (facts->towards)
+        warnings_add(warnings, WARNING_APPROXIMATE,
+                     "motion 'traces': %zu things come nearer or go away: their lines are rays", facts->towards);
+    if (facts->jumps)
+        warnings_add(warnings, WARNING_APPROXIMATE,
+                     "motion 'traces': %zu lines end where something jumps from one place to another", facts->jumps);
+}

@@ -1,0 +1,206 @@
+/* Speed lines: ways of positions at the rear, from a little behind what moves to where the line's length ends. They are
+ * cut where they would lie on what moves, and where something is in front of them. */
+#include "trace/trace_private.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Ways are looked at so often: units. */
+#define APART 1.5
+/* Shorter pieces are left out: widths. */
+#define SHORTEST 2.0
+/* A step that is longer than this fraction of the way, and than so many mean ones, is a jump. */
+#define JUMP_FRACTION 0.25
+#define JUMP_STEPS    8.0
+/* Lengths differ by this fraction of the longest, times `uneven`. */
+#define LENGTHS_APART 0.6
+/* Rays of what comes nearer are as long as this fraction of its radius. */
+#define RAY 0.8
+
+/* A way as it is drawn: points that are close together, with the length up to each. */
+typedef struct way {
+    double (*at)[3];
+    double *arcs;
+    bool   *shown;
+    size_t  count, capacity, arc_capacity, shown_capacity;
+} way;
+
+static void release_way(way *w)
+{
+    mem_free(w->at);
+    mem_free(w->arcs);
+    mem_free(w->shown);
+}
+
+static bool put_point(way *w, const double p[3])
+{
+    if (!mem_grow((void **)&w->at, &w->capacity, w->count + 1, sizeof *w->at) ||
+        !mem_grow((void **)&w->arcs, &w->arc_capacity, w->count + 1, sizeof *w->arcs) ||
+        !mem_grow((void **)&w->shown, &w->shown_capacity, w->count + 1, sizeof *w->shown))
+        return false;
+    double arc =
+        w->count ? w->arcs[w->count - 1] + hypot(p[0] - w->at[w->count - 1][0], p[1] - w->at[w->count - 1][1]) : 0;
+    memcpy(w->at[w->count], p, sizeof *w->at);
+    w->arcs[w->count++] = arc;
+    return true;
+}
+
+static bool put_step(way *w, const double *from, const double *to)
+{
+    double length = hypot(to[0] - from[0], to[1] - from[1]), pieces = fmin(fmax(ceil(length / APART), 1), 4096);
+    for (double n = 1; n <= pieces; n++) {
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = from[k] + n / pieces * (to[k] - from[k]);
+        if (!put_point(w, p))
+            return false;
+    }
+    return true;
+}
+
+/* The way of one origin, ended where it jumps. */
+static bool take_way(way *w, trace_job *j, size_t origin)
+{
+    uint32_t steps = j->ways.steps;
+    double(*at)[3] = j->ways.at + origin * (steps + 1);
+    double whole = 0;
+    for (uint32_t k = 1; k <= steps; k++)
+        whole += hypot(at[k][0] - at[k - 1][0], at[k][1] - at[k - 1][1]);
+    w->count = 0;
+    if (!isfinite(at[0][0]) || !isfinite(whole))
+        return true;
+    bool good = put_point(w, at[0]);
+    for (uint32_t k = 1; k <= steps && good; k++) {
+        double step = hypot(at[k][0] - at[k - 1][0], at[k][1] - at[k - 1][1]);
+        if (step > JUMP_FRACTION * whole && step * (steps - 1) > JUMP_STEPS * (whole - step)) {
+            j->facts->jumps++;
+            break;
+        }
+        good = put_step(w, at[k - 1], at[k]);
+    }
+    return good;
+}
+
+/* A straight ray away from the middle of what comes nearer. */
+static bool take_ray(way *w, trace_job *j, size_t origin)
+{
+    const trace_body *b = &j->bodies.bodies[j->origins.items[origin].body];
+    const double     *p = j->ways.at[origin * (j->ways.steps + 1)];
+    double            x = p[0] - b->centre[0], y = p[1] - b->centre[1];
+    w->count = 0;
+    if (!isfinite(x) || !isfinite(y))
+        return true;
+    const double to[3] = {p[0] + RAY * x, p[1] + RAY * y, p[2]};
+    return put_point(w, p) && put_step(w, p, to);
+}
+
+/* Which points are neither on what moves nor behind anything. */
+static lmn_status see(way *w, const trace_job *j, lmn_error *error)
+{
+    double(*world)[3] = mem_alloc((w->count + 1) * sizeof *world);
+    uint32_t *before = mem_alloc((w->count + 1) * sizeof *before);
+    if (world && before) {
+        for (size_t i = 0; i < w->count; i++)
+            page_unproject(&j->o->camera, w->at[i], world[i]);
+        stroke_view_count(j->o->seen, (const double(*)[3])world, w->count, before);
+        for (size_t i = 0; i < w->count; i++)
+            w->shown[i] = before[i] == 0 && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]);
+    }
+    lmn_status status = world && before ? LMN_OK : error_memory(error);
+    mem_free(world);
+    mem_free(before);
+    return status;
+}
+
+/* Half the width and the opacity at a fraction of the line, 0 where it begins. */
+static void profile(const traces_values *v, double at, float *half, float *alpha)
+{
+    double left = fmax(1 - at, 0), wide = 1, opaque = 1;
+    if (v->ends == TRACES_FADING) {
+        wide = 0.35 + 0.65 * left;
+        opaque = left;
+    } else if (v->ends == TRACES_HEAVY)
+        wide = 0.3 + 0.7 * left * left;
+    else
+        wide = 2 * left;
+    *half = (float)(0.5 * (double)v->width * wide);
+    *alpha = (float)opaque;
+}
+
+/* The runs of what is shown between two lengths, moved aside. */
+static bool put_runs(trace_job *j, const way *w, const trace_origin *origin, uint32_t number, double from, double to,
+                     double aside)
+{
+    const traces_values *v = j->o->values;
+    ribbon_point        *points = mem_alloc((w->count + 1) * sizeof *points);
+    bool                 good = points != NULL;
+    uint32_t             part = j->bodies.meshes[origin->mesh].part + 1;
+    size_t               count = 0;
+    for (size_t i = 0; i <= w->count && good; i++) {
+        bool inside = i < w->count && w->shown[i] && w->arcs[i] >= from && w->arcs[i] <= to;
+        if (!inside) {
+            if (count > 1 && (double)(points[count - 1].arc - points[0].arc) >= SHORTEST * (double)v->width)
+                good = put_ribbon(j, STROKE_SPEED, part, (uint64_t)origin->body << 32 | number, points, count);
+            count = 0;
+            continue;
+        }
+        size_t        a = i > 0 ? i - 1 : i, b = i + 1 < w->count ? i + 1 : i;
+        double        x = w->at[b][0] - w->at[a][0], y = w->at[b][1] - w->at[a][1], length = fmax(hypot(x, y), 1e-9);
+        ribbon_point *p = &points[count++];
+        *p = (ribbon_point){.x = (float)(w->at[i][0] - aside * y / length),
+                            .y = (float)(w->at[i][1] + aside * x / length),
+                            .depth = (float)w->at[i][2],
+                            .arc = (float)w->arcs[i]};
+        profile(v, (w->arcs[i] - from) / fmax(to - from, 1e-9), &p->half, &p->alpha);
+    }
+    mem_free(points);
+    return good;
+}
+
+/* Where a way has left what moves for the first time. */
+static double leaves_at(const trace_job *j, const way *w)
+{
+    for (size_t i = 0; i < w->count; i++)
+        if (!page_mask_has(&j->mask, w->at[i][0], w->at[i][1]))
+            return w->arcs[i];
+    return INFINITY;
+}
+
+static bool put_line(trace_job *j, const way *w, const trace_origin *origin)
+{
+    const traces_values *v = j->o->values;
+    uint32_t             frame = (uint32_t)llround(j->o->pose->when.seconds * 1000);
+    double               begin = leaves_at(j, w) + (double)v->begin, whole = w->arcs[w->count - 1];
+    for (int32_t g = 0; g < v->groups && isfinite(begin); g++) {
+        uint32_t number = origin->number * 8 + (uint32_t)g;
+        if (trace_random(j->o, origin->body, number, 16 + frame) >= (double)v->probability)
+            continue;
+        double shorter = LENGTHS_APART * (double)v->uneven * trace_random(j->o, origin->body, number, 2),
+               end = begin + (double)v->length * whole * (1 - shorter),
+               aside = (double)v->group_apart * (g - 0.5 * (v->groups - 1) +
+                                                 (g ? 0.5 * (trace_random(j->o, origin->body, number, 3) - 0.5) : 0));
+        if (!put_runs(j, w, origin, number, begin, fmin(end, whole), v->groups > 1 ? aside : 0))
+            return false;
+    }
+    return true;
+}
+
+lmn_status speed_lines_put(trace_job *j, lmn_error *error)
+{
+    way        w = {NULL};
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < j->origins.count && status == LMN_OK; i++) {
+        const trace_origin *origin = &j->origins.items[i];
+        bool                ray = j->bodies.bodies[origin->body].motion == MOVES_TOWARDS;
+        if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
+            status = error_memory(error);
+        if (status == LMN_OK && w.count > 1)
+            status = see(&w, j, error);
+        if (status == LMN_OK && w.count > 1 && !put_line(j, &w, origin))
+            status = error_memory(error);
+    }
+    release_way(&w);
+    return status;
+}

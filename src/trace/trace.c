@@ -1,0 +1,82 @@
+#include "trace/trace.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "trace/trace_private.h"
+
+/* The pose before, from which it is measured how things move: fraction of the exposure. */
+#define BEFORE (1.0 / 16)
+
+bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points, size_t count)
+{
+    ribbon_set *out = j->out;
+    if (!mem_grow((void **)&out->ribbons, &j->ribbon_capacity, out->ribbon_count + 1, sizeof *out->ribbons) ||
+        !mem_grow((void **)&out->points, &j->point_capacity, out->point_count + count, sizeof *out->points))
+        return false;
+    out->ribbons[out->ribbon_count] = (ribbon){.kind = kind,
+                                               .part = part,
+                                               .chain = (uint32_t)out->ribbon_count,
+                                               .id = id,
+                                               .ink = j->o->ink,
+                                               .brush = j->o->brush,
+                                               .first = (uint32_t)out->point_count,
+                                               .count = (uint32_t)count};
+    memcpy(out->points + out->point_count, points, count * sizeof *points);
+    out->ribbon_count++;
+    out->point_count += count;
+    return true;
+}
+
+static lmn_status find_bodies(trace_job *j, lmn_error *error)
+{
+    pose       before = {.scene = NULL};
+    lmn_status status = pose_ago(&before, j->o, BEFORE, error);
+    if (status == LMN_OK)
+        status = bodies_find(&j->bodies, j->o->pose, &before, BEFORE, j->o->parts, &j->o->camera, error);
+    pose_release(&before);
+    j->moves = status == LMN_OK ? mem_calloc(j->o->pose->part_count + 1, sizeof *j->moves) : NULL;
+    if (status == LMN_OK && (!j->moves || !page_mask_open(&j->mask, &j->o->camera)))
+        status = error_memory(error);
+    for (size_t i = 0; i < j->bodies.mesh_count && status == LMN_OK; i++)
+        j->moves[j->bodies.meshes[i].part] = true;
+    for (size_t i = 0; i < j->bodies.triangle_count && status == LMN_OK; i++) {
+        const uint32_t *t = j->bodies.triangles[i];
+        page_mask_add(&j->mask, j->bodies.now[t[0]], j->bodies.now[t[1]], j->bodies.now[t[2]]);
+    }
+    j->facts->bodies = j->bodies.body_count;
+    for (size_t i = 0; i < j->bodies.body_count; i++)
+        j->facts->towards += j->bodies.bodies[i].motion == MOVES_TOWARDS;
+    return status;
+}
+
+lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options *options, lmn_error *error)
+{
+    trace_job j = {.o = options, .out = out, .facts = facts};
+    memset(out, 0, sizeof *out);
+    memset(facts, 0, sizeof *facts);
+    if (!options->pose->at_rest || !(options->pose->when.seconds > 0))
+        return LMN_OK;
+    lmn_status status = find_bodies(&j, error);
+    bool       moves = status == LMN_OK && j.bodies.body_count > 0;
+    if (moves && options->values->contours > 0)
+        status = past_contours_put(&j, error);
+    if (moves && status == LMN_OK && options->values->lines > 0) {
+        status = origins_find(&j.origins, options, &j.bodies) ? LMN_OK : error_memory(error);
+        if (status == LMN_OK)
+            status = ways_follow(&j.ways, options, &j.bodies, j.origins.items, j.origins.count, error);
+        if (status == LMN_OK)
+            status = speed_lines_put(&j, error);
+    }
+    if (moves && status == LMN_OK)
+        status = measures_take(&j, error);
+    page_mask_close(&j.mask);
+    mem_free(j.moves);
+    mem_free(j.origins.items);
+    ways_release(&j.ways);
+    bodies_release(&j.bodies);
+    if (status != LMN_OK)
+        ribbon_set_release(out);
+    return status;
+}

@@ -1,0 +1,128 @@
+/* What the files of this room share. Positions on the page: x, y in units, eye depth. */
+#ifndef LIMNER_TRACE_TRACE_PRIVATE_H
+#define LIMNER_TRACE_TRACE_PRIVATE_H
+
+#include "trace/trace.h"
+
+/* --- page.c ----------------------------------------------------------------------------------------------- */
+
+/* A position on the page; false when it is behind the near plane. */
+bool page_project(const stroke_camera *c, vec3 world, double out[3]);
+/* And back. */
+void page_unproject(const stroke_camera *c, const double page[3], double out[3]);
+
+/* Which of the page is covered by triangles, sampled twice a unit. */
+typedef struct page_mask {
+    uint8_t *covered;
+    int      columns, rows;
+} page_mask;
+bool page_mask_open(page_mask *m, const stroke_camera *c); /* false: out of memory */
+void page_mask_close(page_mask *m);
+void page_mask_add(page_mask *m, const double *a, const double *b, const double *c);
+bool page_mask_has(const page_mask *m, double x, double y);
+
+/* --- bodies.c: what moves ----------------------------------------------------------------------------------- */
+
+/* A primitive of a part, and where its vertices begin among all. */
+typedef struct trace_mesh {
+    uint32_t         part, instance, first;
+    const primitive *primitive;
+} trace_mesh;
+
+typedef enum body_motion {
+    MOVES_ALONG,  /* one way */
+    MOVES_AROUND, /* a centre on the page */
+    MOVES_TOWARDS /* the viewer, or away */
+} body_motion;
+
+/* What moves as one: a node with what is below it, or of a skin the limbs that move alike. Its own coordinates on the
+ * page are along and across its motion: units, or around a centre radians and units of radius, or towards the viewer
+ * units of radius and radians. */
+typedef struct trace_body {
+    body_motion motion;
+    int32_t     node;         /* that it moves with; NONE: its vertices move by themselves */
+    double      way[2];       /* of its middle on the page, unit; MOVES_ALONG */
+    double      centre[2];    /* of turning, or the middle */
+    double      sense;        /* of turning: 1 or −1; towards the viewer 1, away −1 */
+    double      zero;         /* the angle from which others are counted */
+    double      speed;        /* how far it moves during the exposure, units, mean */
+    double      across[2];    /* from, to */
+    bool        round;        /* MOVES_AROUND: it lies all around the centre */
+    uint32_t    first, count; /* triangles */
+} trace_body;
+
+typedef struct trace_bodies {
+    trace_mesh *meshes;
+    double (*now)[3]; /* per vertex of all meshes, on the page; NaN: behind the viewer */
+    uint32_t (*triangles)[3];
+    trace_body *bodies;
+    size_t      mesh_count, vertex_count, triangle_count, body_count;
+} trace_bodies;
+
+/* Finds what of these parts moves between two poses, `before` being `fraction` of the exposure earlier. Errors:
+ * LMN_MEMORY. */
+lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
+                       const stroke_camera *camera, lmn_error *error);
+void       bodies_release(trace_bodies *b);
+/* A position of the page in the body's own coordinates. */
+void body_coordinates(const trace_body *b, const double page[3], double *along, double *across);
+/* The direction in which the body moves at a position, unit; 0, 0 at a centre. */
+void body_way(const trace_body *b, double x, double y, double out[2]);
+
+/* --- ways.c: where positions were ----------------------------------------------------------------------------- */
+
+/* A position on an edge or on what goes on beyond it: between two vertices. */
+typedef struct trace_origin {
+    uint32_t mesh, vertex[2]; /* of the mesh's primitive */
+    double   fraction;
+    uint32_t body, number; /* of the line in its body */
+    double   across;
+} trace_origin;
+
+/* Ways of all origins: position k of way i is at[i · (steps + 1) + k], at k / steps of the exposure ago. */
+typedef struct trace_ways {
+    double (*at)[3];
+    uint32_t steps;
+} trace_ways;
+/* Follows origins back, in steps so fine that straight pieces lie within a quarter of a unit of the way. Errors:
+ * LMN_MEMORY, LMN_FORMAT. */
+lmn_status ways_follow(trace_ways *out, const traces_options *o, const trace_bodies *bodies,
+                       const trace_origin *origins, size_t count, lmn_error *error);
+void       ways_release(trace_ways *w);
+/* The pose at a fraction of the exposure ago. */
+lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_error *error);
+
+/* --- origins.c: where lines begin --------------------------------------------------------------------------- */
+
+typedef struct origin_list {
+    trace_origin *items;
+    size_t        count, capacity;
+} origin_list;
+/* Spreads the lines that are wished for over bodies, by how large and fast they are. False: out of memory. */
+bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies);
+
+/* --- speed.c, past.c ------------------------------------------------------------------------------------------- */
+
+typedef struct trace_job {
+    const traces_options *o;
+    trace_bodies          bodies;
+    bool                 *moves; /* per part */
+    page_mask             mask;  /* of all that moves, now */
+    origin_list           origins;
+    trace_ways            ways;
+    ribbon_set           *out;
+    trace_facts          *facts;
+    size_t                ribbon_capacity, point_capacity;
+} trace_job;
+
+lmn_status speed_lines_put(trace_job *j, lmn_error *error);
+lmn_status past_contours_put(trace_job *j, lmn_error *error);
+bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
+                      size_t count); /* false: out of memory */
+/* 0 … 1, the same for the same numbers. */
+double trace_random(const traces_options *o, uint32_t body, uint32_t line, uint32_t what);
+
+/* --- measures.c ------------------------------------------------------------------------------------------------ */
+lmn_status measures_take(trace_job *j, lmn_error *error);
+
+#endif

@@ -1,0 +1,418 @@
+/* Speed lines and contours of the past against what is known of the motion. Großmann 2011; rows 15, 16, 19, 21, 23 to
+ * 25, 28 to 31, 33, 77k. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "check.h"
+#include "limner/scene.h"
+#include "moving_scene.h"
+#include "scene/scene.h"
+#include "trace/trace.h"
+
+static const double pi = 3.14159265358979323846, grey[3] = {0.5, 0.5, 0.5};
+/* The page: 10 units of the world are 800 of paper, seen along −z in parallel. */
+enum { PAGE = 800, UNIT = 80 };
+
+typedef struct traced {
+    lmn_scene    *scene;
+    pose          pose;
+    stroke_scene  strokes;
+    stroke_view  *view;
+    stroke_camera camera;
+    traces_values values;
+    ribbon_set    ribbons;
+    trace_facts   facts;
+    bool         *parts;
+} traced;
+
+static traces_values standard(void)
+{
+    traces_values v = {.common = {.exposure = 1}, .width = 1.6f, .lines = 24, .ends = TRACES_FADING};
+    v.colour.r = NAN;
+    v.length = 0.8f;
+    v.uneven = 0.5f;
+    v.begin = 4;
+    v.groups = 1;
+    v.group_apart = 3;
+    v.probability = 1;
+    v.fade = 0.75f;
+    v.contour_width = 1.2f;
+    return v;
+}
+
+static stroke_camera straight_on(bool orthographic)
+{
+    stroke_camera c = {
+        .view = mat4_identity(), .orthographic = orthographic, .width = PAGE, .height = PAGE, .near = 0.1};
+    c.view.m[14] = -20;
+    memset(&c.projection, 0, sizeof c.projection);
+    c.projection.m[0] = c.projection.m[5] = orthographic ? 0.2 : 4;
+    c.projection.m[10] = orthographic ? -0.02 : -1.002;
+    c.projection.m[11] = orthographic ? 0 : -1;
+    c.projection.m[14] = orthographic ? -1 : -0.2002;
+    c.projection.m[15] = orthographic ? 1 : 0;
+    return c;
+}
+
+/* Reads a scene that was written and poses it; all its parts draw traces. */
+static bool open_scene(traced *t, const char *path, double seconds, bool orthographic)
+{
+    lmn_error error = {0};
+    moment    when;
+    *t = (traced){.camera = straight_on(orthographic), .values = standard()};
+    bool good = lmn_scene_create(&t->scene, &error) == LMN_OK &&
+                lmn_scene_add_file(t->scene, path, NULL, &error) == LMN_OK &&
+                moment_find(&when, t->scene, NULL, seconds, NULL, &error) == LMN_OK &&
+                pose_create(&t->pose, t->scene, &when, &error) == LMN_OK &&
+                stroke_scene_create(&t->strokes, &t->pose, NULL, pi / 6, NULL, NULL, &error) == LMN_OK &&
+                stroke_view_create(&t->view, &t->strokes, &t->camera, NULL, NULL, &error) == LMN_OK;
+    t->parts = check_alloc(t->scene->part_count + 1, sizeof *t->parts);
+    for (size_t i = 0; i < t->scene->part_count; i++)
+        t->parts[i] = true;
+    return check_that("traces", good, "%s is read: %s", path, error.message);
+}
+
+static lmn_status trace(traced *t)
+{
+    lmn_error            error = {0};
+    const traces_options o = {.pose = &t->pose,
+                              .parts = t->parts,
+                              .values = &t->values,
+                              .camera = t->camera,
+                              .seen = t->view,
+                              .crease_angle = pi / 6,
+                              .seed = 7,
+                              .brush = BRUSH_PEN};
+    ribbon_set_release(&t->ribbons);
+    return traces_make(&t->ribbons, &t->facts, &o, &error);
+}
+
+static void close_scene(traced *t)
+{
+    ribbon_set_release(&t->ribbons);
+    stroke_view_destroy(&t->view);
+    stroke_scene_release(&t->strokes);
+    pose_release(&t->pose);
+    lmn_scene_destroy(&t->scene);
+    free(t->parts);
+}
+
+static size_t count_of(const traced *t, stroke_class kind)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < t->ribbons.ribbon_count; i++)
+        count += t->ribbons.ribbons[i].kind == kind;
+    return count;
+}
+
+/* A ball of radius 1 that goes from −x to x in a second, `bend`: faster and faster. */
+static const char *write_ball(const char *name, double x, bool faster)
+{
+    enum { KEYS = 65 };
+    moving_scene m;
+    double       times[KEYS], places[3 * KEYS];
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, -x, 0, 0, 1, grey);
+    for (int i = 0; i < KEYS; i++) {
+        double s = (double)i / (KEYS - 1);
+        times[i] = s;
+        places[3 * i] = -x + 2 * x * (faster ? s * s : s);
+        places[3 * i + 1] = places[3 * i + 2] = 0;
+    }
+    moving_scene_keys(&m, ball, "translation", KEYS, times, places);
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+/* --- lines --------------------------------------------------------------------------------------------------- */
+
+/* All seven requirements, on the lines themselves. */
+static void requirements(void)
+{
+    traced t;
+    double lengths[2];
+    if (open_scene(&t, write_ball("ball", 3, false), 1, true)) {
+        for (int i = 0; i < 2; i++) {
+            t.values.length = i ? 0.8f : 0.4f;
+            check_that("33", trace(&t) == LMN_OK, "traced");
+            lengths[i] = t.facts.measures.length;
+        }
+        const trace_measures *m = &t.facts.measures;
+        check_at_most("A1", m->extent, 2, "the outermost lines begin so far from the extremes, units");
+        check_at_least("A2", m->salient, 0.95, "share of lines that begin on the outline");
+        check_that("A3", count_of(&t, STROKE_SPEED) == 24, "%zu of 24 lines", count_of(&t, STROKE_SPEED));
+        check_at_least("A4", m->uneven, 0.2, "deviation of gaps");
+        check_at_most("A5", m->crowded, 2, "lines on a fifth of the extent, of the mean");
+        check_at_most("A6", m->inside, 0, "length of lines on the ball");
+        check_near("A7", lengths[1] / lengths[0], 2, 0.1, "twice the length is twice as long");
+    }
+    close_scene(&t);
+}
+
+/* The same by what is known of the ball: it is at (3, 0) with radius 1 and came from the left. */
+static void lines_lie_behind(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("behind", 3, false), 1, true) && check_that("28", trace(&t) == LMN_OK, "traced")) {
+        double inside = 0, ahead = 0, slant = 0, highest = 0, lowest = PAGE;
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon       *r = &t.ribbons.ribbons[i];
+            const ribbon_point *p = &t.ribbons.points[r->first];
+            highest = fmax(highest, (double)p->y);
+            lowest = fmin(lowest, (double)p->y);
+            for (uint32_t k = 0; k < r->count; k++) {
+                double x = (double)p[k].x - PAGE / 2.0 - 3 * UNIT, y = (double)p[k].y - PAGE / 2.0;
+                inside += hypot(x, y) < UNIT * 0.98; /* its facets lie a little inside */
+                ahead += x > 0;
+                slant = fmax(slant, fabs((double)p[k].y - (double)p[0].y));
+            }
+        }
+        check_at_most("A6", inside, 0, "points on the ball");
+        check_at_most("19", ahead, 0, "points ahead of its middle");
+        check_at_most("22", slant, 0.1, "lines of a straight way are straight, units off");
+        check_near("A1", highest - lowest, 2 * UNIT, 4, "from the first to the last line");
+    }
+    close_scene(&t);
+}
+
+/* A rod that swings by 90 degrees in a second around its end. */
+static void rods_leave_arcs(void)
+{
+    enum { KEYS = 65 };
+    moving_scene m;
+    traced       t;
+    double       times[KEYS], turns[4 * KEYS];
+    moving_scene_begin(&m);
+    int joint = moving_scene_joint(&m, -1, -1, 0), rod = moving_scene_box(&m, 2, 0, 0, (double[]){2, 0.1, 0.1}, grey);
+    moving_scene_put_in(&m, rod, joint);
+    for (int i = 0; i < KEYS; i++) {
+        double half = pi / 4 * i / (KEYS - 1);
+        times[i] = (double)i / (KEYS - 1);
+        memcpy(&turns[4 * i], (double[]){0, 0, sin(half), cos(half)}, 4 * sizeof(double));
+    }
+    moving_scene_keys(&m, joint, "rotation", KEYS, times, turns);
+    const char *path = check_path("rod.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true) && check_that("23", trace(&t) == LMN_OK, "traced")) {
+        double off = 0, widest = 0;
+        size_t lines = 0;
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon       *r = &t.ribbons.ribbons[i];
+            const ribbon_point *p = &t.ribbons.points[r->first];
+            double              radius = 0;
+            for (uint32_t k = 0; k < r->count; k++) {
+                double x = (double)p[k].x - (PAGE / 2.0 - UNIT), y = PAGE / 2.0 + UNIT - (double)p[k].y;
+                radius = k ? radius : hypot(x, y);
+                off = fmax(off, fabs(hypot(x, y) - radius));
+                check_that("31", k > 0 || x > 0, "the line begins behind the rod, which stands upright now");
+            }
+            widest = fmax(widest, radius);
+            lines++;
+        }
+        check_at_least("23", (double)lines, 12, "lines");
+        check_at_most("23", off, 0.5, "arcs are off by, units");
+        check_near("A1", widest, 4 * UNIT, 4, "the outermost arc is that of the tip");
+    }
+    close_scene(&t);
+}
+
+/* --- contours --------------------------------------------------------------------------------------------------- */
+
+/* The x of the middle of a circle that a ribbon's points lie on, radius 1: the mean of what each point says. */
+static void check_contours(traced *t, const double *centres, size_t count, bool trailing)
+{
+    double off = 0, fades = 0, leads = 0;
+    size_t found = 0;
+    for (size_t n = 0; n < count; n++) {
+        bool any = false;
+        for (size_t i = 0; i < t->ribbons.ribbon_count; i++) {
+            const ribbon       *r = &t->ribbons.ribbons[i];
+            const ribbon_point *p = &t->ribbons.points[r->first];
+            if (r->kind != STROKE_PAST || fabs((double)p->alpha - pow(0.75, (double)n + 1)) > 1e-4)
+                continue;
+            any = true;
+            for (uint32_t k = 0; k < r->count; k++) {
+                double x = (double)p[k].x - PAGE / 2.0 - UNIT * centres[n], y = (double)p[k].y - PAGE / 2.0;
+                off = fmax(off, fabs(hypot(x, y) - UNIT));
+                fades += (double)p[k].alpha != (double)p->alpha;
+                leads += trailing && x > 2;
+            }
+        }
+        found += any;
+    }
+    check_that("15", found == count, "%zu of %zu contours have their own opacity, by the same factor", found, count);
+    check_at_most("15", off, 2, "contours lie where the ball was, units off (facets: 1.5)");
+    check_at_most("15", fades, 0, "points of another opacity");
+    check_at_most("16", leads, 0, "points on the side that leads");
+}
+
+static void contours_of_the_past(void)
+{
+    traced       t;
+    const double even[4] = {1.5, 0, -1.5, -3};
+    if (open_scene(&t, write_ball("even", 3, false), 1, true)) {
+        t.values.lines = 0;
+        t.values.contours = 4;
+        check_that("15", trace(&t) == LMN_OK && t.facts.contours == 4, "four times");
+        check_contours(&t, even, 4, false);
+        t.values.trailing = true;
+        check_that("16", trace(&t) == LMN_OK, "the trailing side alone");
+        check_contours(&t, even, 3, true); /* before the fourth nothing moved: no side trails */
+    }
+    close_scene(&t);
+    double squares[4];
+    for (int i = 0; i < 4; i++)
+        squares[i] = -3 + 6 * pow(1 - (i + 1) / 4.0, 2);
+    if (open_scene(&t, write_ball("faster", 3, true), 1, true)) {
+        t.values.lines = 0;
+        t.values.contours = 4;
+        check_that("15", trace(&t) == LMN_OK, "at equal times of a motion that grows faster");
+        check_contours(&t, squares, 4, false);
+        t.values.moments = TRACES_AT_LENGTHS;
+        check_that("15", trace(&t) == LMN_OK, "at equal lengths of it");
+        check_contours(&t, even, 4, false);
+    }
+    close_scene(&t);
+}
+
+/* A wall before the right half of where the ball came from hides both lines and contours there. */
+static void walls_hide(void)
+{
+    moving_scene m;
+    traced       t;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, -3, 0, 0, 1, grey);
+    moving_scene_box(&m, 0, 0, 3, (double[]){0.5, 3, 0.1}, grey);
+    moving_scene_keys(&m, ball, "translation", 2, (double[]){0, 1}, (double[]){-3, 0, 0, 3, 0, 0});
+    const char *path = check_path("wall.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true)) {
+        size_t before = 0, beside = 0;
+        t.values.contours = 8;
+        t.values.length = 1;
+        t.values.uneven = 0;
+        check_that("18", trace(&t) == LMN_OK, "traced");
+        for (size_t i = 0; i < t.ribbons.point_count; i++) {
+            bool there = fabs((double)t.ribbons.points[i].x - PAGE / 2.0) < 0.5 * UNIT - 1;
+            before += there;
+            beside += !there;
+        }
+        check_at_most("18", (double)before, 0, "points behind the wall");
+        check_at_least("18", (double)beside, 200, "points beside it");
+    }
+    close_scene(&t);
+}
+
+/* --- odd motions ---------------------------------------------------------------------------------------------------
+ */
+
+static const char *write_moved(const char *name, int keys, const double *times, const double *places)
+{
+    moving_scene m;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
+    if (keys)
+        moving_scene_keys(&m, ball, "translation", keys, times, places);
+    int other = moving_scene_joint(&m, 0, 0, 0);
+    moving_scene_keys(&m, other, "translation", 2, (double[]){0, 1}, (double[]){0, 0, 0, 1, 0, 0});
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+static void odd_motions(void)
+{
+    traced t;
+    if (open_scene(&t, write_moved("still", 0, NULL, NULL), 1, true))
+        check_that("bad", trace(&t) == LMN_OK && t.facts.bodies == 0 && t.ribbons.ribbon_count == 0,
+                   "nothing moves: nothing is drawn");
+    close_scene(&t);
+    if (open_scene(&t, write_moved("one", 1, (double[]){0}, (double[]){1, 0, 0}), 1, true))
+        check_that("bad", trace(&t) == LMN_OK && t.ribbons.ribbon_count == 0, "a clip of one frame: nothing");
+    close_scene(&t);
+    if (open_scene(
+            &t,
+            write_moved("jump", 4, (double[]){0, 0.5, 0.5001, 1}, (double[]){-3, 0, 0, -2.7, 0, 0, 2.7, 0, 0, 3, 0, 0}),
+            1, true)) {
+        double farthest = 3;
+        check_that("bad", trace(&t) == LMN_OK && t.facts.jumps > 0, "a jump is found: %zu lines", t.facts.jumps);
+        for (size_t i = 0; i < t.ribbons.point_count; i++)
+            farthest = fmin(farthest, ((double)t.ribbons.points[i].x - PAGE / 2.0) / UNIT);
+        check_at_least("bad", farthest, 1.3, "no line goes over it: the leftmost point");
+    }
+    close_scene(&t);
+    if (open_scene(&t, write_moved("near", 2, (double[]){0, 1}, (double[]){0, 0, -8, 0, 0, 4}), 1, false)) {
+        double off = 0, inside = 0;
+        check_that("bad", trace(&t) == LMN_OK && t.facts.towards == 1, "what comes nearer is known");
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[t.ribbons.ribbons[i].first];
+            const ribbon_point *q = p + t.ribbons.ribbons[i].count - 1;
+            double              x = (double)p->x - PAGE / 2.0, y = (double)p->y - PAGE / 2.0;
+            double              dx = (double)q->x - (double)p->x, dy = (double)q->y - (double)p->y;
+            off = fmax(off, fabs(x * dy - y * dx) / fmax(hypot(x, y) * hypot(dx, dy), 1e-9));
+            inside += x * dx + y * dy < 0;
+        }
+        check_at_least("20", (double)count_of(&t, STROKE_SPEED), 20, "rays");
+        check_at_most("20", off, 0.02, "rays leave the middle, sine");
+        check_at_most("20", inside, 0, "rays that point inwards");
+    }
+    close_scene(&t);
+}
+
+static void chances(void)
+{
+    enum { FRAMES = 100 };
+    traced      t;
+    size_t      drawn = 0, same = 0;
+    const char *path = write_ball("chance", 3, false);
+    for (int i = 0; i < FRAMES; i++) {
+        if (!open_scene(&t, path, 0.5 + i * 0.004, true))
+            return;
+        t.values.probability = 0.3f;
+        t.values.lines = 20;
+        check_that("21", trace(&t) == LMN_OK, "traced");
+        drawn += count_of(&t, STROKE_SPEED);
+        ribbon_set first = t.ribbons;
+        t.ribbons = (ribbon_set){NULL};
+        trace(&t);
+        same += first.point_count == t.ribbons.point_count &&
+                memcmp(first.points, t.ribbons.points, first.point_count * sizeof *first.points) == 0;
+        ribbon_set_release(&first);
+        close_scene(&t);
+    }
+    check_near("21", (double)drawn / (20 * FRAMES), 0.3, 0.04, "share of lines that are there");
+    check_that("21", same == FRAMES, "the same call draws the same");
+}
+
+/* Every allocation may fail. */
+static void memory_may_run_out(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("memory", 3, false), 1, true)) {
+        lmn_status status = LMN_MEMORY;
+        long       n = 1, other = 0;
+        t.values.contours = 1;
+        t.values.lines = 3;
+        for (; status != LMN_OK && n < 20000; n += 1 + n / 40) {
+            mem_fail_at(n);
+            status = trace(&t);
+            mem_fail_at(0);
+            other += status != LMN_OK && status != LMN_MEMORY;
+        }
+        check_that("memory", status == LMN_OK && n > 40 && other == 0, "%ld allocations", n);
+    }
+    close_scene(&t);
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {
+        {"requirements", requirements}, {"behind", lines_lie_behind},
+        {"arcs", rods_leave_arcs},      {"contours", contours_of_the_past},
+        {"walls", walls_hide},          {"odd", odd_motions},
+        {"chances", chances},           {"memory", memory_may_run_out},
+    };
+    return check_main(argc, argv, "traces", cases, sizeof cases / sizeof *cases);
+}
