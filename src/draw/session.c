@@ -177,7 +177,9 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
-    f->tone_range = tone_range_find(&s->plan, &f->camera);
+    status = tone_range_find(&f->tone_range, &s->plan, &f->camera, error);
+    if (status != LMN_OK)
+        return status;
     f->ground_plane = ground_find(&s->plan, &f->camera);
     for (int k = 0; k < POSE_PAST_MAX; k++)
         f->camera_past[k] = f->camera;

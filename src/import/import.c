@@ -118,7 +118,7 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
     char own = job->scene->up ? job->scene->up : format->up; /* some of one reader's formats are otherwise */
     job->scene->up = up == LMN_UP_Y ? 'y' : up == LMN_UP_Z ? 'z' : own;
     if (status == LMN_OK && up == LMN_UP_AUTO && format->up_guessed && job->model == job->path)
-        job->scene->up = up_axis_guess(job->scene, format->up, format->name);
+        status = up_axis_guess(&job->scene->up, job->scene, format->up, format->name, error);
     return status;
 }
 

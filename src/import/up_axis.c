@@ -36,6 +36,7 @@ typedef struct up_model {
     double   diagonal, centre[3], area, border;
     up_side  sides[DIRECTIONS];
     uint8_t *cells; /* GRID³ */
+    bool     failed;
 } up_model;
 
 static double at(vec3 p, int axis)
@@ -159,6 +160,7 @@ static void ground_primitive(up_model *m, const primitive *p, const mat4 *world)
         add_flat(m, v);
     }
     uint32_t *others = p->index_count && p->index_count <= BORDERS_MOST ? mesh_adjacency(p) : NULL;
+    m->failed = m->failed || (!others && p->index_count && p->index_count <= BORDERS_MOST);
     for (uint32_t h = 0; others && h < p->index_count; h++) {
         uint32_t next = h % 3 == 2 ? h - 2 : h + 1;
         if (others[h] == UINT32_MAX)
@@ -224,22 +226,24 @@ static void begin(up_model *m)
     }
 }
 
-bool up_axis_measure(const lmn_scene *scene, up_measure out[6])
+lmn_status up_axis_measure(up_measure out[6], const lmn_scene *scene, lmn_error *error)
 {
     up_model m = {.box = box3_empty(), .cells = mem_calloc(GRID * GRID * GRID, 1)};
+    memset(out, 0, 6 * sizeof *out);
+    if (!m.cells)
+        return error_memory(error);
     for (size_t i = 0; i < scene->part_count; i++)
         m.box = box3_union(m.box, scene->parts[i].bounds);
-    if (m.cells)
-        for_primitives(&m, scene, centre_primitive);
-    bool there = m.cells && m.area > 0 && isfinite(m.area) && !box3_is_empty(m.box);
-    if (there) {
+    for_primitives(&m, scene, centre_primitive);
+    if (m.area > 0 && isfinite(m.area) && !box3_is_empty(m.box)) {
         begin(&m);
         for_primitives(&m, scene, ground_primitive);
         for (int d = 0; d < DIRECTIONS; d++)
             out[d] = judge(&m, &m.sides[d]);
     }
     mem_free(m.cells);
-    return there && !work_stopped();
+    lmn_status status = work_check(error);
+    return status == LMN_OK && m.failed ? error_memory(error) : status;
 }
 
 static const char *reason(const up_measure *is)
@@ -254,12 +258,14 @@ static bool is_better(const up_measure *is, const up_measure *own, bool common)
     return is->stands && firmer && is->score >= own->score + (common ? BETTER : MUCH_BETTER);
 }
 
-char up_axis_guess(lmn_scene *scene, char usual, const char *format)
+lmn_status up_axis_guess(char *out, lmn_scene *scene, char usual, const char *format, lmn_error *error)
 {
     up_measure found[DIRECTIONS];
     int        own = usual == 'y' ? 1 : 2, best = own;
-    if (!up_axis_measure(scene, found) || found[own].stands)
-        return usual;
+    lmn_status status = up_axis_measure(found, scene, error);
+    *out = usual;
+    if (status != LMN_OK || found[own].stands)
+        return status;
     for (int d = 0; d < DIRECTIONS; d++) {
         double more = d == 1 || d == 2 ? 0 : 0.25; /* than the best so far */
         if (is_better(&found[d], &found[own], d == 1 || d == 2) &&
@@ -267,10 +273,11 @@ char up_axis_guess(lmn_scene *scene, char usual, const char *format)
             best = d;
     }
     if (best == own)
-        return usual;
+        return LMN_OK;
     warnings_add(&scene->warnings, WARNING_UP_AXIS,
                  "%s does not say which way is up, and +%c is usual; %c%c is taken instead, as the model then %s "
                  "(--up-axis %c overrides)",
                  format, usual == 'y' ? 'Y' : 'Z', best < 3 ? '+' : '-', "XYZ"[best % 3], reason(&found[best]), usual);
-    return names[best];
+    *out = names[best];
+    return LMN_OK;
 }

@@ -13,11 +13,11 @@ typedef struct up_measure {
 } up_measure;
 
 /* The axis that points up: 'x', 'y', 'z', or in capitals the negative ones. `usual` unless another one is clearly
- * better, on which the model stands more firmly; then the scene is warned of it. Also `usual` when memory is gone, and
- * for what has no triangles. The scene is finished. */
-char up_axis_guess(lmn_scene *scene, char usual, const char *format);
+ * better, on which the model stands more firmly; then the scene is warned of it. Also `usual` for what has no
+ * triangles. The scene is finished. Errors: LMN_MEMORY, and that of work that is to stop. */
+lmn_status up_axis_guess(char *out, lmn_scene *scene, char usual, const char *format, lmn_error *error);
 
-/* Of 'x', 'y', 'z', 'X', 'Y', 'Z', in this order. False: nothing can be said. For tests, too. */
-bool up_axis_measure(const lmn_scene *scene, up_measure out[6]);
+/* Of 'x', 'y', 'z', 'X', 'Y', 'Z', in this order; all 0 where nothing can be said. Errors: the same. */
+lmn_status up_axis_measure(up_measure out[6], const lmn_scene *scene, lmn_error *error);
 
 #endif

@@ -301,27 +301,28 @@ static bool place(seen_picture *s, const view_camera *camera)
     return true;
 }
 
-tone_range tone_range_find(const plan *p, const view_camera *camera)
+lmn_status tone_range_find(tone_range *out, const plan *p, const view_camera *camera, lmn_error *error)
 {
     const scene_values *v = p->look->wide[KIND_SCENE].values;
-    tone_range          out = {.low = 0, .gain = 1, .gamma = 1};
     seen_picture        s = {.plan = p};
     uint32_t            counts[TONE_BINS] = {0};
+    *out = (tone_range){.low = 0, .gain = 1, .gamma = 1};
     if (v->tone_range != TONE_RANGE_AUTO || !place(&s, camera))
-        return out;
+        return LMN_OK;
     s.lights = lights_list(&(light_conditions){p->look, p->pose, &camera->view, NULL});
     s.cells = mem_alloc(SIDE * SIDE * sizeof *s.cells);
-    for (int i = 0; i < SIDE * SIDE && s.cells; i++)
+    if (!s.cells)
+        return error_memory(error);
+    for (int i = 0; i < SIDE * SIDE; i++)
         s.cells[i] = (seen_cell){INFINITY, 0};
-    for (size_t i = 0; i < p->part_count && s.cells; i++)
+    for (size_t i = 0; i < p->part_count; i++)
         if (is_counted(p, i))
             draw_part(&s, i);
-    for (int i = 0; i < SIDE * SIDE && s.cells; i++)
+    for (int i = 0; i < SIDE * SIDE; i++)
         if (s.cells[i].depth < INFINITY)
             counts[(int)fminf(fmaxf(s.cells[i].tone, 0) * TONE_BINS, TONE_BINS - 1)]++;
-    if (s.cells)
-        out = tone_range_of(counts);
+    *out = tone_range_of(counts);
+    out->automatic = true;
     mem_free(s.cells);
-    out.automatic = true;
-    return out;
+    return work_check(error);
 }

@@ -18,7 +18,7 @@ tone_range tone_range_of(const uint32_t counts[TONE_BINS]);
 
 /* From what light and the model's own colours do on the surfaces that the view shows, on the CPU. The model counts at
  * rest and the view by its direction alone, so that nothing flickers while things move. Shadows do not count: they may
- * be as dark as the medium goes. */
-tone_range tone_range_find(const plan *p, const view_camera *camera);
+ * be as dark as the medium goes. Errors: LMN_MEMORY, and that of work that is to stop. */
+lmn_status tone_range_find(tone_range *out, const plan *p, const view_camera *camera, lmn_error *error);
 
 #endif

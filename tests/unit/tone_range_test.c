@@ -89,7 +89,8 @@ static tone_range range_of(const char *model, const char *look_name, double seco
     assert_int_equal(pose_create(&posed, scene, &when, &error), LMN_OK);
     assert_int_equal(plan_create(&planned, &posed, look, &(plan_options){.pixels_per_mm = 4}, &list, &error), LMN_OK);
     assert_int_equal(camera_place(&camera, &desc, &posed, &planned.fit, &error), LMN_OK);
-    tone_range out = tone_range_find(&planned, &camera);
+    tone_range out;
+    assert_int_equal(tone_range_find(&out, &planned, &camera, &error), LMN_OK);
     plan_release(&planned);
     pose_release(&posed);
     warnings_release(&list);
