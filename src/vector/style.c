@@ -82,6 +82,8 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
                                                                                                    lines->values);
     options->width = style->width;
     if (technique_draws_strokes(lines->technique)) {
+        if (style->hidden == HIDDEN_NONE)
+            take_layers(options, style, r);
         if (!(style->wobble > 0))
             take_hand(style, r);
         return true;

@@ -254,9 +254,17 @@ group_draw() {
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
-    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look line
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
-    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look line --lenient -o x.png
+    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    # Ways to tell of motion that have a name; vectors have them, too.
+    row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
+    tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
+    row 0 '' 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion ghosts --set motion.contours=3 --report in-m.json -o x.svg
+    grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
+    tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
+    row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
+    row 1 "there is no motion technique 'nosuch'" '' draw "$examples/buggy.glb" $small --time 1 --motion nosuch -o x.png
     # Sizes that cannot be are told before anything is drawn, and the one that is offered is smaller.
     row 2 'needs 20000 pixels a side, the limit is' '' draw "$gear" --size 5000x5000 --samples 16
     row 2 '^hint: with 16 samples at most --size [0-9]+x[0-9]+' '' draw "$gear" --size 5000x5000 --samples 16
