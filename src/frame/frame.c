@@ -158,6 +158,7 @@ static void draw_page(frame *f)
         visibility_draw(f);
     if (!gpu_failed(f->g)) {
         clear_page(f);
+        ground_draw(f);
         draw_figures(f);
     }
     if (!gpu_failed(f->g) && !f->maps)

@@ -5,6 +5,8 @@
 #include "gpu/profile.h"
 #include "limner/maps.h"
 #include "plan/camera.h"
+#include "plan/tone_range.h"
+#include "plan/ground.h"
 #include "plan/plan.h"
 #include "stage/plan_textures.h"
 #include "stage/upload.h"
@@ -40,6 +42,8 @@ typedef struct frame {
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
+    tone_range    tone_range;
+    ground_plane  ground_plane;                /* what the model stands on */
     float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
     int           layers;                      /* drawn by the deepest stack */
     const char   *producer;                    /* of layers; NULL: there were none */

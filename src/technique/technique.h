@@ -155,6 +155,9 @@ typedef struct surface_row {
     /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its
      * textures; false: all materials are alike. NULL: always so. */
     bool (*by_material)(void *values, const char *strokes);
+    /* May it draw the shadow on the ground, too, on a page of this colour? Its tone there is p.albedo.a (ON_GROUND).
+     * NULL: no. */
+    bool (*on_ground)(const void *values, colour ground);
     const mark_source *marks; /* what is drawn over it; NULL: nothing */
     /* As vectors. */
     bool (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */

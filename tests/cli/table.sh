@@ -244,7 +244,7 @@ group_draw() {
     # Strokes and marks lie on meshes.
     row 0 '' 'x.png' draw "$gear" $small --look line --cut x -o x.png
     # Lines that files bring are strokes.
-    printf 'o block\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 1\nv 1 1 2\nv 3 2 2\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\no wire\nl 5 6 7\n' > in-lines.obj
+    printf 'o block\nv 0 0 0\nv 2 0 0\nv 2 0 -2\nv 0 0 -2\nv 1 1 -1\nv 1 2 -1\nv 3 2 -2\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\no wire\nl 5 6 7\n' > in-lines.obj
     row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line && cp x.png in-drawn.png
     row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line --set lines.drawn=false
     cmp -s x.png in-drawn.png && complain "the file's lines are not drawn"
@@ -693,9 +693,9 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
     # Plotters, areas, surfaces.
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen">'
-    row 0 '' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
+    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
-    row 0 '' 'x.dxf' draw "$box" --look toon -o x.dxf
+    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.dxf' draw "$box" --look toon -o x.dxf
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease"'
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
