@@ -15,7 +15,7 @@
 
 typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
-    const char   *clip;
+    const char   *clip, *motion;
     const char   *page, *scale, *unit, *views, *title;
     word_list     sets;
     option_size   size;
@@ -28,6 +28,22 @@ typedef struct draw_values {
 } draw_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
+
+/* Ways to tell of motion that have a name of their own: what they set, before --set. */
+typedef struct motion_way {
+    const char *name;
+    const char *sets[6];
+} motion_way;
+static const motion_way motion_ways[] = {
+    {"speed-lines", {"motion.technique=traces", "motion.exposure=0.3"}},
+    {"ghosts", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=5"}},
+    {"echoes",
+     {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=8", "motion.trailing=true"}},
+    {"plate",
+     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
+      "motion.decay=0.8"}},
+    {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
+};
 
 static const char *const angles[] = {"third", "first", NULL};
 
@@ -50,6 +66,10 @@ static const option options[] = {
     {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
+    {"motion", 0, OPTION_TEXT, AT(motion), "WAY",
+     "Tell that the model moves, in any look: speed-lines, ghosts (contours where it has been), echoes (their trailing "
+     "side), comic (lines and contours), plate (the model at several times on one plate), or a technique of `limner "
+     "looks`, such as blur or streaks. Needs a time."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL",
      "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",
@@ -464,12 +484,30 @@ static int set_all(const draw_values *v, lmn_look *look)
     return status;
 }
 
+/* Of a way without a name of its own, the technique. */
+static int set_motion(const char *name, lmn_look *look)
+{
+    char assignment[256];
+    for (size_t i = 0; i < sizeof motion_ways / sizeof *motion_ways; i++) {
+        int status = EXIT_DONE;
+        if (strcmp(motion_ways[i].name, name) != 0)
+            continue;
+        for (size_t k = 0; k < 6 && motion_ways[i].sets[k] && status == EXIT_DONE; k++)
+            status = set_one(look, motion_ways[i].sets[k]);
+        return status;
+    }
+    snprintf(assignment, sizeof assignment, "motion.technique=%.200s", name);
+    return set_one(look, assignment);
+}
+
 static int load_look(session *s)
 {
     lmn_error error = {0};
     if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
         return message_error(&error);
-    int status = set_all(s->values, s->look);
+    int status = s->values->motion ? set_motion(s->values->motion, s->look) : EXIT_DONE;
+    if (status == EXIT_DONE)
+        status = set_all(s->values, s->look);
     if (status != EXIT_DONE)
         return status;
     if (s->values->cut && lmn_look_set(s->look, "scene.cut", s->values->cut, &error) != LMN_OK)

@@ -38,9 +38,9 @@ typedef struct lmn_importer {
 
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
-    size_t          struct_size; /* set by LMN_LOAD_DESC_INIT */
-    lmn_up_axis     up_axis;     /* LMN_UP_AUTO: glTF, OBJ, PLY, BVH are +Y up, STL and OpenSCAD +Z */
-    lmn_progress_fn progress;    /* NULL: silent */
+    size_t      struct_size; /* set by LMN_LOAD_DESC_INIT */
+    lmn_up_axis up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF and OpenSCAD +Z; of OBJ and PLY it is guessed */
+    lmn_progress_fn progress; /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
     const char *const *defines; /* "NAME=VALUE": variables that replace those of the program */

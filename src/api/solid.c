@@ -200,7 +200,7 @@ lmn_status lmn_solid_add_file(lmn_scene *scene, uint32_t solid, uint32_t parent,
         status = error_memory(error);
     if (status == LMN_OK) {
         solid_addition what = {.kind = SOLID_UNION,
-                               .matrix = scene_up_rotation(loaded->up, scene->up ? scene->up : loaded->up),
+                               .matrix = scene_up_rotation(loaded->up, scene_up_together(scene, loaded)),
                                .name = name};
         status = loaded->solid_count ? solid_edit_graft(scene, above.solid, above.node, loaded, &what, &id, error)
                                      : add_meshes(scene, &above, loaded, &what, path, &id, error);

@@ -22,6 +22,7 @@
     X(WARNING_APPROXIMATE, "approximate")   /* drawn nearly as the file means it */                                    \
     X(WARNING_NO_STROKES, "no-strokes")     /* what has no lines in vector drawings */                                 \
     X(WARNING_PAGE, "page")                 /* what does not fit on a sheet, or is not known for it */                 \
+    X(WARNING_UP_AXIS, "up-axis")           /* which way is up was guessed, and not as usual */                        \
     X(WARNING_UNUSED, "unused")             /* a setting without effect */
 
 typedef enum warning_code {

@@ -177,6 +177,10 @@ static lmn_status place_cameras(session *s, const draw_options *options, warning
     if (status != LMN_OK)
         return status;
     plan_camera_range(&s->plan, &f->camera, warnings);
+    status = tone_range_find(&f->tone_range, &s->plan, &f->camera, error);
+    if (status != LMN_OK)
+        return status;
+    f->ground_plane = ground_find(&s->plan, &f->camera);
     for (int k = 0; k < POSE_PAST_MAX; k++)
         f->camera_past[k] = f->camera;
     for (int k = 0; k < now->past_count && status == LMN_OK; k++) {

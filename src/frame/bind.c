@@ -192,6 +192,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_focus(f);
     if (gpu_has_uniform(g, "u_anchor"))
         set_anchor(f);
+    if (gpu_has_uniform(g, "u_tone_range"))
+        gpu_set_vec3(g, "u_tone_range", (float[]){f->tone_range.low, f->tone_range.gain, f->tone_range.gamma});
     if (gpu_has_uniform(g, "u_first_light"))
         set_first_light(f);
     if (gpu_has_uniform(g, "u_depths"))
@@ -356,6 +358,8 @@ gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const
     text_append(prelude, "#define DIRECTION_APART %d\n#define TILE_PIXELS %d\n", DIRECTION_APART, TILE_PIXELS);
     if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
         text_append(prelude, "#define HAS_FOCUS\n");
+    if (f->tone_range.automatic)
+        text_append(prelude, "#define RANGED\n");
     return view_program(f->g, dialect, vertex, fragment, prelude);
 }
 

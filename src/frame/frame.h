@@ -5,6 +5,8 @@
 #include "gpu/profile.h"
 #include "limner/maps.h"
 #include "plan/camera.h"
+#include "plan/tone_range.h"
+#include "plan/ground.h"
 #include "plan/plan.h"
 #include "stage/plan_textures.h"
 #include "stage/upload.h"
@@ -40,6 +42,8 @@ typedef struct frame {
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
+    tone_range    tone_range;
+    ground_plane  ground_plane;                /* what the model stands on */
     float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
     int           layers;                      /* drawn by the deepest stack */
     const char   *producer;                    /* of layers; NULL: there were none */
@@ -55,6 +59,9 @@ void frame_draw(frame *f, gpu_texture *out);
 /* The same for pictures of several times. Each is drawn and taken into the mean (RGBA32F, made when *mean is NULL, the
  * caller's to release), of which it is this `part` of all so far; then the mean is encoded. */
 void frame_draw_into_mean(frame *f, gpu_texture **mean, double part);
+/* Instead, laid over each other: each channel of a pixel keeps what differs most from the ground; of this picture, that
+ * is made less by `ink` first. */
+void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink);
 void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out);
 
 /* What one layer was made of: 28 bytes a pixel. */

@@ -41,6 +41,7 @@ typedef struct figure_state {
     int (*boxes)[4];               /* layered: where passes are drawn; NULL: all of `pixels` */
     size_t       box_count;
     bool         filled; /* the fill is drawn with these lines */
+    bool         ground; /* what is shaded is the ground; its light lies beside its colour */
     double       near, far;
     solid_layers solids; /* of the figure and what may hide it */
 } figure_state;
@@ -92,6 +93,10 @@ void shadow_draw(frame *f);
 /* --- visibility.c: soft shadows and ambient occlusion --- */
 /* Draws f->visibility, where the look wants it. The caller gives it back. */
 void visibility_draw(frame *f);
+
+/* --- ground.c: the shadow on the ground --- */
+/* Draws it onto the page, where the look has one and it is seen: by the medium of the first figure, where that can. */
+void ground_draw(frame *f);
 
 /* What solids are evaluated for. */
 solid_view frame_solid_view(frame *f);

@@ -705,7 +705,7 @@ void raster_shade_deferred(frame *f, figure_state *s)
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
     used_textures_declare(&prelude, surface, &s->figure->textures->surface);
-    text_append(&prelude, "#define SHADED_LATER\n");
+    text_append(&prelude, "#define SHADED_LATER\n%s", s->ground ? "#define ON_GROUND\n" : "");
     reads_declare(&prelude, f, s, &shading, NULL);
     char path[160];
     snprintf(path, sizeof path, "%s+layer/deferred.frag", surface->technique->surface->shader);

@@ -46,6 +46,10 @@ static lmn_status read_assimp(const import_job *job, lmn_error *error)
         error_file(error, job->path);
         return status;
     }
+    char ending[16];
+    file_ending(job->path, ending, sizeof ending);
+    if (strcmp(ending, ".3mf") == 0)
+        job->scene->up = 'z'; /* by its specification, which assimp leaves to its users */
     fence_reader r = fence_read(answer.bytes, answer.size);
     status = warn_of_others(job, &r, error);
     if (status == LMN_OK)
@@ -57,4 +61,7 @@ static lmn_status read_assimp(const import_job *job, lmn_error *error)
 const import_format import_assimp = {
     "a format that assimp reads",
     ".fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
-    'y', NULL, read_assimp};
+    'y',
+    false,
+    NULL,
+    read_assimp};

@@ -370,4 +370,4 @@ static lmn_status read_bvh(const import_job *job, lmn_error *error)
     return status;
 }
 
-const import_format import_bvh = {"BVH", ".bvh", 'y', recognises, read_bvh};
+const import_format import_bvh = {"BVH", ".bvh", 'y', false, recognises, read_bvh};

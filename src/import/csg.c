@@ -123,4 +123,4 @@ static lmn_status read_csg(const import_job *job, lmn_error *error)
     return csg_read(job, false, error);
 }
 
-const import_format import_csg = {"OpenSCAD CSG", ".csg", 'z', NULL, read_csg};
+const import_format import_csg = {"OpenSCAD CSG", ".csg", 'z', false, NULL, read_csg};

@@ -287,4 +287,4 @@ static lmn_status read_gltf(const import_job *job, lmn_error *error)
     return r.status;
 }
 
-const import_format import_gltf = {"glTF", ".gltf .glb", 'y', recognises, read_gltf};
+const import_format import_gltf = {"glTF", ".gltf .glb", 'y', false, recognises, read_gltf};

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "import/access.h"
+#include "import/up_axis.h"
 
 /* Asked in this order; the last takes every other ending. */
 static const import_format *const formats[] = {&import_gltf, &import_ply, &import_stl,  &import_obj,
@@ -114,7 +115,10 @@ static lmn_status read_into(const import_job *job, const import_format *format, 
         status = scene_finish(job->scene, job->path, error);
     if (status == LMN_OK)
         status = check_triangles(job, error);
-    job->scene->up = up == LMN_UP_Y ? 'y' : up == LMN_UP_Z ? 'z' : format->up;
+    char own = job->scene->up ? job->scene->up : format->up; /* some of one reader's formats are otherwise */
+    job->scene->up = up == LMN_UP_Y ? 'y' : up == LMN_UP_Z ? 'z' : own;
+    if (status == LMN_OK && up == LMN_UP_AUTO && format->up_guessed && job->model == job->path)
+        status = up_axis_guess(&job->scene->up, job->scene, format->up, format->name, error);
     return status;
 }
 

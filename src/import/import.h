@@ -18,6 +18,7 @@ typedef struct import_format {
     const char *name;                          /* "glTF" */
     const char *endings;                       /* ".gltf .glb" */
     char        up;                            /* the format's convention: 'y' or 'z' */
+    bool        up_guessed;                    /* which is no rule: files have either (up_axis.h) */
     bool (*recognises)(const file_data *file); /* by content; NULL: by ending only */
     lmn_status (*read)(const import_job *job, lmn_error *error);
 } import_format;

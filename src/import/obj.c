@@ -630,4 +630,4 @@ static lmn_status read_obj(const import_job *job, lmn_error *error)
     return status;
 }
 
-const import_format import_obj = {"OBJ", ".obj", 'y', NULL, read_obj};
+const import_format import_obj = {"OBJ", ".obj", 'y', true, NULL, read_obj};

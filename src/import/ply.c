@@ -541,4 +541,4 @@ static lmn_status read_ply(const import_job *job, lmn_error *error)
     return status;
 }
 
-const import_format import_ply = {"PLY", ".ply", 'y', recognises, read_ply};
+const import_format import_ply = {"PLY", ".ply", 'y', true, recognises, read_ply};

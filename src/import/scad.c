@@ -351,4 +351,4 @@ static lmn_status read_scad(const import_job *job, lmn_error *error)
     return status;
 }
 
-const import_format import_scad = {"OpenSCAD", ".scad", 'z', NULL, read_scad};
+const import_format import_scad = {"OpenSCAD", ".scad", 'z', false, NULL, read_scad};

@@ -370,4 +370,4 @@ static lmn_status read_stl(const import_job *job, lmn_error *error)
     return LMN_FORMAT;
 }
 
-const import_format import_stl = {"STL", ".stl", 'z', recognises, read_stl};
+const import_format import_stl = {"STL", ".stl", 'z', false, recognises, read_stl};

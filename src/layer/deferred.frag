@@ -13,7 +13,11 @@ vec4 shade_of(ivec2 pixel, uvec2 id)
     vec3 eye = vec3(ndc * u_unproject * (u_perspective > 0.5 ? normal_depth.w : 1.0), -normal_depth.w);
     vec3 normal = (id.g & SURFACE_TURNED) != 0u ? -normal_depth.xyz : normal_depth.xyz; /* the geometry pass knows the side */
     vec4 albedo = texelFetch(t_albedo, pixel, 0);
+#ifdef ON_GROUND
+    vec4 shade = surface_colour(surface_point(eye, normal, albedo, false, id.r));
+#else
     vec4 shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), albedo.a == ALBEDO_UNLIT, id.r));
+#endif
 #ifdef HAS_CUT
     if ((id.g & SURFACE_CUT) != 0u)
         shade = cut_colour(pixel, id, albedo.rgb);

@@ -69,6 +69,9 @@ float wrapped_light(surface_point p)
  * shape read as two materials. */
 float highlight(surface_point p, float shininess)
 {
+#ifdef ON_GROUND
+    return 0.0; /* paper has none */
+#endif
     vec3 light = towards_light(0, p.eye);
     float strength = step(0.0, dot(p.normal, light)) * min(dot(u_light_colour[0].rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0);
     return unshadowed(p) * sky_fraction(p) * strength * pow(max(dot(reflect(-light, p.normal), towards_viewer(p.eye)), 0.0), shininess);

@@ -9,6 +9,10 @@ extern const kind kind_scene;
 enum { LIGHTS_MAX = 8 };
 
 typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
+/* Which tones are drawn as paper and as black: src/plan/tone_range.h. */
+typedef enum tone_range_kind { TONE_RANGE_NONE, TONE_RANGE_AUTO } tone_range_kind;
+/* What a model stands on: src/plan/ground.h. */
+typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT } ground_kind;
 
 /* The parameters, read by src/plan and src/frame when it sets the scene up. */
 typedef struct scene_values {
@@ -18,6 +22,10 @@ typedef struct scene_values {
     float       light_scale;
     bool        shadows;
     float       shadow_softness, occlusion, occlusion_radius;
+    int32_t     tone_range, ground;
+    float       ground_strength, ground_reach;
+    bool        ground_flat;
+    colour      ground_colour;
     float       focus, focus_at, focus_depth;
     param_words cut, cut_keep;
     float       cut_hatch, cut_angle, cut_width;

@@ -75,15 +75,37 @@ static void shift_references(lmn_scene *s, const offsets *by)
         s->parts[i].node += by->nodes;
 }
 
+/* 0 … 2, and its sign. */
+static int axis_of(char up, int *sign)
+{
+    bool negative = up >= 'X' && up <= 'Z';
+    *sign = negative ? -1 : 1;
+    return up - (negative ? 'X' : 'x');
+}
+
+/* The one axis goes to the other, and that to the first one's back; where both are one, upside down, around another. */
 mat4 scene_up_rotation(char from, char to)
 {
     mat4 m = mat4_identity();
-    if (from == to)
+    int  from_sign, to_sign, first = axis_of(from, &from_sign), second = axis_of(to, &to_sign),
+                            sign = from_sign * to_sign;
+    if (from == to || !from || !to)
         return m;
-    m.m[5] = m.m[10] = 0;
-    m.m[6] = from == 'y' ? 1 : -1;
-    m.m[9] = -m.m[6];
+    if (first == second) {
+        int other = first == 0 ? 1 : 0;
+        for (int k = 0; k < 3; k++)
+            m.m[5 * k] = k == other ? 1 : -1;
+        return m;
+    }
+    m.m[5 * first] = m.m[5 * second] = 0;
+    m.m[4 * first + second] = sign;
+    m.m[4 * second + first] = -sign;
     return m;
+}
+
+char scene_up_together(const lmn_scene *into, const lmn_scene *from)
+{
+    return into->up ? into->up : !from->up || from->up == 'z' ? from->up : 'y';
 }
 
 /* The file's name, with a number behind it when another root has it. */
@@ -204,7 +226,7 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_capacity(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4      position = scene_up_rotation(from->up, into->up ? into->up : from->up);
+    mat4      position = scene_up_rotation(from->up, scene_up_together(into, from));
     char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part     *grown = NULL;
@@ -226,8 +248,7 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     from->parts = list.parts;
     from->part_count = list.part_count;
     from->ghost_count = list.ghost_count;
-    if (!into->up)
-        into->up = from->up;
+    into->up = scene_up_together(into, from);
     commit(into, from, name, path, &position);
     return LMN_OK;
 }

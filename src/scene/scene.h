@@ -272,9 +272,11 @@ uint64_t scene_next_revision(void);
  * set, having nothing to draw is a warning: a valid glTF may hold only cameras, or nothing at all. */
 lmn_status scene_finish(lmn_scene *scene, const char *file, lmn_error *error);
 
-/* Brings the up axis `from` ('y' or 'z') to `to`: a quarter turn about x, with exact zeros so that boxes stay
- * boxes. */
+/* Brings the up axis `from` to `to`, 'y' or 'z', with exact zeros so that boxes stay boxes. `from` may be any axis, in
+ * capitals its negative side. */
 mat4 scene_up_rotation(char from, char to);
+/* The up axis of both together: that of `into`, or else that of `from`, if it is one that scenes may have; else 'y'. */
+char scene_up_together(const lmn_scene *into, const lmn_scene *from);
 
 /* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to
  * `into`'s up axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */

@@ -175,6 +175,16 @@ static void write_frames(const upload *u, const pose *p, mover *movers, const bo
     }
 }
 
+/* Behind all parts, for the ground they stand on: the world's own frame. */
+static void write_ground(const upload *u, bool up_is_y, float *values)
+{
+    float *rows = &values[4 * TEXELS_A_PART * u->part_count];
+    for (int k = 0; k < 3; k++)
+        rows[4 * k + k] = 1;
+    rows[13 + (up_is_y ? 1 : 2)] = 1;
+    rows[16] = 1;
+}
+
 static void set_origin(upload *u)
 {
     box3 box = box3_empty();
@@ -188,7 +198,7 @@ static void set_origin(upload *u)
 static float *frames_of(upload *u, const pose *p)
 {
     const lmn_scene *scene = p->scene;
-    size_t           rows = (u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW;
+    size_t           rows = u->part_count / PARTS_A_ROW + 1;
     float           *values = mem_calloc(rows * TEXELS_A_PART * PARTS_A_ROW, 4 * sizeof *values);
     mover           *movers = mem_calloc(scene->node_count, sizeof *movers);
     bool            *animated = mem_calloc(scene->node_count, sizeof *animated);
@@ -197,6 +207,7 @@ static float *frames_of(upload *u, const pose *p)
     if (done) {
         mark_animated(scene, animated);
         write_frames(u, p, movers, animated, values);
+        write_ground(u, scene->up == 'y', values);
     } else {
         mem_free(values);
     }
@@ -209,7 +220,7 @@ gpu_texture *upload_part_frames(upload *u, gpu *g)
 {
     if (u->part_frames || gpu_failed(g))
         return u->part_frames;
-    int rows = (int)((u->part_count + PARTS_A_ROW - 1) / PARTS_A_ROW), width = TEXELS_A_PART * PARTS_A_ROW;
+    int rows = (int)(u->part_count / PARTS_A_ROW) + 1, width = TEXELS_A_PART * PARTS_A_ROW;
     mem_free(u->part_frame_values);
     u->part_frame_values = frames_of(u, u->pose);
     if (u->part_frame_values) {

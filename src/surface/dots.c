@@ -2,6 +2,7 @@
  * page. Tone comes by their number or by their size. Requirement R-L3 of Freudenberg 2003; for any model, since no
  * texture is laid on it. */
 #include "surface/halftone/halftone.h"
+#include "surface/on_ground.h"
 #include "surface/surface.h"
 
 typedef struct dots {
@@ -45,5 +46,6 @@ const technique surface_dots = {
                                     .direct = true,
                                     .forward_when = HALFTONE_FORWARD_WHEN,
                                     .deferred_when = HALFTONE_DEFERRED_WHEN,
+                                    .on_ground = draws_ground,
                                     .needs = halftone_needs},
 };

@@ -5,6 +5,7 @@
 #include "halftone/tonal_art_map.h"
 
 #include "surface/halftone/halftone.h"
+#include "surface/on_ground.h"
 #include "surface/surface.h"
 
 typedef struct pencil_values {
@@ -121,5 +122,6 @@ const technique surface_pencil = {
                                     .direct = true,
                                     .forward_when = HALFTONE_FORWARD_WHEN,
                                     .deferred_when = HALFTONE_DEFERRED_WHEN,
+                                    .on_ground = draws_ground,
                                     .needs = halftone_needs},
 };

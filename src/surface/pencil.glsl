@@ -73,8 +73,14 @@ vec4 surface_colour(surface_point p)
 #ifdef WITH_GLOSS
     tone += u_gloss * highlight(p, 24.0);
 #endif
+#ifdef ON_GROUND
+    vec3 own = u_ink.rgb; /* the ground has no colour of its own */
+#else
     vec3 own = mix(u_ink.rgb, shown(p.albedo.rgb), u_ink_tint);
+#endif
     float darkness = focused(p, clamp(darkness_in(own, tone), 0.0, 1.0));
+    /* The map ends before paper is covered whole: darkness is counted to there, so that the last tones do not fall together. */
+    darkness *= 1.0 - pow(1.0 - u_tones_facts.w, float(OVERLAYS));
     /* Every time over has its part, so that together they are as dark as wanted. */
     float part = darkness_of_fraction(darkness, 1.0 / float(OVERLAYS));
     vec4 paper = paper_of(p);

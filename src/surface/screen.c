@@ -1,5 +1,6 @@
 /* screen: a halftone screen on the surface, whose grey says up to which light a stroke stays. Freudenberg 2003,
  * sections 6.1 to 6.6; rows IM-02 to IM-20, IM-28 to IM-30. */
+#include "surface/on_ground.h"
 #include "surface/screen_textures.h"
 #include "surface/surface.h"
 
@@ -106,6 +107,7 @@ const technique surface_screen = {
                                     .light_map_when = "whole&coordinates=uv",
                                     .forward_when = HALFTONE_FORWARD_WHEN,
                                     .deferred_when = HALFTONE_DEFERRED_WHEN,
+                                    .on_ground = draws_ground,
                                     .needs = halftone_needs,
                                     .by_material = screen_by_material},
 };

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/store.h"
 #include "surface/halftone/halftone.h"
+#include "surface/on_ground.h"
 #include "surface/surface.h"
 
 typedef struct tonal_art_map_values {
@@ -152,5 +153,6 @@ const technique surface_tonal_art_map = {
                                     .direct = true,
                                     .forward_when = HALFTONE_FORWARD_WHEN,
                                     .deferred_when = HALFTONE_DEFERRED_WHEN,
+                                    .on_ground = draws_ground,
                                     .needs = halftone_needs},
 };

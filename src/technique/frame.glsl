@@ -12,6 +12,7 @@ uniform vec4  u_window_depth; /* of the projection: what makes window depth of e
 uniform vec3  u_first_light;  /* towards the first light that has a direction, eye space */
 uniform vec2  u_depths;       /* eye depth of the nearest and the farthest that is drawn */
 uniform vec2  u_anchor;       /* where the middle of the model is on the page, pixels */
+uniform vec3  u_tone_range;     /* tones that are drawn as no light, gain above, bend: src/plan/tone_range.h */
 uniform float u_time;         /* seconds */
 
 /* The figure that is drawn, and the pass. */

@@ -155,6 +155,9 @@ typedef struct surface_row {
     /* Changes values to those for a material whose picture has strokes in this file (NULL: it has none), for its
      * textures; false: all materials are alike. NULL: always so. */
     bool (*by_material)(void *values, const char *strokes);
+    /* May it draw the shadow on the ground, too, on a page of this colour? Its tone there is p.albedo.a (ON_GROUND).
+     * NULL: no. */
+    bool (*on_ground)(const void *values, colour ground);
     const mark_source *marks; /* what is drawn over it; NULL: nothing */
     /* As vectors. */
     bool (*as_fill)(colour *out, const void *values); /* its one colour, sRGB; false: it has more. NULL: it has more */
@@ -165,6 +168,7 @@ typedef struct surface_row {
 typedef struct motion_row {
     int (*times)(const void *values);                /* pictures: how many; NULL: none */
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
+    bool (*plate)(const void *values); /* the pictures are laid over each other; weights are of their ink */
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
     unsigned (*moved)(const void *values); /* channels that they read of what moves, besides its velocity; NULL: none */

@@ -7,6 +7,7 @@
 #include "vector/vector_private.h"
 #include "finish/finish.h"
 #include "layer/layer.h"
+#include "light/light.h"
 #include "lines/lines.h"
 #include "surface/marks.h"
 
@@ -81,6 +82,8 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
                                                                                                    lines->values);
     options->width = style->width;
     if (technique_draws_strokes(lines->technique)) {
+        if (style->hidden == HIDDEN_NONE)
+            take_layers(options, style, r);
         if (!(style->wobble > 0))
             take_hand(style, r);
         return true;
@@ -125,6 +128,8 @@ bool vector_rule_needs_pixels(const rule *r, colour ground)
 bool vector_needs_pixels(const lmn_look *look)
 {
     colour ground = ((const sheet_values *)look->wide[KIND_FINISH].values)->ground;
+    if (((const scene_values *)look->wide[KIND_SCENE].values)->ground != GROUND_NONE)
+        return true; /* a tone that fades */
     for (size_t i = 0; i < look->rule_count; i++)
         if (vector_rule_needs_pixels(&look->rules[i], ground))
             return true;

@@ -124,7 +124,11 @@ static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 static void lay_ground(vector_job *j)
 {
     const sheet_values *finish = j->look->wide[KIND_FINISH].values;
+    const scene_values *scene = j->look->wide[KIND_SCENE].values;
     j->out->page.ground = j->plan.ground;
+    if (scene->ground != GROUND_NONE && (j->lines_only || j->wanted->fill)) /* where a renderer lacks, that is said */
+        warnings_add(&j->out->warnings, WARNING_UNUSED,
+                     "scene.ground: the shadow on the ground is left out of drawings of lines alone");
     if (finish->paper && !j->pixels)
         warnings_add(&j->out->warnings, WARNING_UNUSED,
                      "finish.paper: the grain of paper is left out of drawings of lines alone");

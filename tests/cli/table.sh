@@ -244,7 +244,7 @@ group_draw() {
     # Strokes and marks lie on meshes.
     row 0 '' 'x.png' draw "$gear" $small --look line --cut x -o x.png
     # Lines that files bring are strokes.
-    printf 'o block\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 1\nv 1 1 2\nv 3 2 2\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\no wire\nl 5 6 7\n' > in-lines.obj
+    printf 'o block\nv 0 0 0\nv 2 0 0\nv 2 0 -2\nv 0 0 -2\nv 1 1 -1\nv 1 2 -1\nv 3 2 -2\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\no wire\nl 5 6 7\n' > in-lines.obj
     row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line && cp x.png in-drawn.png
     row 0 '' 'x.png' draw in-lines.obj $small -o x.png --look line --set lines.drawn=false
     cmp -s x.png in-drawn.png && complain "the file's lines are not drawn"
@@ -254,9 +254,17 @@ group_draw() {
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
-    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look line
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
-    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look line --lenient -o x.png
+    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    # Ways to tell of motion that have a name; vectors have them, too.
+    row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
+    tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
+    row 0 '' 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion ghosts --set motion.contours=3 --report in-m.json -o x.svg
+    grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
+    tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
+    row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
+    row 1 "there is no motion technique 'nosuch'" '' draw "$examples/buggy.glb" $small --time 1 --motion nosuch -o x.png
     # Sizes that cannot be are told before anything is drawn, and the one that is offered is smaller.
     row 2 'needs 20000 pixels a side, the limit is' '' draw "$gear" --size 5000x5000 --samples 16
     row 2 '^hint: with 16 samples at most --size [0-9]+x[0-9]+' '' draw "$gear" --size 5000x5000 --samples 16
@@ -685,9 +693,9 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
     # Plotters, areas, surfaces.
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen">'
-    row 0 '' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
+    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
-    row 0 '' 'x.dxf' draw "$box" --look toon -o x.dxf
+    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.dxf' draw "$box" --look toon -o x.dxf
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease"'
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"

@@ -187,7 +187,16 @@ static void test_without_renderer(void **state)
     assert_non_null(lmn_sheet_warning_at(s, 0, &code, NULL));
     assert_string_equal(code, "no-strokes");
     lmn_sheet_destroy(&s);
+    lmn_sheet_desc alone = LMN_SHEET_DESC_INIT;
+    alone.lines_only = true;
+    s = draw(&f, &alone);
+    assert_int_equal(lmn_sheet_warning_count(s), 1); /* the shadow on the ground is left out */
+    assert_non_null(lmn_sheet_warning_at(s, 0, &code, NULL));
+    assert_string_equal(code, "unused");
+    lmn_sheet_destroy(&s);
     assert_int_equal(lmn_look_set(toon, "surface.technique", "flat", &error), LMN_OK);
+    assert_true(lmn_look_needs_pixels(toon)); /* for its ground */
+    assert_int_equal(lmn_look_set(toon, "scene.ground", "none", &error), LMN_OK);
     assert_false(lmn_look_needs_pixels(toon)); /* white as the page */
     assert_int_equal(lmn_look_set(toon, "surface.colour", "#ffeecc", &error), LMN_OK);
     assert_true(lmn_look_needs_pixels(toon));

@@ -14,7 +14,7 @@ vec4 inked(surface_point p, float tone)
 #if INKS == 2
     /* What each ink must take away from white; black takes what the others have in common. */
     float light = tone / max(mix(1.0, seen_brightness(p.albedo.rgb), u_texture), 0.01);
-    vec3 wanted = mix(vec3(1.0), shown(p.albedo.rgb), u_texture) * clamp(light, 0.0, 1.0);
+    vec3 wanted = clamp(mix(vec3(1.0), shown(p.albedo.rgb), u_texture) * max(light, 0.0), 0.0, 1.0);
     vec3 taken = 1.0 - wanted;
     float black = min(taken.r, min(taken.g, taken.b));
     vec3 rest = black < 1.0 ? (taken - black) / (1.0 - black) : vec3(0.0);

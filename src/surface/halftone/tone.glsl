@@ -24,13 +24,28 @@ float darkness_of(float tone)
     return strokes_are_light() ? tone : 1.0 - tone;
 }
 
+#ifdef RANGED
+float ranged(float tone)
+{
+    return pow(clamp((tone - u_tone_range.x) * u_tone_range.y, 0.0, 1.0), u_tone_range.z);
+}
+#endif
+
 float tone_of_light(surface_point p, float light)
 {
+#ifdef ON_GROUND
+    return p.albedo.a; /* found already: src/frame/ground.c */
+#endif
     float bent = pow(clamp(light, 0.0, 1.0), u_contrast);
 #ifdef WITH_TEXTURE
-    return mix(u_shadow, u_light, bent) * mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
+    float own = mix(1.0, seen_brightness(p.albedo.rgb), u_texture);
 #else
-    return mix(u_shadow, u_light, bent);
+    float own = 1.0;
+#endif
+#ifdef RANGED
+    return mix(u_shadow, u_light, ranged(bent * own));
+#else
+    return mix(u_shadow, u_light, bent) * own;
 #endif
 }
 

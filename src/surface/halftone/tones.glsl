@@ -18,7 +18,7 @@ float map_ink(vec2 at, float level, float darkness)
 #ifdef WITH_RAGGED
     /* Each band as wide as a stroke or two has a border of its own. */
     float own = corner_noise(uint(int(floor(at.y * u_tones_facts.x * 0.4))) * 0x9e3779b1u).y;
-    wanted = clamp(wanted + 0.5 * u_ragged * own * min(wanted, 1.0), 0.0, count);
+    wanted = wanted > 0.0 ? clamp(wanted + 0.5 * u_ragged * own, 0.0, count) : 0.0;
 #endif
     return tone_ink(at, level, floor(wanted + 0.5));
 #endif

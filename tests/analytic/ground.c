@@ -1,0 +1,363 @@
+/* The shadow on the ground against its law, added up column by column in double precision; where it is not; and that
+ * nothing else changes for it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "picture.h"
+#include "shape.h"
+#include "shot.h"
+
+enum { CELLS = 60, HEIGHTS = 80 };
+
+/* What stands over a place of the ground, from a to b; false: nothing. */
+typedef bool (*column_fn)(double x, double z, double *a, double *b);
+
+typedef struct ground_scene {
+    const char *name;
+    column_fn   column;
+    void (*make)(shape *s);
+    double half[2], height; /* of the model, whose middle is above the origin */
+} ground_scene;
+
+static bool ball_column(double x, double z, double *a, double *b)
+{
+    double left = 1 - x * x - z * z;
+    *a = 1 - sqrt(fmax(left, 0));
+    *b = 2 - *a;
+    return left > 0;
+}
+
+static void make_ball(shape *s)
+{
+    shape_sphere(s, "ball", dvec_of(0, 1, 0), 1, 64, 128, true);
+}
+
+static bool box_column(double x, double z, double *a, double *b)
+{
+    *a = 0;
+    *b = 1;
+    return fabs(x) < 0.8 && fabs(z) < 0.6;
+}
+
+static void make_box(shape *s)
+{
+    shape_box(s, "box", dvec_of(-0.8, 0, -0.6), dvec_of(0.8, 1, 0.6));
+}
+
+static bool chair_column(double x, double z, double *a, double *b)
+{
+    *a = fabs(x - 0.5) < 0.2 && fabs(z - 0.4) < 0.2 ? 0 : 0.5;
+    *b = z < -0.4 ? 1.2 : 0.6; /* like a chair */
+    return fabs(x) < 1 && fabs(z) < 0.8;
+}
+
+static void make_chair(shape *s)
+{
+    shape_box(s, "top", dvec_of(-1, 0.5, -0.8), dvec_of(1, 0.6, 0.8));
+    shape_box(s, "leg", dvec_of(0.3, 0, 0.2), dvec_of(0.7, 0.5, 0.6));
+    shape_box(s, "back", dvec_of(-1, 0.6, -0.8), dvec_of(1, 1.2, -0.4));
+}
+
+static bool step_column(double x, double z, double *a, double *b)
+{
+    *a = 0;
+    *b = z < -0.2 ? 1 : 0.05;
+    return fabs(x) < 0.8 && fabs(z) < 0.6;
+}
+
+static void make_step(shape *s)
+{
+    shape_box(s, "plate", dvec_of(-0.8, 0, -0.6), dvec_of(0.8, 0.05, 0.6));
+    shape_box(s, "wall", dvec_of(-0.8, 0.05, -0.6), dvec_of(0.8, 1, -0.2));
+}
+
+static const ground_scene scenes[] = {
+    {"ball", ball_column, make_ball, {1, 1}, 2},
+    {"box", box_column, make_box, {0.8, 0.6}, 1},
+    {"chair", chair_column, make_chair, {1, 0.8}, 1.2},
+    {"step", step_column, make_step, {0.8, 0.6}, 1},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+/* --- the law -------------------------------------------------------------------------------------------- */
+
+typedef struct ground_cell {
+    double x, z, a, b;
+    bool   there;
+} ground_cell;
+
+typedef struct ground_law {
+    ground_cell cells[CELLS][CELLS];
+    double      reach, side[2];
+} ground_law;
+
+static double reach_of(const ground_scene *g)
+{
+    return 0.15 * sqrt(4 * g->half[0] * g->half[0] + 4 * g->half[1] * g->half[1] + g->height * g->height);
+}
+
+static ground_law *law_of(const ground_scene *g)
+{
+    ground_law *law = check_alloc(1, sizeof *law);
+    law->reach = reach_of(g);
+    for (int k = 0; k < 2; k++)
+        law->side[k] = 2 * g->half[k] / CELLS;
+    for (int i = 0; i < CELLS; i++)
+        for (int k = 0; k < CELLS; k++) {
+            ground_cell *c = &law->cells[i][k];
+            c->x = -g->half[0] + (i + 0.5) * law->side[0];
+            c->z = -g->half[1] + (k + 0.5) * law->side[1];
+            c->there = g->column(c->x, c->z, &c->a, &c->b);
+        }
+    return law;
+}
+
+/* Of a Gaussian around a place, what falls between two others. */
+static double between(double from, double to, double around, double deviation)
+{
+    double narrow = 1 / (fmax(deviation, 1e-6) * sqrt(2));
+    return 0.5 * (erf((to - around) * narrow) - erf((from - around) * narrow));
+}
+
+static double law_at(const ground_law *law, double x, double z)
+{
+    double sum = 0, across[CELLS], along[CELLS];
+    for (int n = 0; n < HEIGHTS; n++) { /* each takes as much */
+        double height = -law->reach * log((n + 0.5) / HEIGHTS);
+        for (int i = 0; i < CELLS; i++) {
+            const ground_cell *c = &law->cells[i][0], *d = &law->cells[0][i];
+            across[i] = between(c->x - law->side[0] / 2, c->x + law->side[0] / 2, x, height / 2);
+            along[i] = between(d->z - law->side[1] / 2, d->z + law->side[1] / 2, z, height / 2);
+        }
+        for (int i = 0; i < CELLS; i++)
+            for (int k = 0; k < CELLS; k++) {
+                const ground_cell *c = &law->cells[i][k];
+                if (c->there && height >= c->a && height <= c->b)
+                    sum += across[i] * along[k] / HEIGHTS;
+            }
+    }
+    for (int i = 0; i < CELLS; i++)
+        for (int k = 0; k < CELLS; k++) {
+            const ground_cell *c = &law->cells[i][k];
+            if (c->there)
+                sum += exp(-c->b / law->reach) *
+                       between(c->x - law->side[0] / 2, c->x + law->side[0] / 2, x, c->a / 2) *
+                       between(c->z - law->side[1] / 2, c->z + law->side[1] / 2, z, c->a / 2);
+        }
+    return fmin(sum, 1);
+}
+
+/* --- drawings ------------------------------------------------------------------------------------------- */
+
+static const char *look_of(const char *scene)
+{
+    static char look[512];
+    snprintf(look, sizeof look,
+             "{\"version\":2,\"name\":\"t\",\"scene\":{%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":"
+             "\"flat\"}]}",
+             scene);
+    return look;
+}
+
+static const char *const dark = "\"ground\":\"contact\",\"ground_strength\":1,\"ground_colour\":\"#000000\"";
+
+static shot_view view_of(double degrees, double height, bool orthographic)
+{
+    double angle = degrees * 3.14159265358979 / 180;
+    return (shot_view){.width = 400,
+                       .height = 400,
+                       .eye = {6 * sin(angle), height, 6 * cos(angle)},
+                       .target = {0, 0.3, 0},
+                       .up = {0, 1, 0},
+                       .orthographic = orthographic};
+}
+
+static double darkness_at(const shot *s, int x, int y)
+{
+    return 1 - s->picture[4 * ((size_t)y * (size_t)s->width + (size_t)x)] / 255.0;
+}
+
+/* Where the ray of a pixel meets the ground at a level. */
+static dvec on_ground(const shot *s, int x, int y, double level)
+{
+    dvec origin, direction;
+    shot_ray(s, x + 0.5, y + 0.5, &origin, &direction);
+    return dvec_add(origin, dvec_scale(direction, (level - origin.y) / direction.y));
+}
+
+static void the_law_holds(void)
+{
+    for (int i = 0; i < 2 * SCENES; i++) {
+        const ground_scene *g = &scenes[i / 2];
+        shot_view           view = view_of(25 + 40 * (i % 2), 4 + 2 * (i % 2), i % 2);
+        shape               model = {0};
+        shot                s;
+        g->make(&model);
+        if (shot_of_shape(&s, &model, "ground.glb", look_of(dark), NULL, &view)) {
+            ground_law *law = law_of(g);
+            double      mean = 0, worst = 0, most = 0;
+            int         count = 0, far = 0;
+            for (int y = 3; y < s.height; y += 12)
+                for (int x = 3 + y % 5; x < s.width; x += 13) {
+                    if (s.depth[y * s.width + x] < INFINITY)
+                        continue;
+                    dvec   at = on_ground(&s, x, y, 0);
+                    double wanted = law_at(law, at.x, at.z), off = fabs(darkness_at(&s, x, y) - wanted);
+                    mean += off;
+                    worst = fmax(worst, off);
+                    most = fmax(most, wanted);
+                    far += off > 0.05;
+                    count++;
+                }
+            check_at_least("ground", most, 0.1, "%s: the darkest of %d places beside it", g->name, count);
+            check_at_most("ground", mean / count, 0.006, "%s: mean difference from the law", g->name);
+            /* Where something upright touches, the law has a step, and the map texels. */
+            check_at_most("ground", (double)far / count, 0.005, "%s: fraction of places off by 0.05 (worst %.3f)",
+                          g->name, worst);
+            picture_write_rgba(check_path("%s-%d.png", g->name, i % 2), s.picture, s.width, s.height);
+            free(law);
+            shot_release(&s);
+        }
+        shape_release(&model);
+    }
+}
+
+/* What floats six reaches high leaves the ground beneath it as it is; what stands beside it does not. */
+static void floating_has_none(void)
+{
+    shape     model = {0};
+    shot      s;
+    shot_view view = view_of(0, 6, true);
+    shape_box(&model, "standing", dvec_of(-2, 0, -0.4), dvec_of(-1.2, 0.8, 0.4));
+    shape_box(&model, "floating", dvec_of(1.2, 4, -0.4), dvec_of(2, 4.4, 0.4));
+    if (shot_of_shape(&s, &model, "floating.glb", look_of(dark), NULL, &view)) {
+        dvec beneath = shot_project(&s, dvec_of(1.6, 0, 0)), beside = shot_project(&s, dvec_of(-1.1, 0, 0.0));
+        check_at_most("ground", darkness_at(&s, (int)beneath.x, (int)beneath.y), 0.02, "beneath what floats");
+        check_at_least("ground", darkness_at(&s, (int)beside.x, (int)beside.y), 0.08, "beside what stands");
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
+/* --- where there is none -------------------------------------------------------------------------------- */
+
+static int pixels_changed(const char *scene, const shot_view *view, bool *same_maps)
+{
+    shape model = {0};
+    char  with[256];
+    shot  a, b;
+    int   changed = -1;
+    snprintf(with, sizeof with, "%s%s%s", dark, *scene ? "," : "", scene);
+    make_ball(&model);
+    if (shot_of_shape(&a, &model, "none.glb", look_of(scene), NULL, view)) {
+        if (shot_of_shape(&b, &model, "none.glb", look_of(with), NULL, view)) {
+            changed = shot_differing(&a, &b, 0);
+            *same_maps = memcmp(a.depth, b.depth, sizeof *a.depth * (size_t)(a.width * a.height)) == 0 &&
+                         memcmp(a.id, b.id, sizeof *a.id * (size_t)(a.width * a.height)) == 0 &&
+                         memcmp(a.view, b.view, sizeof a.view) == 0 &&
+                         memcmp(a.projection, b.projection, sizeof a.projection) == 0;
+            shot_release(&b);
+        }
+        shot_release(&a);
+    }
+    shape_release(&model);
+    return changed;
+}
+
+static void nothing_else_changes(void)
+{
+    shot_view below = view_of(30, -3, false), level = view_of(30, 0.3, true), above = view_of(30, 4, false),
+              fitted = {.width = 400, .height = 300, .bare = true};
+    bool same = false;
+    check_near("ground", pixels_changed("", &below, &same), 0, 0, "values that it changes in a view from below");
+    check_near("ground", pixels_changed("", &level, &same), 0, 0, "the same in an elevation with parallel rays");
+    check_near("ground", pixels_changed("\"cut\":\"x=60%\"", &above, &same), 0, 0, "the same in a section");
+    check_at_least("ground", pixels_changed("", &above, &same), 1000, "the same from above");
+    check_that("ground", same, "depths, parts and camera are the same");
+    check_at_least("ground", pixels_changed("", &fitted, &same), 1000, "in a view that is fitted");
+    check_that("ground", same, "and it is fitted to the same");
+}
+
+/* A flat shadow has two tones and a border of a pixel. */
+static void flat_has_one_tone(void)
+{
+    shape     model = {0};
+    shot      s;
+    shot_view view = view_of(25, 5, false);
+    char      scene[256];
+    snprintf(scene, sizeof scene, "%s,\"ground_flat\":true", dark);
+    make_ball(&model);
+    if (shot_of_shape(&s, &model, "flat.glb", look_of(scene), NULL, &view)) {
+        int full = 0, between_tones = 0;
+        for (int i = 0; i < s.width * s.height; i++) {
+            uint8_t value = s.picture[4 * i];
+            bool    empty = !(s.depth[i] < INFINITY);
+            full += empty && value == 0;
+            between_tones += empty && value > 0 && value < 255;
+        }
+        check_at_least("ground", full, 500, "pixels of the flat tone");
+        check_at_most("ground", between_tones, 4 * sqrt(full) * 3, "pixels between it and the paper");
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
+/* --- by the medium -------------------------------------------------------------------------------------- */
+
+/* A screen of dots draws it: nothing but ink and paper, as much ink as the shadow is dark. */
+static void media_draw_it(void)
+{
+    const ground_scene *g = &scenes[0];
+    shape               model = {0};
+    shot                s, plain;
+    shot_view           view = view_of(25, 6, true);
+    static const char  *look =
+        "{\"version\":2,\"name\":\"t\",\"scene\":{%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
+        "\"technique\":\"dots\",\"coordinates\":\"screen\",\"ink\":\"#000000\"}}]}";
+    char with[512], without[512];
+    snprintf(with, sizeof with, look, dark);
+    snprintf(without, sizeof without, look, "\"ground\":\"none\"");
+    view.width = view.height = 600;
+    make_ball(&model);
+    if (shot_of_shape(&s, &model, "medium.glb", with, NULL, &view)) {
+        ground_law *law = law_of(g);
+        double      drawn = 0, wanted = 0;
+        int         count = 0;
+        for (int y = 0; y < s.height; y++)
+            for (int x = 0; x < s.width; x++) {
+                dvec at = on_ground(&s, x, y, 0);
+                if (s.depth[y * s.width + x] < INFINITY || hypot(at.x, at.z) > 1.05 || at.z < 0)
+                    continue;
+                drawn += darkness_at(&s, x, y);
+                wanted += (x + y) % 13 == 0 ? 13 * law_at(law, at.x, at.z) : 0;
+                count++;
+            }
+        check_at_least("ground", count, 2000, "pixels of the shadow");
+        check_near("ground", drawn / count, wanted / count, 0.05, "ink that dots lay there");
+        free(law);
+        if (shot_of_shape(&plain, &model, "medium.glb", without, NULL, &view)) {
+            int outside = 0;
+            for (int i = 0; i < s.width * s.height; i++)
+                outside += s.depth[i] < INFINITY && memcmp(&s.picture[4 * i], &plain.picture[4 * i], 4) != 0;
+            check_at_most("ground", outside, 40, "pixels of the model that are drawn otherwise for it");
+            shot_release(&plain);
+        }
+        picture_write_rgba(check_path("dots.png"), s.picture, s.width, s.height);
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {
+        {"law", the_law_holds},      {"floating", floating_has_none}, {"nothing", nothing_else_changes},
+        {"flat", flat_has_one_tone}, {"media", media_draw_it},
+    };
+    int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
+}

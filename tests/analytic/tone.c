@@ -1,0 +1,135 @@
+/* Tone, measured on finished marks: wedges of the looks that draw tone, and what range of it they draw of models. Tone
+ * is the mean of what is shown (sRGB). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "picture.h"
+#include "shape.h"
+#include "shot.h"
+
+enum { LEVELS = 33, WEDGE = 320, SIDE = 384, CELL = 6 };
+
+static double shown(const uint8_t *rgba)
+{
+    return (0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2]) / 255;
+}
+
+/* The mean of a wall that a look draws at one tone. */
+static double wall(const char *look, double tone)
+{
+    shape       model = {0};
+    shot        s;
+    char        text[32];
+    double      sum = 0;
+    const char *changes[] = {"surface.shadow",
+                             text,
+                             "surface.light",
+                             text,
+                             "surface.texture",
+                             "0",
+                             "scene.ground",
+                             "none",
+                             "lines.operator",
+                             "none",
+                             "perturb.technique",
+                             "none",
+                             NULL};
+    shot_view   view = {
+          .width = WEDGE, .height = WEDGE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true, .without_maps = true};
+    snprintf(text, sizeof text, "%.9g", tone);
+    shape_quad(&model, "wall", 20, 0);
+    bool good = shot_of_shape(&s, &model, "wall.glb", look, changes, &view);
+    for (int i = 0; good && i < WEDGE * WEDGE; i++)
+        sum += shown(&s.picture[4 * (size_t)i]) / (WEDGE * WEDGE);
+    if (good)
+        shot_release(&s);
+    shape_release(&model);
+    return good ? sum : NAN;
+}
+
+/* From the medium's black to its paper in even steps. */
+static void wedges_are_even(void)
+{
+    static const struct {
+        const char *look;
+        double      worst;
+    } media[] = {{"pencil", 0.02}, {"pencil-soft", 0.02}, {"charcoal", 0.02}, {"crayon", 0.02}, {"chalk", 0.02}};
+    for (size_t m = 0; m < sizeof media / sizeof *media; m++) {
+        double means[LEVELS], worst = 0;
+        int    at = 0;
+        for (int i = 0; i < LEVELS; i++)
+            means[i] = wall(media[m].look, (double)i / (LEVELS - 1));
+        for (int i = 0; i < LEVELS; i++) {
+            double off = fabs((means[i] - means[0]) / (means[LEVELS - 1] - means[0]) - (double)i / (LEVELS - 1));
+            at = off > worst ? i : at;
+            worst = fmax(worst, off);
+        }
+        check_at_most("tone", worst, media[m].worst, "%s: off an even wedge from %.3f to %.3f (at step %d)",
+                      media[m].look, means[0], means[LEVELS - 1], at);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Tones of cells that the model fills, from dark to light. */
+static size_t tones_of(const shot *s, double *out)
+{
+    size_t count = 0;
+    for (int y = 0; y + CELL <= s->height; y += CELL)
+        for (int x = 0; x + CELL <= s->width; x += CELL) {
+            double sum = 0;
+            bool   whole = true;
+            for (int i = 0; i < CELL * CELL; i++) {
+                size_t at = (size_t)(y + i / CELL) * (size_t)s->width + (size_t)(x + i % CELL);
+                whole = whole && s->depth[at] < INFINITY;
+                sum += shown(&s->picture[4 * at]) / (CELL * CELL);
+            }
+            if (whole)
+                out[count++] = sum;
+        }
+    qsort(out, count, sizeof *out, by_value);
+    return count;
+}
+
+/* Whatever their colours: highlights stay paper, and the darkest is as dark as the medium goes. */
+static void models_have_all_tones(void)
+{
+    static const char *const models[] = {"spot.obj", "fox.glb", "house.glb", "knot.glb", "pump.glb"}, *const looks[] = {
+                                                                                                          "pencil",
+                                                                                                          "pencil-soft",
+                                                                                                          "charcoal"};
+    static double tones[(SIDE / CELL) * (SIDE / CELL)];
+    for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
+        double black = wall(looks[l], 0), paper = wall(looks[l], 1);
+        for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
+            const char *changes[] = {"lines.operator", "none", NULL};
+            char        path[512];
+            shot        s;
+            shot_view   view = {.width = SIDE, .height = SIDE, .bare = true};
+            snprintf(path, sizeof path, "%s/%s", LIMNER_EXAMPLES, models[m]);
+            if (!shot_take(&s, path, looks[l], changes, &view))
+                continue;
+            size_t count = tones_of(&s, tones);
+            check_at_least("tone", tones[count - 1 - count / 50], 0.93 * paper, "%s in %s: its lightest fiftieth",
+                           models[m], looks[l]);
+            check_at_most("tone", tones[count / 50], black + 0.05, "%s in %s: its darkest fiftieth (black is %.2f)",
+                          models[m], looks[l], black);
+            shot_release(&s);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const check_case cases[] = {{"wedges", wedges_are_even}, {"models", models_have_all_tones}};
+    int                     status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
+}
