@@ -39,6 +39,9 @@ static const motion_way motion_ways[] = {
     {"ghosts", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=5"}},
     {"echoes",
      {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=8", "motion.trailing=true"}},
+    {"plate",
+     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
+      "motion.decay=0.8"}},
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
 };
 
@@ -65,7 +68,8 @@ static const option options[] = {
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
     {"motion", 0, OPTION_TEXT, AT(motion), "WAY",
      "Tell that the model moves, in any look: speed-lines, ghosts (contours where it has been), echoes (their trailing "
-     "side), comic (lines and contours), or a technique of `limner looks`, such as blur or streaks. Needs a time."},
+     "side), comic (lines and contours), plate (the model at several times on one plate), or a technique of `limner "
+     "looks`, such as blur or streaks. Needs a time."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL",
      "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",

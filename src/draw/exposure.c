@@ -59,7 +59,7 @@ lmn_status exposure_find(exposure *out, const plan *p, lmn_error *error)
 /* The i-th picture of the exposure; the last one is of the time that is drawn. */
 static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r, const lmn_scene *scene,
                            const lmn_look *look, const draw_options *options, box3 anchor, gpu_texture **mean,
-                           double part, lmn_error *error)
+                           double part, bool plate, lmn_error *error)
 {
     lmn_draw_desc desc = *options->desc;
     draw_options  one = *options;
@@ -71,7 +71,10 @@ static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r
     if (status == LMN_OK) {
         s->frame.anchor = anchor;
         s->frame.time_s = options->desc->time_s; /* what boils does so from picture to picture, not within one */
-        frame_draw_into_mean(&s->frame, mean, part);
+        if (plate)
+            frame_draw_onto_plate(&s->frame, mean, part);
+        else
+            frame_draw_into_mean(&s->frame, mean, part);
         status = gpu_check(r->g, error);
     }
     warnings_release(&said);
@@ -99,6 +102,7 @@ lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, co
     draw_options         one = *options;
     pose                 held;
     double               sum = 0;
+    bool                 plate = row->plate && row->plate(e->values);
     lmn_status           status = pose_create(&held, scene, &r->pose.when, error);
     one.held = &held;
     one.moves = e->moves;
@@ -113,7 +117,11 @@ lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, co
         if (i > 0)
             session_close(s);
         if (status == LMN_OK)
-            status = draw_one(e, i, s, r, scene, look, &one, anchor, &mean, sum > 0 ? weight / sum : 1, error);
+            status = draw_one(e, i, s, r, scene, look, &one, anchor, &mean,
+                              plate     ? weight
+                              : sum > 0 ? weight / sum
+                                        : 1,
+                              plate, error);
     }
     if (status == LMN_OK) {
         frame_encode_mean(&s->frame, mean, s->out);

@@ -3,22 +3,38 @@
  * border remains, so what irregular triangles do to single ones cancels out. The sum of bent edges (Alliez et al.
  * 2003), tried on the same discs, is as good on regular triangles, and far worse on irregular ones: on a dense
  * ellipsoid with jittered vertices 95 % of its directions are within 13.5 degrees, of these within 2.2. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "base/work.h"
 #include "field/direction_field_private.h"
 
 enum {
     PIECE = 8192,       /* per thread at least */
     STEPS_OF_THREE = 7, /* steps of smoothing that spread as far as a disc of three edges does */
     STEPS_MAX = 64,
-    STEPS_OF_DIRECTION = 3
+    STEPS_OF_DIRECTION = 3,
+    STEPS_OF_NORMALS = 8,
+    ROUGH_LEAST = 2000, /* elements: what has fewer is no scan */
+    SCALES = 3, /* discs over which rough surfaces are measured: each three times as many steps as the one before */
 };
+
+/* What is left of bends after the first steps: single triangles of scans bend more than twice as much as discs of them
+ * do, those of what was modelled, whatever triangles it has, less than half as much again. */
+static const double rough_from = 1.9;
 
 /* Curvature times the model's diagonal: below the first number the surface counts as flat, from ten times that on
  * as bent. */
 static const double flat_below = 0.02;
+
+/* Of a surface while its field is made. */
+typedef struct field_values {
+    tensor *tensors, *flow; /* per element; room for one a triangle */
+    bool   *flat;           /* per element */
+    bool    rough;
+} field_values;
 
 typedef struct curvature_job {
     const field_surface *surface;
@@ -150,20 +166,116 @@ static int smoothing_steps(const field_surface *s, double radius)
     return steps < 1 ? 1 : steps > STEPS_MAX ? STEPS_MAX : (int)(steps + 0.5);
 }
 
-static bool make_tensors(const field_surface *s, double radius, tensor *values, tensor *flow, bool *flat)
+static int by_size(const void *a, const void *b)
 {
-    curvature_job job = {.surface = s, .triangles = flow, .elements = values, .flat = flat};
+    float x = *(const float *)a, y = *(const float *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The median of how much elements bend; −1: memory is gone. */
+static double middle_bend(const field_surface *s, const tensor *values)
+{
+    float *sizes = mem_alloc(s->element_count * sizeof *sizes);
+    if (!sizes)
+        return -1;
+    for (size_t e = 0; e < s->element_count; e++) {
+        sizes[e] = 0;
+        for (int k = 0; k < 6; k++)
+            sizes[e] += (k < 3 ? 1.0f : 2.0f) * values[e].v[k] * values[e].v[k];
+    }
+    qsort(sizes, s->element_count, sizeof *sizes, by_size);
+    double middle = s->element_count ? sqrt((double)sizes[s->element_count / 2]) : 0;
+    mem_free(sizes);
+    return middle;
+}
+
+/* Do two bends lie the same way, but for a right angle, within 15 degrees? */
+static bool same_cross(const field_surface *s, size_t e, const tensor *one, const tensor *other)
+{
+    point3 u, v;
+    double a[2], b[2];
+    tangents(s->normals[e], &u, &v);
+    tensor_traceless(one, u, v, &a[0], &a[1]);
+    tensor_traceless(other, u, v, &b[0], &b[1]);
+    double along = a[0] * b[0] + a[1] * b[1], both = (a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]);
+    return 2 * along * along >= 1.5 * both;
+}
+
+/* Each element takes the smallest disc that the next wider one agrees with. */
+static bool choose_scales(const field_surface *s, tensor *values, tensor *flow, int steps)
+{
+    size_t  count = s->element_count;
+    tensor *chosen = mem_copy(values, count * sizeof *values), *last = mem_copy(values, count * sizeof *values);
+    bool   *settled = mem_calloc(count, sizeof *settled), good = chosen && last && settled;
+    for (int k = 1, more = 2 * steps; k < SCALES && good; k++, more *= 3) {
+        for (int i = 0; i < more && good; i++) {
+            field_smooth(s, values, flow, NULL);
+            good = !work_stopped();
+        }
+        for (size_t e = 0; e < count && good; e++) {
+            if (!settled[e] && same_cross(s, e, &last[e], &values[e]))
+                settled[e] = true;
+            else if (!settled[e])
+                chosen[e] = values[e];
+            last[e] = values[e];
+        }
+    }
+    if (good && count)
+        memcpy(values, chosen, count * sizeof *values);
+    mem_free(chosen);
+    mem_free(last);
+    mem_free(settled);
+    return good;
+}
+
+/* Curvature over discs; *rough: the surface is a scan, or as uneven as one. False when memory is gone. */
+static bool make_bends(const field_surface *s, curvature_job *job, int steps, bool *rough)
+{
+    threads_for(s->triangle_count, PIECE, bend_triangles, job);
+    threads_for(s->element_count, PIECE, bend_elements, job);
+    double first = middle_bend(s, job->elements);
+    for (int i = steps; i > 1; i--)
+        field_smooth(s, job->elements, job->triangles, NULL);
+    double left = middle_bend(s, job->elements);
+    *rough = steps >= STEPS_OF_THREE && s->element_count >= ROUGH_LEAST && first > rough_from * left;
+    return first >= 0 && left >= 0;
+}
+
+/* Noise turns normals too, and what is carried along the surface turns with them. */
+static bool smooth_normals(field_surface *s)
+{
+    point3 *sums = mem_alloc(s->element_count * sizeof *sums);
+    for (int i = 0; sums && i < STEPS_OF_NORMALS; i++) {
+        for (uint32_t e = 0; e < s->element_count; e++) {
+            sums[e] = (point3){0, 0, 0};
+            for (uint32_t k = s->starts[e]; k < s->starts[e + 1]; k++)
+                for (uint32_t c = s->around[k] / 3 * 3, end = c + 3; c < end; c++)
+                    sums[e] = point_add(sums[e], s->normals[s->corners[c]]);
+        }
+        for (uint32_t e = 0; e < s->element_count; e++)
+            s->normals[e] = point_unit_or(sums[e], s->normals[e]);
+    }
+    mem_free(sums);
+    return sums != NULL;
+}
+
+static lmn_status make_tensors(field_surface *s, double radius, field_values *v, lmn_error *error)
+{
+    curvature_job job = {.surface = s, .triangles = v->flow, .elements = v->tensors, .flat = v->flat};
+    int           steps = smoothing_steps(s, radius);
     /* Averaging over the disc leaves about a third of what rounding does to single triangles. */
     job.flat_below = fmax(flat_below, 0.3 * s->rounding / (s->mean_edge * s->mean_edge));
-    threads_for(s->triangle_count, PIECE, bend_triangles, &job);
-    threads_for(s->element_count, PIECE, bend_elements, &job);
-    for (int i = smoothing_steps(s, radius); i > 1; i--)
-        field_smooth(s, values, flow, NULL);
+    if (!make_bends(s, &job, steps, &v->rough))
+        return error_memory(error);
+    if (v->rough && s->cut)
+        return LMN_OK;
+    if (v->rough && (!choose_scales(s, v->tensors, v->flow, steps) || !smooth_normals(s)))
+        return error_memory(error);
     threads_for(s->element_count, PIECE, make_directions, &job);
     for (int i = 0; i < STEPS_OF_DIRECTION; i++)
-        field_smooth(s, values, flow, NULL);
-    flatten(s, values);
-    return field_carry(s, values, flat);
+        field_smooth(s, v->tensors, v->flow, NULL);
+    flatten(s, v->tensors);
+    return field_cross(s, v->tensors, v->flat, v->rough) ? LMN_OK : error_memory(error);
 }
 
 /* Gives each vertex the tensor of its first element, and each further element of a vertex a tensor behind those. */
@@ -209,22 +321,39 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
     return out->tensors != NULL;
 }
 
+static lmn_status make_field(direction_field *out, const primitive *p, double feature_angle, double radius, bool *again,
+                             lmn_error *error)
+{
+    field_surface s;
+    lmn_status    status = field_surface_make(&s, p, feature_angle, error);
+    *again = false;
+    if (status != LMN_OK)
+        return status;
+    field_values v = {.tensors = mem_alloc(s.element_count * sizeof *v.tensors),
+                      .flow = mem_alloc(s.triangle_count * sizeof *v.flow),
+                      .flat = mem_calloc(s.element_count, sizeof *v.flat)};
+    status = v.tensors && v.flow && v.flat ? make_tensors(&s, radius, &v, error) : error_memory(error);
+    *again = status == LMN_OK && v.rough && s.cut;
+    if (status == LMN_OK && !*again && !hand_out(out, p, &s, v.tensors))
+        status = error_memory(error);
+    mem_free(v.tensors);
+    mem_free(v.flow);
+    mem_free(v.flat);
+    field_surface_release(&s);
+    return status;
+}
+
 lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,
                                 lmn_error *error)
 {
-    field_surface s;
+    const double none = 4; /* radians */
+    bool         again;
     memset(out, 0, sizeof *out);
-    lmn_status status = field_surface_make(&s, p, feature_angle, error);
-    if (status != LMN_OK)
-        return status;
-    tensor *values = mem_alloc(s.element_count * sizeof *values), *flow = mem_alloc(s.triangle_count * sizeof *flow);
-    bool   *flat = mem_calloc(s.element_count, sizeof *flat);
-    bool good = values && flow && flat && make_tensors(&s, radius, values, flow, flat) && hand_out(out, p, &s, values);
-    mem_free(values);
-    mem_free(flow);
-    mem_free(flat);
-    field_surface_release(&s);
-    return good ? LMN_OK : error_memory(error);
+    lmn_status status = make_field(out, p, feature_angle, radius, &again, error);
+    /* What look like features of a scan is noise. */
+    if (again)
+        status = make_field(out, p, none, radius, &again, error);
+    return status;
 }
 
 void direction_field_release(direction_field *f)

@@ -1,6 +1,7 @@
 /* Along which way a surface bends: a field of directions without sign, one symmetric tensor a vertex, which may be
  * interpolated where directions may not. Großmann 2011, section 3.2.3.2; Müller, section 4.1; rows Großmann 6, P26
- * (Alliez et al. 2003, with the printed traps there mended). */
+ * (Alliez et al. 2003, with the printed traps there mended). Where the surface is not sure of itself the direction is
+ * an arm of a field of crosses (Hertzmann and Zorin 2000; solved after Knöppel et al. 2013 and Jakob et al. 2015). */
 #ifndef LIMNER_FIELD_DIRECTION_FIELD_H
 #define LIMNER_FIELD_DIRECTION_FIELD_H
 
@@ -18,12 +19,14 @@ typedef struct direction_field {
 
 /* Of a primitive's vertices (not of render vertices; the corners at one position get the same unless edges sharper
  * than `feature_angle` (radians) lie between). Curvature is measured over discs of about `radius` (model units; 0:
- * three edges, wherever they are short or long; at most about nine mean edges) and smoothed; where nothing bends,
- * sure directions nearby are carried on, with a sureness that stays below 0.1. A flat piece has one direction: that
- * of what bends around it, else that of its border, along its longer side. Robust on open, non-manifold, degenerate
- * and tiny meshes: never a NaN; vertices that no triangle uses have zeros. Size and position of the model do not
- * matter. One million triangles take less than 3 s on two cores. Errors: LMN_MEMORY. Free with
- * direction_field_release. */
+ * three edges, wherever they are short or long; at most about nine mean edges); of scans, which are rough as far as
+ * their noise goes, over the smallest of three discs that the next one agrees with, and without features. Over the
+ * whole surface crosses are laid that are as smooth as what is sure allows, turn no more often than they must, and
+ * stand along features; of the two arms that of the greater bend is taken, else the level one (y is up). Where nothing
+ * is sure, the sureness stays below 0.1. A flat piece has one direction: that of what bends around it, else that of its
+ * border, along its longer side. Robust on open, non-manifold, degenerate and tiny meshes: never a NaN; vertices that
+ * no triangle uses have zeros. Size and position of the model do not matter. One million triangles take less than 3 s
+ * on two cores. Errors: LMN_MEMORY. Free with direction_field_release. */
 lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,
                                 lmn_error *error);
 void       direction_field_release(direction_field *f);

@@ -31,8 +31,10 @@ typedef struct field_surface {
     point3   *normals;         /* per element, unit */
     point3   *directions;      /* per triangle: unit normal by its own winding, 0 without an area */
     double   *areas;           /* per triangle */
+    bool     *features;        /* 3 per triangle: the half-edge is a feature edge, not a border */
     bool     *turned;          /* per triangle: its winding disagrees with the first of its piece */
     double    size, mean_edge; /* the diagonal in model units; the mean length of an edge, diagonal 1 */
+    bool      cut;             /* some edge is sharper than the feature angle */
     double    rounding;        /* what a float rounds away from positions, diagonal 1 */
 } field_surface;
 
@@ -60,9 +62,17 @@ uint32_t field_surface_element(const field_surface *s, const primitive *p, uint3
 /* One step of smoothing: to the triangles, and back by area. `flow` has room for a tensor a triangle. */
 void field_smooth(const field_surface *s, tensor *values, tensor *flow, const bool *fixed);
 
-/* Carries unit tensors from sure elements to the others. `own` are tensors T; out: what is to stand there. False
- * when memory is gone. */
-bool field_carry(const field_surface *s, tensor *own, const bool *flat);
+/* The tensor laid into an element's tangent plane, as sure as can be; false when nothing is left of it. */
+bool field_unit_in_plane(point3 normal, const tensor *t, tensor *out);
+
+/* Gives each flat element the direction of its piece, as a unit tensor: that of the sure elements around it, else that
+ * of its border, along its longer side. False when memory is gone. */
+bool field_flat_directions(const field_surface *s, const bool *flat, const bool *sure, tensor *units);
+
+/* From what elements know, tensors T, a cross field over all of them, and which of the arms of each cross is meant;
+ * out: what is to stand there. What rough surfaces know is trusted less. False when memory is gone or work is to stop.
+ */
+bool field_cross(const field_surface *s, tensor *own, const bool *flat, bool rough);
 
 static inline point3 point_add(point3 a, point3 b)
 {

@@ -160,6 +160,7 @@ static void join_corners(field_surface *s, const primitive *m, uint32_t *parents
         /* A triangle without a direction goes along with any. */
         if (cosine < cos_feature && point_dot(a, a) > 0 && point_dot(b, b) > 0) {
             s->opposite[h] = s->opposite[o] = NOWHERE;
+            s->features[h] = s->features[o] = s->cut = true;
             continue;
         }
         bool same = same_direction(m, h, o);
@@ -245,7 +246,8 @@ static bool make_surface(field_surface *s, const primitive *p, uint32_t *indices
     s->directions = mem_alloc(s->triangle_count * sizeof *s->directions);
     s->areas = mem_alloc(s->triangle_count * sizeof *s->areas);
     s->turned = mem_calloc(s->triangle_count, sizeof *s->turned);
-    if (!s->opposite || !s->corners || !s->around || !s->directions || !s->areas || !s->turned)
+    s->features = mem_calloc(m.index_count, sizeof *s->features);
+    if (!s->opposite || !s->corners || !s->around || !s->directions || !s->areas || !s->turned || !s->features)
         return false;
     find_scale(s, &m, &centre);
     measure_triangles(s, &m, centre);
@@ -270,8 +272,8 @@ lmn_status field_surface_make(field_surface *out, const primitive *p, double fea
 
 void field_surface_release(field_surface *s)
 {
-    void *const blocks[] = {s->triangles, s->kept,      s->ids,     s->corners,    s->opposite, s->starts,
-                            s->around,    s->positions, s->normals, s->directions, s->areas,    s->turned};
+    void *const blocks[] = {s->triangles, s->kept,    s->ids,        s->corners, s->opposite, s->starts,  s->around,
+                            s->positions, s->normals, s->directions, s->areas,   s->turned,   s->features};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     memset(s, 0, sizeof *s);

@@ -187,23 +187,38 @@ void frame_draw(frame *f, gpu_texture *out)
     release_page(f);
 }
 
-void frame_draw_into_mean(frame *f, gpu_texture **mean, double part)
+/* Draws the page and makes the next of pictures that are taken together; `value` is what the program is told. */
+static void take_page(frame *f, gpu_texture **all, const char *fragment, const char *uniform, double value)
 {
     text         prelude = {0};
+    float        ground[4];
     gpu_texture *next = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA32F);
     draw_page(f);
-    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "motion/mean.frag", &prelude);
+    frame_ground(f, ground);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", fragment, &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {next}, .colour_count = 1});
         gpu_use(f->g, p, (gpu_state){0});
         gpu_set_texture(f->g, "t_page", f->page, false);
-        gpu_set_texture(f->g, "t_mean", *mean ? *mean : f->page, false);
-        gpu_set_float(f->g, "u_part", (float)part);
+        gpu_set_texture(f->g, "t_mean", *all ? *all : f->page, false);
+        gpu_set_float(f->g, uniform, (float)value);
+        gpu_set_vec4(f->g, "u_ground", ground);
+        gpu_set_int(f->g, "u_first", *all == NULL);
         gpu_draw_screen(f->g);
     }
     release_page(f);
-    gpu_target_release(f->g, *mean);
-    *mean = next;
+    gpu_target_release(f->g, *all);
+    *all = next;
+}
+
+void frame_draw_into_mean(frame *f, gpu_texture **mean, double part)
+{
+    take_page(f, mean, "motion/mean.frag", "u_part", part);
+}
+
+void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink)
+{
+    take_page(f, plate, "motion/plate.frag", "u_ink", ink);
 }
 
 void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out)

@@ -32,6 +32,18 @@ typedef struct mark_dot {
 /* By how much pieces may leave the surface of a stroke that bends, fraction of its length. */
 #define MARK_SAG 0.012
 
+/* How many widths of its strip a line that flows knows, and the most points that lines are followed in. */
+enum { FLOW_SPACES = 4, FLOW_POINTS_MAX = 8000000 };
+
+/* An end of a piece of a line that flows. */
+typedef struct flow_end {
+    vec3  normal;
+    float to_end;              /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
+    float spaces[FLOW_SPACES]; /* how wide its strip is once its level, and the ones after it, are whole: fractions of
+                                  what it would be if all were even; later ones are about 1 */
+} flow_end;
+#define FLOW_ENDLESS 1e30f
+
 /* A straight piece of a stroke, on one triangle or over small ones. Pieces of a stroke follow each other. */
 typedef struct mark_line {
     vec3  a, b, normal;
@@ -45,6 +57,9 @@ typedef struct mark_line {
     float    density;  /* length of all strokes there to a unit of area */
     float    bright;   /* as a dot's */
     uint32_t triangle, stroke;
+    flow_end ends[2]; /* of lines that flow: these decide about themselves all along */
+    float    rank;    /* the level at which it comes, 0 … */
+    uint8_t  level, set;
 } mark_line;
 
 /* Marks of one surface. */
@@ -56,7 +71,11 @@ typedef struct marks {
     size_t          stroke_count;
     double          area;        /* of the surface, model units */
     double          line_length; /* of all lines */
-    const uint32_t *parts;       /* per triangle: index of its part, borrowed; NULL: nobody asks */
+    bool            flow;        /* lines flow: marks_flow.c */
+    double          apart;       /* then: of those of level 0, model units */
+    int             levels;
+    double          sag;   /* how far pieces may leave the surface */
+    const uint32_t *parts; /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
 
@@ -116,23 +135,38 @@ bool mark_clip_line(const double a[2], const double b[2], const double corners[3
 /* Barycentric coordinates; false when the triangle has no area. */
 bool mark_barycentrics(const double p[2], const double corners[3][2], double out[3]);
 
-/* --- strokes that follow a surface (marks_trace.c) ------------------------------------------------------ */
+/* --- strokes in planes (marks_trace.c) ------------------------------------------------------------------ */
 
 typedef struct trace_options {
-    size_t count;  /* of strokes */
-    double length; /* of a stroke, model units */
-    float  uneven; /* how much lengths and directions differ, 0 … 1 */
-    int    series; /* 1 … 4: sets of strokes that cross; later ones for darker positions */
-    float  turn;   /* angle between one set and the next, radians */
-    bool   bends; /* strokes run along the direction in which the surface bends: field/direction_field.h. Else in planes
-                     through the model */
+    size_t   count;  /* of strokes */
+    double   length; /* of a stroke, model units */
+    float    uneven; /* how much lengths and directions differ, 0 … 1 */
+    int      series; /* 1 … 4: sets of strokes that cross; later ones for darker positions */
+    float    turn;   /* angle between one set and the next, radians */
     uint32_t seed;
 } trace_options;
 
 /* Strokes begin at evenly spread positions and walk both ways over the surface, each in a plane of its own, until they
- * are long enough or come to a border or a sharp edge. For meshes without texture coordinates. Errors: LMN_MEMORY,
- * LMN_LIMIT. */
+ * are long enough or come to a border or a sharp edge. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error);
+
+/* --- strokes along the form (streamlines_*.c) ----------------------------------------------------------- */
+
+typedef struct flow_options {
+    double apart;  /* of lines where all are there, model units */
+    int    levels; /* of lines, each with half the distance of the one before; that of the first is all this doubled */
+    double length; /* mean length of strokes that lines are cut into, model units; 0: whole lines */
+    float  uneven; /* how much lengths differ, 0 … 1 */
+    int    series; /* 1 … 4: sets of lines that cross */
+    float  turn;   /* angle between one set and the next, radians */
+    double sag;    /* how far pieces may leave the surface, model units */
+    bool   whole;  /* strokes are drawn whole, by their middle (marks_law.c), instead of flowing (marks_flow.c) */
+    uint32_t seed;
+} flow_options;
+
+/* Lines along the directions in which a surface bends (field/direction_field.h), evenly spaced at each level, with
+ * those of coarser levels among those of finer ones; none crosses another of its set. Errors: LMN_MEMORY, LMN_LIMIT. */
+lmn_status marks_streamlines(marks *out, const mark_surface *s, const flow_options *options, lmn_error *error);
 
 /* --- on what moves (marks_carry.c) ---------------------------------------------------------------------- */
 
@@ -206,8 +240,27 @@ float mark_line_ink(const mark_line *line, float light_fraction, float fraction,
  * touch cover less. */
 float mark_ink_of_cover(float cover, float rim);
 /* The same for strokes, in layers of `span` (a fraction of all) of strokes side by side that cross those before; 0:
- * strewn at random. `darkest`: of all strokes. */
-float mark_ink_of_strokes(float cover, float darkest, float span);
+ * strewn at random. `darkest`: of all strokes. `crowded`: how far those of one set are from being side by side, to
+ * being strewn at random. */
+#define MARK_CROWDED_IN_PLANES 0.24f /* measured */
+float mark_ink_of_strokes(float cover, float darkest, float span, float crowded);
+
+/* --- lines that flow (marks_flow.c; surface/marks_lines.vert is the same for the GPU) ------------------- */
+
+/* Over how much of a level a line grows from its rank on: all of a level grow at nearly the same time, so that lines on
+ * the page are as far apart everywhere; their ranks differ by FLOW_UNEVEN, so that ends do not line up. */
+#define FLOW_RAMP   0.5
+#define FLOW_UNEVEN 0.3
+
+/* How much of the page the lines of a set cover, for a position to be this dark: the first carries it alone up to
+ * `crossed`, and what it leaves bare later ones cover alike. */
+double mark_cover_of_set(double darkness, double crossed, int set, int series);
+/* How wide a line is, model units, where `level` is wanted: log2 of the distance of level 0 over the wanted one.
+ * `apart`: distance of level 0. */
+/* A line's own width, 1 ± uneven / 2. */
+double mark_flow_swell(const mark_line *line, double uneven);
+double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], double apart, int levels, double level,
+                       double cover);
 
 /* --- what is drawn of them, on a page (marks_page.c) ---------------------------------------------------- */
 
@@ -215,11 +268,16 @@ enum { MARK_LIGHTS_MAX = 8 };
 
 /* How marks look and what decides. */
 typedef struct mark_style {
-    float   diameter;   /* of dots, or width of strokes, pixels */
-    float   scale;      /* strokes: mean distance where it is darkest, pixels */
-    float   fade, most; /* ramp; how much larger dots may become, times their area */
-    float   taper;      /* fraction of a stroke over which each end runs out */
-    int32_t law;        /* mark_law, of strokes */
+    float   diameter;                   /* of dots, or width of strokes, pixels */
+    float   scale;                      /* strokes: mean distance where it is darkest, pixels */
+    float   fade, most;                 /* ramp; how much larger dots may become, times their area */
+    float   taper;                      /* fraction of a stroke over which each end runs out */
+    int32_t law;                        /* mark_law, of strokes */
+    float   crowded;                    /* mark_ink_of_strokes */
+    float   crossed, least, tip, swell; /* lines that flow: darkness from which sets cross; cover below which lines run
+                                           out; how pointed ends are; unevenness of widths. `taper` is in distances
+                                           of lines */
+    int32_t series;
     float   shadow, light, contrast,
         texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */
     bool white;  /* marks stand for light */

@@ -78,6 +78,11 @@ static void carry_line(mark_line *l, const mark_surface *before, const mark_surf
     l->b = narrow(point_at(&to, b));
     double x = fmin(fmax((a.x + b.x) / 2, 0), 1), y = fmin(fmax((a.y + b.y) / 2, 0), 1 - x);
     l->normal = narrow(normal_at(now, l->triangle, x, y));
+    for (int end = 0; end < 2; end++) {
+        const d3 *at = end ? &b : &a;
+        double    u = fmin(fmax(at->x, 0), 1), v = fmin(fmax(at->y, 0), 1 - u);
+        l->ends[end].normal = narrow(normal_at(now, l->triangle, u, v));
+    }
 }
 
 static bool same_point(vec3 a, vec3 b)

@@ -104,10 +104,8 @@ static float cover_of_ink(float ink)
     return v <= 0 ? ink : 0.311f + (sum - sqrtf(sum * sum - 4 * 0.844f * 0.769f * v)) / (2 * 0.844f);
 }
 
-float mark_ink_of_strokes(float cover, float darkest, float span)
+float mark_ink_of_strokes(float cover, float darkest, float span, float crowded)
 {
-    const float CROWDED =
-        0.24f; /* how far strokes of one set are from being side by side, to being strewn at random: measured */
     float bare = 1, wanted = fmaxf(1 - clamped(cover), 1e-4f), ink = 0;
     if (!(span > 0))
         return fminf(-logf(wanted), darkest);
@@ -115,7 +113,7 @@ float mark_ink_of_strokes(float cover, float darkest, float span)
     for (int set = 0; set < (int)(1 / span + 0.5f); set++) { /* each as far as its own strokes go */
         float c = fminf(clamped(1 - wanted / bare), most);
         float even = mark_ink_of_cover(c, 0);
-        ink += even + CROWDED * (-logf(fmaxf(1 - c, 1e-3f)) - even);
+        ink += even + crowded * (-logf(fmaxf(1 - c, 1e-3f)) - even);
         bare *= 1 - c;
     }
     return fminf(ink, darkest);

@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 
+static const float THINNEST = 0.03f; /* pixels: what flows thinner is not seen */
+
 typedef struct position_on_page {
     double eye[3], normal[3]; /* towards the viewer's side */
     float  x, y;              /* pixels, y down */
@@ -236,8 +238,34 @@ static float stroke_ink(const pager *g, const mark_line *l)
     double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
     double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
     double fraction = mark_fraction((mark_law)g->style->law, p.eye, p.normal, direction, d, g->view->orthographic);
-    double ink = (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span) / darkest;
+    double ink =
+        (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span, g->style->crowded) /
+        darkest;
     return mark_line_ink(l, (float)fmin(ink, 1), (float)fraction, g->style->fade);
+}
+
+/* How wide a line that flows is at an end of a piece, pixels: surface/marks_lines.vert in doubles. */
+static float flow_width(const pager *g, const marks *m, const mark_line *l, int end)
+{
+    const flow_end  *e = &l->ends[end];
+    double           stretch, direction[3];
+    position_on_page p = find_position(g, end ? l->b : l->a, e->normal, &stretch);
+    if (!p.inside || (p.facing <= 0 && !g->backs))
+        return 0;
+    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, direction);
+    double length = fmax(sqrt(dot(direction, direction)), 1e-300), least = (double)g->style->least;
+    for (int k = 0; k < 3; k++)
+        direction[k] /= length;
+    double across = mark_fraction(MARK_LAW_LINE, p.eye, p.normal, direction, g->focal, g->view->orthographic),
+           scale = (double)g->style->scale, level = log2(fmax(m->apart * across / scale, 1e-6));
+    double cover =
+        mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set, g->style->series) *
+        mark_flow_swell(l, (double)g->style->swell);
+    double thin = least > 0 ? fmin(fmax((cover - 0.25 * least) / (0.75 * least), 0), 1) : 1;
+    double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
+           left = fmin(fmax((double)l->ends[end].to_end / fmax(taper, 1e-20), 0), 1);
+    cover *= thin * thin * (3 - 2 * thin) * pow(left, (double)g->style->tip);
+    return (float)(mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across);
 }
 
 /* What ends leave of the width. */
@@ -273,11 +301,22 @@ static bool add_point(stretch_walk *w, const mark_line *l, float x, float y, flo
     return true;
 }
 
-/* Lines of one point are none. */
+/* Lines of one point are none; nor are, of lines that flow, stubs that look out from behind an outline. */
+static bool is_line(const stretch_walk *w, const marks_page_line *l)
+{
+    const marks_page_point *p = &w->out->points[l->first];
+    float                   length = 0, widest = p->width;
+    for (uint32_t i = 1; i < l->count; i++) {
+        length += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+        widest = fmaxf(widest, p[i].width);
+    }
+    return l->count >= 2 && (!w->marks->flow || length > 1.5f * widest);
+}
+
 static void close_line(stretch_walk *w)
 {
     marks_page *out = w->out;
-    if (w->open && out->lines[out->line_count - 1].count < 2) {
+    if (w->open && !is_line(w, &out->lines[out->line_count - 1])) {
         out->point_count -= out->lines[out->line_count - 1].count;
         out->line_count--;
     }
@@ -287,9 +326,9 @@ static void close_line(stretch_walk *w)
 /* From a piece to above the surface that it is a chord of, on the viewer's side: its own surface hides no stroke.
  * Twice as far as chords may leave it, since strokes run over folds of up to 60 degrees, of which the chord has one
  * side's normal. */
-static void find_lift(const pager *g, const mark_line *l, double out[3])
+static void find_lift(const pager *g, const marks *m, const mark_line *l, double out[3])
 {
-    double stretch, lift = 2 * MARK_SAG * (double)l->length;
+    double stretch, lift = m->sag > 0 ? 2 * m->sag : 2 * MARK_SAG * (double)l->length;
     if (find_position(g, l->a, l->normal, &stretch).facing < 0)
         lift = -lift;
     out[0] = lift * (double)l->normal.x;
@@ -297,8 +336,8 @@ static void find_lift(const pager *g, const mark_line *l, double out[3])
     out[2] = lift * (double)l->normal.z;
 }
 
-/* One piece, in samples of about two pixels: those that something hides interrupt the line. */
-static bool add_piece(stretch_walk *w, const mark_line *l, float width)
+/* One piece, in samples of about two pixels: those that something hides interrupt the line. `widths`: at both ends. */
+static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2])
 {
     enum { SAMPLES_MAX = 64 };
     double   positions[SAMPLES_MAX + 1][3], eye[3], lift[3];
@@ -306,14 +345,14 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
     uint32_t behind[SAMPLES_MAX + 1] = {0};
     bool     there[SAMPLES_MAX + 1], hides = w->hidden != NULL;
     float    ends[2][2] = {{0, 0}, {0, 0}};
-    find_lift(w->g, l, lift);
+    find_lift(w->g, w->marks, l, lift);
     move_point(&w->g->view->model_view, l->a, eye);
     bool seen = on_page(w->g, eye, &ends[0][0], &ends[0][1]);
     move_point(&w->g->view->model_view, l->b, eye);
     seen = on_page(w->g, eye, &ends[1][0], &ends[1][1]) && seen;
     double apart =
         seen ? hypot((double)ends[1][0] - (double)ends[0][0], (double)ends[1][1] - (double)ends[0][1]) : SAMPLES_MAX;
-    bool tapers = w->g->style->taper > 0;
+    bool tapers = w->g->style->taper > 0 && !w->marks->flow;
     int  count = hides || tapers || !seen ? (int)fmin(fmax(ceil(apart / 2), 1), SAMPLES_MAX) : 1;
     for (int i = 0; i <= count; i++) {
         float s = (float)i / (float)count;
@@ -327,10 +366,11 @@ static bool add_piece(stretch_walk *w, const mark_line *l, float width)
     if (hides)
         w->hidden(w->user, (const double(*)[3])positions, (size_t)count + 1, behind);
     for (int i = w->open ? 1 : 0; i <= count; i++) {
-        float along = l->from + (float)i / (float)count * (l->to - l->from);
+        float part = (float)i / (float)count, along = l->from + part * (l->to - l->from),
+              width = widths[0] + part * (widths[1] - widths[0]);
         if (!there[i] || behind[i] > 0)
             close_line(w);
-        else if (!add_point(w, l, at[i][0], at[i][1], width * taper_at(w->g, l, along)))
+        else if (!add_point(w, l, at[i][0], at[i][1], tapers ? width * taper_at(w->g, l, along) : width))
             return false;
     }
     return true;
@@ -349,6 +389,14 @@ static bool is_far_side(const stretch_walk *w, const mark_line *l)
     return front > 0 && front != UINT32_MAX;
 }
 
+static void find_widths(const pager *g, const marks *m, const mark_line *l, float out[2])
+{
+    for (int end = 0; end < 2; end++)
+        out[end] = m->flow ? flow_width(g, m, l, end) : end ? out[0] : g->style->diameter * stroke_ink(g, l);
+    for (int end = 0; end < 2 && m->flow; end++)
+        out[end] = out[end] < THINNEST ? 0 : out[end];
+}
+
 static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m, mark_hidden_fn hidden, void *user,
                                 lmn_error *error)
 {
@@ -358,9 +406,10 @@ static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m,
         const mark_line *l = &m->lines[i];
         if (i > 0 && l->stroke != m->lines[i - 1].stroke)
             close_line(&w);
-        float ink = stroke_ink(g, l);
-        if (ink > 0 && !is_far_side(&w, l))
-            done = add_piece(&w, l, g->style->diameter * ink);
+        float widths[2];
+        find_widths(g, m, l, widths);
+        if (fmaxf(widths[0], widths[1]) > 0 && (m->flow || !is_far_side(&w, l)))
+            done = add_piece(&w, l, widths);
         else
             close_line(&w);
     }

@@ -1,4 +1,4 @@
-/* Strokes that follow a surface: from evenly spread positions, each walks over the triangles in a plane of its own, so
+/* Strokes in planes: from evenly spread positions, each walks over the triangles in a plane of its own, so
  * that it is straight where it is drawn and bends only as the surface does. For meshes without texture coordinates,
  * which Freudenberg's explicit strokes need (2003, section 5.3.2). */
 #include "marks/d3.h"
@@ -10,20 +10,17 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "field/direction_field.h"
 #include "scene/mesh.h"
 
 enum { POINTS_MAX = 512 /* of one half of a stroke */ };
 
-static const double SHARP = 0.5;   /* cosine between faces at which strokes end */
-static const double FEATURE = 0.7; /* radians: edges over which directions do not go on */
+static const double SHARP = 0.5; /* cosine between faces at which strokes end */
 
 typedef struct tracer {
     const mark_surface  *surface;
     const trace_options *options;
     primitive            mesh;   /* the surface, for who knows only these */
     uint32_t            *across; /* mesh_adjacency */
-    direction_field      field;
     marks               *out;
     double               density;
 } tracer;
@@ -247,34 +244,12 @@ static d3 plane_of_model(d3 normal)
     return fabs(dot(normal, first)) < FLAT ? first : second;
 }
 
-/* The unit tangent along the direction in which a surface bends. */
-static d3 direction_of_field(const tracer *t, const mark_dot *seed, d3 normal)
-{
-    double m[6] = {0}, fraction[3] = {1 - (double)seed->fraction[0] - (double)seed->fraction[1],
-                                      (double)seed->fraction[0], (double)seed->fraction[1]};
-    for (uint32_t i = 0; i < 3; i++)
-        for (int k = 0; k < 6; k++)
-            m[k] += fraction[i] * (double)direction_field_at(&t->field, &t->mesh, 3 * seed->triangle + i)[k];
-    d3 u = unit(fabs(normal.x) < 0.7 ? cross(normal, (d3){1, 0, 0}) : cross(normal, (d3){0, 1, 0})),
-       v = cross(normal, u);
-    d3     tu = {m[0] * u.x + m[3] * u.y + m[5] * u.z, m[3] * u.x + m[1] * u.y + m[4] * u.z,
-                 m[5] * u.x + m[4] * u.y + m[2] * u.z};
-    d3     tv = {m[0] * v.x + m[3] * v.y + m[5] * v.z, m[3] * v.x + m[1] * v.y + m[4] * v.z,
-                 m[5] * v.x + m[4] * v.y + m[2] * v.z};
-    double angle = 0.5 * atan2(2 * dot(u, tv), dot(u, tu) - dot(v, tv)), c = cos(angle), s = sin(angle);
-    return (d3){c * u.x + s * v.x, c * u.y + s * v.y, c * u.z + s * v.z};
-}
-
 /* The plane of a stroke: turned about the normal from the one that the surface asks for. */
 static d3 plane_at(const tracer *t, const mark_dot *seed, int set, double uneven, random_source *r)
 {
     const double MOST = 0.35; /* radians */
-    d3           normal = face_normal(t, seed->triangle), plane;
+    d3           normal = face_normal(t, seed->triangle), plane = plane_of_model(normal);
     double       turn = set * (double)t->options->turn + uneven * MOST * random_hand(r);
-    if (t->options->bends)
-        plane = cross(normal, direction_of_field(t, seed, normal));
-    else
-        plane = plane_of_model(normal);
     /* Rodrigues' rotation. */
     d3     aside = cross(normal, plane);
     double c = cos(turn), s = sin(turn), rest = (1 - c) * dot(normal, plane);
@@ -333,14 +308,11 @@ lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *o
     t.across = mesh_adjacency(&t.mesh);
     path      *capacity = mem_alloc(sizeof *capacity);
     lmn_status status = t.across && capacity ? LMN_OK : error_memory(error);
-    if (status == LMN_OK && options->bends)
-        status = direction_field_make(&t.field, &t.mesh, FEATURE, 0, error);
-    size_t each = (options->count + (size_t)options->series - 1) / (size_t)options->series;
+    size_t     each = (options->count + (size_t)options->series - 1) / (size_t)options->series;
     for (int set = 0; set < options->series && status == LMN_OK; set++)
         status = trace_set(&t, set, each, capacity, error);
     for (size_t i = 0; i < out->line_count; i++)
         out->lines[i].density = (float)(out->line_length / out->area);
-    direction_field_release(&t.field);
     mem_free(capacity);
     mem_free(t.across);
     if (status != LMN_OK)

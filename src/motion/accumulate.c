@@ -1,10 +1,11 @@
 /* accumulate: the mean of pictures at several times, as a film sees them that is exposed again and again. The yardstick
- * for every other motion blur. Großmann 2011, section 4.2 (after Haeberli and Akeley 1990); rows 34, 35, 37, 38. */
+ * for every other motion blur. Großmann 2011, section 4.2 (after Haeberli and Akeley 1990); rows 34, 35, 37, 38; and
+ * plates that are exposed several times (section 2.1.4; row 77c). */
 #include <math.h>
 
 #include "motion/motion.h"
 
-typedef enum accumulate_weights { WEIGHTS_EQUAL, WEIGHTS_LAST, WEIGHTS_DECAY } accumulate_weights;
+typedef enum accumulate_weights { WEIGHTS_EQUAL, WEIGHTS_LAST, WEIGHTS_DECAY, WEIGHTS_PLATE } accumulate_weights;
 
 typedef struct accumulate_values {
     motion_common common;
@@ -12,20 +13,24 @@ typedef struct accumulate_values {
     float         last, decay;
 } accumulate_values;
 
-static const char *const weights_names[] = {"equal", "last", "decay", NULL};
+static const char *const weights_names[] = {"equal", "last", "decay", "plate", NULL};
 
 static const param params[] = {
     PARAM_INT_ROW(accumulate_values, times, .def = 16, .min = 2, .max = 512, .soft_max = 64, .unit = UNIT_COUNT,
                   .cpu_only = true,
                   .doc = "How many pictures are averaged. Each is drawn whole, so the time it takes grows with them."),
-    PARAM_ENUM_ROW(accumulate_values, weights, .names = weights_names, .def = WEIGHTS_EQUAL, .cpu_only = true,
-                   .doc =
-                       "How much each counts: equal, all alike; last, the newest most, so that it stands out and the "
-                       "direction can be told; decay, each less than the one after it."),
+    PARAM_ENUM_ROW(
+        accumulate_values, weights, .names = weights_names, .def = WEIGHTS_EQUAL, .cpu_only = true,
+        .doc =
+            "How much each counts: equal, all alike; last, the newest most, so that it stands out and the "
+            "direction can be told; decay, each less than the one after it; plate, no mean: all are there whole, as on "
+            "one plate that is exposed again and again (Marey), each pixel keeping what differs most from the "
+            "ground."),
     PARAM_FLOAT_ROW(accumulate_values, last, .def = 6, .min = 1, .max = 512, .soft_max = 32, .cpu_only = true,
                     .only_if = "weights=last", .doc = "How many times as much as each other the newest counts."),
     PARAM_FLOAT_ROW(accumulate_values, decay, .def = 0.8, .min = 0, .max = 1, .cpu_only = true,
-                    .only_if = "weights=decay", .doc = "How much of the one after it each counts."),
+                    .only_if = "weights=decay,plate",
+                    .doc = "How much of the one after it each counts; on a plate, how much of its ink each has."),
 };
 
 static int times_of(const void *values)
@@ -38,7 +43,12 @@ static double weight_of(const void *values, int newer)
     const accumulate_values *v = values;
     if (v->weights == WEIGHTS_LAST)
         return newer == 0 ? (double)v->last : 1;
-    return v->weights == WEIGHTS_DECAY ? pow((double)v->decay, newer) : 1;
+    return v->weights == WEIGHTS_DECAY || v->weights == WEIGHTS_PLATE ? pow((double)v->decay, newer) : 1;
+}
+
+static bool is_plate(const void *values)
+{
+    return ((const accumulate_values *)values)->weights == WEIGHTS_PLATE;
 }
 
 const technique motion_accumulate = {
@@ -48,5 +58,5 @@ const technique motion_accumulate = {
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(accumulate_values),
-    .motion = &(const motion_row){.times = times_of, .weight = weight_of},
+    .motion = &(const motion_row){.times = times_of, .weight = weight_of, .plate = is_plate},
 };

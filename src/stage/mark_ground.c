@@ -186,10 +186,10 @@ lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_u
         d->bright = (1 - d->fraction[0] - d->fraction[1]) * b[0] + d->fraction[0] * b[1] + d->fraction[1] * b[2];
     }
     for (size_t i = 0; status == LMN_OK && i < out->line_count; i++) {
-        /* A stroke has one brightness: of its first piece. */
+        /* A stroke has one brightness, of its first piece; lines that flow have their own all along. */
         mark_line   *l = &out->lines[i];
         const float *b = &g->brightness[3 * (size_t)l->triangle];
-        bool         goes_on = i > 0 && l[-1].stroke == l->stroke;
+        bool         goes_on = i > 0 && l[-1].stroke == l->stroke && !out->flow;
         l->bright = goes_on ? l[-1].bright : (b[0] + b[1] + b[2]) / 3;
     }
     return status;

@@ -88,6 +88,25 @@ static void write_line(float (*r)[4], const mark_line *l)
     memcpy(r[4], (float[]){l->from, l->to, l->length, l->span}, sizeof *r);
 }
 
+/* How wide strips are, six bits each, as one number that floats have exactly. */
+static float packed_spaces(const flow_end *e)
+{
+    uint32_t out = 0;
+    for (int k = FLOW_SPACES; k-- > 0;)
+        out = out << 6 | (uint32_t)fminf(fmaxf(roundf(25 * e->spaces[k]), 0), 63);
+    return (float)out;
+}
+
+static void write_flow(float (*r)[4], const mark_line *l, double apart)
+{
+    const flow_end *a = &l->ends[0], *b = &l->ends[1];
+    memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->rank}, sizeof *r);
+    memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, (float)(l->level + 32 * l->set)}, sizeof *r);
+    memcpy(r[2], (float[]){a->normal.x, a->normal.y, a->normal.z, packed_spaces(a)}, sizeof *r);
+    memcpy(r[3], (float[]){b->normal.x, b->normal.y, b->normal.z, packed_spaces(b)}, sizeof *r);
+    memcpy(r[4], (float[]){a->to_end, b->to_end, l->bright, (float)apart}, sizeof *r);
+}
+
 /* Those that stay longest with distance come first, so that from far away only the first need to be looked at. */
 static void upload_lines(gpu *g, const marks *m, mark_set *out)
 {
@@ -95,13 +114,17 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
     const mark_line **order = mem_alloc(m->line_count * sizeof *order);
     out->ranks = mem_alloc(m->line_count * sizeof *out->ranks);
     out->lines = true;
+    out->levels = m->levels;
     out->density = INFINITY;
     if (records && order && out->ranks) {
         for (size_t i = 0; i < m->line_count; i++)
             order[i] = &m->lines[i];
         qsort(order, m->line_count, sizeof *order, by_perspective);
         for (size_t i = 0; i < m->line_count; i++) {
-            write_line(&records[LINE_VECTORS * i], order[i]);
+            if (m->flow)
+                write_flow(&records[LINE_VECTORS * i], order[i], m->apart);
+            else
+                write_line(&records[LINE_VECTORS * i], order[i]);
             out->ranks[i] = 1 - order[i]->perspective;
             out->density = fmin(out->density, (double)order[i]->density);
         }

@@ -17,8 +17,9 @@ typedef struct mark_set {
     float              *ranks;   /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
     size_t              count;
     bool                lines;
-    moment              when; /* of the pose that they are in */
-    marks              *made; /* as they are at rest, on `ground`, of scenes that move; NULL: it does not */
+    int                 levels; /* of lines that flow */
+    moment              when;   /* of the pose that they are in */
+    marks              *made;   /* as they are at rest, on `ground`, of scenes that move; NULL: it does not */
     struct mark_ground *ground;
 } mark_set;
 

@@ -52,6 +52,12 @@ typedef struct surface_strokes_values {
     param_words strokes;
 } surface_strokes_values;
 
+typedef struct surface_lines_values {
+    mark_values common;
+    int32_t     series;
+    float       scale, length, uneven, turn, crossed, least, taper, tip, swell;
+} surface_lines_values;
+
 typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV } stroke_placing;
 
 /* How marks of a technique look, for who draws them without a GPU; lengths as the values have them. False: the

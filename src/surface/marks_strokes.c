@@ -35,11 +35,11 @@ static lmn_status check_strokes(const char *words, lmn_error *error)
 
 static const param params[] = {
     MARK_ROWS(30000, "Strokes"),
-    PARAM_ENUM_ROW(surface_strokes_values, placed, .names = placed_names, .cpu_only = true,
-                   .doc =
-                       "form: each stroke runs along the direction in which the surface bends; planes: where planes "
-                       "through the model "
-                       "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
+    PARAM_ENUM_ROW(
+        surface_strokes_values, placed, .names = placed_names, .variant = true,
+        .doc = "form: strokes lie side by side along the directions in which the surface bends; planes: where planes "
+               "through the model "
+               "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
     PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 0.975, .min = 0.075, .max = 48, .soft_min = 0.375,
                     .soft_max = 4.5, .unit = UNIT_PT, .doc = "Width of strokes, wherever they are."),
     PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 0.75, .min = 0.15, .max = 150, .soft_min = 0.375,
@@ -124,14 +124,32 @@ static lmn_status make_tiled(marks *out, const mark_surface *surface, const surf
 static lmn_status make_traced(marks *out, const mark_surface *surface, double extent, size_t count,
                               const surface_strokes_values *v, lmn_error *error)
 {
-    trace_options options = {.count = count,
-                             .length = extent * (double)v->length,
-                             .uneven = v->uneven,
-                             .series = v->series,
-                             .turn = v->turn * (3.14159265f / 180),
-                             .bends = v->placed != PLACED_PLANES,
-                             .seed = (uint32_t)v->common.pattern_seed};
-    return marks_trace(out, surface, &options, error);
+    enum { LEVELS = 6 };
+    double length = extent * (double)v->length;
+    float  turn = v->turn * (3.14159265f / 180);
+    if (v->placed == PLACED_PLANES)
+        return marks_trace(out, surface,
+                           &(trace_options){.count = count,
+                                            .length = length,
+                                            .uneven = v->uneven,
+                                            .series = v->series,
+                                            .turn = turn,
+                                            .seed = (uint32_t)v->common.pattern_seed},
+                           error);
+    /* As close as so many strokes of this length lie, but no closer than pictures of the whole model need, and no
+     * farther apart than there are lines on it. */
+    double apart = mark_surface_area(surface) * v->series / ((double)count * length);
+    return marks_streamlines(out, surface,
+                             &(flow_options){.apart = fmin(fmax(apart, extent / 500), extent / 40),
+                                             .levels = LEVELS,
+                                             .length = length,
+                                             .uneven = v->uneven,
+                                             .series = v->series,
+                                             .turn = turn,
+                                             .sag = MARK_SAG * length / 3,
+                                             .whole = true,
+                                             .seed = (uint32_t)v->common.pattern_seed},
+                             error);
 }
 
 /* Some of a surface's triangles. */
@@ -261,12 +279,22 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         const stipple_values *s = use->values;
         out->diameter = s->diameter;
         out->most = s->grow * s->grow;
+    } else if (use->technique == &surface_lines) {
+        const surface_lines_values *l = use->values;
+        out->diameter = out->scale = l->scale;
+        out->taper = l->taper;
+        out->crossed = l->crossed;
+        out->least = l->least;
+        out->tip = l->tip;
+        out->swell = l->swell;
+        out->series = l->series;
     } else {
         const surface_strokes_values *s = use->values;
         out->diameter = s->width;
         out->scale = s->scale;
         out->taper = s->taper;
         out->law = s->law;
+        out->crowded = s->placed == PLACED_FORM ? 0 : MARK_CROWDED_IN_PLANES;
     }
     return true;
 }

@@ -1,5 +1,6 @@
 /* A piece of a stroke. Whether it is hidden is asked at its axis, so that its own surface does not cut its sides off (EX-14). */
 
+flat in vec3 v_normal;
 flat in vec4 v_ends, v_depths, v_run;
 flat in float v_ink;
 
@@ -15,9 +16,12 @@ void main()
         depth = 1.0 / depth;
         tolerance *= depth;
     }
-    float seen = texelFetch(t_normal_depth, ivec2(axis), 0).w, arc = mix(v_run.x, v_run.y, along);
+    vec4 seen = texelFetch(t_normal_depth, ivec2(axis), 0);
+    float arc = mix(v_run.x, v_run.y, along);
     float half_width = v_depths.w * clamp(min(arc, v_run.z - arc) * v_run.w, 0.0, 1.0);
     float cover = clamp(half_width + 0.5 - length(from - along * chord), 0.0, min(2.0 * half_width, 1.0)) * v_ink;
-    cover *= step(abs(seen - depth), tolerance);
+    /* Far from its own depth only what is turned as it is can be its surface. */
+    float like = dot(seen.xyz, v_normal);
+    cover *= step(abs(seen.w - depth), tolerance * clamp(2.0 * like, 0.15, 1.0));
     out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
 }

@@ -9,6 +9,14 @@ layout(location = 4) in vec4 a_along;  /* where the piece begins and ends, lengt
 
 uniform float u_near_plane;
 
+/* How far strokes of one set are from being side by side, to being strewn at random. */
+#if PLACED == 0
+const float CROWDED = 0.0;
+#else
+const float CROWDED = 0.24;
+#endif
+
+flat out vec3 v_normal; /* of its surface, towards the viewer */
 flat out vec4 v_ends;   /* of the piece, pixels */
 flat out vec4 v_depths; /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), half the width in pixels */
 flat out vec4 v_run;    /* arc at both ends, length of the stroke, 1 / length over which an end runs out */
@@ -59,7 +67,7 @@ float ink_of_strokes(float darkness, float darkest)
     for (int set = 0; set < 4; set++) {
         float c = float(set) * a_along.w < 0.99 ? min(clamp(1.0 - wanted / bare, 0.0, 1.0), most) : 0.0, over = max(c - 0.311, 0.0);
         float even = c + 0.156 * over * over / (1.08 - c);
-        ink += even + 0.24 * (-log(max(1.0 - c, 1e-3)) - even);
+        ink += even + CROWDED * (-log(max(1.0 - c, 1e-3)) - even);
         bare *= 1.0 - c;
     }
     return ink;
@@ -94,6 +102,7 @@ void put_corner(mark_position m, vec3 from, vec3 to, float fraction)
     float size = length(b - a), width = u_width * ink, half_width = 0.5 * max(width, 1.0);
     vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
     float tolerance = 1.5 + 1.5 * steepness(m);
+    v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
     v_depths = u_perspective > 0.5 ? vec4(-1.0 / from.z, -1.0 / to.z, tolerance / u_focal, half_width) : vec4(-from.z, -to.z, tolerance / u_focal, half_width);
     v_run = vec4(arcs, a_along.z, 1.0 / max(u_taper * a_along.z, 1e-20));

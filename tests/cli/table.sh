@@ -615,6 +615,8 @@ group_halftones() {
     local csg=$source/examples/csg/widget.csg spot=$source/examples/spot.obj small=(--size 120x100 --dpi 96 -o x.png)
     local kept; kept=$(mktemp -d) # not here, where each row begins with an empty folder
     export LIMNER_CACHE=$kept
+    local bent=$kept/bent.json # bent strokes that are worked out for each pixel
+    echo '{"version": 2, "name": "bent", "rules": [{"select": "*", "surface": {"technique": "screen", "screen": "contour", "scale": 3, "width": 1.425}}]}' > "$bent"
     # Solids throw shadows on every path.
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit "${small[@]}"; mv x.png in-light.png
     row 0 '' 'x.png' draw "$csg" --look gooch --set surface.technique=lit --set scene.shadows=true "${small[@]}"
@@ -627,14 +629,14 @@ group_halftones() {
     row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none "${small[@]}"
     row 0 '' 'x.png' draw "$csg" --look pencil --set lines.operator=none --set perturb.overrun=12px "${small[@]}"
     # What was drawn before, and is kept, changes nothing.
-    row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
-    row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
-    row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"
+    row 0 '' 'x.png' draw "$spot" --look "$bent" --set surface.scheme=multiply "${small[@]}"; mv x.png in-first.png
+    row 0 '' 'x.png' draw "$spot" --look "$bent" "${small[@]}"
+    row 0 '' 'x.png' draw "$spot" --look "$bent" --set surface.scheme=multiply "${small[@]}"
     cmp -s x.png in-first.png || complain "a kept texture changes the picture"
-    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look ink --set surface.scheme=multiply "${small[@]}"
+    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look "$bent" --set surface.scheme=multiply "${small[@]}"
     cmp -s x.png in-first.png || complain "without a cache the picture is another"
-    row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"; mv x.png in-sharp.png
-    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look ink "${small[@]}"
+    row 0 '' 'x.png' draw "$spot" --look "$bent" "${small[@]}"; mv x.png in-sharp.png
+    LIMNER_CACHE= row 0 '' 'x.png' draw "$spot" --look "$bent" "${small[@]}"
     cmp -s x.png in-sharp.png || complain "what another scheme has kept changes the picture"
     # Layers have no light maps: whole strokes are what they are without.
     row 0 '' 'x.png' draw "$spot" --look xray --set surface.technique=screen --set surface.coordinates=uv "${small[@]}"; mv x.png in-cut.png
@@ -642,12 +644,12 @@ group_halftones() {
     cmp -s x.png in-cut.png || complain "whole strokes in layers give another picture"
     # What gives no ink is said, what is wrong is refused.
     : > in-none.stx
-    row 0 "^limner: warning: the screen of surface 'screen' has no ink anywhere" 'x.png' draw "$spot" --look ink --set surface.screen=in-none.stx "${small[@]}"
-    row 0 '^limner: warning: no material has strokes beside its picture' 'x.png' draw "$spot" --look ink --set surface.screen=material "${small[@]}"
-    row 1 "^limner: surface.screen is 'brik'; allowed is a pattern" '' draw "$spot" --look ink --set surface.screen=brik "${small[@]}"
-    row 1 "^hint: did you mean 'brick'" '' draw "$spot" --look ink --set surface.screen=brik "${small[@]}"
-    row 1 "^limner: surface.indication is 'x.gif'; allowed are pictures" '' draw "$spot" --look ink --set surface.indication=x.gif "${small[@]}"
-    row 2 '^limner: nosuch.stx: ' '' draw "$spot" --look ink --set surface.screen=nosuch.stx "${small[@]}"
+    row 0 "^limner: warning: the screen of surface 'screen' has no ink anywhere" 'x.png' draw "$spot" --look "$bent" --set surface.screen=in-none.stx "${small[@]}"
+    row 0 '^limner: warning: no material has strokes beside its picture' 'x.png' draw "$spot" --look "$bent" --set surface.screen=material "${small[@]}"
+    row 1 "^limner: surface.screen is 'brik'; allowed is a pattern" '' draw "$spot" --look "$bent" --set surface.screen=brik "${small[@]}"
+    row 1 "^hint: did you mean 'brick'" '' draw "$spot" --look "$bent" --set surface.screen=brik "${small[@]}"
+    row 1 "^limner: surface.indication is 'x.gif'; allowed are pictures" '' draw "$spot" --look "$bent" --set surface.indication=x.gif "${small[@]}"
+    row 2 '^limner: nosuch.stx: ' '' draw "$spot" --look "$bent" --set surface.screen=nosuch.stx "${small[@]}"
     rm -r "$kept"
 }
 

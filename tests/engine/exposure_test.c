@@ -117,6 +117,44 @@ static void it_is_the_mean(void **state)
 #define BLUR "\"motion\": {\"technique\": \"accumulate\", \"times\": 7, \"exposure\": 0.3}"
 
 /* Without a time nothing moves; nor does a part whose rule has no motion, whatever moves around it. */
+/* Row 77c: of all times each channel of a pixel has what is farthest from the white ground, here the darkest; of older
+ * ones, with half of the ink. */
+static void a_plate_has_all_of_them(void **state)
+{
+    enum { TIMES = 4 };
+    const fixture *f = *state;
+    static uint8_t one[4 * PIXELS], whole[4 * PIXELS], wanted[4 * PIXELS];
+    const char    *plain = "{\"lines\": \"discontinuity\", \"surface\": \"lit\"}";
+    const char    *plate = "{\"lines\": \"discontinuity\", \"surface\": \"lit\", \"motion\": {\"technique\": "
+                           "\"accumulate\", \"times\": 4, \"weights\": \"plate\", \"decay\": %g, \"exposure\": 0.4}}";
+    for (int k = 0; k < 2; k++) {
+        double        decay = k ? 0.5 : 1;
+        char          rules[512];
+        int           worst = 0, figures = 0;
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        desc.clip = "Run";
+        desc.time_given = desc.fit_time = true;
+        desc.time_s = 0.5;
+        snprintf(rules, sizeof rules, plate, decay);
+        draw(f, f->fox, rules, &desc, whole);
+        memset(wanted, 255, sizeof wanted);
+        for (int i = 0; i < TIMES; i++) {
+            desc.time_s = 0.5 - 0.4 * i / TIMES;
+            draw(f, f->fox, plain, &desc, one);
+            for (int n = 0; n < 4 * PIXELS; n++) {
+                int faded = (int)lround(255 - (255 - one[n]) * pow(decay, i));
+                wanted[n] = (uint8_t)(faded < wanted[n] ? faded : wanted[n]);
+            }
+        }
+        for (int n = 0; n < 4 * PIXELS; n++) {
+            worst = abs(whole[n] - wanted[n]) > worst ? abs(whole[n] - wanted[n]) : worst;
+            figures += n % 4 == 0 && wanted[n] < 200;
+        }
+        printf("a plate, ink of older ones times %g: off by %d of 255\n", decay, worst);
+        assert_true(worst <= 1 && figures > 500);
+    }
+}
+
 static void what_rests_keeps_every_bit(void **state)
 {
     const fixture *f = *state;
@@ -182,6 +220,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_the_mean),
+        cmocka_unit_test(a_plate_has_all_of_them),
         cmocka_unit_test(what_rests_keeps_every_bit),
         cmocka_unit_test(one_exposure_a_picture),
         cmocka_unit_test(it_can_be_cancelled),

@@ -43,9 +43,9 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Median and 95th percentile of the angles between the field and the truth, degrees. */
-static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool rotated, double *median,
-                          double *most)
+/* Median and 95th percentile of the angles between the field, or its crosses, and the truth, degrees. */
+static void measure_field(const primitive *p, const direction_field *f, truth_fn truth, bool crosses, bool rotated,
+                          double *median, double *most)
 {
     double *angles = mem_alloc(p->vertex_count * sizeof *angles);
     size_t  count = 0;
@@ -62,8 +62,9 @@ static void measure_field(const primitive *p, const direction_field *f, truth_fn
         }
         double sure;
         place3 own = axis_of(f->tensors[v], n, &sure);
-        double cosine = fabs(own.x * d.x + own.y * d.y + own.z * d.z);
-        angles[count++] = acos(cosine > 1 ? 1 : cosine) * 180 / field_pi;
+        double cosine = fabs(own.x * d.x + own.y * d.y + own.z * d.z),
+               angle = acos(cosine > 1 ? 1 : cosine) * 180 / field_pi;
+        angles[count++] = crosses ? fmin(angle, 90 - angle) : angle;
     }
     qsort(angles, count, sizeof *angles, by_size);
     *median = angles[count / 2];
@@ -128,20 +129,25 @@ static bool saddle_truth(place3 p, place3 *n, place3 *d)
     return implicit_truth((place3){-2 * p.x, p.y, 1}, h, n, d);
 }
 
-static void check_accuracy(const char *name, primitive p, truth_fn truth)
+static void check_crosses(const char *name, primitive p, truth_fn truth, bool crosses)
 {
     for (int rotated = 0; rotated < 2; rotated++) {
         double median, most;
         if (rotated)
             turn_primitive(&p);
         direction_field f = make_field(&p);
-        measure_field(&p, &f, truth, rotated, &median, &most);
+        measure_field(&p, &f, truth, crosses, rotated, &median, &most);
         printf("%-28s %s %6u triangles: median %.2f, 95 %% %.2f degrees\n", name, rotated ? "turned" : "      ",
                p.index_count / 3, median, most);
         direction_field_release(&f);
         assert_true(median <= 5 && most <= 15);
     }
     primitive_release(&p);
+}
+
+static void check_accuracy(const char *name, primitive p, truth_fn truth)
+{
+    check_crosses(name, p, truth, false);
 }
 
 static void directions_agree_with_known_surfaces(void **state)
@@ -158,8 +164,10 @@ static void directions_agree_with_known_surfaces(void **state)
     check_accuracy("cylinder, slivers", grid_surface(cylinder_at, 32, 1, true, false, 0), cylinder_truth);
     check_accuracy("cylinder, irregular", grid_surface(cylinder_at, 32, 24, true, false, 0.8), cylinder_truth);
     check_accuracy("cylinder, very irregular", grid_surface(cylinder_at, 60, 12, true, false, 1), cylinder_truth);
-    check_accuracy("saddle", grid_surface(saddle_at, 24, 24, false, false, 0), saddle_truth);
-    check_accuracy("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth);
+    /* Towards its corners a saddle bends nearly as much one way as the other, and which is more changes: arms go on
+     * there, so only crosses are compared; which arm is meant in the middle is looked at below. */
+    check_crosses("saddle", grid_surface(saddle_at, 24, 24, false, false, 0), saddle_truth, true);
+    check_crosses("saddle, jittered", grid_surface(saddle_at, 24, 24, false, false, 0.7), saddle_truth, true);
 }
 
 /* --- what always holds ---------------------------------------------------------------------------------- */
@@ -367,6 +375,214 @@ static void flat_positions_take_after_what_bends_beside_them(void **state)
     primitive_release(&p);
 }
 
+/* --- crosses -------------------------------------------------------------------------------------------- */
+
+typedef struct corner_frame {
+    place3 u, v;
+} corner_frame;
+
+static corner_frame frame_of_triangle(const primitive *p, uint32_t t)
+{
+    const uint32_t *k = p->indices + 3 * t;
+    vec3            a = p->positions[k[0]], b = p->positions[k[1]], c = p->positions[k[2]];
+    place3          x = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z},
+           y = {(double)c.x - a.x, (double)c.y - a.y, (double)c.z - a.z};
+    place3 n = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+    unit(&x);
+    unit(&n);
+    return (corner_frame){x, {n.y * x.z - n.z * x.y, n.z * x.x - n.x * x.z, n.x * x.y - n.y * x.x}};
+}
+
+/* The angle of the line that a corner has in its triangle. */
+static double angle_in(const primitive *p, const direction_field *f, uint32_t corner)
+{
+    const float *t = direction_field_at(f, p, corner);
+    corner_frame q = frame_of_triangle(p, corner / 3);
+    place3       one = {q.u.x + q.v.x, q.u.y + q.v.y, q.u.z + q.v.z};
+    double       uu = along(t, q.u), vv = along(t, q.v), both = along(t, one);
+    return atan2(both - uu - vv, uu - vv) / 2;
+}
+
+/* Quarter turns that the cross makes around each triangle: those to the left and to the right. */
+static void count_singularities(const primitive *p, const direction_field *f, const bool *left_out, int counts[2])
+{
+    counts[0] = counts[1] = 0;
+    for (uint32_t t = 0; t < p->index_count / 3; t++) {
+        double turn = 0, angles[3];
+        for (uint32_t k = 0; k < 3; k++)
+            angles[k] = angle_in(p, f, 3 * t + k);
+        for (int k = 0; k < 3; k++)
+            turn += remainder(angles[(k + 1) % 3] - angles[k], field_pi / 2);
+        int quarters = (int)rint(turn / (field_pi / 2));
+        if (!left_out || !left_out[t])
+            counts[quarters < 0] += abs(quarters);
+    }
+}
+
+/* As many as the surface must have, and no pair beside them: their sum is four times the Euler characteristic. */
+static void crosses_turn_no_more_than_they_must(void **state)
+{
+    (void)state;
+    const place3 round = {2, 2, 2};
+    struct {
+        const char *name;
+        primitive   p;
+        int         least;
+    } shapes[] = {{"sphere", ball(24, 0, round), 8},
+                  {"sphere, jittered", ball(40, 0.5, round), 8},
+                  {"torus", grid_surface(torus_at, 64, 24, true, true, 0), 0},
+                  {"torus, jittered", grid_surface(torus_at, 64, 24, true, true, 0.6), 0}};
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        direction_field f = make_field(&shapes[i].p);
+        int             counts[2];
+        count_singularities(&shapes[i].p, &f, NULL, counts);
+        printf("%s: %d quarter turns to the left, %d to the right\n", shapes[i].name, counts[0], counts[1]);
+        assert_int_equal(counts[0] - counts[1], shapes[i].least);
+        assert_int_equal(counts[0] + counts[1], shapes[i].least);
+        direction_field_release(&f);
+        primitive_release(&shapes[i].p);
+    }
+}
+
+/* Scans: each vertex moved in or out by up to this fraction of the model. */
+static void noise_is_looked_through(void **state)
+{
+    (void)state;
+    static const struct {
+        double noise, median, most;
+    } rows[] = {{0.005, 2, 6}, {0.01, 3, 10}, {0.02, 8, 25}};
+    const place3 axes = {3, 2, 1};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        primitive p = ball(60, 0, axes);
+        double    median, most;
+        for (uint32_t v = 0; v < p.vertex_count; v++) {
+            float by = (float)(1 + rows[i].noise * (hashed(7 * v + 1) - 0.5));
+            p.positions[v] = (vec3){by * p.positions[v].x, by * p.positions[v].y, by * p.positions[v].z};
+        }
+        direction_field f = make_field(&p);
+        measure_field(&p, &f, ellipsoid_truth, false, false, &median, &most);
+        printf("ellipsoid, noise %g: median %.2f, 95 %% %.2f degrees\n", rows[i].noise, median, most);
+        assert_true(median <= rows[i].median && most <= rows[i].most);
+        direction_field_release(&f);
+        primitive_release(&p);
+    }
+}
+
+/* A bar of an L's section whose inner corner is rounded off, as machined parts are: columns around, then both ends. */
+static primitive machined_bar(void)
+{
+    enum { ARC = 8, AROUND = 6 + ARC, ALONG = 12 };
+    double outline[AROUND][2] = {{0, 0}, {4, 0}, {4, 1}};
+    for (int i = 0; i <= ARC; i++) {
+        double a = field_pi / 2 * i / ARC;
+        outline[3 + i][0] = 2 - sin(a);
+        outline[3 + i][1] = 2 - cos(a);
+    }
+    outline[4 + ARC][0] = 1;
+    outline[4 + ARC][1] = 3;
+    outline[5 + ARC][0] = 0;
+    outline[5 + ARC][1] = 3;
+    primitive p = empty_primitive(AROUND * (ALONG + 1), AROUND * ALONG * 6 + 2 * (AROUND - 2) * 3);
+    uint32_t  n = 0;
+    for (uint32_t j = 0; j <= ALONG; j++)
+        for (uint32_t i = 0; i < AROUND; i++)
+            p.positions[j * AROUND + i] = (vec3){(float)outline[i][0], (float)outline[i][1], 0.5f * (float)j};
+    for (uint32_t j = 0; j < ALONG; j++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            uint32_t       a = j * AROUND + i, b = j * AROUND + (i + 1) % AROUND;
+            const uint32_t q[6] = {a, b, b + AROUND, a, b + AROUND, a + AROUND};
+            for (int k = 0; k < 6; k++)
+                p.indices[n++] = q[k];
+        }
+    for (uint32_t end = 0; end < 2; end++)
+        for (uint32_t i = 1; i + 1 < AROUND; i++) {
+            uint32_t first = end * ALONG * AROUND;
+            p.indices[n++] = first;
+            p.indices[n++] = first + (end ? i : i + 1);
+            p.indices[n++] = first + (end ? i + 1 : i);
+        }
+    return p;
+}
+
+/* A turned part: a ball between two rims, which by itself bends no way more than another, and its ends. */
+static primitive turned_part(void)
+{
+    enum { AROUND = 128, ALONG = 24 };
+    primitive p = empty_primitive(AROUND * (ALONG + 1), AROUND * ALONG * 6 + 2 * (AROUND - 2) * 3);
+    uint32_t  n = 0;
+    for (uint32_t j = 0; j <= ALONG; j++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            double a = 2 * field_pi * i / AROUND, b = 0.6 * j / ALONG, r = 2 * cos(b);
+            p.positions[j * AROUND + i] = (vec3){(float)(r * cos(a)), (float)(r * sin(a)), (float)(2 * sin(b))};
+        }
+    for (uint32_t j = 0; j < ALONG; j++)
+        for (uint32_t i = 0; i < AROUND; i++) {
+            uint32_t       a = j * AROUND + i, b = j * AROUND + (i + 1) % AROUND;
+            const uint32_t q[6] = {a, b, b + AROUND, a, b + AROUND, a + AROUND};
+            for (int k = 0; k < 6; k++)
+                p.indices[n++] = q[k];
+        }
+    for (uint32_t end = 0; end < 2; end++)
+        for (uint32_t i = 1; i + 1 < AROUND; i++) {
+            uint32_t first = end * ALONG * AROUND;
+            p.indices[n++] = first;
+            p.indices[n++] = first + (end ? i : i + 1);
+            p.indices[n++] = first + (end ? i + 1 : i);
+        }
+    return p;
+}
+
+/* Angles between crosses and the creases at which they stand, of triangles before `end`; and whether any turns. */
+static void check_creases(const char *name, primitive p, uint32_t end)
+{
+    for (int rotated = 0; rotated < 2; rotated++) {
+        if (rotated)
+            turn_primitive(&p);
+        direction_field f = make_field(&p);
+        uint32_t       *across = mesh_adjacency(&p);
+        double         *angles = mem_alloc(2 * (size_t)p.index_count * sizeof *angles);
+        size_t          count = 0;
+        int             counts[2];
+        for (uint32_t h = 0; h < end; h++) {
+            place3 m, o;
+            if (across[h] == UINT32_MAX)
+                continue;
+            corner_frame a = frame_of_triangle(&p, h / 3), b = frame_of_triangle(&p, across[h] / 3);
+            m = (place3){a.u.y * a.v.z - a.u.z * a.v.y, a.u.z * a.v.x - a.u.x * a.v.z, a.u.x * a.v.y - a.u.y * a.v.x};
+            o = (place3){b.u.y * b.v.z - b.u.z * b.v.y, b.u.z * b.v.x - b.u.x * b.v.z, b.u.x * b.v.y - b.u.y * b.v.x};
+            if (m.x * o.x + m.y * o.y + m.z * o.z > cos(0.8))
+                continue;
+            uint32_t next = h % 3 == 2 ? h - 2 : h + 1;
+            vec3     from = p.positions[p.indices[h]], to = p.positions[p.indices[next]];
+            place3   e = {(double)to.x - from.x, (double)to.y - from.y, (double)to.z - from.z};
+            double   crease = atan2(e.x * a.v.x + e.y * a.v.y + e.z * a.v.z, e.x * a.u.x + e.y * a.u.y + e.z * a.u.z);
+            angles[count++] = fabs(remainder(angle_in(&p, &f, h) - crease, field_pi / 2)) * 180 / field_pi;
+            angles[count++] = fabs(remainder(angle_in(&p, &f, next) - crease, field_pi / 2)) * 180 / field_pi;
+        }
+        qsort(angles, count, sizeof *angles, by_size);
+        count_singularities(&p, &f, NULL, counts);
+        printf("%s: %zu at creases, median %.2f, 95 %% %.2f degrees; %d quarter turns\n", name, count,
+               angles[count / 2], angles[count * 95 / 100], counts[0] + counts[1]);
+        assert_true(count > 40 && angles[count / 2] <= 1 && angles[count * 95 / 100] <= 2);
+        assert_int_equal(counts[0] + counts[1], 0);
+        mem_free(angles);
+        mem_free(across);
+        direction_field_release(&f);
+    }
+    primitive_release(&p);
+}
+
+/* Creases part the surface, so that each side has its own crosses, and these stand along them: no turn is left that
+ * corners do not take. */
+static void crosses_stand_along_creases(void **state)
+{
+    (void)state;
+    primitive bar = machined_bar(), part = turned_part();
+    check_creases("machined bar", bar, 14 * 12 * 6);
+    /* Flat ends have one direction, whatever their rims do. */
+    check_creases("turned part", part, 128 * 24 * 6);
+}
+
 static primitive with_triangles(const uint32_t *triangles, uint32_t count)
 {
     static const vec3 positions[7] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.2f, 1},
@@ -512,7 +728,7 @@ static void a_million_triangles_do_not_take_long(void **state)
     double          before = seconds_now(), median, most;
     direction_field f = make_field(&p);
     double          taken = seconds_now() - before;
-    measure_field(&p, &f, torus_truth, false, &median, &most);
+    measure_field(&p, &f, torus_truth, false, false, &median, &most);
     printf("torus of %u triangles: %.2f s; median %.2f, 95 %% %.2f degrees\n", p.index_count / 3, taken, median, most);
     assert_true(median <= 5 && most <= 15);
     direction_field_release(&f);
@@ -552,6 +768,9 @@ int main(void)
         cmocka_unit_test(a_facade_is_drawn_along_its_border),
         cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
         cmocka_unit_test(flat_positions_take_after_what_bends_beside_them),
+        cmocka_unit_test(crosses_turn_no_more_than_they_must),
+        cmocka_unit_test(noise_is_looked_through),
+        cmocka_unit_test(crosses_stand_along_creases),
         cmocka_unit_test(barely_meshes_are_finite),
         cmocka_unit_test(windings_and_copies_do_not_matter),
         cmocka_unit_test(size_and_position_do_not_matter),

@@ -548,6 +548,9 @@ static void test_out_of_memory(void **state)
         lmn_status status = LMN_MEMORY;
         long       n = 1;
         assert_int_equal(lmn_look_set(look, "surface.count", "60", &error), LMN_OK);
+        /* Those along the form run out of memory in streamlines_test. */
+        if (i)
+            assert_int_equal(lmn_look_set(look, "surface.placed", "planes", &error), LMN_OK);
         for (; status != LMN_OK && n < 10000; n++) {
             lmn_draw_desc how = front();
             lmn_sheet    *s = NULL;

@@ -1,0 +1,221 @@
+/* Lines along the form as marks: cut into strokes, and these into pieces that are as long as what bends and what is
+ * decided at their ends allows. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "marks/streamlines.h"
+
+enum { POINTS = 256 /* of a piece at most */ };
+
+static const double BENT = 0.966; /* cosine of 15 degrees: normals of a piece differ by no more */
+static const double PIECE = 5;    /* distances of the finest lines that a piece is long at most */
+
+typedef struct flow_cutter {
+    marks              *out;
+    const flow_lines   *lines;
+    const flow_options *options;
+    int                 set;
+    random_source       random;
+} flow_cutter;
+
+static double product(vec3 a, vec3 b)
+{
+    return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
+}
+
+/* How far the points between two are from the chord, at most. */
+static bool is_straight(const flow_point *p, uint32_t first, uint32_t last, double most)
+{
+    d3     a = of(p[first].at), chord = minus(of(p[last].at), a);
+    double square = dot(chord, chord);
+    for (uint32_t i = first + 1; i < last; i++) {
+        d3     to = minus(of(p[i].at), a);
+        double part = square > 0 ? dot(to, chord) / square : 0;
+        d3     away = minus(to, (d3){part * chord.x, part * chord.y, part * chord.z});
+        if (dot(away, away) > most * most)
+            return false;
+    }
+    return true;
+}
+
+/* The last point that a piece from `first` may go to. */
+static uint32_t end_of_piece(const flow_cutter *c, const flow_point *p, uint32_t first, uint32_t end)
+{
+    uint32_t last = first + 1;
+    double   most = c->options->whole ? INFINITY : PIECE * c->options->apart;
+    while (last < end && last - first < POINTS && (double)p[last + 1].arc - (double)p[first].arc < most &&
+           (c->options->whole || product(p[first].normal, p[last + 1].normal) > BENT) &&
+           is_straight(p, first, last + 1, c->options->sag))
+        last++;
+    return last;
+}
+
+static flow_end end_at(const flow_cutter *c, const flow_line *line, const flow_point *p, double to_end)
+{
+    flow_end e = {.normal = p->normal, .to_end = (float)to_end};
+    for (int k = 0; k < FLOW_SPACES; k++)
+        e.spaces[k] = (float)((double)p->spaces[k] / ldexp(c->lines->apart, -line->level - k));
+    return e;
+}
+
+/* How far a point of a stroke is from its nearer end that runs out. */
+static double to_end_of(const flow_line *line, double arc, double from, double to, const bool cut[2])
+{
+    double away = (double)FLOW_ENDLESS;
+    if (cut[0] || !(line->closed || line->bounded[0]))
+        away = fmin(away, arc - from);
+    if (cut[1] || !(line->closed || line->bounded[1]))
+        away = fmin(away, to - arc);
+    return away;
+}
+
+/* A stroke: the points first … last of a line. */
+static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last, const bool cut[2])
+{
+    marks            *m = c->out;
+    const flow_point *p = &c->lines->points[line->first];
+    double            from = (double)p[first].arc, to = (double)p[last].arc;
+    if (!(to > from))
+        return true;
+    uint32_t middle = first;
+    while (middle < last && (double)p[middle].arc < 0.5 * (from + to))
+        middle++;
+    double    finest = c->options->levels - 1, u = random_unit(&c->random);
+    bool      own_rank = c->options->whole && line->level > 0;
+    double    rank = own_rank ? line->level - 1 + log2(1 + u) : (double)line->rank;
+    mark_line l = {.middle = p[middle].at,
+                   .middle_normal = p[middle].normal,
+                   .light = 1 - (float)c->set / (float)c->options->series,
+                   .span = 1.0f / (float)c->options->series,
+                   .length = (float)(to - from),
+                   .density = (float)(1 / c->options->apart),
+                   .bright = 1,
+                   .rank = (float)rank,
+                   .level = line->level,
+                   .set = (uint8_t)c->set,
+                   .stroke = (uint32_t)m->stroke_count++};
+    /* Of those that flow, enough must be looked at for the ones that grow; whole ones get their share later. */
+    l.perspective = (float)(1 - exp2(rank - finest - 0.2));
+    for (uint32_t i = first, end; i < last; i = end) {
+        end = end_of_piece(c, p, i, last);
+        if (!mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 1, sizeof *m->lines))
+            return false;
+        l.a = p[i].at;
+        l.b = p[end].at;
+        l.triangle = p[(i + end + 1) / 2].triangle;
+        l.normal = p[(i + end + 1) / 2].normal;
+        l.from = p[i].arc - (float)from;
+        l.to = p[end].arc - (float)from;
+        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, (double)p[i].arc, from, to, cut));
+        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, (double)p[end].arc, from, to, cut));
+        m->lines[m->line_count++] = l;
+        m->line_length += (double)l.to - (double)l.from;
+    }
+    return true;
+}
+
+/* Cuts a line into strokes, whose ends lie anywhere. */
+static bool cut_line(flow_cutter *c, const flow_line *line)
+{
+    const flow_point *p = &c->lines->points[line->first];
+    double            length = c->options->length, uneven = (double)c->options->uneven;
+    bool              cut[2] = {false, false};
+    if (!(length > 0))
+        return add_stroke(c, line, 0, line->count - 1, cut);
+    double next = length * random_unit(&c->random);
+    for (uint32_t first = 0, i = 1; i < line->count; i++) {
+        bool last = i + 1 == line->count;
+        if ((double)p[i].arc < next && !last)
+            continue;
+        cut[0] = first > 0 || line->closed;
+        cut[1] = !last || line->closed;
+        if (!add_stroke(c, line, first, i, cut))
+            return false;
+        first = i;
+        next = (double)p[i].arc + length * (1 + 0.6 * uneven * random_signed(&c->random));
+    }
+    return true;
+}
+
+typedef struct ranked_stroke {
+    float  rank;
+    size_t first; /* piece */
+} ranked_stroke;
+
+static int by_rank(const void *a, const void *b)
+{
+    const ranked_stroke *one = a, *other = b;
+    if (one->rank != other->rank)
+        return one->rank < other->rank ? -1 : 1;
+    return one->first < other->first ? -1 : one->first > other->first;
+}
+
+/* Priorities of whole strokes, from the set's first piece on: the length of those of lower rank, fraction of all, so
+ * that any fraction of the strokes has that fraction of the ink. */
+static bool share_priorities(marks *m, size_t first)
+{
+    ranked_stroke *strokes = mem_alloc((m->line_count - first) * sizeof *strokes);
+    size_t         count = 0;
+    double         whole = 0, before = 0;
+    for (size_t i = first; strokes && i < m->line_count; i++)
+        if (i == first || m->lines[i].stroke != m->lines[i - 1].stroke) {
+            strokes[count++] = (ranked_stroke){m->lines[i].rank, i};
+            whole += (double)m->lines[i].length;
+        }
+    if (strokes && count)
+        qsort(strokes, count, sizeof *strokes, by_rank);
+    for (size_t k = 0; strokes && k < count; k++) {
+        uint32_t stroke = m->lines[strokes[k].first].stroke;
+        for (size_t i = strokes[k].first; i < m->line_count && m->lines[i].stroke == stroke; i++)
+            m->lines[i].perspective = (float)(1 - before / whole);
+        before += (double)m->lines[strokes[k].first].length;
+    }
+    bool done = strokes != NULL;
+    mem_free(strokes);
+    return done;
+}
+
+static lmn_status add_set(marks *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error)
+{
+    flow_lines  lines;
+    flow_cutter c = {.out = out, .lines = &lines, .options = w, .set = set};
+    size_t      first = out->line_count;
+    c.random = random_start(w->seed, (uint32_t)set + 0xC07);
+    lmn_status status = flow_lines_make(&lines, f, w, set, error);
+    for (size_t i = 0; i < lines.line_count && status == LMN_OK; i++) {
+        if (!cut_line(&c, &lines.lines[i]))
+            status = error_memory(error);
+        else if (out->line_count > LIMIT_MARKS)
+            status = error_set(error, LMN_LIMIT, "the strokes on this surface have more than %d pieces", LIMIT_MARKS);
+    }
+    if (status == LMN_OK && w->whole && !share_priorities(out, first))
+        status = error_memory(error);
+    flow_lines_release(&lines);
+    return status;
+}
+
+lmn_status marks_streamlines(marks *out, const mark_surface *s, const flow_options *w, lmn_error *error)
+{
+    flow_surface f;
+    memset(out, 0, sizeof *out);
+    out->area = mark_surface_area(s);
+    out->flow = !w->whole;
+    out->levels = w->levels;
+    out->apart = ldexp(w->apart, w->levels - 1);
+    out->sag = w->sag;
+    if (!(out->area > 0) || !(w->apart > 0))
+        return LMN_OK;
+    lmn_status status = flow_surface_make(&f, s, error);
+    for (int set = 0; set < w->series && status == LMN_OK; set++)
+        status = add_set(out, &f, w, set, error);
+    flow_surface_release(&f);
+    for (size_t i = 0; i < out->line_count && w->whole; i++)
+        out->lines[i].density = (float)(out->line_length / out->area);
+    if (status != LMN_OK)
+        surface_marks_release(out);
+    return status;
+}

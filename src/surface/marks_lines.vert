@@ -1,0 +1,128 @@
+/* Engraved lines: each piece is a record four times, a corner each. Both ends decide about themselves, so that lines swell and run out: marks/marks_flow.c in the vertex stage. */
+#include "surface/marks.glsl"
+
+layout(location = 0) in vec4 a_from;        /* the level at which it comes */
+layout(location = 1) in vec4 a_to;          /* its own level + 32 times the number of its set */
+layout(location = 2) in vec4 a_from_normal; /* how wide its strip is at four levels, packed */
+layout(location = 3) in vec4 a_to_normal;
+layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model, distance of the first level */
+
+uniform float u_near_plane, u_levels;
+
+flat out vec3 v_normal; /* of its surface, towards the viewer */
+flat out vec4 v_ends;    /* of the piece, pixels */
+flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth) */
+out float v_half_width;
+
+const float RAMP = 0.5, UNEVEN = 0.3;
+
+vec4 spaces_of(float packed_spaces)
+{
+    vec4 shifted = floor(packed_spaces / vec4(1.0, 64.0, 4096.0, 262144.0));
+    return (shifted - 64.0 * vec4(shifted.yzw, 0.0)) * 0.04;
+}
+
+float cover_of_set(float dark, float set)
+{
+    float first = u_crossed + (0.9 - u_crossed) * (dark - u_crossed) / max(1.0 - u_crossed, 1e-6);
+#if SERIES == 1
+    return dark;
+#else
+    if (dark <= u_crossed)
+        return set < 0.5 ? dark : 0.0;
+    return set < 0.5 ? first : 1.0 - pow((1.0 - dark) / (1.0 - first), 1.0 / float(SERIES - 1));
+#endif
+}
+
+/* How much lines have grown that began so long ago, summed up to now. */
+float grown(float since)
+{
+    float t = clamp(since, 0.0, RAMP);
+    return t * t / (2.0 * RAMP) + max(since - RAMP, 0.0);
+}
+
+/* Of its strip's width at a level; marks/marks_flow.c. */
+float strip_of(float own, float rank, vec4 spaces, float level)
+{
+    float whole = clamp(floor(level), 0.0, u_levels - 1.0), after = whole - own, last = step(u_levels - 1.5, whole);
+    float coming = level > 0.0 ? (grown(level - whole - 0.1) - grown(level - whole - 0.1 - UNEVEN)) / UNEVEN * (1.0 - last) : 0.0;
+    float now = after > 3.5 ? 1.0 : after > 2.5 ? spaces.w : after > 1.5 ? spaces.z : after > 0.5 ? spaces.y : spaces.x;
+    float next = after > 2.5 ? 1.0 : after > 1.5 ? spaces.w : after > 0.5 ? spaces.z : spaces.y;
+    float old = now + coming * (0.5 * next - now), fresh = 0.5 * spaces.x * clamp((level - rank) / RAMP, 0.0, 1.0) * (1.0 - last);
+    return (after < -1.5 ? 0.0 : after < -0.5 ? fresh : old) * exp2(-whole);
+}
+
+/* Pixels to a unit across the line. */
+float across_on_page(mark_position m, vec3 direction)
+{
+    float depth = u_perspective > 0.5 ? max(-m.eye.z, 1e-20) : 1.0;
+    float area = u_perspective > 0.5 ? abs(dot(m.eye, m.normal)) / (depth * depth * depth) : abs(m.normal.z);
+    vec2 seen = u_perspective > 0.5 ? direction.xy + m.eye.xy * (direction.z / depth) : direction.xy;
+    return u_focal * area * depth / max(length(seen), 0.02);
+}
+
+/* Half the width of the line at an end, pixels. */
+float half_width_at(mark_position m, vec3 direction, float spaces, float to_end)
+{
+    float set = floor(a_to.w / 32.0), own = a_to.w - 32.0 * set, across = across_on_page(m, direction), apart = a_along.w;
+    float level = log2(max(apart * across / u_scale, 1e-6));
+    if (own > level + 1.0 && own > 0.0)
+        return 0.0;
+    float strip = strip_of(own, a_from.w, spaces_of(spaces), level) * apart * across;
+    float swell = fract(a_from.w * 97.0 + own * 0.37) - 0.5;
+    float cover = cover_of_set(darkness_at(m, a_along.z), set) * (1.0 + u_swell * swell);
+    cover *= smoothstep(0.25 * u_least, u_least, cover);
+    float taper = u_taper * u_scale / max(across, 1e-20), left = clamp(to_end / max(taper, 1e-20), 0.0, 1.0);
+    return 0.5 * strip * cover * pow(left, u_tip);
+}
+
+bool clip_near(inout vec3 a, inout vec3 b)
+{
+    float from = -a.z - u_near_plane, to = -b.z - u_near_plane;
+    if (from <= 0.0 && to <= 0.0)
+        return false;
+    float fraction = from / (from - to);
+    if (from < 0.0)
+        a = mix(a, b, fraction);
+    else if (to < 0.0)
+        b = mix(a, b, fraction);
+    return true;
+}
+
+/* Does it turn away where what is seen there does not? Then it is on the far side. */
+bool is_back(mark_position m)
+{
+    vec2 at = page_of(u_projection * vec4(m.eye, 1.0));
+    return m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
+}
+
+void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
+{
+    float half_width = half_width_at(m, normalize(to - from + vec3(1e-30)), at_end ? a_to_normal.w : a_from_normal.w, at_end ? a_along.y : a_along.x);
+    if (u_perspective > 0.5 && !clip_near(from, to))
+        return;
+    vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));
+    float size = length(b - a);
+    vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
+    float tolerance = 1.5 + 1.5 * steepness(m);
+    v_normal = m.facing < 0.0 ? -m.normal : m.normal;
+    v_ends = vec4(a, b);
+    v_depths = vec4(u_perspective > 0.5 ? -1.0 / from.z : -from.z, u_perspective > 0.5 ? -1.0 / to.z : -to.z, tolerance / u_focal, 0.0);
+    v_half_width = half_width;
+    vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
+    vec2 at = (at_end ? b : a) + direction * corner.x + aside * corner.y * (max(half_width, 0.5) + 0.75);
+    gl_Position = vec4(at / u_size * 2.0 - 1.0, 0.0, 1.0);
+}
+
+void main()
+{
+    gl_Position = NOWHERE;
+    bool at_end = (gl_VertexID & 1) == 1;
+    mark_position m = position_of_mark(at_end ? a_to.xyz : a_from.xyz, at_end ? a_to_normal.xyz : a_from_normal.xyz);
+    vec3 from = (u_model_view * vec4(a_from.xyz, 1.0)).xyz, to = (u_model_view * vec4(a_to.xyz, 1.0)).xyz;
+    /* Both ends come to the same decision: by the piece's beginning. */
+    mark_position first = position_of_mark(a_from.xyz, a_from_normal.xyz);
+    int wanted = is_back(first) ? 0 : 1;
+    for (int once = 0; once < wanted; once++)
+        put_corner(m, from, to, at_end);
+}

@@ -1,0 +1,358 @@
+/* Lines along the form: how evenly they lie, that those of one set never cross, that finer levels leave coarser ones as
+ * they are, and how wide they are drawn. */
+#include "field_shapes.h"
+
+#include "marks/marks.h"
+
+typedef struct shape {
+    primitive    p;
+    mark_surface surface;
+    vec3        *normals;
+} shape;
+
+static shape with_normals(primitive p)
+{
+    shape    s = {.p = p, .normals = mem_calloc(p.vertex_count, sizeof *s.normals)};
+    uint32_t count = p.index_count / 3;
+    for (uint32_t t = 0; t < count; t++) {
+        const uint32_t *k = p.indices + 3 * t;
+        vec3            a = p.positions[k[0]], b = p.positions[k[1]], c = p.positions[k[2]];
+        vec3            u = {b.x - a.x, b.y - a.y, b.z - a.z}, v = {c.x - a.x, c.y - a.y, c.z - a.z};
+        vec3            n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+        for (int i = 0; i < 3; i++) {
+            vec3 *to = &s.normals[k[i]];
+            *to = (vec3){to->x + n.x, to->y + n.y, to->z + n.z};
+        }
+    }
+    for (uint32_t v = 0; v < p.vertex_count; v++) {
+        vec3 *n = &s.normals[v];
+        float l = sqrtf(n->x * n->x + n->y * n->y + n->z * n->z);
+        *n = l > 0 ? (vec3){n->x / l, n->y / l, n->z / l} : (vec3){0, 0, 1};
+    }
+    s.surface = (mark_surface){.positions = p.positions,
+                               .normals = s.normals,
+                               .indices = p.indices,
+                               .vertex_count = p.vertex_count,
+                               .triangle_count = count};
+    return s;
+}
+
+static void release_shape(shape *s)
+{
+    primitive_release(&s->p);
+    mem_free(s->normals);
+}
+
+static marks make_lines(const shape *s, double apart, int levels, int series)
+{
+    marks        m;
+    flow_options options = {
+        .apart = apart, .levels = levels, .series = series, .turn = 0.9f, .sag = apart / 20, .seed = 3};
+    assert_int_equal(marks_streamlines(&m, &s->surface, &options, NULL), LMN_OK);
+    return m;
+}
+
+static double product3(place3 a, place3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static place3 from_to(vec3 a, vec3 b)
+{
+    return (place3){(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
+}
+
+/* How far the nearest other line to one side is from the middle of a piece; straight through space. */
+static double gap_beside(const marks *m, size_t own, double side, double reach)
+{
+    const mark_line *l = &m->lines[own];
+    vec3             middle = {(l->a.x + l->b.x) / 2, (l->a.y + l->b.y) / 2, (l->a.z + l->b.z) / 2};
+    place3           along = from_to(l->a, l->b), n = {l->normal.x, l->normal.y, l->normal.z};
+    double           size = sqrt(product3(along, along)), best = INFINITY;
+    along = (place3){along.x / size, along.y / size, along.z / size};
+    place3 aside = {n.y * along.z - n.z * along.y, n.z * along.x - n.x * along.z, n.x * along.y - n.y * along.x};
+    for (size_t i = 0; i < m->line_count; i++) {
+        const mark_line *o = &m->lines[i];
+        place3           a = from_to(middle, o->a), b = from_to(middle, o->b);
+        if (o->set != l->set || o->stroke == l->stroke || product3(a, a) > 4 * reach * reach)
+            continue;
+        /* Where it crosses the plane across the piece. */
+        double from = product3(a, along), to = product3(b, along);
+        if ((from < 0) == (to < 0))
+            continue;
+        double t = from / (from - to);
+        place3 at = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+        double off = sqrt(product3(at, at));
+        if (side * product3(at, aside) > 0 && off < best && off < reach)
+            best = off;
+    }
+    return best;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The strips of pieces that have lines on both sides, in distances. */
+static void check_spacing(const char *name, shape s, double apart, double least_share)
+{
+    marks   m = make_lines(&s, apart, 4, 1);
+    double *strips = mem_alloc(m.line_count * sizeof *strips), sum = 0, even = 0;
+    size_t  count = 0;
+    for (size_t i = 0; i < m.line_count; i += 7) {
+        double left = gap_beside(&m, i, 1, 2.5 * apart), right = gap_beside(&m, i, -1, 2.5 * apart);
+        if (isfinite(left) && isfinite(right))
+            strips[count++] = (left + right) / 2 / apart;
+    }
+    assert_true(count > 200);
+    qsort(strips, count, sizeof *strips, by_size);
+    for (size_t i = 0; i < count; i++) {
+        sum += strips[i] / (double)count;
+        even += fabs(strips[i] - 1) <= 0.15 ? 1.0 / (double)count : 0;
+    }
+    printf("%s: %zu lines, strips of %zu pieces: mean %.3f, 5 %% %.2f, median %.2f, 95 %% %.2f; %.0f %% within 15 %%\n",
+           name, m.stroke_count, count, sum, strips[count / 20], strips[count / 2], strips[count * 19 / 20],
+           100 * even);
+    assert_true(fabs(sum - 1) <= 0.15 && fabs(strips[count / 2] - 1) <= 0.15);
+    assert_true(strips[count / 20] >= 0.6 && strips[count * 19 / 20] <= 1.6 && even >= least_share);
+    mem_free(strips);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
+static void lines_keep_their_distance(void **state)
+{
+    (void)state;
+    const place3 axes = {3, 2, 1};
+    check_spacing("cylinder", with_normals(grid_surface(cylinder_at, 64, 40, true, false, 0.3)), 0.08, 0.8);
+    check_spacing("torus", with_normals(grid_surface(torus_at, 96, 40, true, true, 0.3)), 0.12, 0.45);
+    check_spacing("ellipsoid", with_normals(ball(24, 0.3, axes)), 0.08, 0.45);
+}
+
+/* --- crossings ------------------------------------------------------------------------------------------ */
+
+/* On a torus, by both of its angles. */
+static void angles_of(vec3 p, const double near[2], double out[2])
+{
+    out[0] = atan2((double)p.y, (double)p.x);
+    out[1] = atan2((double)p.z, hypot((double)p.x, (double)p.y) - 3);
+    for (int k = 0; k < 2; k++)
+        out[k] = near ? near[k] + remainder(out[k] - near[k], 2 * field_pi) : out[k];
+}
+
+static double side_of(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool cross_each_other(const mark_line *one, const mark_line *other)
+{
+    double a[2], b[2], c[2], d[2];
+    angles_of(one->a, NULL, a);
+    angles_of(one->b, a, b);
+    angles_of(other->a, a, c);
+    angles_of(other->b, c, d);
+    return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
+}
+
+static void lines_of_a_set_never_cross(void **state)
+{
+    (void)state;
+    shape  s = with_normals(grid_surface(torus_at, 96, 40, true, true, 0.5));
+    marks  m = make_lines(&s, 0.2, 3, 2);
+    size_t within = 0, between = 0;
+    for (size_t i = 0; i < m.line_count; i++)
+        for (size_t k = i + 1; k < m.line_count; k++) {
+            const mark_line *a = &m.lines[i], *b = &m.lines[k];
+            if (fabsf(a->a.x - b->a.x) > 0.5f || fabsf(a->a.y - b->a.y) > 0.5f || fabsf(a->a.z - b->a.z) > 0.5f ||
+                a->stroke == b->stroke || !cross_each_other(a, b))
+                continue;
+            within += a->set == b->set;
+            between += a->set != b->set;
+        }
+    printf("torus: %zu pieces, %zu crossings within sets, %zu between\n", m.line_count, within, between);
+    assert_int_equal(within, 0);
+    assert_true(between > 1000);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
+/* --- ends ----------------------------------------------------------------------------------------------- */
+
+/* On a cone lines towards its tip come together: they must end, each somewhere else. */
+static place3 horn_at(double u, double v)
+{
+    double a = 2 * field_pi * u, r = 0.2 + 0.3 * v;
+    return (place3){r * cos(a), 6 * v, r * sin(a)};
+}
+
+static void ends_do_not_line_up(void **state)
+{
+    (void)state;
+    enum { BINS = 40 };
+    shape  s = with_normals(grid_surface(horn_at, 96, 60, true, false, 0.2));
+    marks  m;
+    size_t ends[BINS] = {0}, most = 0, count = 0;
+    /* Turned by a right angle lines run along it. */
+    flow_options options = {.apart = 0.05, .levels = 1, .series = 2, .turn = 1.5707963f, .sag = 0.002, .seed = 1};
+    assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        for (int end = 0; end < 2; end++) {
+            bool outer = end ? i + 1 == m.line_count || m.lines[i + 1].stroke != l->stroke
+                             : i == 0 || m.lines[i - 1].stroke != l->stroke;
+            if (l->set != 1 || !outer || l->ends[end].to_end > 0)
+                continue;
+            int bin = (int)((double)(end ? l->b.y : l->a.y) / 6 * BINS);
+            ends[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin]++;
+            count++;
+        }
+    }
+    for (int i = 0; i < BINS; i++)
+        most = ends[i] > most ? ends[i] : most;
+    printf("horn: %zu ends, at most %zu in a %dth of its length\n", count, most, BINS);
+    assert_true(count >= 10 && most <= count / 3);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
+/* --- levels --------------------------------------------------------------------------------------------- */
+
+static void levels_leave_earlier_ones_alone(void **state)
+{
+    (void)state;
+    shape  s = with_normals(grid_surface(torus_at, 64, 32, true, true, 0.4));
+    marks  coarse = make_lines(&s, 0.4, 2, 1), fine = make_lines(&s, 0.1, 4, 1);
+    size_t k = 0;
+    assert_true(fabs(coarse.apart - fine.apart) < 1e-12 && fine.line_length > 3 * coarse.line_length);
+    /* Lines of both begin and end at the same positions; pieces differ, as finer ones are shorter. */
+    for (size_t i = 0; i < coarse.line_count; i++) {
+        if (i > 0 && coarse.lines[i - 1].stroke == coarse.lines[i].stroke)
+            continue;
+        while (k < fine.line_count && (k > 0 && fine.lines[k - 1].stroke == fine.lines[k].stroke))
+            k++;
+        assert_true(k < fine.line_count);
+        assert_memory_equal(&coarse.lines[i].a, &fine.lines[k].a, sizeof(vec3));
+        assert_int_equal(coarse.lines[i].level, fine.lines[k].level);
+        assert_true(coarse.lines[i].rank == fine.lines[k].rank);
+        k++;
+    }
+    /* What is drawn at a density is there at each higher one. */
+    for (size_t i = 0; i < fine.line_count; i++) {
+        bool drawn = false;
+        for (double level = 0; level < 4; level += 0.1) {
+            bool now =
+                mark_flow_width(&fine.lines[i], fine.lines[i].ends[0].spaces, fine.apart, fine.levels, level, 0.5) > 0;
+            assert_true(now || !drawn);
+            drawn = now;
+        }
+        assert_true(drawn);
+    }
+    surface_marks_release(&coarse);
+    surface_marks_release(&fine);
+    release_shape(&s);
+}
+
+/* Lines side by side cover what they shall, however many levels of them are there, and while more come. */
+static void width_keeps_the_tone(void **state)
+{
+    (void)state;
+    enum { LEVELS = 6, LINES = 1 << (LEVELS - 1) };
+    double worst = 0;
+    for (double level = -1; level < LEVELS; level += 0.07) {
+        double covered = 0, wanted = 0.4, shares = 0;
+        for (int draw = 0; draw < 400; draw++)
+            for (int i = 0; i < LINES; i++) {
+                mark_line l = {.level = 0};
+                int       low = i ? i & -i : LINES;
+                while ((low << l.level) < LINES)
+                    l.level++;
+                if (l.level > 0)
+                    l.rank = (float)(l.level - 0.9 + FLOW_UNEVEN * hashed((uint32_t)(draw * LINES + i)));
+                const float even[FLOW_SPACES] = {1, 1, 1, 1};
+                covered += mark_flow_width(&l, even, 2, LEVELS, level, wanted) / 2 / 400;
+            }
+        shares = covered / wanted;
+        worst = fmax(worst, fabs(shares - 1));
+    }
+    printf("tone is within %.1f %% at any level\n", 100 * worst);
+    assert_true(worst < 0.01);
+    /* Sets share it. */
+    for (int series = 1; series <= 4; series++)
+        for (double dark = 0; dark <= 1.001; dark += 0.05) {
+            double bare = 1;
+            for (int set = 0; set < series; set++)
+                bare *= 1 - mark_cover_of_set(dark, 0.55, set, series);
+            assert_true(fabs(1 - bare - fmin(dark, 1)) < 1e-9);
+        }
+}
+
+/* --- what always holds ---------------------------------------------------------------------------------- */
+
+static void barely_meshes_have_lines(void **state)
+{
+    (void)state;
+    for (uint32_t kind = 0; kind < 4; kind++) {
+        primitive p = empty_primitive(20, 300);
+        for (uint32_t v = 0; v < 20 && kind > 0; v++)
+            p.positions[v] = (vec3){(float)rint(3 * hashed(v)), (float)rint(3 * hashed(v + 100)),
+                                    kind > 1 ? (float)rint(2 * hashed(v + 200)) : 0};
+        for (uint32_t i = 0; i < 300; i++)
+            p.indices[i] = kind == 3 ? i % 3 : (uint32_t)(hashed(i + 1000) * 19.99);
+        shape s = with_normals(p);
+        marks m = make_lines(&s, 0.1, 3, 2);
+        for (size_t i = 0; i < m.line_count; i++)
+            assert_true(isfinite(m.lines[i].a.x + m.lines[i].b.y + m.lines[i].ends[0].spaces[0] + m.lines[i].rank));
+        surface_marks_release(&m);
+        release_shape(&s);
+    }
+}
+
+static void the_same_lines_twice(void **state)
+{
+    (void)state;
+    shape s = with_normals(grid_surface(torus_at, 48, 20, true, true, 0.4));
+    marks a = make_lines(&s, 0.1, 3, 2), b = make_lines(&s, 0.1, 3, 2);
+    assert_int_equal(a.line_count, b.line_count);
+    for (size_t i = 0; i < a.line_count; i++) {
+        assert_memory_equal(&a.lines[i].a, &b.lines[i].a, 2 * sizeof(vec3));
+        assert_memory_equal(&a.lines[i].ends, &b.lines[i].ends, sizeof a.lines[i].ends);
+    }
+    surface_marks_release(&a);
+    surface_marks_release(&b);
+    release_shape(&s);
+}
+
+static void memory_may_run_out(void **state)
+{
+    (void)state;
+    shape s = with_normals(shared_cube());
+    bool  failed = true;
+    long  n = 1;
+    for (; failed && n < 3000; n++) {
+        marks        m;
+        lmn_error    error;
+        flow_options options = {.apart = 0.2, .levels = 2, .series = 2, .turn = 1, .sag = 0.01, .length = 0.5};
+        mem_fail_at(n);
+        lmn_status status = marks_streamlines(&m, &s.surface, &options, &error);
+        mem_fail_at(0);
+        failed = status != LMN_OK;
+        assert_true(!failed || status == LMN_MEMORY);
+        surface_marks_release(&m);
+    }
+    assert_true(!failed && n > 30);
+    release_shape(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_keep_their_distance), cmocka_unit_test(lines_of_a_set_never_cross),
+        cmocka_unit_test(ends_do_not_line_up),       cmocka_unit_test(levels_leave_earlier_ones_alone),
+        cmocka_unit_test(width_keeps_the_tone),      cmocka_unit_test(barely_meshes_have_lines),
+        cmocka_unit_test(the_same_lines_twice),      cmocka_unit_test(memory_may_run_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
+}
