@@ -81,6 +81,7 @@ static int set_up(void **state)
             -WALL, WALL_Z, WALL, WALL, WALL_Z, -WALL, WALL, WALL_Z);
     fclose(file);
     f = (fixture){.stipple = look_of(stipple), .quill = look_of(quill)};
+    load.up_axis = LMN_UP_Y; /* else the wall would be a floor */
     lmn_status status = lmn_scene_create(&f.scene, &error);
     if (status == LMN_OK)
         status = lmn_scene_add_file(f.scene, path, &load, &error);
