@@ -258,10 +258,22 @@ static void lift_strokes(stroke_set *set)
         }
 }
 
+/* What is kept stays as it was found. */
+static bool copy_lines(stroke_set *out, const stroke_set *from)
+{
+    *out = *from;
+    out->strokes = mem_copy(from->strokes, from->stroke_count * sizeof *out->strokes);
+    out->points = mem_copy(from->points, from->point_count * sizeof *out->points);
+    out->marks = NULL;
+    out->mark_count = 0;
+    return (out->strokes || !from->stroke_count) && (out->points || !from->point_count);
+}
+
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
                                const strokes_values *v, lmn_error *error)
 {
     const strokes_values seen = values_on_sheet(v, strokes_pixels_a_unit(f));
+    const stroke_set    *all = NULL;
     stroke_options       options = strokes_options_of(&seen);
     stroke_style         style = strokes_style_of(&seen);
     stroke_set           set = {0};
@@ -270,7 +282,9 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     memset(out, 0, sizeof *out);
     lmn_status status = strokes_look(store, f, error);
     if (status == LMN_OK)
-        status = stroke_find(&set, store->view, &options, s->figure->designated, NULL, NULL, error);
+        status = stroke_store_lines(store, &all, &options, s->figure->designated, error);
+    if (status == LMN_OK && !copy_lines(&set, all))
+        status = error_memory(error);
     set.perspective = !f->camera.orthographic;
     lift_strokes(&set);
     if (status == LMN_OK && s->figure->layered)

@@ -4,8 +4,16 @@
 
 #include "base/memory.h"
 
+static void release_lines(stroke_store *s)
+{
+    stroke_set_release(&s->lines);
+    mem_free(s->lines_parts);
+    s->lines_parts = NULL;
+}
+
 static void release_view(stroke_store *s)
 {
+    release_lines(s);
     if (s->view)
         stroke_view_destroy(&s->view);
     s->view = NULL;
@@ -104,4 +112,22 @@ lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_e
     if (status != LMN_OK)
         return status;
     return stroke_view_create(&s->view, &s->scene, camera, NULL, NULL, error);
+}
+
+lmn_status stroke_store_lines(stroke_store *s, const stroke_set **out, const stroke_options *options, const bool *parts,
+                              lmn_error *error)
+{
+    *out = &s->lines;
+    if (s->lines_parts && memcmp(&s->lines_options, options, sizeof *options) == 0 &&
+        memcmp(s->lines_parts, parts, s->part_count * sizeof *parts) == 0)
+        return LMN_OK;
+    release_lines(s);
+    s->lines_options = *options;
+    s->lines_parts = mem_copy(parts, s->part_count * sizeof *parts);
+    lmn_status status = s->lines_parts ? LMN_OK : error_memory(error);
+    if (status == LMN_OK)
+        status = stroke_find(&s->lines, s->view, options, parts, NULL, NULL, error);
+    if (status != LMN_OK)
+        release_lines(s);
+    return status;
 }

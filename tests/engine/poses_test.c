@@ -224,11 +224,17 @@ static void add_move(lmn_scene *s)
 
 static void strokes_go_with_joints(void **state)
 {
-    static const char *const none[][2] = {{NULL, NULL}};
-    static const char *const planes[][2] = {{"surface.coordinates", "triplanar"}, {NULL, NULL}};
-    static const char *const curvature[][2] = {{"surface.coordinates", "curvature"}, {NULL, NULL}};
-    static const char *const lapped[][2] = {{"surface.coordinates", "lapped"}, {NULL, NULL}};
-    static const char *const later[][2] = {{"layers.technique", "front"}, {"layers.shading", "deferred"}, {NULL, NULL}};
+    /* The range of tones is found on the model at rest, which the turned camera sees from another side. */
+#define AS_IT_IS                                                                                                       \
+    {"scene.tone_range", "none"},                                                                                      \
+    {                                                                                                                  \
+        NULL, NULL                                                                                                     \
+    }
+    static const char *const none[][2] = {AS_IT_IS};
+    static const char *const planes[][2] = {{"surface.coordinates", "triplanar"}, AS_IT_IS};
+    static const char *const curvature[][2] = {{"surface.coordinates", "curvature"}, AS_IT_IS};
+    static const char *const lapped[][2] = {{"surface.coordinates", "lapped"}, AS_IT_IS};
+    static const char *const later[][2] = {{"layers.technique", "front"}, {"layers.shading", "deferred"}, AS_IT_IS};
     static const struct {
         const char *look;
         const char *const (*settings)[2];
