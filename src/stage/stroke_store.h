@@ -45,8 +45,8 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
 void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends);
 /* What the camera sees, unless that is there. Errors: those of stroke_view_create. */
 lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error);
-/* The lines of these parts in the last camera's view; kept until others are asked for, and lent until then. Errors: those
- * of stroke_find. */
+/* The lines of these parts in the last camera's view; kept until others are asked for, and lent until then. Errors:
+ * those of stroke_find. */
 lmn_status stroke_store_lines(stroke_store *s, const stroke_set **out, const stroke_options *options, const bool *parts,
                               lmn_error *error);
 void       stroke_store_destroy(stroke_store **s, gpu *g);
