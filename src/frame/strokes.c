@@ -73,11 +73,11 @@ static void find_viewer(const frame *f, const mat4 *world, float out[4])
 }
 
 /* Takes over the records; the GPU fails when there are none. */
-static gpu_marks *upload_records(frame *f, float *records, size_t count)
+static gpu_marks *upload_records(frame *f, int vectors, float *records, size_t count)
 {
     gpu_marks *marks = NULL;
     if (records)
-        marks = gpu_marks_create(f->g, EDGE_RECORD_VECTORS, records, count);
+        marks = gpu_marks_create(f->g, vectors, records, count);
     else
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(records);
@@ -97,7 +97,7 @@ static void bring_seen(frame *f, stroke_store *store, uint32_t index)
     memcpy(seen->viewer, viewer, sizeof viewer);
     size_t count = 0;
     float *records = strokes_edge_records_seen(&store->scene.meshes[item->mesh], viewer, &count);
-    seen->edges = upload_records(f, records, count);
+    seen->edges = upload_records(f, EDGE_RECORD_VECTORS, records, count);
 }
 
 /* Makes what the item's lines are drawn from, unless it is there. */
@@ -108,12 +108,13 @@ void edges_bring(frame *f, stroke_store *store, uint32_t index, bool crossings)
     if (m->moves && !gpu_failed(f->g))
         bring_seen(f, store, index);
     else if (!store->edges[mesh] && !gpu_failed(f->g))
-        store->edges[mesh] = upload_records(f, strokes_edge_records(m), strokes_edge_record_count(m));
+        store->edges[mesh] =
+            upload_records(f, EDGE_RECORD_VECTORS, strokes_edge_records(m), strokes_edge_record_count(m));
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;
     float *records = strokes_crossing_records(&store->scene, index, &count);
-    store->crossings[index] = upload_records(f, records, count);
+    store->crossings[index] = upload_records(f, EDGE_RECORD_VECTORS, records, count);
 }
 
 static void draw_records(frame *f, gpu_marks *marks, const mat4 *world)
@@ -313,14 +314,8 @@ gpu_marks *strokes_upload_ribbons(frame *f, ribbon_set *ribbons)
 {
     size_t count;
     project_depths(ribbons, &f->camera);
-    float     *records = strokes_ribbon_records(ribbons, f->height, &count);
-    gpu_marks *marks = NULL;
-    if (records)
-        marks = gpu_marks_create(f->g, RIBBON_RECORD_VECTORS, records, count);
-    else
-        gpu_fail(f->g, LMN_MEMORY, "out of memory");
-    mem_free(records);
-    return marks;
+    float *records = strokes_ribbon_records(ribbons, f->height, &count);
+    return upload_records(f, RIBBON_RECORD_VECTORS, records, count);
 }
 
 static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)

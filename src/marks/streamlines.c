@@ -191,20 +191,28 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
     return keep_line(m, back, closed, bounded);
 }
 
+/* Goes straight on over the surface; *stuck: it got no farther. False where the surface ends before. */
+static bool go_aside(const flow_maker *m, flow_position *p, double distance, bool *stuck)
+{
+    int short_steps = 0;
+    for (double left = distance; left > 1e-6 * distance && short_steps < STUCK;) {
+        double gone;
+        if (flow_straight(m->f, p, left, &gone) != FLOW_ON)
+            return false;
+        left -= gone;
+        short_steps = gone < 1e-4 * distance ? short_steps + 1 : 0;
+    }
+    *stuck = short_steps >= STUCK;
+    return true;
+}
+
 /* Does the surface end nearer than this sideways? */
 static bool ends_beside(const flow_maker *m, const flow_position *from, d3 aside, double distance)
 {
     flow_position p = *from;
-    int           stuck = 0;
+    bool          stuck;
     p.direction = aside;
-    for (double left = distance; left > 1e-6 * distance && stuck < STUCK;) {
-        double gone;
-        if (flow_straight(m->f, &p, left, &gone) != FLOW_ON)
-            return true;
-        left -= gone;
-        stuck = gone < 1e-4 * distance ? stuck + 1 : 0;
-    }
-    return false;
+    return !go_aside(m, &p, distance, &stuck);
 }
 
 /* Lines that hug an edge only make it thicker; between two edges there is no other place. */
@@ -232,16 +240,9 @@ static bool try_seed(flow_maker *m, flow_position *p, d3 like)
 static bool seed_beside(flow_maker *m, const flow_position *from, d3 aside, double distance)
 {
     flow_position p = *from;
-    int           stuck = 0;
+    bool          stuck;
     p.direction = aside;
-    for (double left = distance; left > 1e-6 * distance && stuck < STUCK;) {
-        double gone;
-        if (flow_straight(m->f, &p, left, &gone) != FLOW_ON)
-            return true;
-        left -= gone;
-        stuck = gone < 1e-4 * distance ? stuck + 1 : 0;
-    }
-    return stuck >= STUCK || try_seed(m, &p, from->direction);
+    return !go_aside(m, &p, distance, &stuck) || stuck || try_seed(m, &p, from->direction);
 }
 
 static flow_position position_on(const flow_lines *l, const flow_line *line, uint32_t i, d3 *normal)
