@@ -43,6 +43,8 @@ static const motion_way motion_ways[] = {
      {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
       "motion.decay=0.8"}},
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
+    {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
+    {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
 };
 
 static const char *const angles[] = {"third", "first", NULL};
@@ -68,7 +70,9 @@ static const option options[] = {
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
     {"motion", 0, OPTION_TEXT, AT(motion), "WAY",
      "Tell that the model moves, in any look: speed-lines, ghosts (contours where it has been), echoes (their trailing "
-     "side), comic (lines and contours), plate (the model at several times on one plate), or a technique of `limner "
+     "side), comic (lines and contours), plate (the model at several times on one plate), squash (stretched along its "
+     "way and flattened where it is "
+     "stopped), lean (forward by its speed, back by its acceleration), or a technique of `limner "
      "looks`, such as blur or streaks. Needs a time."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL",
      "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
