@@ -20,10 +20,11 @@ typedef struct body {
     double           size;                   /* of its box at rest */
     double           velocity[3], change[3]; /* around now; and by how much it changes within the response */
     double           before, speed;          /* how fast it came along the change; how fast it is */
+    bool             still;                  /* its middle keeps its place */
     bool             hinged;                 /* its own origin stays: it turns about it */
     double           origin[3];
     double           stop;    /* how far it reaches against the change: what stops it is there */
-    bool             on_spot; /* a character of which only joints move, about its middle */
+    bool             on_spot; /* it turns about its middle, or only joints of a character move */
     bool             bends;
     double           front, rear, middle[3], across[3], low, high, farthest;
     double           late; /* the most of its parts */
@@ -382,7 +383,9 @@ static void rate(const finder *f, double (*at)[3], int from, int to, double out[
 static void find_motion(const finder *f, body *b)
 {
     enum { HINGE = 10 }; /* what is so many times slower stays */
-    double came[3], goes[3], own[TIMES][3], origin[3];
+    double       came[3], goes[3], own[TIMES][3], origin[3];
+    const double SLIGHT = 1e-3;
+    b->size = box3_is_empty(b->rest) ? 0 : box3_diagonal(b->rest);
     rate(f, b->centre, BEFORE, AFTER, b->velocity);
     rate(f, b->centre, BEFORE, NOW, came);
     rate(f, b->centre, NOW, AFTER, goes);
@@ -393,7 +396,7 @@ static void find_motion(const finder *f, body *b)
     to_unit(direction);
     b->before = dot(came, direction);
     b->speed = sqrt(dot(b->velocity, b->velocity));
-    b->size = box3_is_empty(b->rest) ? 0 : box3_diagonal(b->rest);
+    b->still = fmax(dot(came, came), dot(goes, goes)) < SLIGHT * SLIGHT * b->size * b->size;
     for (int t = 0; t < TIMES; t++)
         memcpy(own[t], f->worlds[t][b->root].m + 12, sizeof own[t]);
     rate(f, own, BEFORE, AFTER, origin);
@@ -425,7 +428,7 @@ static bool find_reaches(const finder *f, size_t number)
         good = find_reach(&r, f, number);
         b->stop = r.low;
     }
-    b->on_spot = b->skinned && !node_moves(f, b->root);
+    b->on_spot = b->still || (b->skinned && !node_moves(f, b->root));
     b->bends = b->late > 0 && (to_unit(way) > 0 || b->on_spot);
     memcpy(b->middle, b->hinged && !b->on_spot ? b->origin : b->centre[NOW], sizeof b->middle);
     if (b->bends && good) {
@@ -506,7 +509,7 @@ static mat4 change_of(const finder *f, const body *b, const part_deformation *ho
 {
     double way[3], change[3], m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, anchor[3];
     mat4   out = mat4_identity();
-    if (!(b->size > 0))
+    if (b->still || !(b->size > 0))
         return out;
     memcpy(way, b->velocity, sizeof way);
     memcpy(change, b->change, sizeof change);

@@ -391,6 +391,36 @@ static void rods_bend(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* What turns on the spot is stretched by nothing, squashed by nothing and leans nowhere; and its rim lags. */
+static void wheels_keep_their_shape(void **state)
+{
+    moving_scene m;
+    setting      s;
+    shape        now, plain;
+    double       worst = 0;
+    const double turns[] = {0, 0, 0, 1, 0, 0, sqrt(0.5), sqrt(0.5), 0, 0, 1, 0};
+    (void)state;
+    moving_scene_begin(&m);
+    int node = moving_scene_cylinder(&m, 1, 2, 3, 0.8, 0.2, colour);
+    moving_scene_keys(&m, node, "rotation", 3, (double[]){0, 0.5, 1}, turns);
+    lmn_scene *scene = scene_of(&m, "wheel.glb");
+    set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0, 0, 4});
+    shape_at(&now, scene, &s, 0.6, 0);
+    shape_at(&plain, scene, NULL, 0.6, 0);
+    assert_memory_equal(&now, &plain, sizeof now);
+    set_all(&s, scene, &(part_deformation){.lag = 0.1, .full_speed = 6, .full_acceleration = 12});
+    shape_at(&now, scene, &s, 0.6, 0);
+    for (size_t i = 0; i < now.count; i++) {
+        double x = plain.points[i][0] - 1, y = plain.points[i][1] - 2, back = -pi * 0.1;
+        if (hypot(x, y) < 0.79)
+            continue;
+        worst = fmax(worst, hypot(now.points[i][0] - 1 - cos(back) * x + sin(back) * y,
+                                  now.points[i][1] - 2 - sin(back) * x - cos(back) * y));
+    }
+    assert_true(worst < 0.005);
+    lmn_scene_destroy(&scene);
+}
+
 static int by_height(const void *a, const void *b)
 {
     const double *l = a, *r = b;
@@ -517,6 +547,7 @@ int main(void)
         cmocka_unit_test(what_is_fast_leans),
         cmocka_unit_test(rears_are_late),
         cmocka_unit_test(rods_bend),
+        cmocka_unit_test(wheels_keep_their_shape),
         cmocka_unit_test(trailing_sides_have_teeth),
         cmocka_unit_test(limbs_are_late),
         cmocka_unit_test(missing_memory_is_said),
