@@ -421,6 +421,36 @@ static void wheels_keep_their_shape(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* Rounding moves the middle of what turns by itself, and that is no motion. */
+static void rounding_is_no_motion(void **state)
+{
+    enum { KEYS = 9 };
+    moving_scene m;
+    setting      s;
+    shape        now, plain;
+    double       times[KEYS], turns[4 * KEYS];
+    const double half[3] = {0.2, 0.1, 0.1};
+    (void)state;
+    for (int i = 0; i < KEYS; i++) {
+        times[i] = i / (KEYS - 1.0);
+        const double q[4] = {0, 0, sin(3 * times[i]), cos(3 * times[i])};
+        memcpy(turns + 4 * i, q, sizeof q);
+    }
+    moving_scene_begin(&m);
+    int axle = moving_scene_joint(&m, 0.1, 0.2, 0.3);
+    for (int side = -1; side <= 1; side += 2)
+        moving_scene_put_in(&m, moving_scene_box(&m, 0.7 * side, 0.3 * side, 0.1, half, colour), axle);
+    moving_scene_keys(&m, axle, "rotation", KEYS, times, turns);
+    lmn_scene *scene = scene_of(&m, "axle.glb");
+    set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0, 0, 4});
+    for (double t = 0.21; t < 0.9; t += 0.07) {
+        shape_at(&now, scene, &s, t, 1);
+        shape_at(&plain, scene, NULL, t, 1);
+        assert_memory_equal(&now, &plain, sizeof now);
+    }
+    lmn_scene_destroy(&scene);
+}
+
 static int by_height(const void *a, const void *b)
 {
     const double *l = a, *r = b;
@@ -548,6 +578,7 @@ int main(void)
         cmocka_unit_test(rears_are_late),
         cmocka_unit_test(rods_bend),
         cmocka_unit_test(wheels_keep_their_shape),
+        cmocka_unit_test(rounding_is_no_motion),
         cmocka_unit_test(trailing_sides_have_teeth),
         cmocka_unit_test(limbs_are_late),
         cmocka_unit_test(missing_memory_is_said),
