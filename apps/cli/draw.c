@@ -43,6 +43,7 @@ static const motion_way motion_ways[] = {
      {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
       "motion.decay=0.8"}},
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
+    {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
     {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
     {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
 };
@@ -70,7 +71,8 @@ static const option options[] = {
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
     {"motion", 0, OPTION_TEXT, AT(motion), "WAY",
      "Tell that the model moves, in any look: speed-lines, ghosts (contours where it has been), echoes (their trailing "
-     "side), comic (lines and contours), plate (the model at several times on one plate), squash (stretched along its "
+     "side), comic (lines and contours), plate (the model at several times on one plate), vibration (arcs beside what "
+     "shakes), squash (stretched along its "
      "way and flattened where it is "
      "stopped), lean (forward by its speed, back by its acceleration), or a technique of `limner "
      "looks`, such as blur or streaks. Needs a time."},

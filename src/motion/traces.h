@@ -29,6 +29,8 @@ typedef struct traces_values {
     int32_t       contours, moments;
     float         fade, contour_width;
     bool          trailing, creases;
+    int32_t       vibration;
+    float         vibration_apart;
 } traces_values;
 
 #endif

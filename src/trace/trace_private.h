@@ -101,7 +101,8 @@ typedef struct origin_list {
 /* Spreads the lines that are wished for over bodies, by how large and fast they are. False: out of memory. */
 bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies);
 
-/* --- speed.c, past.c ------------------------------------------------------------------------------------------- */
+/* --- speed.c, past.c, shakes.c
+ * ------------------------------------------------------------------------------------------- */
 
 typedef struct trace_job {
     const traces_options *o;
@@ -117,6 +118,7 @@ typedef struct trace_job {
 
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
+lmn_status shakes_put(trace_job *j, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
 /* 0 … 1, the same for the same numbers. */
