@@ -7,7 +7,7 @@
 
 static const char *const origin_names[] = {"outline", "vertices", NULL};
 static const char *const ends_names[] = {"fading", "heavy", "wedges", NULL};
-static const char *const moments_names[] = {"times", "lengths", NULL};
+static const char *const moments_names[] = {"times", "lengths", "telling", "auto", NULL};
 
 #define COUNT(KEY, ...)  PARAM_INT_ROW(traces_values, KEY, .cpu_only = true, .unit = UNIT_COUNT, __VA_ARGS__)
 #define NUMBER(KEY, ...) PARAM_FLOAT_ROW(traces_values, KEY, .cpu_only = true, __VA_ARGS__)
@@ -43,8 +43,11 @@ static const param params[] = {
           .doc = "How many times the contours of what moves are drawn where it has been; 0 draws none."),
     PARAM_ENUM_ROW(traces_values, moments, .names = moments_names, .def = TRACES_AT_TIMES, .cpu_only = true,
                    .only_if = "contours>0",
-                   .doc = "Contours at equal times, farther apart where motion is fast, or at equal lengths of the "
-                          "way."),
+                   .doc = "Contours at equal times, farther apart where motion is fast; at equal lengths of the way; "
+                          "telling, where most of what moves turns back, rebounds or stops, and in between where there "
+                          "are fewer such moments; auto, only there."),
+    NUMBER(cover, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "moments=telling,auto",
+           .doc = "How much of a figure at one moment may lie over that at another one, fraction of the smaller."),
     NUMBER(fade, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "contours>0",
            .doc = "Opacity of each contour, fraction of the next newer one's."),
     NUMBER(contour_width, .def = 0.9, .min = 0.075, .max = 24, .soft_max = 4.5, .unit = UNIT_PT,

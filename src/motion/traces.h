@@ -15,7 +15,7 @@ typedef enum traces_origin {
 typedef enum traces_ends { TRACES_FADING, TRACES_HEAVY, TRACES_WEDGES } traces_ends;
 
 /* When contours of the past are taken. */
-typedef enum traces_moments { TRACES_AT_TIMES, TRACES_AT_LENGTHS } traces_moments;
+typedef enum traces_moments { TRACES_AT_TIMES, TRACES_AT_LENGTHS, TRACES_TELLING, TRACES_AUTO } traces_moments;
 
 /* Lengths in pixels of the picture, as all of a plan's look. */
 typedef struct traces_values {
@@ -27,7 +27,7 @@ typedef struct traces_values {
     int32_t       groups;
     float         group_apart, probability;
     int32_t       contours, moments;
-    float         fade, contour_width;
+    float         cover, fade, contour_width;
     bool          trailing, creases;
 } traces_values;
 

@@ -41,8 +41,7 @@ typedef struct finder {
 
 /* --- positions -------------------------------------------------------------------------------------------- */
 
-/* World positions of all vertices of a primitive; the caller frees them. */
-static vec3 *world_positions(const pose *p, const trace_mesh *m)
+vec3 *trace_positions(const pose *p, const trace_mesh *m)
 {
     const part_pose *own = &p->parts[m->part];
     vec3            *out = mem_alloc(((size_t)m->primitive->vertex_count + 1) * sizeof *out);
@@ -61,7 +60,7 @@ static vec3 *world_positions(const pose *p, const trace_mesh *m)
 
 static bool put_positions(const finder *f, const pose *p, const trace_mesh *m, double (*to)[3])
 {
-    vec3 *world = world_positions(p, m);
+    vec3 *world = trace_positions(p, m);
     for (uint32_t i = 0; world && i < m->primitive->vertex_count; i++)
         if (!page_project(f->camera, world[i], to[m->first + i]))
             to[m->first + i][0] = to[m->first + i][1] = to[m->first + i][2] = NAN;

@@ -14,13 +14,9 @@
 #define MOMENT 0.02
 
 /* Fractions of the exposure at which as many equal lengths of the way have passed. */
-static lmn_status find_moments(trace_job *j, double *out, size_t count, lmn_error *error)
+static lmn_status find_lengths(trace_job *j, double *out, size_t count, lmn_error *error)
 {
     const traces_options *o = j->o;
-    for (size_t i = 0; i < count; i++)
-        out[i] = (double)(i + 1) / (double)count;
-    if (o->values->moments == TRACES_AT_TIMES || j->bodies.body_count == 0)
-        return LMN_OK;
     /* The first vertex of the largest body goes before. */
     const trace_body *b = &j->bodies.bodies[0];
     for (size_t i = 1; i < j->bodies.body_count; i++)
@@ -51,6 +47,35 @@ static lmn_status find_moments(trace_job *j, double *out, size_t count, lmn_erro
     return LMN_OK;
 }
 
+/* Those that tell most; fewer where figures would cover each other. */
+static lmn_status find_telling(trace_job *j, double *out, size_t *count, lmn_error *error)
+{
+    const traces_options *o = j->o;
+    double                exposure = fmin((double)o->values->common.exposure, o->pose->when.seconds);
+    const telling_options wanted = {.pose = o->pose,
+                                    .parts = o->parts,
+                                    .seconds = exposure,
+                                    .camera = o->camera,
+                                    .count = o->values->moments == TRACES_AUTO ? 0 : (int)*count,
+                                    .cover = (double)o->values->cover,
+                                    .beside_now = true};
+    lmn_status            status = telling_find(&j->facts->telling, &wanted, error);
+    *count = j->facts->telling.count < *count ? j->facts->telling.count : *count;
+    for (size_t i = 0; i < *count; i++)
+        out[i] = j->facts->telling.at[i].ago / exposure;
+    return status;
+}
+
+/* Fractions of the exposure, newest first. */
+static lmn_status find_moments(trace_job *j, double *out, size_t *count, lmn_error *error)
+{
+    for (size_t i = 0; i < *count; i++)
+        out[i] = (double)(i + 1) / (double)*count;
+    if (j->o->values->moments == TRACES_AT_LENGTHS && j->bodies.body_count > 0)
+        return find_lengths(j, out, *count, error);
+    return j->o->values->moments >= TRACES_TELLING ? find_telling(j, out, count, error) : LMN_OK;
+}
+
 /* What is drawn of one time. */
 typedef struct past_moment {
     stroke_set   set;
@@ -62,6 +87,7 @@ typedef struct past_moment {
 static lmn_status find_outlines(past_moment *m, const trace_job *j, const pose *then, lmn_error *error)
 {
     const traces_options *o = j->o;
+    const stroke_camera   camera = page_camera_of_the_past(&o->camera);
     stroke_scene          scene = {NULL};
     stroke_view          *view = NULL;
     stroke_options        w = STROKE_OPTIONS_INIT;
@@ -70,7 +96,7 @@ static lmn_status find_outlines(past_moment *m, const trace_job *j, const pose *
     w.width = o->values->contour_width;
     lmn_status status = stroke_scene_create(&scene, then, j->moves, o->crease_angle, NULL, NULL, error);
     if (status == LMN_OK)
-        status = stroke_view_create(&view, &scene, &o->camera, NULL, NULL, error);
+        status = stroke_view_create(&view, &scene, &camera, NULL, NULL, error);
     if (status == LMN_OK)
         status = stroke_find(&m->set, view, &w, NULL, NULL, NULL, error);
     stroke_view_destroy(&view);
@@ -93,13 +119,9 @@ static bool trails(const past_moment *m, double x, double y)
 
 static bool is_shown(const trace_job *j, const past_moment *m, const double p[3])
 {
-    double   world[1][3];
-    uint32_t before;
     if (page_mask_has(&j->mask, p[0], p[1]) || (j->o->values->trailing && !trails(m, p[0], p[1])))
         return false;
-    page_unproject(&j->o->camera, p, world[0]);
-    stroke_view_count(j->o->seen, (const double(*)[3])world, 1, &before);
-    return before == 0;
+    return nothing_hides(j->o, p);
 }
 
 /* One outline, in runs of what is shown. */
@@ -172,7 +194,7 @@ lmn_status past_contours_put(trace_job *j, lmn_error *error)
 {
     size_t     count = (size_t)j->o->values->contours;
     double    *moments = mem_alloc((count + 1) * sizeof *moments);
-    lmn_status status = moments ? find_moments(j, moments, count, error) : error_memory(error);
+    lmn_status status = moments ? find_moments(j, moments, &count, error) : error_memory(error);
     /* The oldest first, so that newer ones lie over it. */
     for (size_t i = count; i-- > 0 && status == LMN_OK;)
         status = put_moment(j, moments[i], powf(j->o->values->fade, (float)(i + 1)), error);

@@ -97,21 +97,10 @@ static bool take_ray(way *w, trace_job *j, size_t origin)
 }
 
 /* Which points are neither on what moves nor behind anything. */
-static lmn_status see(way *w, const trace_job *j, lmn_error *error)
+static void see(way *w, const trace_job *j)
 {
-    double(*world)[3] = mem_alloc((w->count + 1) * sizeof *world);
-    uint32_t *before = mem_alloc((w->count + 1) * sizeof *before);
-    if (world && before) {
-        for (size_t i = 0; i < w->count; i++)
-            page_unproject(&j->o->camera, w->at[i], world[i]);
-        stroke_view_count(j->o->seen, (const double(*)[3])world, w->count, before);
-        for (size_t i = 0; i < w->count; i++)
-            w->shown[i] = before[i] == 0 && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]);
-    }
-    lmn_status status = world && before ? LMN_OK : error_memory(error);
-    mem_free(world);
-    mem_free(before);
-    return status;
+    for (size_t i = 0; i < w->count; i++)
+        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, w->at[i]);
 }
 
 /* Half the width and the opacity at a fraction of the line, 0 where it begins. */
@@ -197,7 +186,7 @@ lmn_status speed_lines_put(trace_job *j, lmn_error *error)
         if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
             status = error_memory(error);
         if (status == LMN_OK && w.count > 1)
-            status = see(&w, j, error);
+            see(&w, j);
         if (status == LMN_OK && w.count > 1 && !put_line(j, &w, origin))
             status = error_memory(error);
     }

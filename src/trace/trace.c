@@ -29,6 +29,17 @@ bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, con
     return true;
 }
 
+bool nothing_hides(const traces_options *o, const double page[3])
+{
+    double   world[1][3];
+    uint32_t before;
+    if (!o->camera.orthographic && page[2] < o->camera.near * 1.001)
+        return true; /* before all that is there now */
+    page_unproject(&o->camera, page, world[0]);
+    stroke_view_count(o->seen, (const double(*)[3])world, 1, &before);
+    return before == 0;
+}
+
 static lmn_status find_bodies(trace_job *j, lmn_error *error)
 {
     pose       before = {.scene = NULL};

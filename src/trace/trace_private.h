@@ -8,6 +8,8 @@
 
 /* A position on the page; false when it is behind the near plane. */
 bool page_project(const stroke_camera *c, vec3 world, double out[3]);
+/* What sees whatever page_project does. */
+stroke_camera page_camera_of_the_past(const stroke_camera *c);
 /* And back. */
 void page_unproject(const stroke_camera *c, const double page[3], double out[3]);
 
@@ -20,6 +22,8 @@ bool page_mask_open(page_mask *m, const stroke_camera *c); /* false: out of memo
 void page_mask_close(page_mask *m);
 void page_mask_add(page_mask *m, const double *a, const double *b, const double *c);
 bool page_mask_has(const page_mask *m, double x, double y);
+/* All that parts show in a pose, the whole of each triangle before the near plane. False: out of memory. */
+bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera);
 
 /* --- bodies.c: what moves ----------------------------------------------------------------------------------- */
 
@@ -28,6 +32,9 @@ typedef struct trace_mesh {
     uint32_t         part, instance, first;
     const primitive *primitive;
 } trace_mesh;
+
+/* World positions of all its vertices; the caller frees them with mem_free. NULL: out of memory. */
+vec3 *trace_positions(const pose *p, const trace_mesh *m);
 
 typedef enum body_motion {
     MOVES_ALONG,  /* one way */
@@ -89,6 +96,8 @@ typedef struct trace_ways {
 lmn_status ways_follow(trace_ways *out, const traces_options *o, const trace_bodies *bodies,
                        const trace_origin *origins, size_t count, lmn_error *error);
 void       ways_release(trace_ways *w);
+/* The pose so many seconds before another one, not before its clips begin. */
+lmn_status pose_before(pose *out, const pose *now, double seconds, lmn_error *error);
 /* The pose at a fraction of the exposure ago. */
 lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_error *error);
 
@@ -119,6 +128,8 @@ lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
+/* Is a position on the page, with its depth, before all that is there now? */
+bool nothing_hides(const traces_options *o, const double page[3]);
 /* 0 … 1, the same for the same numbers. */
 double trace_random(const traces_options *o, uint32_t body, uint32_t line, uint32_t what);
 
