@@ -7,6 +7,7 @@
 
 static const char *const origin_names[] = {"outline", "vertices", NULL};
 static const char *const ends_names[] = {"fading", "heavy", "wedges", NULL};
+static const char *const figures_names[] = {"outlines", "bones", "points", "solids", "swept", NULL};
 static const char *const moments_names[] = {"times", "lengths", "telling", "auto", NULL};
 
 #define COUNT(KEY, ...)  PARAM_INT_ROW(traces_values, KEY, .cpu_only = true, .unit = UNIT_COUNT, __VA_ARGS__)
@@ -41,6 +42,14 @@ static const param params[] = {
            .doc = "With which probability each line is there, anew for each frame of a film."),
     COUNT(contours, .def = 0, .min = 0, .max = 64, .soft_max = 12,
           .doc = "How many times the contours of what moves are drawn where it has been; 0 draws none."),
+    PARAM_ENUM_ROW(traces_values, figures, .names = figures_names, .def = TRACES_OUTLINES, .cpu_only = true,
+                   .only_if = "contours>0",
+                   .doc =
+                       "What is drawn of those times: outlines; bones, lines from joint to joint, of parts without a "
+                       "skin their middle lines; points, marks at their ends alone; solids, a cone with round ends "
+                       "in place of each limb; swept, one outline around all that was covered on the way."),
+    PARAM_TEXT_ROW(traces_values, bones, .example = "*Leg*", .only_if = "figures=bones,points,solids",
+                   .doc = "Which of them, by the names of joints and nodes, for example '*Leg*'; empty: all."),
     PARAM_ENUM_ROW(traces_values, moments, .names = moments_names, .def = TRACES_AT_TIMES, .cpu_only = true,
                    .only_if = "contours>0",
                    .doc = "Contours at equal times, farther apart where motion is fast; at equal lengths of the way; "
@@ -54,6 +63,8 @@ static const param params[] = {
            .only_if = "contours>0", .doc = "Width of contours of the past."),
     PARAM_BOOL_ROW(traces_values, trailing, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Only the side of contours that trails."),
+    PARAM_BOOL_ROW(traces_values, in_front, .def = 0, .cpu_only = true, .only_if = "contours>0",
+                   .doc = "They lie before what is there now instead of behind it."),
     PARAM_BOOL_ROW(traces_values, creases, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Creases, too, where it has been."),
 };

@@ -17,6 +17,15 @@ typedef enum traces_ends { TRACES_FADING, TRACES_HEAVY, TRACES_WEDGES } traces_e
 /* When contours of the past are taken. */
 typedef enum traces_moments { TRACES_AT_TIMES, TRACES_AT_LENGTHS, TRACES_TELLING, TRACES_AUTO } traces_moments;
 
+/* What is drawn at those times. */
+typedef enum traces_figures {
+    TRACES_OUTLINES,
+    TRACES_BONES,
+    TRACES_POINTS,
+    TRACES_SOLIDS,
+    TRACES_SWEPT
+} traces_figures;
+
 /* Lengths in pixels of the picture, as all of a plan's look. */
 typedef struct traces_values {
     motion_common common;
@@ -26,9 +35,10 @@ typedef struct traces_values {
     float         length, uneven, begin;
     int32_t       groups;
     float         group_apart, probability;
-    int32_t       contours, moments;
+    int32_t       contours, moments, figures;
+    param_words   bones;
     float         cover, fade, contour_width;
-    bool          trailing, creases;
+    bool          trailing, creases, in_front;
 } traces_values;
 
 #endif

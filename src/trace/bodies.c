@@ -81,8 +81,7 @@ static int32_t moved_node(const finder *f, int32_t node_index)
     return found;
 }
 
-/* The joint that a vertex follows most. */
-static int32_t joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex)
+int32_t trace_joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex)
 {
     const skin *k = &s->skins[n->skin];
     uint32_t    best = 0;
@@ -100,7 +99,7 @@ static int32_t key_of(const finder *f, const trace_mesh *m, uint32_t vertex, int
     int32_t          own = s->parts[m->part].node;
     const node      *n = &s->nodes[own];
     if (n->skin != NONE && m->primitive->influences > 0 && s->skins[n->skin].joint_count > 0)
-        return joint_of(s, n, m->primitive, vertex);
+        return trace_joint_of(s, n, m->primitive, vertex);
     return rigid != NONE ? rigid : own;
 }
 

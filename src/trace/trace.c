@@ -84,6 +84,7 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
         status = measures_take(&j, error);
     page_mask_close(&j.mask);
     mem_free(j.moves);
+    bones_release(&j.bones);
     mem_free(j.origins.items);
     ways_release(&j.ways);
     bodies_release(&j.bodies);

@@ -36,6 +36,9 @@ typedef struct trace_mesh {
 /* World positions of all its vertices; the caller frees them with mem_free. NULL: out of memory. */
 vec3 *trace_positions(const pose *p, const trace_mesh *m);
 
+/* The joint that a vertex of a skinned primitive follows most. */
+int32_t trace_joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex);
+
 typedef enum body_motion {
     MOVES_ALONG,  /* one way */
     MOVES_AROUND, /* a centre on the page */
@@ -110,6 +113,24 @@ typedef struct origin_list {
 /* Spreads the lines that are wished for over bodies, by how large and fast they are. False: out of memory. */
 bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies);
 
+/* --- bones.c, figures.c ------------------------------------------------------------------------------------- */
+
+typedef struct trace_bone {
+    uint32_t part;
+    int32_t  node; /* that it goes with */
+    vec3     from, to;
+    double   radius[2]; /* of what is around it at either end, in the world at rest */
+} trace_bone;
+
+typedef struct trace_bones {
+    trace_bone *items;
+    size_t      count;
+} trace_bones;
+
+/* The bones of these parts whose nodes match a glob; empty: all. Errors: LMN_MEMORY. */
+lmn_status bones_find(trace_bones *out, const pose *now, const bool *parts, const char *wanted, lmn_error *error);
+void       bones_release(trace_bones *b);
+
 /* --- speed.c, past.c ------------------------------------------------------------------------------------------- */
 
 typedef struct trace_job {
@@ -117,6 +138,7 @@ typedef struct trace_job {
     trace_bodies          bodies;
     bool                 *moves; /* per part */
     page_mask             mask;  /* of all that moves, now */
+    trace_bones           bones;
     origin_list           origins;
     trace_ways            ways;
     ribbon_set           *out;
@@ -126,6 +148,11 @@ typedef struct trace_job {
 
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
+/* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
+lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, lmn_error *error);
+/* The outline of all that is covered during the exposure, line by line. */
+typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count);
+lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
 /* Is a position on the page, with its depth, before all that is there now? */

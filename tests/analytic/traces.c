@@ -1,6 +1,7 @@
 /* Speed lines and contours of the past against what is known of the motion. Großmann 2011; rows 15, 16, 19, 21, 23 to
  * 25, 28 to 31, 33, 77k. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -277,6 +278,109 @@ static void contours_of_the_past(void)
     close_scene(&t);
 }
 
+/* --- figures -------------------------------------------------------------------------------------------------- */
+
+static double to_segment(double x, double y, const double a[2], const double b[2])
+{
+    double dx = b[0] - a[0], dy = b[1] - a[1],
+           f = fmin(fmax(((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy), 0), 1);
+    return hypot(x - a[0] - f * dx, y - a[1] - f * dy);
+}
+
+/* A rod of four units and one of two, each from its joint, that turn by 90 degrees in a second. */
+static const char *write_rods(const char *name)
+{
+    moving_scene m;
+    const double turns[8] = {0, 0, 0, 1, 0, 0, sin(pi / 4), cos(pi / 4)};
+    moving_scene_begin(&m);
+    for (int i = 0; i < 2; i++) {
+        double half = i ? 1 : 2;
+        int    joint = moving_scene_joint(&m, i ? 1 : -3, -2, 0),
+            rod = moving_scene_box(&m, half, 0, 0, (double[]){half, 0.1, 0.1}, grey);
+        moving_scene_name(&m, rod, i ? "leg" : "arm");
+        moving_scene_put_in(&m, rod, joint);
+        moving_scene_keys(&m, joint, "rotation", 2, (double[]){0, 1}, turns);
+    }
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+/* Row 77d: of each time a line and two marks, and nothing of what was not asked for. Row 77h: outlines so far from the
+ * middle line as the rod is thick. */
+static void check_rods(const traced *t, double radius, const char *what)
+{
+    double off = 0, elsewhere = 0;
+    size_t lines = 0;
+    for (size_t i = 0; i < t->ribbons.ribbon_count; i++) {
+        const ribbon       *r = &t->ribbons.ribbons[i];
+        const ribbon_point *p = &t->ribbons.points[r->first];
+        double              n = round(log((double)p->alpha) / log(0.75)), angle = pi / 2 * (1 - n / 8);
+        const double        joint[2] = {PAGE / 2.0 + UNIT, PAGE / 2.0 + 2 * UNIT},
+                     tip[2] = {joint[0] + 2 * UNIT * cos(angle), joint[1] - 2 * UNIT * sin(angle)};
+        bool mark = hypot((double)p[0].x - joint[0], (double)p[0].y - joint[1]) < 4 ||
+                    hypot((double)p[0].x - tip[0], (double)p[0].y - tip[1]) < 4;
+        mark = mark && r->count < 30 && radius == 0;
+        lines += !mark;
+        for (uint32_t k = 0; k < r->count; k++) {
+            double apart = to_segment((double)p[k].x, (double)p[k].y, joint, tip);
+            off = mark ? off : fmax(off, fabs(apart - radius));
+            elsewhere += apart > radius + 4;
+        }
+    }
+    check_that("77d", lines == 8, "%s: %zu phases of 8 can be counted", what, lines);
+    check_at_most("77d", off, 0.6, "%s: off by, units", what);
+    check_at_most("77d", elsewhere, 0, "%s: points elsewhere", what);
+}
+
+static void figures_of_the_past(void)
+{
+    traced t;
+    if (open_scene(&t, write_rods("rods"), 1, true)) {
+        t.values.lines = 0;
+        t.values.contours = 8;
+        t.values.in_front = true;
+        t.values.figures = TRACES_BONES;
+        snprintf(t.values.bones.text, sizeof t.values.bones.text, "le*");
+        check_that("77d", trace(&t) == LMN_OK, "bones");
+        check_rods(&t, 0, "bones");
+        t.values.figures = TRACES_SOLIDS;
+        check_that("77h", trace(&t) == LMN_OK, "solids");
+        check_rods(&t, 0.1 * UNIT, "solids");
+        t.values.figures = TRACES_POINTS;
+        check_that("77d", trace(&t) == LMN_OK, "points");
+        check_that("77d", count_of(&t, STROKE_PAST) == 16, "%zu of 16 marks", count_of(&t, STROKE_PAST));
+        t.values.bones.text[0] = 0;
+        check_that("77d", trace(&t) == LMN_OK, "points of both rods");
+        check_that("77d", count_of(&t, STROKE_PAST) == 32, "%zu of 32 marks", count_of(&t, STROKE_PAST));
+    }
+    close_scene(&t);
+}
+
+/* Row 77g: a ball of radius 1 sweeps a form with straight sides and round ends. */
+static void swept_forms(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("swept", 3, false), 1, true)) {
+        double       off = 0, length = 0;
+        const double from[2] = {PAGE / 2.0 - 3 * UNIT, PAGE / 2.0}, to[2] = {PAGE / 2.0 + 3 * UNIT, PAGE / 2.0};
+        t.values.lines = 0;
+        t.values.contours = 1;
+        t.values.in_front = true;
+        t.values.figures = TRACES_SWEPT;
+        check_that("77g", trace(&t) == LMN_OK, "swept");
+        check_that("77g", t.ribbons.ribbon_count == 1, "one outline: %zu", t.ribbons.ribbon_count);
+        for (size_t i = 0; i < t.ribbons.point_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[i];
+            off = fmax(off, fabs(to_segment((double)p->x, (double)p->y, from, to) - UNIT));
+            length += i ? hypot((double)(p[0].x - p[-1].x), (double)(p[0].y - p[-1].y)) : 0;
+        }
+        check_at_most("77g", off, 2, "off by, units (facets: 1.5)");
+        check_near("77g", length / (12 * UNIT + 2 * pi * UNIT), 1, 0.02, "it is smooth: as long as the true form");
+    }
+    close_scene(&t);
+}
+
 /* A wall before the right half of where the ball came from hides both lines and contours there. */
 static void walls_hide(void)
 {
@@ -409,10 +513,16 @@ static void memory_may_run_out(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"requirements", requirements}, {"behind", lines_lie_behind},
-        {"arcs", rods_leave_arcs},      {"contours", contours_of_the_past},
-        {"walls", walls_hide},          {"odd", odd_motions},
-        {"chances", chances},           {"memory", memory_may_run_out},
+        {"requirements", requirements},
+        {"behind", lines_lie_behind},
+        {"arcs", rods_leave_arcs},
+        {"contours", contours_of_the_past},
+        {"figures", figures_of_the_past},
+        {"swept", swept_forms},
+        {"walls", walls_hide},
+        {"odd", odd_motions},
+        {"chances", chances},
+        {"memory", memory_may_run_out},
     };
     return check_main(argc, argv, "traces", cases, sizeof cases / sizeof *cases);
 }
