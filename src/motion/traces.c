@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-static const char *const origin_names[] = {"outline", "vertices", NULL};
+static const char *const origin_names[] = {"outline", "vertices", "circle", NULL};
+static const char *const flow_names[] = {"parallel", "converging", NULL};
 static const char *const ends_names[] = {"fading", "heavy", "wedges", NULL};
 static const char *const figures_names[] = {"outlines", "bones", "points", "solids", "swept", NULL};
 static const char *const moments_names[] = {"times", "lengths", "telling", "auto", NULL};
@@ -20,10 +21,12 @@ static const param params[] = {
            .doc = "Width of speed lines where they are widest."),
     COUNT(lines, .def = 24, .min = 0, .max = 2000, .soft_max = 100,
           .doc = "How many speed lines there are, over all that moves; 0 draws none."),
-    PARAM_ENUM_ROW(traces_values, origin, .names = origin_names, .def = TRACES_OUTLINE, .cpu_only = true,
-                   .only_if = "lines>0",
-                   .doc = "Where speed lines begin: outline, at the rear of what moves, at heights that are spread "
-                          "unevenly; vertices, at the rearmost vertex of each of equal strips."),
+    PARAM_ENUM_ROW(
+        traces_values, origin, .names = origin_names, .def = TRACES_OUTLINE, .cpu_only = true, .only_if = "lines>0",
+        .doc =
+            "Where speed lines begin: outline, at the rear of what moves, at heights that are spread "
+            "unevenly; vertices, at the rearmost vertex of each of equal strips; circle, like outline, but around what "
+            "comes nearer or goes away on a circle, evenly."),
     PARAM_ENUM_ROW(traces_values, ends, .names = ends_names, .def = TRACES_FADING, .cpu_only = true,
                    .only_if = "lines>0",
                    .doc = "How speed lines run out: fading, ever finer and fainter; heavy, finer from a strong "
@@ -40,6 +43,12 @@ static const param params[] = {
            .doc = "How far apart those are."),
     NUMBER(probability, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "With which probability each line is there, anew for each frame of a film."),
+    COUNT(flow, .def = 0, .min = 0, .max = 2000, .soft_max = 100,
+          .doc = "How many flow lines run behind what moves and on ahead of it, to where it goes; 0 draws none."),
+    PARAM_ENUM_ROW(traces_values, flow_way, .names = flow_names, .def = TRACES_PARALLEL, .cpu_only = true,
+                   .only_if = "flow>0", .doc = "Flow lines run side by side, or converge at a point ahead."),
+    NUMBER(flow_length, .def = 0.3, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION, .only_if = "flow>0",
+           .doc = "How far ahead of what moves they run, fraction of the picture's longer side."),
     COUNT(contours, .def = 0, .min = 0, .max = 64, .soft_max = 12,
           .doc = "How many times the contours of what moves are drawn where it has been; 0 draws none."),
     PARAM_ENUM_ROW(traces_values, figures, .names = figures_names, .def = TRACES_OUTLINES, .cpu_only = true,

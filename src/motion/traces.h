@@ -7,12 +7,16 @@
 
 /* Where lines begin. */
 typedef enum traces_origin {
-    TRACES_OUTLINE, /* rearmost position of the outline, at heights that are spread unevenly */
-    TRACES_VERTICES /* the rearmost vertex of each of equal strips (Hanl) */
+    TRACES_OUTLINE,  /* rearmost position of the outline, at heights that are spread unevenly */
+    TRACES_VERTICES, /* the rearmost vertex of each of equal strips (Hanl) */
+    TRACES_CIRCLE    /* of what comes nearer or goes away, a circle around it (Song) */
 } traces_origin;
 
 /* How lines end: what their width and opacity do from the mover backwards. */
 typedef enum traces_ends { TRACES_FADING, TRACES_HEAVY, TRACES_WEDGES } traces_ends;
+
+/* Where flow lines go. */
+typedef enum traces_flow { TRACES_PARALLEL, TRACES_CONVERGING } traces_flow;
 
 /* When contours of the past are taken. */
 typedef enum traces_moments { TRACES_AT_TIMES, TRACES_AT_LENGTHS, TRACES_TELLING, TRACES_AUTO } traces_moments;
@@ -35,6 +39,8 @@ typedef struct traces_values {
     float         length, uneven, begin;
     int32_t       groups;
     float         group_apart, probability;
+    int32_t       flow, flow_way;
+    float         flow_length;
     int32_t       contours, moments, figures;
     param_words   bones;
     float         cover, fade, contour_width;

@@ -55,7 +55,7 @@ static void measure_body(trace_measures *m, const trace_job *j, uint32_t number,
     size_t            count = 0;
     for (size_t i = 0; i < j->out->ribbon_count; i++) {
         const ribbon *r = &j->out->ribbons[i];
-        if (r->kind != STROKE_SPEED || r->id >> 32 != number)
+        if (r->kind != STROKE_SPEED || r->id >> 32 != number || r->id & TRACE_FLOW)
             continue;
         const ribbon_point *p = &j->out->points[r->first];
         double              along, page[3] = {(double)p->x, (double)p->y, 0};
@@ -74,7 +74,7 @@ lmn_status measures_take(trace_job *j, lmn_error *error)
         return error_memory(error);
     for (size_t i = 0; i < j->out->ribbon_count; i++) {
         const ribbon *r = &j->out->ribbons[i];
-        if (r->kind != STROKE_SPEED)
+        if (r->kind != STROKE_SPEED || r->id & TRACE_FLOW)
             continue;
         const ribbon_point *p = &j->out->points[r->first];
         m->lines++;

@@ -18,6 +18,9 @@
 #define LENGTHS_APART 0.6
 /* Rays of what comes nearer are as long as this fraction of its radius. */
 #define RAY 0.8
+/* Those that begin on a circle begin so far from its middle, radii. */
+#define CIRCLE 1.1
+static const double pi = 3.14159265358979323846;
 
 /* A way as it is drawn: points that are close together, with the length up to each. */
 typedef struct way {
@@ -83,6 +86,38 @@ static bool take_way(way *w, trace_job *j, size_t origin)
     return good;
 }
 
+/* How far from its middle what comes nearer reaches, and which of how many rays one is. */
+static void look_around(const trace_job *j, size_t origin, double *radius, uint32_t *count)
+{
+    uint32_t          body = j->origins.items[origin].body;
+    const trace_body *b = &j->bodies.bodies[body];
+    *radius = 0;
+    *count = 0;
+    for (uint32_t i = b->first; i < b->first + b->count; i++)
+        for (int k = 0; k < 3; k++) {
+            const double *p = j->bodies.now[j->bodies.triangles[i][k]];
+            *radius = fmax(*radius, hypot(p[0] - b->centre[0], p[1] - b->centre[1]));
+        }
+    for (size_t i = 0; i < j->origins.count; i++)
+        *count += j->origins.items[i].body == body;
+}
+
+/* A ray that begins on a circle around what comes nearer, after Song (2005): all at equal angles. */
+static bool take_ray_of_circle(way *w, trace_job *j, size_t origin, double depth)
+{
+    const trace_body *b = &j->bodies.bodies[j->origins.items[origin].body];
+    uint32_t          count, number = 0;
+    double            radius;
+    look_around(j, origin, &radius, &count);
+    for (size_t i = 0; i < origin; i++)
+        number += j->origins.items[i].body == j->origins.items[origin].body;
+    double       angle = 2 * pi * number / count, x = cos(angle), y = sin(angle);
+    const double from[3] = {b->centre[0] + CIRCLE * radius * x, b->centre[1] + CIRCLE * radius * y, depth},
+                 to[3] = {b->centre[0] + (CIRCLE + RAY) * radius * x, b->centre[1] + (CIRCLE + RAY) * radius * y,
+                          depth};
+    return put_point(w, from) && put_step(w, from, to);
+}
+
 /* A straight ray away from the middle of what comes nearer. */
 static bool take_ray(way *w, trace_job *j, size_t origin)
 {
@@ -92,6 +127,8 @@ static bool take_ray(way *w, trace_job *j, size_t origin)
     w->count = 0;
     if (!isfinite(x) || !isfinite(y))
         return true;
+    if (j->o->values->origin == TRACES_CIRCLE)
+        return take_ray_of_circle(w, j, origin, p[2]);
     const double to[3] = {p[0] + RAY * x, p[1] + RAY * y, p[2]};
     return put_point(w, p) && put_step(w, p, to);
 }

@@ -146,6 +146,9 @@ typedef struct trace_job {
     size_t                ribbon_capacity, point_capacity;
 } trace_job;
 
+/* In the number of a line, the lower half of its ribbons' ids: it is a flow line. */
+#define TRACE_FLOW 0x80000000u
+lmn_status flow_lines_put(trace_job *j, lmn_error *error);
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 /* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */

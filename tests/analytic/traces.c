@@ -278,6 +278,91 @@ static void contours_of_the_past(void)
     close_scene(&t);
 }
 
+static const char *write_moved(const char *name, int keys, const double *times, const double *places)
+{
+    moving_scene m;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
+    if (keys)
+        moving_scene_keys(&m, ball, "translation", keys, times, places);
+    int other = moving_scene_joint(&m, 0, 0, 0);
+    moving_scene_keys(&m, other, "translation", 2, (double[]){0, 1}, (double[]){0, 0, 0, 1, 0, 0});
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+/* --- flow lines --------------------------------------------------------------------------------------------- */
+
+/* Row 77m: the ball at (3, 0) goes to the right. All lines go on ahead of it, side by side or to one point. */
+static void flow_lines(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("flow", 3, false), 1, true)) {
+        const double front = PAGE / 2.0 + 4 * UNIT;
+        t.values.flow = 30;
+        t.values.flow_length = 0.12f;
+        for (int way = TRACES_PARALLEL; way <= TRACES_CONVERGING; way++) {
+            double slant = 0, off = 0, inside = 0;
+            size_t lines = 0, ahead = 0;
+            t.values.flow_way = way;
+            check_that("77m", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon       *r = &t.ribbons.ribbons[i];
+                const ribbon_point *p = &t.ribbons.points[r->first], *q = p + r->count - 1;
+                if (!((uint32_t)r->id & 0x80000000u))
+                    continue;
+                double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y,
+                       meets[2] = {front + 0.12 * PAGE - (double)p->x, PAGE / 2.0 - (double)p->y};
+                lines++;
+                ahead += (double)q->x > front;
+                slant = fmax(slant, fabs(y / x));
+                off = fmax(off, fabs(x * meets[1] - y * meets[0]) / hypot(x, y));
+                for (uint32_t k = 0; k < r->count; k++)
+                    inside += hypot((double)p[k].x - PAGE / 2.0 - 3 * UNIT, (double)p[k].y - PAGE / 2.0) < UNIT * 0.98;
+            }
+            check_at_least("77m", (double)lines, 30, "lines, those that the ball parts counted twice");
+            check_at_most("77m", inside, 0, "points on the ball");
+            check_at_least("77m", (double)ahead, way == TRACES_PARALLEL ? 20 : 12, "lines that end ahead of it");
+            check_at_most("77m", way == TRACES_PARALLEL ? slant : off, way == TRACES_PARALLEL ? 0.001 : 0.5,
+                          way == TRACES_PARALLEL ? "slant against its way" : "units by which they miss one point");
+            check_that("33", t.facts.measures.lines == 24, "measures count speed lines alone: %zu",
+                       t.facts.measures.lines);
+        }
+    }
+    close_scene(&t);
+}
+
+/* Row 20: rays around what comes nearer begin on a circle, at equal angles. */
+static void lines_on_circles(void)
+{
+    traced t;
+    if (open_scene(&t, write_moved("circle", 2, (double[]){0, 1}, (double[]){0, 0, -8, 0, 0, 4}), 1, false)) {
+        double least = INFINITY, most = 0, apart = 0, off = 0, before = 0;
+        size_t count = 0;
+        t.values.origin = TRACES_CIRCLE;
+        t.values.lines = 24;
+        t.values.uneven = 0;
+        check_that("20", trace(&t) == LMN_OK, "traced");
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[t.ribbons.ribbons[i].first];
+            const ribbon_point *q = p + t.ribbons.ribbons[i].count - 1;
+            double              x = (double)p->x - PAGE / 2.0, y = (double)p->y - PAGE / 2.0, angle = atan2(y, x);
+            least = fmin(least, hypot(x, y));
+            most = fmax(most, hypot(x, y));
+            off = fmax(off, fabs(x * ((double)q->y - (double)p->y) - y * ((double)q->x - (double)p->x)) / hypot(x, y));
+            if (count++)
+                apart = fmax(apart, fabs(fabs(remainder(angle - before, 2 * pi)) - 2 * pi / 24));
+            before = angle;
+        }
+        check_that("20", count == 24, "%zu of 24 rays", count);
+        check_at_most("20", most - least, 2, "beginnings are off a circle by, units");
+        check_at_most("20", apart, 0.02, "angles differ from equal ones by");
+        check_at_most("20", off, 0.5, "rays miss the middle by, units");
+    }
+    close_scene(&t);
+}
+
 /* --- figures -------------------------------------------------------------------------------------------------- */
 
 static double to_segment(double x, double y, const double a[2], const double b[2])
@@ -412,20 +497,6 @@ static void walls_hide(void)
 /* --- odd motions ---------------------------------------------------------------------------------------------------
  */
 
-static const char *write_moved(const char *name, int keys, const double *times, const double *places)
-{
-    moving_scene m;
-    moving_scene_begin(&m);
-    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
-    if (keys)
-        moving_scene_keys(&m, ball, "translation", keys, times, places);
-    int other = moving_scene_joint(&m, 0, 0, 0);
-    moving_scene_keys(&m, other, "translation", 2, (double[]){0, 1}, (double[]){0, 0, 0, 1, 0, 0});
-    const char *path = check_path("%s.glb", name);
-    moving_scene_write(&m, path);
-    return path;
-}
-
 static void odd_motions(void)
 {
     traced t;
@@ -517,6 +588,8 @@ int main(int argc, char **argv)
         {"behind", lines_lie_behind},
         {"arcs", rods_leave_arcs},
         {"contours", contours_of_the_past},
+        {"flow", flow_lines},
+        {"circle", lines_on_circles},
         {"figures", figures_of_the_past},
         {"swept", swept_forms},
         {"walls", walls_hide},
