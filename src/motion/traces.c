@@ -31,7 +31,7 @@ static const param params[] = {
                    .only_if = "lines>0",
                    .doc = "How speed lines run out: fading, ever finer and fainter; heavy, finer from a strong "
                           "beginning; wedges, straight-sided from twice the width to nothing."),
-    NUMBER(length, .def = 0.8, .min = 0.01, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
+    NUMBER(length, .def = 1, .min = 0.01, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "Length of speed lines, fraction of the way during the exposure."),
     NUMBER(uneven, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "How much speed lines differ in length and distance."),

@@ -18,6 +18,11 @@
 #define LENGTHS_APART 0.6
 /* Rays of what comes nearer are as long as this fraction of its radius. */
 #define RAY 0.8
+/* Fading lines are opaque up to so far from their end, fraction of their length: else they look shorter than they are.
+ */
+#define FADES 0.4
+/* Where what moves was slower than this fraction of how fast it was since, it has turned or begun: there lines end. */
+#define SLOW 0.12
 /* Those that begin on a circle begin so far from its middle, radii. */
 #define CIRCLE 1.1
 static const double pi = 3.14159265358979323846;
@@ -63,7 +68,21 @@ static bool put_step(way *w, const double *from, const double *to)
     return true;
 }
 
-/* The way of one origin, ended where it jumps. */
+/* The step before which a way turns back: within an eighth of it the heading changes by more than a quarter turn, and
+ * by no steady turning. What came before that is another motion. */
+static uint32_t turns_back(const trace_body *b, const double (*at)[3], uint32_t steps)
+{
+    uint32_t apart = steps / 8 > 1 ? steps / 8 : 1;
+    for (uint32_t k = apart + 1; k <= steps && !b->round; k++) {
+        const double *p = at[k], *q = at[k - apart];
+        double        x = p[0] - p[-3], y = p[1] - p[-2], u = q[0] - q[-3], v = q[1] - q[-2];
+        if (x * u + y * v < -0.2 * hypot(x, y) * hypot(u, v))
+            return k - (apart + 1) / 2;
+    }
+    return steps;
+}
+
+/* The way of one origin, ended where it jumps or turns back. */
 static bool take_way(way *w, trace_job *j, size_t origin)
 {
     uint32_t steps = j->ways.steps;
@@ -74,9 +93,14 @@ static bool take_way(way *w, trace_job *j, size_t origin)
     w->count = 0;
     if (!isfinite(at[0][0]) || !isfinite(whole))
         return true;
-    bool good = put_point(w, at[0]);
-    for (uint32_t k = 1; k <= steps && good; k++) {
+    bool     good = put_point(w, at[0]);
+    double   fastest = 0;
+    uint32_t last = turns_back(&j->bodies.bodies[j->origins.items[origin].body], (const double(*)[3])at, steps);
+    for (uint32_t k = 1; k <= last && good; k++) {
         double step = hypot(at[k][0] - at[k - 1][0], at[k][1] - at[k - 1][1]);
+        fastest = fmax(fastest, step);
+        if (step < SLOW * fastest)
+            break;
         if (step > JUMP_FRACTION * whole && step * (steps - 1) > JUMP_STEPS * (whole - step)) {
             j->facts->jumps++;
             break;
@@ -146,7 +170,7 @@ static void profile(const traces_values *v, double at, float *half, float *alpha
     double left = fmax(1 - at, 0), wide = 1, opaque = 1;
     if (v->ends == TRACES_FADING) {
         wide = 0.35 + 0.65 * left;
-        opaque = left;
+        opaque = fmin(1, left / FADES);
     } else if (v->ends == TRACES_HEAVY)
         wide = 0.3 + 0.7 * left * left;
     else

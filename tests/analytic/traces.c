@@ -466,6 +466,22 @@ static void swept_forms(void)
     close_scene(&t);
 }
 
+/* A ball that goes to the right, turns and comes back half of the way: its lines tell of the way back alone. */
+static void lines_end_where_it_turns(void)
+{
+    traced t;
+    if (open_scene(&t, write_moved("turning", 3, (double[]){0, 0.5, 1}, (double[]){-3.5, 0.5, 0, 3, 0, 0, 1, -0.5, 0}),
+                   1, true)) {
+        double farthest = INFINITY;
+        t.values.length = 1;
+        check_that("22", trace(&t) == LMN_OK && count_of(&t, STROKE_SPEED) > 10, "lines");
+        for (size_t i = 0; i < t.ribbons.point_count; i++)
+            farthest = fmin(farthest, ((double)t.ribbons.points[i].x - PAGE / 2.0) / UNIT);
+        check_at_least("22", farthest, -0.1, "no line comes from before the turn: the leftmost point");
+    }
+    close_scene(&t);
+}
+
 /* A wall before the right half of where the ball came from hides both lines and contours there. */
 static void walls_hide(void)
 {
@@ -590,6 +606,7 @@ int main(int argc, char **argv)
         {"contours", contours_of_the_past},
         {"flow", flow_lines},
         {"circle", lines_on_circles},
+        {"turn", lines_end_where_it_turns},
         {"figures", figures_of_the_past},
         {"swept", swept_forms},
         {"walls", walls_hide},
