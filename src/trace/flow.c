@@ -16,6 +16,8 @@
 #define ENDS_LAST  0.94
 /* So far apart lines are looked at, units. */
 #define APART 2.0
+/* What is less than this fraction of all that moves has none. */
+#define MUCH 0.4
 /* Shorter pieces are left out: widths. */
 #define SHORTEST 4.0
 
@@ -103,21 +105,36 @@ static bool put_body(trace_job *j, uint32_t number, int32_t count)
     return good;
 }
 
+/* What a body covers on the page, about. */
+static double size_of(const trace_bodies *t, const trace_body *b)
+{
+    double along[2], depth;
+    extent_of(t, b, along, &depth);
+    return (along[1] - along[0]) * (b->across[1] - b->across[0]);
+}
+
+/* How many lines a body deserves: none unless it goes one way and is much of what moves, as a whole figure is and a
+ * limb is not. */
+static double weight_of(const trace_bodies *t, const trace_body *b, double all)
+{
+    bool flows = b->motion == MOVES_ALONG && size_of(t, b) >= MUCH * all;
+    return flows ? b->speed * (b->across[1] - b->across[0]) : 0;
+}
+
 lmn_status flow_lines_put(trace_job *j, lmn_error *error)
 {
-    double whole = 0, carried = 0;
+    double whole = 0, carried = 0, all = 0;
     bool   good = true;
     for (size_t i = 0; i < j->bodies.body_count; i++)
-        if (j->bodies.bodies[i].motion == MOVES_ALONG)
-            whole += j->bodies.bodies[i].speed * (j->bodies.bodies[i].across[1] - j->bodies.bodies[i].across[0]);
+        if (j->bodies.bodies[i].motion != MOVES_TOWARDS)
+            all += size_of(&j->bodies, &j->bodies.bodies[i]);
+    for (size_t i = 0; i < j->bodies.body_count; i++)
+        whole += weight_of(&j->bodies, &j->bodies.bodies[i], all);
     for (size_t i = 0; i < j->bodies.body_count && good && whole > 0; i++) {
-        const trace_body *b = &j->bodies.bodies[i];
-        if (b->motion != MOVES_ALONG)
-            continue;
-        carried += b->speed * (b->across[1] - b->across[0]) / whole * j->o->values->flow;
+        carried += weight_of(&j->bodies, &j->bodies.bodies[i], all) / whole * j->o->values->flow;
         int32_t own = (int32_t)floor(carried + 0.5);
         carried -= own;
-        good = put_body(j, (uint32_t)i, own);
+        good = own <= 0 || put_body(j, (uint32_t)i, own);
     }
     return good ? LMN_OK : error_memory(error);
 }
