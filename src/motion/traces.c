@@ -81,7 +81,8 @@ static const param params[] = {
 const technique motion_traces = {
     .name = "traces",
     .doc = "Speed lines and contours of the past: what moves stays whole and draws lines behind it.",
-    .example = "{\"motion\": {\"technique\": \"traces\"}, \"surface\": \"lit\", \"lines\": \"discontinuity\"}",
+    .example = "{\"motion\": {\"technique\": \"traces\", \"exposure\": 0.5, \"contours\": 3}, \"surface\": \"lit\", "
+               "\"lines\": \"discontinuity\"}",
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(traces_values),
