@@ -9,6 +9,7 @@ static const char *const origin_names[] = {"outline", "vertices", "circle", NULL
 static const char *const flow_names[] = {"parallel", "converging", NULL};
 static const char *const ends_names[] = {"fading", "heavy", "wedges", NULL};
 static const char *const figures_names[] = {"outlines", "bones", "points", "solids", "swept", NULL};
+static const char *const brush_names[] = {"lines", "pen", "brush", "pencil", "charcoal", NULL};
 static const char *const moments_names[] = {"times", "lengths", "telling", "auto", NULL};
 
 #define COUNT(KEY, ...)  PARAM_INT_ROW(traces_values, KEY, .cpu_only = true, .unit = UNIT_COUNT, __VA_ARGS__)
@@ -70,6 +71,10 @@ static const param params[] = {
            .doc = "Opacity of each contour, fraction of the next newer one's."),
     NUMBER(contour_width, .def = 0.9, .min = 0.075, .max = 24, .soft_max = 4.5, .unit = UNIT_PT,
            .only_if = "contours>0", .doc = "Width of contours of the past."),
+    NUMBER(contour_dash, .def = 0, .min = 0, .max = 75, .soft_max = 15, .unit = UNIT_PT, .only_if = "contours>0",
+           .doc = "Length of their dashes, with gaps half as long; 0: unbroken."),
+    PARAM_ENUM_ROW(traces_values, contour_brush, .names = brush_names, .def = 0, .cpu_only = true,
+                   .only_if = "contours>0", .doc = "What they are drawn with; lines: as the rule's lines are."),
     PARAM_BOOL_ROW(traces_values, trailing, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Only the side of contours that trails."),
     PARAM_BOOL_ROW(traces_values, in_front, .def = 0, .cpu_only = true, .only_if = "contours>0",

@@ -43,7 +43,8 @@ typedef struct traces_values {
     float         flow_length;
     int32_t       contours, moments, figures;
     param_words   bones;
-    float         cover, fade, contour_width;
+    float         cover, fade, contour_width, contour_dash;
+    int32_t       contour_brush; /* 0: that of the rule's lines; else a stroke_brush, from 1 on */
     bool          trailing, creases, in_front;
 } traces_values;
 

@@ -12,6 +12,8 @@
 #define BESIDE 1.5
 /* Two poses so far apart, fraction of the exposure, say which way it goes. */
 #define MOMENT 0.02
+/* From one dash to the next, dashes. */
+#define GAP_AFTER 1.5
 
 /* Fractions of the exposure at which as many equal lengths of the way have passed. */
 static lmn_status find_lengths(trace_job *j, double *out, size_t count, lmn_error *error)
@@ -145,7 +147,9 @@ static bool end_run(past_run *r)
 
 static bool put_position(past_run *r, const double p[3], double arc)
 {
-    if (!is_shown(r->job, r->moment, p))
+    double dash = (double)r->job->o->values->contour_dash;
+    bool   gap = dash > 0 && fmod(arc, GAP_AFTER * dash) > dash;
+    if (gap || !is_shown(r->job, r->moment, p))
         return end_run(r);
     if (!mem_grow((void **)&r->points, &r->capacity, r->count + 1, sizeof *r->points))
         return false;
@@ -156,12 +160,12 @@ static bool put_position(past_run *r, const double p[3], double arc)
 
 static bool put_past_line(past_run *r, const double (*all)[3], size_t count)
 {
-    double arc = 0;
+    double arc = 0, dash = (double)r->job->o->values->contour_dash, apart = dash > 0 ? fmin(APART, dash / 8) : APART;
     bool   good = true;
     r->count = 0;
     for (size_t i = 0; i + 1 < count && good; i++) {
         double length = hypot(all[i + 1][0] - all[i][0], all[i + 1][1] - all[i][1]),
-               pieces = fmin(fmax(ceil(length / APART), 1), 4096);
+               pieces = fmin(fmax(ceil(length / apart), 1), 4096);
         bool last = i + 2 == count;
         for (double n = 0; n < pieces + last && good; n++) {
             double f = n / pieces, p[3];

@@ -15,14 +15,15 @@ bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, con
     if (!mem_grow((void **)&out->ribbons, &j->ribbon_capacity, out->ribbon_count + 1, sizeof *out->ribbons) ||
         !mem_grow((void **)&out->points, &j->point_capacity, out->point_count + count, sizeof *out->points))
         return false;
-    out->ribbons[out->ribbon_count] = (ribbon){.kind = kind,
-                                               .part = part,
-                                               .chain = (uint32_t)out->ribbon_count,
-                                               .id = id,
-                                               .ink = j->o->ink,
-                                               .brush = j->o->brush,
-                                               .first = (uint32_t)out->point_count,
-                                               .count = (uint32_t)count};
+    out->ribbons[out->ribbon_count] = (ribbon){
+        .kind = kind,
+        .part = part,
+        .chain = (uint32_t)out->ribbon_count,
+        .id = id,
+        .ink = j->o->ink,
+        .brush = kind == STROKE_PAST && j->o->values->contour_brush ? j->o->values->contour_brush - 1 : j->o->brush,
+        .first = (uint32_t)out->point_count,
+        .count = (uint32_t)count};
     memcpy(out->points + out->point_count, points, count * sizeof *points);
     out->ribbon_count++;
     out->point_count += count;

@@ -466,6 +466,34 @@ static void swept_forms(void)
     close_scene(&t);
 }
 
+/* Row 17: patterns are on contours alone, and leave as much of them as they say. */
+static void contours_have_patterns(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("pattern", 3, false), 1, true)) {
+        double lengths[2] = {0, 0}, longest = 0;
+        size_t wrong = 0;
+        t.values.contours = 2;
+        t.values.contour_brush = 1 + BRUSH_CHARCOAL;
+        for (int i = 0; i < 2; i++) {
+            t.values.contour_dash = i ? 12 : 0;
+            check_that("17", trace(&t) == LMN_OK, "traced");
+            for (size_t n = 0; n < t.ribbons.ribbon_count; n++) {
+                const ribbon       *r = &t.ribbons.ribbons[n];
+                const ribbon_point *p = &t.ribbons.points[r->first];
+                double              own = (double)(p[r->count - 1].arc - p[0].arc);
+                wrong += r->brush != (r->kind == STROKE_PAST ? BRUSH_CHARCOAL : BRUSH_PEN);
+                lengths[i] += r->kind == STROKE_PAST ? own : 0;
+                longest = i && r->kind == STROKE_PAST ? fmax(longest, own) : longest;
+            }
+        }
+        check_that("17", wrong == 0, "%zu lines with the other one's brush", wrong);
+        check_at_most("17", longest, 12.1, "units, the longest dash");
+        check_near("17", lengths[1] / lengths[0], 2.0 / 3, 0.1, "of a contour is drawn");
+    }
+    close_scene(&t);
+}
+
 /* A ball that goes to the right, turns and comes back half of the way: its lines tell of the way back alone. */
 static void lines_end_where_it_turns(void)
 {
@@ -606,6 +634,7 @@ int main(int argc, char **argv)
         {"contours", contours_of_the_past},
         {"flow", flow_lines},
         {"circle", lines_on_circles},
+        {"pattern", contours_have_patterns},
         {"turn", lines_end_where_it_turns},
         {"figures", figures_of_the_past},
         {"swept", swept_forms},
