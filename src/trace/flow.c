@@ -58,8 +58,8 @@ static bool put_line(trace_job *j, uint32_t body, uint32_t number, const double 
                                              (float)p[1],
                                              (float)depth,
                                              (float)(f * length),
-                                             (float)(0.5 * (double)j->o->values->width * (0.25 + 0.75 * end)),
-                                             (float)(0.3 + 0.7 * end)};
+                                             (float)(0.5 * (double)j->o->values->width * (0.15 + 0.85 * end)),
+                                             1};
             continue;
         }
         if (count > 1 && (double)(points[count - 1].arc - points[0].arc) >= SHORTEST * (double)j->o->values->width)
