@@ -3,6 +3,7 @@
 #include "formats.h"
 #include "frames.h"
 #include "names.h"
+#include "sets.h"
 #include "task.h"
 
 #include <ctype.h>
@@ -15,7 +16,7 @@
 
 typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
-    const char   *clip, *motion;
+    const char   *clip, *motion, *poses;
     const char   *page, *scale, *unit, *views, *title;
     word_list     sets;
     option_size   size;
@@ -28,25 +29,6 @@ typedef struct draw_values {
 } draw_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
-
-/* Ways to tell of motion that have a name of their own: what they set, before --set. */
-typedef struct motion_way {
-    const char *name;
-    const char *sets[6];
-} motion_way;
-static const motion_way motion_ways[] = {
-    {"speed-lines", {"motion.technique=traces", "motion.exposure=0.3"}},
-    {"ghosts", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=5"}},
-    {"echoes",
-     {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=8", "motion.trailing=true"}},
-    {"plate",
-     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
-      "motion.decay=0.8"}},
-    {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
-    {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
-    {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
-    {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
-};
 
 static const char *const angles[] = {"third", "first", NULL};
 
@@ -76,6 +58,10 @@ static const option options[] = {
      "way and flattened where it is "
      "stopped), lean (forward by its speed, back by its acceleration), or a technique of `limner "
      "looks`, such as blur or streaks. Needs a time."},
+    {"poses", 0, OPTION_TEXT, AT(poses), "N|auto",
+     "Several poses in one picture, at the moments that tell most of the motion up to --time (default: the end of the "
+     "clip): where things turn back, rebound or stop. auto: as many as tell something. Laid over each other as on one "
+     "plate; with --motion ghosts, echoes or comic as contours behind the last one. Fitted to all times."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL",
      "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",
@@ -433,87 +419,14 @@ static int check_camera(const draw_values *v)
     return check_samples(&v->samples);
 }
 
-static int set_one(lmn_look *look, const char *assignment)
-{
-    lmn_error   error = {0};
-    const char *equals = strchr(assignment, '=');
-    char        key[256];
-    if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof key)
-        return message_usage("for example --set lines.width=3px", "--set is '%.120s'; allowed is KIND.PARAM=VALUE",
-                             assignment);
-    snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
-    if (lmn_look_set(look, key, equals + 1, &error) == LMN_OK)
-        return EXIT_DONE;
-    return message_error(&error);
-}
-
-static bool sets_same_key(const char *a, const char *b)
-{
-    size_t length = strcspn(a, "=");
-    return length == strcspn(b, "=") && strncmp(a, b, length) == 0;
-}
-
-/* Of two values for one key, one would be dropped in silence. */
-static int check_set_once(const draw_values *v, size_t index)
-{
-    const char *own = v->sets.items[index];
-    if (v->cut && sets_same_key(own, "scene.cut="))
-        return message_usage(NULL, "--cut and --set scene.cut exclude each other");
-    for (size_t i = 0; i < index; i++)
-        if (sets_same_key(own, v->sets.items[i]))
-            return message_usage(NULL, "--set %.*s is given twice; it holds one value", (int)strcspn(own, "="), own);
-    return EXIT_DONE;
-}
-
-/* "motion.technique=…", "lines.operator=…": which technique's parameters there are to set. */
-static bool names_technique(const char *assignment)
-{
-    size_t            length = strcspn(assignment, "=");
-    const char *const endings[] = {".technique", ".operator"};
-    for (size_t i = 0; i < 2; i++)
-        if (length > strlen(endings[i]) &&
-            strncmp(assignment + length - strlen(endings[i]), endings[i], strlen(endings[i])) == 0)
-            return true;
-    return false;
-}
-
-/* Techniques before their parameters, whichever was written first. */
-static int set_all(const draw_values *v, lmn_look *look)
-{
-    int status = EXIT_DONE;
-    for (int round = 0; round < 2; round++)
-        for (size_t i = 0; i < v->sets.count && status == EXIT_DONE; i++) {
-            status = check_set_once(v, i);
-            if (status == EXIT_DONE && names_technique(v->sets.items[i]) == (round == 0))
-                status = set_one(look, v->sets.items[i]);
-        }
-    return status;
-}
-
-/* Of a way without a name of its own, the technique. */
-static int set_motion(const char *name, lmn_look *look)
-{
-    char assignment[256];
-    for (size_t i = 0; i < sizeof motion_ways / sizeof *motion_ways; i++) {
-        int status = EXIT_DONE;
-        if (strcmp(motion_ways[i].name, name) != 0)
-            continue;
-        for (size_t k = 0; k < 6 && motion_ways[i].sets[k] && status == EXIT_DONE; k++)
-            status = set_one(look, motion_ways[i].sets[k]);
-        return status;
-    }
-    snprintf(assignment, sizeof assignment, "motion.technique=%.200s", name);
-    return set_one(look, assignment);
-}
-
 static int load_look(session *s)
 {
     lmn_error error = {0};
     if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
         return message_error(&error);
-    int status = s->values->motion ? set_motion(s->values->motion, s->look) : EXIT_DONE;
+    int status = set_motion(s->look, s->values->motion, s->values->poses);
     if (status == EXIT_DONE)
-        status = set_all(s->values, s->look);
+        status = set_all(s->look, &s->values->sets, s->values->cut != NULL);
     if (status != EXIT_DONE)
         return status;
     if (s->values->cut && lmn_look_set(s->look, "scene.cut", s->values->cut, &error) != LMN_OK)
@@ -585,7 +498,11 @@ static void place_view(session *s, const lmn_scene *scene)
 {
     const draw_values *v = s->values;
     lmn_scene_info     info = lmn_scene_info_of(scene);
-    s->desc.fit_time = v->fit_time || (v->frames && info.animations > 0);
+    s->desc.fit_time = v->fit_time || ((v->frames || v->poses) && info.animations > 0);
+    if (v->poses && !v->time.given && !v->frames) {
+        s->desc.time_s = clip_end(scene, v->clip);
+        s->desc.time_given = info.animations > 0;
+    }
     s->desc.eye_given = v->eye.given;
     s->desc.fit_direction = v->eye.given && v->fit.given;
     for (int i = 0; i < 3; i++) {

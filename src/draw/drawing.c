@@ -324,6 +324,8 @@ static lmn_status draw_frame(lmn_drawing *d, session *s, const lmn_look *look, c
     lmn_status  status = exposure_find(&e, &s->plan, error);
     if (status == LMN_OK && e.technique) {
         status = exposure_draw(&e, s, look, options, keep_frame, &drawn, error);
+        d->traces.telling = e.telling;
+        telling_warn(&e.telling, &d->warnings);
     } else if (status == LMN_OK) {
         frame_draw(&s->frame, s->out);
         status = keep_frame(s, &drawn, error);

@@ -10,6 +10,7 @@ void exposure_release(exposure *e)
 {
     mem_free(e->moves);
     mem_free(e->values);
+    mem_free(e->ago);
     memset(e, 0, sizeof *e);
 }
 
@@ -64,7 +65,7 @@ static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r
     lmn_draw_desc desc = *options->desc;
     draw_options  one = *options;
     warnings      said = {0}; /* the first session has said it */
-    desc.time_s -= e->seconds * (e->times - 1 - i) / e->times;
+    desc.time_s -= e->ago[i];
     desc.time_given = true;
     one.desc = &desc;
     lmn_status status = session_open(s, r, scene, look, &one, &said, error);
@@ -81,6 +82,35 @@ static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r
     return status;
 }
 
+/* Where nothing moves there is one picture. */
+static lmn_status choose_moments(exposure *e, const session *s, int count, double cover, lmn_error *error)
+{
+    const telling_options o = {.pose = s->plan.pose,
+                               .parts = e->moves,
+                               .seconds = e->seconds,
+                               .camera = frame_sheet_camera(&s->frame),
+                               .count = count,
+                               .cover = cover};
+    lmn_status            status = telling_find(&e->telling, &o, error);
+    e->times = e->telling.count ? (int)e->telling.count : 1;
+    e->ago = status == LMN_OK ? mem_calloc((size_t)e->times, sizeof *e->ago) : NULL;
+    for (size_t i = 0; e->ago && i < e->telling.count; i++)
+        e->ago[e->telling.count - 1 - i] = e->telling.at[i].ago;
+    return status == LMN_OK && !e->ago ? error_memory(error) : status;
+}
+
+static lmn_status settle_moments(exposure *e, const session *s, lmn_error *error)
+{
+    int    count;
+    double cover;
+    if (e->technique->motion->chooses && e->technique->motion->chooses(e->values, &count, &cover))
+        return choose_moments(e, s, count, cover, error);
+    e->ago = mem_alloc((size_t)e->times * sizeof *e->ago);
+    for (int i = 0; e->ago && i < e->times; i++)
+        e->ago[i] = e->seconds * (e->times - 1 - i) / e->times;
+    return e->ago ? LMN_OK : error_memory(error);
+}
+
 static bool everything_moves(const exposure *e, const lmn_scene *scene)
 {
     for (size_t i = 0; i < scene->part_count; i++)
@@ -89,7 +119,7 @@ static bool everything_moves(const exposure *e, const lmn_scene *scene)
     return true;
 }
 
-lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, const draw_options *options,
+lmn_status exposure_draw(exposure *e, session *s, const lmn_look *look, const draw_options *options,
                          exposure_finish_fn finish, void *user, lmn_error *error)
 {
     const lmn_draw_desc *desc = options->desc;
@@ -103,7 +133,10 @@ lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, co
     pose                 held;
     double               sum = 0;
     bool                 plate = row->plate && row->plate(e->values);
-    lmn_status           status = pose_create(&held, scene, &r->pose.when, error);
+    lmn_status           status = settle_moments(e, s, error);
+    memset(&held, 0, sizeof held);
+    if (status == LMN_OK)
+        status = pose_create(&held, scene, &r->pose.when, error);
     one.held = &held;
     one.moves = e->moves;
     /* A camera of the file that moves is exposed too, when everything is. */

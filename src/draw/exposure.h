@@ -10,17 +10,19 @@ typedef struct exposure {
     void            *values;    /* of it */
     double           seconds;
     int              times;
-    bool            *moves; /* per part, then per ghost */
+    double          *ago;     /* how many seconds before the time that is drawn each picture is, oldest first */
+    telling_moments  telling; /* where moments are chosen */
+    bool            *moves;   /* per part, then per ghost */
 } exposure;
 
 /* Errors: LMN_USAGE (rules that ask for different exposures), LMN_MEMORY. Release it also after one. */
 lmn_status exposure_find(exposure *out, const plan *p, lmn_error *error);
 void       exposure_release(exposure *e);
 
-/* Draws instead of `s`, which is open for the last time of them and is closed. `finish` is called with the session of
- * that time once its picture is there. Errors: those of session_open, LMN_CANCELLED. */
+/* Settles the moments first. Draws instead of `s`, which is open for the last time of them and is closed. `finish` is
+ * called with the session of that time once its picture is there. Errors: those of session_open, LMN_CANCELLED. */
 typedef lmn_status (*exposure_finish_fn)(session *s, void *user, lmn_error *error);
-lmn_status exposure_draw(const exposure *e, session *s, const lmn_look *look, const draw_options *options,
+lmn_status exposure_draw(exposure *e, session *s, const lmn_look *look, const draw_options *options,
                          exposure_finish_fn finish, void *user, lmn_error *error);
 
 #endif

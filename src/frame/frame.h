@@ -53,6 +53,9 @@ typedef struct frame {
     trace_facts   traces;                      /* of all figures */
 } frame;
 
+/* The camera of strokes: what the frame sees, on its sheet, whatever pixels it has. All its bytes are set. */
+stroke_camera frame_sheet_camera(const frame *f);
+
 /* Draws the page and encodes it into `out` (RGBA8, width/samples wide). Errors stick to the GPU. */
 void frame_draw(frame *f, gpu_texture *out);
 

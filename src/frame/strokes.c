@@ -200,7 +200,7 @@ static int on_sheet(const frame *f, int pixels)
     return (int)fmin(fmax(round(pixels / strokes_pixels_a_unit(f)), 1), LIMIT_PICTURE_SIDE);
 }
 
-lmn_status strokes_look(stroke_store *store, const frame *f, lmn_error *error)
+stroke_camera frame_sheet_camera(const frame *f)
 {
     stroke_camera camera;
     memset(&camera, 0, sizeof camera); /* compared byte by byte */
@@ -210,6 +210,12 @@ lmn_status strokes_look(stroke_store *store, const frame *f, lmn_error *error)
     camera.orthographic = f->camera.orthographic;
     camera.width = on_sheet(f, f->width);
     camera.height = on_sheet(f, f->height);
+    return camera;
+}
+
+lmn_status strokes_look(stroke_store *store, const frame *f, lmn_error *error)
+{
+    stroke_camera camera = frame_sheet_camera(f);
     return stroke_store_look(store, &camera, error);
 }
 

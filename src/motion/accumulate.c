@@ -5,14 +5,18 @@
 
 #include "motion/motion.h"
 
+typedef enum accumulate_moments { MOMENTS_EQUAL, MOMENTS_TELLING, MOMENTS_AUTO } accumulate_moments;
 typedef enum accumulate_weights { WEIGHTS_EQUAL, WEIGHTS_LAST, WEIGHTS_DECAY, WEIGHTS_PLATE } accumulate_weights;
 
 typedef struct accumulate_values {
     motion_common common;
     int32_t       times, weights;
     float         last, decay;
+    int32_t       moments;
+    float         cover;
 } accumulate_values;
 
+static const char *const moments_names[] = {"equal", "telling", "auto", NULL};
 static const char *const weights_names[] = {"equal", "last", "decay", "plate", NULL};
 
 static const param params[] = {
@@ -31,6 +35,14 @@ static const param params[] = {
     PARAM_FLOAT_ROW(accumulate_values, decay, .def = 0.8, .min = 0, .max = 1, .cpu_only = true,
                     .only_if = "weights=decay,plate",
                     .doc = "How much of the one after it each counts; on a plate, how much of its ink each has."),
+    PARAM_ENUM_ROW(
+        accumulate_values, moments, .names = moments_names, .def = MOMENTS_EQUAL, .cpu_only = true,
+        .doc = "When pictures are taken: equal, at equal times; telling, where most of what moves turns back, rebounds "
+               "or stops, and in between where there are fewer such moments; auto, only there, at most `times`."),
+    PARAM_FLOAT_ROW(accumulate_values, cover, .def = 0.25, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .only_if = "moments=telling,auto",
+                    .doc = "How much of a figure at one moment may lie over that at another one, fraction of the "
+                           "smaller."),
 };
 
 static int times_of(const void *values)
@@ -46,6 +58,14 @@ static double weight_of(const void *values, int newer)
     return v->weights == WEIGHTS_DECAY || v->weights == WEIGHTS_PLATE ? pow((double)v->decay, newer) : 1;
 }
 
+static bool chooses(const void *values, int *count, double *cover)
+{
+    const accumulate_values *v = values;
+    *count = v->moments == MOMENTS_AUTO ? 0 : v->times;
+    *cover = (double)v->cover;
+    return v->moments != MOMENTS_EQUAL;
+}
+
 static bool is_plate(const void *values)
 {
     return ((const accumulate_values *)values)->weights == WEIGHTS_PLATE;
@@ -58,5 +78,5 @@ const technique motion_accumulate = {
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(accumulate_values),
-    .motion = &(const motion_row){.times = times_of, .weight = weight_of, .plate = is_plate},
+    .motion = &(const motion_row){.times = times_of, .weight = weight_of, .plate = is_plate, .chooses = chooses},
 };

@@ -9,7 +9,7 @@ static const technique *const techniques[] = {&motion_accumulate, &motion_blur, 
 #define SHAPE(KEY, ...) PARAM_FLOAT_ROW(motion_common, KEY, .cpu_only = true, __VA_ARGS__)
 
 static const param common[] = {
-    PARAM_FLOAT_ROW(motion_common, exposure, .def = 0.04, .min = 0.0001, .max = 60, .soft_min = 0.005, .soft_max = 1,
+    PARAM_FLOAT_ROW(motion_common, exposure, .def = 0.04, .min = 0.0001, .max = 3600, .soft_min = 0.005, .soft_max = 1,
                     .cpu_only = true,
                     .doc = "How long the shutter is open, seconds: motion is told of this long before the time that is "
                            "drawn. The same for all rules of a look."),

@@ -5,9 +5,12 @@
 
 #include <math.h>
 
-static const char *const origin_names[] = {"outline", "vertices", NULL};
+static const char *const origin_names[] = {"outline", "vertices", "circle", NULL};
+static const char *const flow_names[] = {"parallel", "converging", NULL};
 static const char *const ends_names[] = {"fading", "heavy", "wedges", NULL};
-static const char *const moments_names[] = {"times", "lengths", NULL};
+static const char *const figures_names[] = {"outlines", "bones", "points", "solids", "swept", NULL};
+static const char *const brush_names[] = {"lines", "pen", "brush", "pencil", "charcoal", NULL};
+static const char *const moments_names[] = {"times", "lengths", "telling", "auto", NULL};
 
 #define COUNT(KEY, ...)  PARAM_INT_ROW(traces_values, KEY, .cpu_only = true, .unit = UNIT_COUNT, __VA_ARGS__)
 #define NUMBER(KEY, ...) PARAM_FLOAT_ROW(traces_values, KEY, .cpu_only = true, __VA_ARGS__)
@@ -19,15 +22,17 @@ static const param params[] = {
            .doc = "Width of speed lines where they are widest."),
     COUNT(lines, .def = 24, .min = 0, .max = 2000, .soft_max = 100,
           .doc = "How many speed lines there are, over all that moves; 0 draws none."),
-    PARAM_ENUM_ROW(traces_values, origin, .names = origin_names, .def = TRACES_OUTLINE, .cpu_only = true,
-                   .only_if = "lines>0",
-                   .doc = "Where speed lines begin: outline, at the rear of what moves, at heights that are spread "
-                          "unevenly; vertices, at the rearmost vertex of each of equal strips."),
+    PARAM_ENUM_ROW(
+        traces_values, origin, .names = origin_names, .def = TRACES_OUTLINE, .cpu_only = true, .only_if = "lines>0",
+        .doc =
+            "Where speed lines begin: outline, at the rear of what moves, at heights that are spread "
+            "unevenly; vertices, at the rearmost vertex of each of equal strips; circle, like outline, but around what "
+            "comes nearer or goes away on a circle, evenly."),
     PARAM_ENUM_ROW(traces_values, ends, .names = ends_names, .def = TRACES_FADING, .cpu_only = true,
                    .only_if = "lines>0",
                    .doc = "How speed lines run out: fading, ever finer and fainter; heavy, finer from a strong "
                           "beginning; wedges, straight-sided from twice the width to nothing."),
-    NUMBER(length, .def = 0.8, .min = 0.01, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
+    NUMBER(length, .def = 1, .min = 0.01, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "Length of speed lines, fraction of the way during the exposure."),
     NUMBER(uneven, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "How much speed lines differ in length and distance."),
@@ -39,18 +44,41 @@ static const param params[] = {
            .doc = "How far apart those are."),
     NUMBER(probability, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "lines>0",
            .doc = "With which probability each line is there, anew for each frame of a film."),
+    COUNT(flow, .def = 0, .min = 0, .max = 2000, .soft_max = 100,
+          .doc = "How many flow lines run behind what moves and on ahead of it, to where it goes; 0 draws none."),
+    PARAM_ENUM_ROW(traces_values, flow_way, .names = flow_names, .def = TRACES_PARALLEL, .cpu_only = true,
+                   .only_if = "flow>0", .doc = "Flow lines run side by side, or converge at a point ahead."),
+    NUMBER(flow_length, .def = 0.3, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION, .only_if = "flow>0",
+           .doc = "How far ahead of what moves they run, fraction of the picture's longer side."),
     COUNT(contours, .def = 0, .min = 0, .max = 64, .soft_max = 12,
           .doc = "How many times the contours of what moves are drawn where it has been; 0 draws none."),
+    PARAM_ENUM_ROW(traces_values, figures, .names = figures_names, .def = TRACES_OUTLINES, .cpu_only = true,
+                   .only_if = "contours>0",
+                   .doc =
+                       "What is drawn of those times: outlines; bones, lines from joint to joint, of parts without a "
+                       "skin their middle lines; points, marks at their ends alone; solids, a cone with round ends "
+                       "in place of each limb; swept, one outline around all that was covered on the way."),
+    PARAM_TEXT_ROW(traces_values, bones, .example = "*Leg*", .only_if = "figures=bones,points,solids",
+                   .doc = "Which of them, by the names of joints and nodes, for example '*Leg*'; empty: all."),
     PARAM_ENUM_ROW(traces_values, moments, .names = moments_names, .def = TRACES_AT_TIMES, .cpu_only = true,
                    .only_if = "contours>0",
-                   .doc = "Contours at equal times, farther apart where motion is fast, or at equal lengths of the "
-                          "way."),
+                   .doc = "Contours at equal times, farther apart where motion is fast; at equal lengths of the way; "
+                          "telling, where most of what moves turns back, rebounds or stops, and in between where there "
+                          "are fewer such moments; auto, only there."),
+    NUMBER(cover, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "moments=telling,auto",
+           .doc = "How much of a figure at one moment may lie over that at another one, fraction of the smaller."),
     NUMBER(fade, .def = 0.75, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "contours>0",
            .doc = "Opacity of each contour, fraction of the next newer one's."),
     NUMBER(contour_width, .def = 0.9, .min = 0.075, .max = 24, .soft_max = 4.5, .unit = UNIT_PT,
            .only_if = "contours>0", .doc = "Width of contours of the past."),
+    NUMBER(contour_dash, .def = 0, .min = 0, .max = 75, .soft_max = 15, .unit = UNIT_PT, .only_if = "contours>0",
+           .doc = "Length of their dashes, with gaps half as long; 0: unbroken."),
+    PARAM_ENUM_ROW(traces_values, contour_brush, .names = brush_names, .def = 0, .cpu_only = true,
+                   .only_if = "contours>0", .doc = "What they are drawn with; lines: as the rule's lines are."),
     PARAM_BOOL_ROW(traces_values, trailing, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Only the side of contours that trails."),
+    PARAM_BOOL_ROW(traces_values, in_front, .def = 0, .cpu_only = true, .only_if = "contours>0",
+                   .doc = "They lie before what is there now instead of behind it."),
     PARAM_BOOL_ROW(traces_values, creases, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Creases, too, where it has been."),
     COUNT(vibration, .def = 0, .min = 0, .max = 20, .soft_max = 5,
@@ -63,7 +91,8 @@ static const param params[] = {
 const technique motion_traces = {
     .name = "traces",
     .doc = "Speed lines and contours of the past: what moves stays whole and draws lines behind it.",
-    .example = "{\"motion\": {\"technique\": \"traces\"}, \"surface\": \"lit\", \"lines\": \"discontinuity\"}",
+    .example = "{\"motion\": {\"technique\": \"traces\", \"exposure\": 0.5, \"contours\": 3}, \"surface\": \"lit\", "
+               "\"lines\": \"discontinuity\"}",
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(traces_values),

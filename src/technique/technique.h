@@ -169,6 +169,9 @@ typedef struct motion_row {
     int (*times)(const void *values);                /* pictures: how many; NULL: none */
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
     bool (*plate)(const void *values); /* the pictures are laid over each other; weights are of their ink */
+    /* Are their moments those that tell most? How many, 0: as many as tell something, and how much of one figure may
+     * lie over another one. NULL: they are equally far apart */
+    bool (*chooses)(const void *values, int *count, double *cover);
     int (*steps)(
         const void *values); /* passes: how many steps of the past they read, 1, 2 or 4; NULL: there are none */
     unsigned (*moved)(const void *values); /* channels that they read of what moves, besides its velocity; NULL: none */

@@ -40,8 +40,7 @@ typedef struct finder {
 
 /* --- positions -------------------------------------------------------------------------------------------- */
 
-/* World positions of all vertices of a primitive; the caller frees them. */
-static vec3 *world_positions(const pose *p, const trace_mesh *m)
+vec3 *trace_positions(const pose *p, const trace_mesh *m)
 {
     const part_pose *own = &p->parts[m->part];
     vec3            *out = mem_alloc(((size_t)m->primitive->vertex_count + 1) * sizeof *out);
@@ -59,7 +58,7 @@ static vec3 *world_positions(const pose *p, const trace_mesh *m)
 
 static bool put_positions(const finder *f, const pose *p, const trace_mesh *m, double (*to)[3])
 {
-    vec3 *world = world_positions(p, m);
+    vec3 *world = trace_positions(p, m);
     for (uint32_t i = 0; world && i < m->primitive->vertex_count; i++)
         if (!page_project(f->camera, world[i], to[m->first + i]))
             to[m->first + i][0] = to[m->first + i][1] = to[m->first + i][2] = NAN;
@@ -80,8 +79,7 @@ static int32_t moved_node(const finder *f, int32_t node_index)
     return found;
 }
 
-/* The joint that a vertex follows most. */
-static int32_t joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex)
+int32_t trace_joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex)
 {
     const skin *k = &s->skins[n->skin];
     uint32_t    best = 0;
@@ -99,7 +97,7 @@ static int32_t key_of(const finder *f, const trace_mesh *m, uint32_t vertex, int
     int32_t          own = s->parts[m->part].node;
     const node      *n = &s->nodes[own];
     if (n->skin != NONE && m->primitive->influences > 0 && s->skins[n->skin].joint_count > 0)
-        return joint_of(s, n, m->primitive, vertex);
+        return trace_joint_of(s, n, m->primitive, vertex);
     return rigid != NONE ? rigid : own;
 }
 

@@ -9,6 +9,8 @@
 
 /* So near to the outline, units, a line begins on it, once it is followed back over the gap. */
 #define ON_OUTLINE 2.0
+/* Lines of wheels begin beyond the rim by this fraction of the radius at most. */
+#define AROUND 0.05
 /* Density is counted over this fraction of the extent. */
 #define WINDOW 0.2
 
@@ -18,10 +20,17 @@ static int compare_numbers(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Is what moves met where a line begins, followed straight back? Lines at the extremes pass it at a tangent. */
-static bool meets(const trace_job *j, const ribbon_point *p, double reach)
+/* Is what moves met where a line begins, followed straight back? Lines at the extremes pass it at a tangent. Those of
+ * wheels run around them, so that the way to their middle is followed instead. */
+static bool meets(const trace_job *j, const trace_body *b, const ribbon_point *p, double reach)
 {
-    double x = (double)p[0].x - (double)p[1].x, y = (double)p[0].y - (double)p[1].y, length = fmax(hypot(x, y), 1e-9);
+    double x = (double)p[0].x - (double)p[1].x, y = (double)p[0].y - (double)p[1].y;
+    if (b->round) {
+        x = b->centre[0] - (double)p->x;
+        y = b->centre[1] - (double)p->y;
+        reach += AROUND * b->across[1];
+    }
+    double length = fmax(hypot(x, y), 1e-9);
     for (double d = 0; d <= reach; d += 0.5)
         for (int aside = -1; aside <= 1; aside++)
             if (page_mask_has(&j->mask, (double)p->x + (d * x - aside * ON_OUTLINE * y) / length,
@@ -55,7 +64,7 @@ static void measure_body(trace_measures *m, const trace_job *j, uint32_t number,
     size_t            count = 0;
     for (size_t i = 0; i < j->out->ribbon_count; i++) {
         const ribbon *r = &j->out->ribbons[i];
-        if (r->kind != STROKE_SPEED || r->id >> 32 != number)
+        if (r->kind != STROKE_SPEED || r->id >> 32 != number || r->id & TRACE_FLOW)
             continue;
         const ribbon_point *p = &j->out->points[r->first];
         double              along, page[3] = {(double)p->x, (double)p->y, 0};
@@ -74,11 +83,11 @@ lmn_status measures_take(trace_job *j, lmn_error *error)
         return error_memory(error);
     for (size_t i = 0; i < j->out->ribbon_count; i++) {
         const ribbon *r = &j->out->ribbons[i];
-        if (r->kind != STROKE_SPEED)
+        if (r->kind != STROKE_SPEED || r->id & TRACE_FLOW)
             continue;
         const ribbon_point *p = &j->out->points[r->first];
         m->lines++;
-        on_outline += meets(j, p, (double)j->o->values->begin + ON_OUTLINE);
+        on_outline += meets(j, &j->bodies.bodies[r->id >> 32], p, (double)j->o->values->begin + ON_OUTLINE);
         for (uint32_t k = 1; k < r->count; k++)
             if (page_mask_has(&j->mask, (double)p[k].x, (double)p[k].y))
                 m->inside += (double)(p[k].arc - p[k - 1].arc);
@@ -108,6 +117,8 @@ void trace_facts_add(trace_facts *all, const trace_facts *one)
     all->contours += one->contours;
     all->shaking += one->shaking;
     all->shakes_wanted = all->shakes_wanted || one->shakes_wanted;
+    if (one->telling.count)
+        all->telling = one->telling;
     m->extent = fmax(m->extent, n->extent);
     m->salient = mean_of(m->salient, m->lines, n->salient, n->lines);
     m->length = mean_of(m->length, m->lines, n->length, n->lines);

@@ -5,6 +5,8 @@
 #include "base/memory.h"
 
 enum { SAMPLES_A_UNIT = 2 };
+/* The near plane lies before what is there now; what was nearer once counts, too, up to this fraction of it. */
+#define NEARER 0.01
 
 bool page_project(const stroke_camera *c, vec3 world, double out[3])
 {
@@ -13,7 +15,7 @@ bool page_project(const stroke_camera *c, vec3 world, double out[3])
     for (int k = 0; k < 3; k++)
         eye[k] = v[k] * (double)world.x + v[4 + k] * (double)world.y + v[8 + k] * (double)world.z + v[12 + k];
     double w = c->orthographic ? 1 : -eye[2];
-    if (!(-eye[2] > (c->orthographic ? -INFINITY : c->near)))
+    if (!(-eye[2] > (c->orthographic ? -INFINITY : NEARER * c->near)))
         return false;
     out[0] = 0.5 * c->width * (1 + (p[0] * eye[0] + p[8] * eye[2]) / w);
     out[1] = 0.5 * c->height * (1 - (p[5] * eye[1] + p[9] * eye[2]) / w);
@@ -30,6 +32,13 @@ void page_unproject(const stroke_camera *c, const double page[3], double out[3])
            y = ((1 - 2 * page[1] / c->height) * w + p[9] * page[2]) / p[5], z = -page[2];
     for (int k = 0; k < 3; k++)
         out[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
+}
+
+stroke_camera page_camera_of_the_past(const stroke_camera *c)
+{
+    stroke_camera past = *c;
+    past.near *= c->orthographic ? 1 : NEARER;
+    return past;
 }
 
 bool page_mask_open(page_mask *m, const stroke_camera *c)
@@ -80,4 +89,36 @@ bool page_mask_has(const page_mask *m, double x, double y)
     double column = floor(x * SAMPLES_A_UNIT), row = floor(y * SAMPLES_A_UNIT);
     return column >= 0 && row >= 0 && column < m->columns && row < m->rows &&
            m->covered[(size_t)row * (size_t)m->columns + (size_t)column];
+}
+
+static bool add_mesh(page_mask *m, const pose *p, const trace_mesh *mesh, const stroke_camera *camera)
+{
+    vec3 *world = trace_positions(p, mesh);
+    for (size_t i = 0; world && i + 2 < mesh->primitive->index_count; i += 3) {
+        double corners[3][3];
+        bool   seen = true;
+        for (int k = 0; k < 3 && seen; k++) {
+            uint32_t vertex = mesh->primitive->indices[i + (size_t)k];
+            seen = vertex < mesh->primitive->vertex_count && page_project(camera, world[vertex], corners[k]);
+        }
+        if (seen)
+            page_mask_add(m, corners[0], corners[1], corners[2]);
+    }
+    mem_free(world);
+    return world != NULL;
+}
+
+bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera)
+{
+    const lmn_scene *s = p->scene;
+    for (size_t part = 0; part < p->part_count; part++) {
+        const node *n = &s->nodes[s->parts[part].node];
+        if (!parts[part] || n->mesh == NONE)
+            continue;
+        for (uint32_t i = 0; i < node_draw_count(n); i++)
+            for (size_t k = 0; k < s->meshes[n->mesh].primitive_count; k++)
+                if (!add_mesh(m, p, &(trace_mesh){(uint32_t)part, i, 0, &s->meshes[n->mesh].primitives[k]}, camera))
+                    return false;
+    }
+    return true;
 }

@@ -12,15 +12,13 @@
 #define BESIDE 1.5
 /* Two poses so far apart, fraction of the exposure, say which way it goes. */
 #define MOMENT 0.02
+/* From one dash to the next, dashes. */
+#define GAP_AFTER 1.5
 
 /* Fractions of the exposure at which as many equal lengths of the way have passed. */
-static lmn_status find_moments(trace_job *j, double *out, size_t count, lmn_error *error)
+static lmn_status find_lengths(trace_job *j, double *out, size_t count, lmn_error *error)
 {
     const traces_options *o = j->o;
-    for (size_t i = 0; i < count; i++)
-        out[i] = (double)(i + 1) / (double)count;
-    if (o->values->moments == TRACES_AT_TIMES || j->bodies.body_count == 0)
-        return LMN_OK;
     /* The first vertex of the largest body goes before. */
     const trace_body *b = &j->bodies.bodies[0];
     for (size_t i = 1; i < j->bodies.body_count; i++)
@@ -51,6 +49,35 @@ static lmn_status find_moments(trace_job *j, double *out, size_t count, lmn_erro
     return LMN_OK;
 }
 
+/* Those that tell most; fewer where figures would cover each other. */
+static lmn_status find_telling(trace_job *j, double *out, size_t *count, lmn_error *error)
+{
+    const traces_options *o = j->o;
+    double                exposure = fmin((double)o->values->common.exposure, o->pose->when.seconds);
+    const telling_options wanted = {.pose = o->pose,
+                                    .parts = o->parts,
+                                    .seconds = exposure,
+                                    .camera = o->camera,
+                                    .count = o->values->moments == TRACES_AUTO ? 0 : (int)*count,
+                                    .cover = (double)o->values->cover,
+                                    .beside_now = true};
+    lmn_status            status = telling_find(&j->facts->telling, &wanted, error);
+    *count = j->facts->telling.count < *count ? j->facts->telling.count : *count;
+    for (size_t i = 0; i < *count; i++)
+        out[i] = j->facts->telling.at[i].ago / exposure;
+    return status;
+}
+
+/* Fractions of the exposure, newest first. */
+static lmn_status find_moments(trace_job *j, double *out, size_t *count, lmn_error *error)
+{
+    for (size_t i = 0; i < *count; i++)
+        out[i] = (double)(i + 1) / (double)*count;
+    if (j->o->values->moments == TRACES_AT_LENGTHS && j->bodies.body_count > 0)
+        return find_lengths(j, out, *count, error);
+    return j->o->values->moments >= TRACES_TELLING ? find_telling(j, out, count, error) : LMN_OK;
+}
+
 /* What is drawn of one time. */
 typedef struct past_moment {
     stroke_set   set;
@@ -62,6 +89,7 @@ typedef struct past_moment {
 static lmn_status find_outlines(past_moment *m, const trace_job *j, const pose *then, lmn_error *error)
 {
     const traces_options *o = j->o;
+    const stroke_camera   camera = page_camera_of_the_past(&o->camera);
     stroke_scene          scene = {NULL};
     stroke_view          *view = NULL;
     stroke_options        w = STROKE_OPTIONS_INIT;
@@ -70,7 +98,7 @@ static lmn_status find_outlines(past_moment *m, const trace_job *j, const pose *
     w.width = o->values->contour_width;
     lmn_status status = stroke_scene_create(&scene, then, j->moves, o->crease_angle, NULL, NULL, error);
     if (status == LMN_OK)
-        status = stroke_view_create(&view, &scene, &o->camera, NULL, NULL, error);
+        status = stroke_view_create(&view, &scene, &camera, NULL, NULL, error);
     if (status == LMN_OK)
         status = stroke_find(&m->set, view, &w, NULL, NULL, NULL, error);
     stroke_view_destroy(&view);
@@ -93,47 +121,73 @@ static bool trails(const past_moment *m, double x, double y)
 
 static bool is_shown(const trace_job *j, const past_moment *m, const double p[3])
 {
-    double   world[1][3];
-    uint32_t before;
+    if (j->o->values->in_front)
+        return true;
     if (page_mask_has(&j->mask, p[0], p[1]) || (j->o->values->trailing && !trails(m, p[0], p[1])))
         return false;
-    page_unproject(&j->o->camera, p, world[0]);
-    stroke_view_count(j->o->seen, (const double(*)[3])world, 1, &before);
-    return before == 0;
+    return nothing_hides(j->o, p);
 }
 
-/* One outline, in runs of what is shown. */
-static bool put_outline(trace_job *j, const past_moment *m, const stroke *s)
+/* A line of the past while it is put down, in runs of what is shown. */
+typedef struct past_run {
+    trace_job         *job;
+    const past_moment *moment;
+    uint32_t           part;
+    uint64_t           id;
+    ribbon_point      *points;
+    size_t             count, capacity;
+} past_run;
+
+static bool end_run(past_run *r)
 {
-    const stroke_point *all = m->set.points + s->first;
-    ribbon_point       *points = NULL;
-    size_t              count = 0, capacity = 0;
-    bool                good = true;
-    for (uint32_t i = 0; i + 1 < s->count && good; i++) {
-        double length = hypot((double)all[i + 1].x - (double)all[i].x, (double)all[i + 1].y - (double)all[i].y),
-               pieces = fmin(fmax(ceil(length / APART), 1), 4096);
-        bool last = i + 2 == s->count;
+    bool good = r->count < 2 || put_ribbon(r->job, STROKE_PAST, r->part, r->id, r->points, r->count);
+    r->count = 0;
+    return good;
+}
+
+static bool put_position(past_run *r, const double p[3], double arc)
+{
+    double dash = (double)r->job->o->values->contour_dash;
+    bool   gap = dash > 0 && fmod(arc, GAP_AFTER * dash) > dash;
+    if (gap || !is_shown(r->job, r->moment, p))
+        return end_run(r);
+    if (!mem_grow((void **)&r->points, &r->capacity, r->count + 1, sizeof *r->points))
+        return false;
+    r->points[r->count++] = (ribbon_point){
+        (float)p[0], (float)p[1], (float)p[2], (float)arc, 0.5f * r->job->o->values->contour_width, r->moment->alpha};
+    return true;
+}
+
+static bool put_past_line(past_run *r, const double (*all)[3], size_t count)
+{
+    double arc = 0, dash = (double)r->job->o->values->contour_dash, apart = dash > 0 ? fmin(APART, dash / 8) : APART;
+    bool   good = true;
+    r->count = 0;
+    for (size_t i = 0; i + 1 < count && good; i++) {
+        double length = hypot(all[i + 1][0] - all[i][0], all[i + 1][1] - all[i][1]),
+               pieces = fmin(fmax(ceil(length / apart), 1), 4096);
+        bool last = i + 2 == count;
         for (double n = 0; n < pieces + last && good; n++) {
-            float  f = (float)(n / pieces);
-            double p[3] = {(double)(all[i].x + f * (all[i + 1].x - all[i].x)),
-                           (double)(all[i].y + f * (all[i + 1].y - all[i].y)),
-                           (double)(all[i].depth + f * (all[i + 1].depth - all[i].depth))};
-            if (!is_shown(j, m, p)) {
-                good = count < 2 || put_ribbon(j, STROKE_PAST, s->part, s->id, points, count);
-                count = 0;
-                continue;
-            }
-            good = mem_grow((void **)&points, &capacity, count + 1, sizeof *points);
-            if (good)
-                points[count++] = (ribbon_point){(float)p[0],
-                                                 (float)p[1],
-                                                 (float)p[2],
-                                                 all[i].arc + f * (all[i + 1].arc - all[i].arc),
-                                                 0.5f * j->o->values->contour_width,
-                                                 m->alpha};
+            double f = n / pieces, p[3];
+            for (int k = 0; k < 3; k++)
+                p[k] = all[i][k] + f * (all[i + 1][k] - all[i][k]);
+            good = put_position(r, p, arc + f * length);
         }
+        arc += length;
     }
-    good = good && (count < 2 || put_ribbon(j, STROKE_PAST, s->part, s->id, points, count));
+    return good && end_run(r);
+}
+
+static bool put_outline(past_run *r, const stroke_set *set, const stroke *s)
+{
+    double(*points)[3] = mem_alloc((s->count + 1) * sizeof *points);
+    for (uint32_t i = 0; points && i < s->count; i++) {
+        const stroke_point *p = &set->points[s->first + i];
+        memcpy(points[i], (double[]){(double)p->x, (double)p->y, (double)p->depth}, sizeof *points);
+    }
+    r->part = s->part;
+    r->id = s->id;
+    bool good = points && put_past_line(r, (const double(*)[3])points, s->count);
     mem_free(points);
     return good;
 }
@@ -147,7 +201,8 @@ static lmn_status put_moment(trace_job *j, double fraction, float alpha, lmn_err
     if (status == LMN_OK)
         status = pose_ago(&before, o, fraction + MOMENT, error);
     if (status == LMN_OK)
-        status = find_outlines(&m, j, &then, error);
+        status = o->values->figures == TRACES_OUTLINES ? find_outlines(&m, j, &then, error)
+                                                       : figures_find(&m.set, j, &then, error);
     if (status == LMN_OK)
         status = bodies_find(&m.bodies, &then, &before, MOMENT, j->moves, &o->camera, error);
     if (status == LMN_OK && !page_mask_open(&m.mask, &o->camera))
@@ -156,9 +211,11 @@ static lmn_status put_moment(trace_job *j, double fraction, float alpha, lmn_err
         const uint32_t *t = m.bodies.triangles[i];
         page_mask_add(&m.mask, m.bodies.now[t[0]], m.bodies.now[t[1]], m.bodies.now[t[2]]);
     }
+    past_run run = {.job = j, .moment = &m};
     for (size_t i = 0; i < m.set.stroke_count && status == LMN_OK; i++)
-        if (m.set.strokes[i].hidden_by == 0 && !put_outline(j, &m, &m.set.strokes[i]))
+        if (m.set.strokes[i].hidden_by == 0 && !put_outline(&run, &m.set, &m.set.strokes[i]))
             status = error_memory(error);
+    mem_free(run.points);
     j->facts->contours += status == LMN_OK;
     page_mask_close(&m.mask);
     bodies_release(&m.bodies);
@@ -168,11 +225,34 @@ static lmn_status put_moment(trace_job *j, double fraction, float alpha, lmn_err
     return status;
 }
 
+static bool put_swept_line(void *user, const double (*points)[3], size_t count)
+{
+    past_run *run = user;
+    run->id++;
+    return put_past_line(run, points, count);
+}
+
+static lmn_status put_swept(trace_job *j, lmn_error *error)
+{
+    const past_moment all = {.alpha = 1};
+    past_run          run = {.job = j, .moment = &all, .part = j->bodies.meshes[0].part + 1};
+    lmn_status        status = swept_put(j, put_swept_line, &run, error);
+    mem_free(run.points);
+    j->facts->contours += status == LMN_OK;
+    return status;
+}
+
 lmn_status past_contours_put(trace_job *j, lmn_error *error)
 {
+    if (j->o->values->figures == TRACES_SWEPT)
+        return put_swept(j, error);
     size_t     count = (size_t)j->o->values->contours;
     double    *moments = mem_alloc((count + 1) * sizeof *moments);
-    lmn_status status = moments ? find_moments(j, moments, count, error) : error_memory(error);
+    lmn_status status = LMN_OK;
+    if (j->o->values->figures != TRACES_OUTLINES)
+        status = bones_find(&j->bones, j->o->pose, j->moves, j->o->values->bones.text, error);
+    if (status == LMN_OK)
+        status = moments ? find_moments(j, moments, &count, error) : error_memory(error);
     /* The oldest first, so that newer ones lie over it. */
     for (size_t i = count; i-- > 0 && status == LMN_OK;)
         status = put_moment(j, moments[i], powf(j->o->values->fade, (float)(i + 1)), error);

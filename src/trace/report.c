@@ -4,9 +4,12 @@
 json_t *trace_facts_json(const trace_facts *facts)
 {
     const trace_measures *m = &facts->measures;
-    return json_pack("{s:I, s:I, s:f, s:f, s:I, s:f, s:f, s:f, s:f}", "bodies", (json_int_t)facts->bodies, "contours",
-                     (json_int_t)facts->contours, "A1", m->extent, "A2", m->salient, "A3", (json_int_t)m->lines, "A4",
-                     m->uneven, "A5", m->crowded, "A6", m->inside, "A7", m->length);
+    json_t *out = json_pack("{s:I, s:I, s:f, s:f, s:I, s:f, s:f, s:f, s:f}", "bodies", (json_int_t)facts->bodies,
+                            "contours", (json_int_t)facts->contours, "A1", m->extent, "A2", m->salient, "A3",
+                            (json_int_t)m->lines, "A4", m->uneven, "A5", m->crowded, "A6", m->inside, "A7", m->length);
+    if (facts->telling.count)
+        json_object_set_new(out, "moments", telling_json(&facts->telling));
+    return out;
 }
 
 void trace_warn(const trace_facts *facts, warnings *warnings)
@@ -21,6 +24,7 @@ void trace_warn(const trace_facts *facts, warnings *warnings)
     if (facts->towards)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu things come nearer or go away: their lines are rays", facts->towards);
+    telling_warn(&facts->telling, warnings);
     if (facts->jumps)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu lines end where something jumps from one place to another", facts->jumps);

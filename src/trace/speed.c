@@ -18,6 +18,14 @@
 #define LENGTHS_APART 0.6
 /* Rays of what comes nearer are as long as this fraction of its radius. */
 #define RAY 0.8
+/* Fading lines are opaque up to so far from their end, fraction of their length: else they look shorter than they are.
+ */
+#define FADES 0.4
+/* Where what moves was slower than this fraction of how fast it was since, it has turned or begun: there lines end. */
+#define SLOW 0.12
+/* Those that begin on a circle begin so far from its middle, radii. */
+#define CIRCLE 1.1
+static const double pi = 3.14159265358979323846;
 
 /* A way as it is drawn: points that are close together, with the length up to each. */
 typedef struct way {
@@ -60,7 +68,21 @@ static bool put_step(way *w, const double *from, const double *to)
     return true;
 }
 
-/* The way of one origin, ended where it jumps. */
+/* The step before which a way turns back: within an eighth of it the heading changes by more than a quarter turn, and
+ * by no steady turning. What came before that is another motion. */
+static uint32_t turns_back(const trace_body *b, const double (*at)[3], uint32_t steps)
+{
+    uint32_t apart = steps / 8 > 1 ? steps / 8 : 1;
+    for (uint32_t k = apart + 1; k <= steps && !b->round; k++) {
+        const double *p = at[k], *q = at[k - apart];
+        double        x = p[0] - p[-3], y = p[1] - p[-2], u = q[0] - q[-3], v = q[1] - q[-2];
+        if (x * u + y * v < -0.2 * hypot(x, y) * hypot(u, v))
+            return k - (apart + 1) / 2;
+    }
+    return steps;
+}
+
+/* The way of one origin, ended where it jumps or turns back. */
 static bool take_way(way *w, trace_job *j, size_t origin)
 {
     uint32_t steps = j->ways.steps;
@@ -71,9 +93,14 @@ static bool take_way(way *w, trace_job *j, size_t origin)
     w->count = 0;
     if (!isfinite(at[0][0]) || !isfinite(whole))
         return true;
-    bool good = put_point(w, at[0]);
-    for (uint32_t k = 1; k <= steps && good; k++) {
+    bool     good = put_point(w, at[0]);
+    double   fastest = 0;
+    uint32_t last = turns_back(&j->bodies.bodies[j->origins.items[origin].body], (const double(*)[3])at, steps);
+    for (uint32_t k = 1; k <= last && good; k++) {
         double step = hypot(at[k][0] - at[k - 1][0], at[k][1] - at[k - 1][1]);
+        fastest = fmax(fastest, step);
+        if (step < SLOW * fastest)
+            break;
         if (step > JUMP_FRACTION * whole && step * (steps - 1) > JUMP_STEPS * (whole - step)) {
             j->facts->jumps++;
             break;
@@ -81,6 +108,38 @@ static bool take_way(way *w, trace_job *j, size_t origin)
         good = put_step(w, at[k - 1], at[k]);
     }
     return good;
+}
+
+/* How far from its middle what comes nearer reaches, and which of how many rays one is. */
+static void look_around(const trace_job *j, size_t origin, double *radius, uint32_t *count)
+{
+    uint32_t          body = j->origins.items[origin].body;
+    const trace_body *b = &j->bodies.bodies[body];
+    *radius = 0;
+    *count = 0;
+    for (uint32_t i = b->first; i < b->first + b->count; i++)
+        for (int k = 0; k < 3; k++) {
+            const double *p = j->bodies.now[j->bodies.triangles[i][k]];
+            *radius = fmax(*radius, hypot(p[0] - b->centre[0], p[1] - b->centre[1]));
+        }
+    for (size_t i = 0; i < j->origins.count; i++)
+        *count += j->origins.items[i].body == body;
+}
+
+/* A ray that begins on a circle around what comes nearer, after Song (2005): all at equal angles. */
+static bool take_ray_of_circle(way *w, trace_job *j, size_t origin, double depth)
+{
+    const trace_body *b = &j->bodies.bodies[j->origins.items[origin].body];
+    uint32_t          count, number = 0;
+    double            radius;
+    look_around(j, origin, &radius, &count);
+    for (size_t i = 0; i < origin; i++)
+        number += j->origins.items[i].body == j->origins.items[origin].body;
+    double       angle = 2 * pi * number / count, x = cos(angle), y = sin(angle);
+    const double from[3] = {b->centre[0] + CIRCLE * radius * x, b->centre[1] + CIRCLE * radius * y, depth},
+                 to[3] = {b->centre[0] + (CIRCLE + RAY) * radius * x, b->centre[1] + (CIRCLE + RAY) * radius * y,
+                          depth};
+    return put_point(w, from) && put_step(w, from, to);
 }
 
 /* A straight ray away from the middle of what comes nearer. */
@@ -92,26 +151,17 @@ static bool take_ray(way *w, trace_job *j, size_t origin)
     w->count = 0;
     if (!isfinite(x) || !isfinite(y))
         return true;
+    if (j->o->values->origin == TRACES_CIRCLE)
+        return take_ray_of_circle(w, j, origin, p[2]);
     const double to[3] = {p[0] + RAY * x, p[1] + RAY * y, p[2]};
     return put_point(w, p) && put_step(w, p, to);
 }
 
 /* Which points are neither on what moves nor behind anything. */
-static lmn_status see(way *w, const trace_job *j, lmn_error *error)
+static void see(way *w, const trace_job *j)
 {
-    double(*world)[3] = mem_alloc((w->count + 1) * sizeof *world);
-    uint32_t *before = mem_alloc((w->count + 1) * sizeof *before);
-    if (world && before) {
-        for (size_t i = 0; i < w->count; i++)
-            page_unproject(&j->o->camera, w->at[i], world[i]);
-        stroke_view_count(j->o->seen, (const double(*)[3])world, w->count, before);
-        for (size_t i = 0; i < w->count; i++)
-            w->shown[i] = before[i] == 0 && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]);
-    }
-    lmn_status status = world && before ? LMN_OK : error_memory(error);
-    mem_free(world);
-    mem_free(before);
-    return status;
+    for (size_t i = 0; i < w->count; i++)
+        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, w->at[i]);
 }
 
 /* Half the width and the opacity at a fraction of the line, 0 where it begins. */
@@ -120,7 +170,7 @@ static void profile(const traces_values *v, double at, float *half, float *alpha
     double left = fmax(1 - at, 0), wide = 1, opaque = 1;
     if (v->ends == TRACES_FADING) {
         wide = 0.35 + 0.65 * left;
-        opaque = left;
+        opaque = fmin(1, left / FADES);
     } else if (v->ends == TRACES_HEAVY)
         wide = 0.3 + 0.7 * left * left;
     else
@@ -197,7 +247,7 @@ lmn_status speed_lines_put(trace_job *j, lmn_error *error)
         if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
             status = error_memory(error);
         if (status == LMN_OK && w.count > 1)
-            status = see(&w, j, error);
+            see(&w, j);
         if (status == LMN_OK && w.count > 1 && !put_line(j, &w, origin))
             status = error_memory(error);
     }

@@ -15,18 +15,30 @@ bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, con
     if (!mem_grow((void **)&out->ribbons, &j->ribbon_capacity, out->ribbon_count + 1, sizeof *out->ribbons) ||
         !mem_grow((void **)&out->points, &j->point_capacity, out->point_count + count, sizeof *out->points))
         return false;
-    out->ribbons[out->ribbon_count] = (ribbon){.kind = kind,
-                                               .part = part,
-                                               .chain = (uint32_t)out->ribbon_count,
-                                               .id = id,
-                                               .ink = j->o->ink,
-                                               .brush = j->o->brush,
-                                               .first = (uint32_t)out->point_count,
-                                               .count = (uint32_t)count};
+    out->ribbons[out->ribbon_count] = (ribbon){
+        .kind = kind,
+        .part = part,
+        .chain = (uint32_t)out->ribbon_count,
+        .id = id,
+        .ink = j->o->ink,
+        .brush = kind == STROKE_PAST && j->o->values->contour_brush ? j->o->values->contour_brush - 1 : j->o->brush,
+        .first = (uint32_t)out->point_count,
+        .count = (uint32_t)count};
     memcpy(out->points + out->point_count, points, count * sizeof *points);
     out->ribbon_count++;
     out->point_count += count;
     return true;
+}
+
+bool nothing_hides(const traces_options *o, const double page[3])
+{
+    double   world[1][3];
+    uint32_t before;
+    if (!o->camera.orthographic && page[2] < o->camera.near * 1.001)
+        return true; /* before all that is there now */
+    page_unproject(&o->camera, page, world[0]);
+    stroke_view_count(o->seen, (const double(*)[3])world, 1, &before);
+    return before == 0;
 }
 
 static lmn_status find_bodies(trace_job *j, lmn_error *error)
@@ -64,6 +76,8 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
         status = past_contours_put(&j, error);
     if (status == LMN_OK && options->values->vibration > 0)
         status = shakes_put(&j, error);
+    if (moves && status == LMN_OK && options->values->flow > 0)
+        status = flow_lines_put(&j, error);
     if (moves && status == LMN_OK && options->values->lines > 0) {
         status = origins_find(&j.origins, options, &j.bodies) ? LMN_OK : error_memory(error);
         if (status == LMN_OK)
@@ -75,6 +89,7 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
         status = measures_take(&j, error);
     page_mask_close(&j.mask);
     mem_free(j.moves);
+    bones_release(&j.bones);
     mem_free(j.origins.items);
     ways_release(&j.ways);
     bodies_release(&j.bodies);

@@ -12,6 +12,7 @@
 #include "motion/traces.h"
 #include "pose/pose.h"
 #include "stroke/ribbon.h"
+#include "trace/telling.h"
 
 /* The requirements of speed lines, measured on what was drawn (Großmann 2011, section 3.3.3.1, after Schulz). */
 typedef struct trace_measures {
@@ -26,13 +27,14 @@ typedef struct trace_measures {
 
 /* What was drawn. */
 typedef struct trace_facts {
-    size_t         bodies;   /* that move on the page */
-    size_t         towards;  /* of these, how many come nearer or go away rather than pass: their lines are rays */
-    size_t         jumps;    /* ways that were cut where something jumps */
-    size_t         contours; /* times at which contours were drawn */
-    size_t         shaking;  /* bodies that swing to and fro within the exposure */
-    bool           shakes_wanted;
-    trace_measures measures;
+    size_t          bodies;   /* that move on the page */
+    size_t          towards;  /* of these, how many come nearer or go away rather than pass: their lines are rays */
+    size_t          jumps;    /* ways that were cut where something jumps */
+    size_t          contours; /* times at which contours were drawn */
+    size_t          shaking;  /* bodies that swing to and fro within the exposure */
+    bool            shakes_wanted;
+    trace_measures  measures;
+    telling_moments telling; /* those that were chosen; wanted 0 and none: nobody asked */
 } trace_facts;
 
 typedef struct traces_options {

@@ -8,6 +8,8 @@
 
 /* A position on the page; false when it is behind the near plane. */
 bool page_project(const stroke_camera *c, vec3 world, double out[3]);
+/* What sees whatever page_project does. */
+stroke_camera page_camera_of_the_past(const stroke_camera *c);
 /* And back. */
 void page_unproject(const stroke_camera *c, const double page[3], double out[3]);
 
@@ -20,6 +22,8 @@ bool page_mask_open(page_mask *m, const stroke_camera *c); /* false: out of memo
 void page_mask_close(page_mask *m);
 void page_mask_add(page_mask *m, const double *a, const double *b, const double *c);
 bool page_mask_has(const page_mask *m, double x, double y);
+/* All that parts show in a pose, the whole of each triangle before the near plane. False: out of memory. */
+bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera);
 
 /* --- bodies.c: what moves ----------------------------------------------------------------------------------- */
 
@@ -28,6 +32,12 @@ typedef struct trace_mesh {
     uint32_t         part, instance, first;
     const primitive *primitive;
 } trace_mesh;
+
+/* World positions of all its vertices; the caller frees them with mem_free. NULL: out of memory. */
+vec3 *trace_positions(const pose *p, const trace_mesh *m);
+
+/* The joint that a vertex of a skinned primitive follows most. */
+int32_t trace_joint_of(const lmn_scene *s, const node *n, const primitive *p, uint32_t vertex);
 
 typedef enum body_motion {
     MOVES_ALONG,  /* one way */
@@ -89,6 +99,8 @@ typedef struct trace_ways {
 lmn_status ways_follow(trace_ways *out, const traces_options *o, const trace_bodies *bodies,
                        const trace_origin *origins, size_t count, lmn_error *error);
 void       ways_release(trace_ways *w);
+/* The pose so many seconds before another one, not before its clips begin. */
+lmn_status pose_before(pose *out, const pose *now, double seconds, lmn_error *error);
 /* The pose at a fraction of the exposure ago. */
 lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_error *error);
 
@@ -101,6 +113,24 @@ typedef struct origin_list {
 /* Spreads the lines that are wished for over bodies, by how large and fast they are. False: out of memory. */
 bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies);
 
+/* --- bones.c, figures.c ------------------------------------------------------------------------------------- */
+
+typedef struct trace_bone {
+    uint32_t part;
+    int32_t  node; /* that it goes with */
+    vec3     from, to;
+    double   radius[2]; /* of what is around it at either end, in the world at rest */
+} trace_bone;
+
+typedef struct trace_bones {
+    trace_bone *items;
+    size_t      count;
+} trace_bones;
+
+/* The bones of these parts whose nodes match a glob; empty: all. Errors: LMN_MEMORY. */
+lmn_status bones_find(trace_bones *out, const pose *now, const bool *parts, const char *wanted, lmn_error *error);
+void       bones_release(trace_bones *b);
+
 /* --- speed.c, past.c, shakes.c
  * ------------------------------------------------------------------------------------------- */
 
@@ -109,6 +139,7 @@ typedef struct trace_job {
     trace_bodies          bodies;
     bool                 *moves; /* per part */
     page_mask             mask;  /* of all that moves, now */
+    trace_bones           bones;
     origin_list           origins;
     trace_ways            ways;
     ribbon_set           *out;
@@ -116,11 +147,21 @@ typedef struct trace_job {
     size_t                ribbon_capacity, point_capacity;
 } trace_job;
 
+/* In the number of a line, the lower half of its ribbons' ids: it is a flow line. */
+#define TRACE_FLOW 0x80000000u
+lmn_status flow_lines_put(trace_job *j, lmn_error *error);
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 lmn_status shakes_put(trace_job *j, lmn_error *error);
+/* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
+lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, lmn_error *error);
+/* The outline of all that is covered during the exposure, line by line. */
+typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count);
+lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
+/* Is a position on the page, with its depth, before all that is there now? */
+bool nothing_hides(const traces_options *o, const double page[3]);
 /* 0 … 1, the same for the same numbers. */
 double trace_random(const traces_options *o, uint32_t body, uint32_t line, uint32_t what);
 

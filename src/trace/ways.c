@@ -13,14 +13,19 @@
 #define HALFWAY_MOST 1.0
 enum { STEPS_FIRST = 8, STEPS_MOST = 64 };
 
-lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_error *error)
+lmn_status pose_before(pose *out, const pose *now, double seconds, lmn_error *error)
 {
-    moment when = o->pose->when;
-    double exposure = (double)o->values->common.exposure, reached = when.seconds < exposure ? when.seconds : exposure;
-    when.seconds -= reached * fraction; /* clips begin at 0 */
+    moment when = now->when;
+    when.seconds = when.seconds > seconds ? when.seconds - seconds : 0; /* clips begin at 0 */
     when.held = 0;
     when.held_seconds = 0;
-    return pose_create(out, o->pose->scene, &when, error);
+    return pose_create(out, now->scene, &when, error);
+}
+
+lmn_status pose_ago(pose *out, const traces_options *o, double fraction, lmn_error *error)
+{
+    double exposure = (double)o->values->common.exposure, now = o->pose->when.seconds;
+    return pose_before(out, o->pose, (now < exposure ? now : exposure) * fraction, error);
 }
 
 static vec3 place(const pose *p, const trace_bodies *bodies, const trace_origin *origin)

@@ -1,6 +1,7 @@
 /* Speed lines and contours of the past against what is known of the motion. Großmann 2011; rows 15, 16, 19, 21, 23 to
  * 25, 28 to 31, 33, 77k. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -277,6 +278,238 @@ static void contours_of_the_past(void)
     close_scene(&t);
 }
 
+static const char *write_moved(const char *name, int keys, const double *times, const double *places)
+{
+    moving_scene m;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
+    if (keys)
+        moving_scene_keys(&m, ball, "translation", keys, times, places);
+    int other = moving_scene_joint(&m, 0, 0, 0);
+    moving_scene_keys(&m, other, "translation", 2, (double[]){0, 1}, (double[]){0, 0, 0, 1, 0, 0});
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+/* --- flow lines --------------------------------------------------------------------------------------------- */
+
+/* Row 77m: the ball at (3, 0) goes to the right. All lines go on ahead of it, side by side or to one point. */
+static void flow_lines(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("flow", 3, false), 1, true)) {
+        const double front = PAGE / 2.0 + 4 * UNIT;
+        t.values.flow = 30;
+        t.values.flow_length = 0.12f;
+        for (int way = TRACES_PARALLEL; way <= TRACES_CONVERGING; way++) {
+            double slant = 0, off = 0, inside = 0;
+            size_t lines = 0, ahead = 0;
+            t.values.flow_way = way;
+            check_that("77m", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon       *r = &t.ribbons.ribbons[i];
+                const ribbon_point *p = &t.ribbons.points[r->first], *q = p + r->count - 1;
+                if (!((uint32_t)r->id & 0x80000000u))
+                    continue;
+                double x = (double)q->x - (double)p->x, y = (double)q->y - (double)p->y,
+                       meets[2] = {front + 0.12 * PAGE - (double)p->x, PAGE / 2.0 - (double)p->y};
+                lines++;
+                ahead += (double)q->x > front;
+                slant = fmax(slant, fabs(y / x));
+                off = fmax(off, fabs(x * meets[1] - y * meets[0]) / hypot(x, y));
+                for (uint32_t k = 0; k < r->count; k++)
+                    inside += hypot((double)p[k].x - PAGE / 2.0 - 3 * UNIT, (double)p[k].y - PAGE / 2.0) < UNIT * 0.98;
+            }
+            check_at_least("77m", (double)lines, 30, "lines, those that the ball parts counted twice");
+            check_at_most("77m", inside, 0, "points on the ball");
+            check_at_least("77m", (double)ahead, way == TRACES_PARALLEL ? 20 : 12, "lines that end ahead of it");
+            check_at_most("77m", way == TRACES_PARALLEL ? slant : off, way == TRACES_PARALLEL ? 0.001 : 0.5,
+                          way == TRACES_PARALLEL ? "slant against its way" : "units by which they miss one point");
+            check_that("33", t.facts.measures.lines == 24, "measures count speed lines alone: %zu",
+                       t.facts.measures.lines);
+        }
+    }
+    close_scene(&t);
+}
+
+/* Row 20: rays around what comes nearer begin on a circle, at equal angles. */
+static void lines_on_circles(void)
+{
+    traced t;
+    if (open_scene(&t, write_moved("circle", 2, (double[]){0, 1}, (double[]){0, 0, -8, 0, 0, 4}), 1, false)) {
+        double least = INFINITY, most = 0, apart = 0, off = 0, before = 0;
+        size_t count = 0;
+        t.values.origin = TRACES_CIRCLE;
+        t.values.lines = 24;
+        t.values.uneven = 0;
+        check_that("20", trace(&t) == LMN_OK, "traced");
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[t.ribbons.ribbons[i].first];
+            const ribbon_point *q = p + t.ribbons.ribbons[i].count - 1;
+            double              x = (double)p->x - PAGE / 2.0, y = (double)p->y - PAGE / 2.0, angle = atan2(y, x);
+            least = fmin(least, hypot(x, y));
+            most = fmax(most, hypot(x, y));
+            off = fmax(off, fabs(x * ((double)q->y - (double)p->y) - y * ((double)q->x - (double)p->x)) / hypot(x, y));
+            if (count++)
+                apart = fmax(apart, fabs(fabs(remainder(angle - before, 2 * pi)) - 2 * pi / 24));
+            before = angle;
+        }
+        check_that("20", count == 24, "%zu of 24 rays", count);
+        check_at_most("20", most - least, 2, "beginnings are off a circle by, units");
+        check_at_most("20", apart, 0.02, "angles differ from equal ones by");
+        check_at_most("20", off, 0.5, "rays miss the middle by, units");
+    }
+    close_scene(&t);
+}
+
+/* --- figures -------------------------------------------------------------------------------------------------- */
+
+static double to_segment(double x, double y, const double a[2], const double b[2])
+{
+    double dx = b[0] - a[0], dy = b[1] - a[1],
+           f = fmin(fmax(((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy), 0), 1);
+    return hypot(x - a[0] - f * dx, y - a[1] - f * dy);
+}
+
+/* A rod of four units and one of two, each from its joint, that turn by 90 degrees in a second. */
+static const char *write_rods(const char *name)
+{
+    moving_scene m;
+    const double turns[8] = {0, 0, 0, 1, 0, 0, sin(pi / 4), cos(pi / 4)};
+    moving_scene_begin(&m);
+    for (int i = 0; i < 2; i++) {
+        double half = i ? 1 : 2;
+        int    joint = moving_scene_joint(&m, i ? 1 : -3, -2, 0),
+            rod = moving_scene_box(&m, half, 0, 0, (double[]){half, 0.1, 0.1}, grey);
+        moving_scene_name(&m, rod, i ? "leg" : "arm");
+        moving_scene_put_in(&m, rod, joint);
+        moving_scene_keys(&m, joint, "rotation", 2, (double[]){0, 1}, turns);
+    }
+    const char *path = check_path("%s.glb", name);
+    moving_scene_write(&m, path);
+    return path;
+}
+
+/* Row 77d: of each time a line and two marks, and nothing of what was not asked for. Row 77h: outlines so far from the
+ * middle line as the rod is thick. */
+static void check_rods(const traced *t, double radius, const char *what)
+{
+    double off = 0, elsewhere = 0;
+    size_t lines = 0;
+    for (size_t i = 0; i < t->ribbons.ribbon_count; i++) {
+        const ribbon       *r = &t->ribbons.ribbons[i];
+        const ribbon_point *p = &t->ribbons.points[r->first];
+        double              n = round(log((double)p->alpha) / log(0.75)), angle = pi / 2 * (1 - n / 8);
+        const double        joint[2] = {PAGE / 2.0 + UNIT, PAGE / 2.0 + 2 * UNIT},
+                     tip[2] = {joint[0] + 2 * UNIT * cos(angle), joint[1] - 2 * UNIT * sin(angle)};
+        bool mark = hypot((double)p[0].x - joint[0], (double)p[0].y - joint[1]) < 4 ||
+                    hypot((double)p[0].x - tip[0], (double)p[0].y - tip[1]) < 4;
+        mark = mark && r->count < 30 && radius == 0;
+        lines += !mark;
+        for (uint32_t k = 0; k < r->count; k++) {
+            double apart = to_segment((double)p[k].x, (double)p[k].y, joint, tip);
+            off = mark ? off : fmax(off, fabs(apart - radius));
+            elsewhere += apart > radius + 4;
+        }
+    }
+    check_that("77d", lines == 8, "%s: %zu phases of 8 can be counted", what, lines);
+    check_at_most("77d", off, 0.6, "%s: off by, units", what);
+    check_at_most("77d", elsewhere, 0, "%s: points elsewhere", what);
+}
+
+static void figures_of_the_past(void)
+{
+    traced t;
+    if (open_scene(&t, write_rods("rods"), 1, true)) {
+        t.values.lines = 0;
+        t.values.contours = 8;
+        t.values.in_front = true;
+        t.values.figures = TRACES_BONES;
+        snprintf(t.values.bones.text, sizeof t.values.bones.text, "le*");
+        check_that("77d", trace(&t) == LMN_OK, "bones");
+        check_rods(&t, 0, "bones");
+        t.values.figures = TRACES_SOLIDS;
+        check_that("77h", trace(&t) == LMN_OK, "solids");
+        check_rods(&t, 0.1 * UNIT, "solids");
+        t.values.figures = TRACES_POINTS;
+        check_that("77d", trace(&t) == LMN_OK, "points");
+        check_that("77d", count_of(&t, STROKE_PAST) == 16, "%zu of 16 marks", count_of(&t, STROKE_PAST));
+        t.values.bones.text[0] = 0;
+        check_that("77d", trace(&t) == LMN_OK, "points of both rods");
+        check_that("77d", count_of(&t, STROKE_PAST) == 32, "%zu of 32 marks", count_of(&t, STROKE_PAST));
+    }
+    close_scene(&t);
+}
+
+/* Row 77g: a ball of radius 1 sweeps a form with straight sides and round ends. */
+static void swept_forms(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("swept", 3, false), 1, true)) {
+        double       off = 0, length = 0;
+        const double from[2] = {PAGE / 2.0 - 3 * UNIT, PAGE / 2.0}, to[2] = {PAGE / 2.0 + 3 * UNIT, PAGE / 2.0};
+        t.values.lines = 0;
+        t.values.contours = 1;
+        t.values.in_front = true;
+        t.values.figures = TRACES_SWEPT;
+        check_that("77g", trace(&t) == LMN_OK, "swept");
+        check_that("77g", t.ribbons.ribbon_count == 1, "one outline: %zu", t.ribbons.ribbon_count);
+        for (size_t i = 0; i < t.ribbons.point_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[i];
+            off = fmax(off, fabs(to_segment((double)p->x, (double)p->y, from, to) - UNIT));
+            length += i ? hypot((double)(p[0].x - p[-1].x), (double)(p[0].y - p[-1].y)) : 0;
+        }
+        check_at_most("77g", off, 2, "off by, units (facets: 1.5)");
+        check_near("77g", length / (12 * UNIT + 2 * pi * UNIT), 1, 0.02, "it is smooth: as long as the true form");
+    }
+    close_scene(&t);
+}
+
+/* Row 17: patterns are on contours alone, and leave as much of them as they say. */
+static void contours_have_patterns(void)
+{
+    traced t;
+    if (open_scene(&t, write_ball("pattern", 3, false), 1, true)) {
+        double lengths[2] = {0, 0}, longest = 0;
+        size_t wrong = 0;
+        t.values.contours = 2;
+        t.values.contour_brush = 1 + BRUSH_CHARCOAL;
+        for (int i = 0; i < 2; i++) {
+            t.values.contour_dash = i ? 12 : 0;
+            check_that("17", trace(&t) == LMN_OK, "traced");
+            for (size_t n = 0; n < t.ribbons.ribbon_count; n++) {
+                const ribbon       *r = &t.ribbons.ribbons[n];
+                const ribbon_point *p = &t.ribbons.points[r->first];
+                double              own = (double)(p[r->count - 1].arc - p[0].arc);
+                wrong += r->brush != (r->kind == STROKE_PAST ? BRUSH_CHARCOAL : BRUSH_PEN);
+                lengths[i] += r->kind == STROKE_PAST ? own : 0;
+                longest = i && r->kind == STROKE_PAST ? fmax(longest, own) : longest;
+            }
+        }
+        check_that("17", wrong == 0, "%zu lines with the other one's brush", wrong);
+        check_at_most("17", longest, 12.1, "units, the longest dash");
+        check_near("17", lengths[1] / lengths[0], 2.0 / 3, 0.1, "of a contour is drawn");
+    }
+    close_scene(&t);
+}
+
+/* A ball that goes to the right, turns and comes back half of the way: its lines tell of the way back alone. */
+static void lines_end_where_it_turns(void)
+{
+    traced t;
+    if (open_scene(&t, write_moved("turning", 3, (double[]){0, 0.5, 1}, (double[]){-3.5, 0.5, 0, 3, 0, 0, 1, -0.5, 0}),
+                   1, true)) {
+        double farthest = INFINITY;
+        t.values.length = 1;
+        check_that("22", trace(&t) == LMN_OK && count_of(&t, STROKE_SPEED) > 10, "lines");
+        for (size_t i = 0; i < t.ribbons.point_count; i++)
+            farthest = fmin(farthest, ((double)t.ribbons.points[i].x - PAGE / 2.0) / UNIT);
+        check_at_least("22", farthest, -0.1, "no line comes from before the turn: the leftmost point");
+    }
+    close_scene(&t);
+}
+
 /* A wall before the right half of where the ball came from hides both lines and contours there. */
 static void walls_hide(void)
 {
@@ -307,20 +540,6 @@ static void walls_hide(void)
 
 /* --- odd motions ---------------------------------------------------------------------------------------------------
  */
-
-static const char *write_moved(const char *name, int keys, const double *times, const double *places)
-{
-    moving_scene m;
-    moving_scene_begin(&m);
-    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
-    if (keys)
-        moving_scene_keys(&m, ball, "translation", keys, times, places);
-    int other = moving_scene_joint(&m, 0, 0, 0);
-    moving_scene_keys(&m, other, "translation", 2, (double[]){0, 1}, (double[]){0, 0, 0, 1, 0, 0});
-    const char *path = check_path("%s.glb", name);
-    moving_scene_write(&m, path);
-    return path;
-}
 
 static void odd_motions(void)
 {
@@ -515,6 +734,12 @@ int main(int argc, char **argv)
         {"behind", lines_lie_behind},
         {"arcs", rods_leave_arcs},
         {"contours", contours_of_the_past},
+        {"flow", flow_lines},
+        {"circle", lines_on_circles},
+        {"pattern", contours_have_patterns},
+        {"turn", lines_end_where_it_turns},
+        {"figures", figures_of_the_past},
+        {"swept", swept_forms},
         {"walls", walls_hide},
         {"odd", odd_motions},
         {"chances", chances},

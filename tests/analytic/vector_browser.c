@@ -68,63 +68,103 @@ static double fraction_near(const bool *a, const bool *b)
     return all ? (double)near / (double)all : 0;
 }
 
-static void compare(const char *what, const char *model, const char *look, const char *path, const bool *own)
+/* One drawing: a model, a look and what else there is to say. */
+typedef struct drawn {
+    const char *model, *look, *options;
+} drawn;
+
+static void compare(const char *what, const drawn *d, const char *path, const bool *own)
 {
     bool *other = read_ink(path);
-    if (!check_that("8", other != NULL, "%s shows %s as %s", what, model, look))
+    if (!check_that("8", other != NULL, "%s shows %s as %s %s", what, d->model, d->look, d->options))
         return;
-    check_at_least("8", fraction_near(other, own), 0.99, "%s of %s, %s: ink that the picture has within 1.5 px", what,
-                   look, model);
-    check_at_least("8", fraction_near(own, other), 0.99, "%s of %s, %s: ink of the picture that it has within 1.5 px",
-                   what, look, model);
+    check_at_least("8", fraction_near(other, own), 0.99, "%s of %s, %s %s: ink that the picture has within 1.5 px",
+                   what, d->model, d->look, d->options);
+    check_at_least("8", fraction_near(own, other), 0.99,
+                   "%s of %s, %s %s: ink of the picture that it has within 1.5 px", what, d->model, d->look,
+                   d->options);
     free(other);
 }
 
-static void vectors_look_like_pictures(void)
+static void show_in_browser(const drawn *d, const char *svg, const bool *own)
 {
-    static const char *const models[] = {"pump.glb", "crank.glb", "gearbox.stl"}, *const looks[] = {"technical",
-                                                                                                    "line"};
+    char        folder[512], command[2400]; /* browsers want the whole path */
+    const char *shot = check_path("shot");
+    if (!getcwd(folder, sizeof folder))
+        folder[0] = 0;
+    /* As high as the window is, the page ends before it: some versions take bars off the window's height. */
+    snprintf(command, sizeof command,
+             "timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars "
+             "--force-device-scale-factor=1 --user-data-dir=%s.profile --window-size=%d,%d "
+             "--screenshot=%s.png file://%s/%s >/dev/null 2>&1",
+             shot, SIDE, SIDE + 200, shot, svg[0] == '/' ? "" : folder, svg);
+    if (check_that("8", run(command), "chromium runs"))
+        compare("the browser", d, check_path("shot.png"), own);
+}
+
+static void show_as_pdf(const drawn *d, const char *pdf, const bool *own)
+{
+    char        command[2400];
+    const char *shot = check_path("shot");
+    snprintf(command, sizeof command, "pdftoppm -r 96 -singlefile -png %s %s.pdf >/dev/null 2>&1", pdf, shot);
+    if (check_that("8", run(command), "pdftoppm runs"))
+        compare("the PDF page", d, check_path("shot.pdf.png"), own);
+}
+
+static void show(const drawn *list, size_t count)
+{
     bool browser = has_program("chromium"), poppler = has_program("pdftoppm");
     if (!browser)
         check_note("chromium is not installed: pages are not shown in a browser");
     if (!poppler)
         check_note("pdftoppm is not installed: PDF pages are not drawn");
-    for (size_t m = 0; m < sizeof models / sizeof *models; m++)
-        for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
-            char png[256], svg[256], pdf[256], shot[256], command[2400];
-            snprintf(png, sizeof png, "%s", check_path("own.png"));
-            char folder[512]; /* browsers want the whole path */
-            snprintf(svg, sizeof svg, "%s", check_path("page.svg"));
-            if (!getcwd(folder, sizeof folder))
-                folder[0] = 0;
-            snprintf(pdf, sizeof pdf, "%s", check_path("page.pdf"));
-            snprintf(shot, sizeof shot, "%s", check_path("shot"));
-            check_that("8",
-                       draw(models[m], looks[l], "--samples 4", png) && draw(models[m], looks[l], "", svg) &&
-                           draw(models[m], looks[l], "", pdf),
-                       "%s is drawn as %s", models[m], looks[l]);
-            bool *own = read_ink(png);
-            if (!check_that("8", own != NULL, "the picture can be read"))
-                continue;
-            /* As high as the window is, the page ends before it: some versions take bars off the window's height. */
-            snprintf(command, sizeof command,
-                     "timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars "
-                     "--force-device-scale-factor=1 --user-data-dir=%s.profile --window-size=%d,%d "
-                     "--screenshot=%s.png file://%s/%s >/dev/null 2>&1",
-                     shot, SIDE, SIDE + 200, shot, svg[0] == '/' ? "" : folder, svg);
-            if (browser && run(command))
-                compare("the browser", models[m], looks[l], check_path("shot.png"), own);
-            else
-                check_that("8", !browser, "chromium runs");
-            snprintf(command, sizeof command, "pdftoppm -r 96 -singlefile -png %s %s.pdf >/dev/null 2>&1", pdf, shot);
-            if (poppler && check_that("8", run(command), "pdftoppm runs"))
-                compare("the PDF page", models[m], looks[l], check_path("shot.pdf.png"), own);
-            free(own);
-        }
+    for (size_t i = 0; i < count; i++) {
+        char png[256], svg[256], pdf[256], smooth[256];
+        snprintf(png, sizeof png, "%s", check_path("own.png"));
+        snprintf(svg, sizeof svg, "%s", check_path("page.svg"));
+        snprintf(pdf, sizeof pdf, "%s", check_path("page.pdf"));
+        snprintf(smooth, sizeof smooth, "%s --samples 4", list[i].options);
+        check_that("8",
+                   draw(list[i].model, list[i].look, smooth, png) &&
+                       draw(list[i].model, list[i].look, list[i].options, svg) &&
+                       draw(list[i].model, list[i].look, list[i].options, pdf),
+                   "%s is drawn as %s %s", list[i].model, list[i].look, list[i].options);
+        bool *own = read_ink(png);
+        if (!check_that("8", own != NULL, "the picture can be read"))
+            continue;
+        if (browser)
+            show_in_browser(&list[i], svg, own);
+        if (poppler)
+            show_as_pdf(&list[i], pdf, own);
+        free(own);
+    }
+}
+
+static void vectors_look_like_pictures(void)
+{
+    static const drawn list[] = {{"pump.glb", "technical", ""},    {"pump.glb", "line", ""},
+                                 {"crank.glb", "technical", ""},   {"crank.glb", "line", ""},
+                                 {"gearbox.stl", "technical", ""}, {"gearbox.stl", "line", ""}};
+    show(list, sizeof list / sizeof *list);
+}
+
+/* Ways to tell of motion that vectors have. */
+static void motion_looks_like_pictures(void)
+{
+    static const drawn list[] = {
+        {"buggy.glb", "speed-lines", "--time 1.2 --camera with"},
+        {"arm.glb", "ghosts", "--time 0.9 --set motion.colour=#000000 --set motion.fade=1"},
+        {"walker.bvh", "line", "--poses auto --motion ghosts --view right --set motion.fade=1"},
+        {"fox.glb", "line", "--clip Run --time 0.4 --motion ghosts --set motion.figures=solids --set motion.fade=1"},
+        {"walker.bvh", "line",
+         "--time 1 --view right --fit-time --set motion.technique=traces --set motion.exposure=0.3 --set "
+         "motion.flow=40"}};
+    show(list, sizeof list / sizeof *list);
 }
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"vectors look like pictures", vectors_look_like_pictures}};
-    return check_main(argc, argv, "vector_browser", cases, 1);
+    static const check_case cases[] = {{"vectors look like pictures", vectors_look_like_pictures},
+                                       {"motion looks like pictures", motion_looks_like_pictures}};
+    return check_main(argc, argv, "vector_browser", cases, 2);
 }

@@ -257,6 +257,13 @@ group_draw() {
     row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
     row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    # Poses at telling moments, on one plate or as contours; the time is the end of the clip.
+    row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
+    grep -q '"reason": "turn"' r.json || complain "no turn is told"
+    row 0 '' 'x.svg' draw "$examples/walker.bvh" $small --view right -o x.svg --look line --poses auto --motion ghosts
+    row 1 "^limner: --poses is '1'; allowed are 2 to 64, or auto" '' draw "$moving" $small -o x.png --poses 1
+    row 1 '^limner: --poses goes with --motion plate' '' draw "$moving" $small -o x.png --poses 3 --motion blur
+    row 0 'nothing moves without a time' 'x.png' draw "$examples/house.glb" $small -o x.png --poses 3
     # Ways to tell of motion that have a name; vectors have them, too.
     row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
     tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
@@ -464,6 +471,8 @@ group_looks() {
     for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
         case $name in
             ghost) row 0 "'@removed'" 'x.png' draw "$gear" $small --look "$name" -o x.png ;; # nothing was taken away from it
+            speed-lines|ghosts|chrono|manga) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
+                row 0 '' 'x.png' draw "$examples/fox.glb" $small --clip Run --time 0.4 --look "$name" -o x.png ;;
             *) row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png ;;
         esac
         row 0 '' '' looks "$name"; out "^$name: "
