@@ -616,6 +616,32 @@ static void limbs_are_late(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* What is held keeps the shape that it had then, also when the pose it was taken from is gone. */
+static void what_is_held_keeps_its_shape(void **state)
+{
+    lmn_scene *scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/fox.glb");
+    lmn_error  error = {0};
+    setting    s;
+    shape      now, then, held;
+    pose       p, earlier;
+    const bool moves[] = {false};
+    (void)state;
+    set_all(&s, scene, &(part_deformation){0.5, 0.5, 0.3, 0.3, 0.1, 1, 0.1, 0.05, 4});
+    moment when = moment_of(&s, 0.5), before = moment_of(&s, 0.3);
+    when.clips[0] = before.clips[0] = 2;
+    assert_int_equal(pose_create(&p, scene, &when, &error), LMN_OK);
+    assert_int_equal(pose_create(&earlier, scene, &before, &error), LMN_OK);
+    measure(&now, &p, 0);
+    measure(&then, &earlier, 0);
+    pose_hold(&p, &earlier, moves);
+    pose_release(&earlier);
+    measure(&held, &p, 0);
+    assert_memory_equal(&held, &then, sizeof then);
+    assert_memory_not_equal(&now, &then, sizeof then);
+    pose_release(&p);
+    lmn_scene_destroy(&scene);
+}
+
 /* Whichever allocation fails, that is said, and nothing is left. */
 static void missing_memory_is_said(void **state)
 {
@@ -656,6 +682,7 @@ int main(void)
         cmocka_unit_test(limbs_are_late),
         cmocka_unit_test(coarse_meshes_have_no_teeth),
         cmocka_unit_test(rules_deform_their_parts),
+        cmocka_unit_test(what_is_held_keeps_its_shape),
         cmocka_unit_test(missing_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
