@@ -84,7 +84,7 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     moment               when;
     lmn_status           status = time_moment(&when, scene, desc, warnings, error);
     if (status == LMN_OK)
-        status = deformation_find(&r->deformation, &when, scene, look, error);
+        status = deformation_find(&r->deformation, &when, scene, look, warnings, error);
     bool same = r->pose.scene == scene && r->pose.revision == scene->revision,
          posed = same && moment_equal(&r->pose.when, &when);
     if (status == LMN_OK && !posed) {

@@ -69,9 +69,23 @@ static double response_of(const lmn_look *look)
     return 0;
 }
 
-lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scene *scene, const lmn_look *look,
-                            lmn_error *error)
+static void warn_of_idle(const lmn_look *look, warnings *warnings)
 {
+    for (size_t i = 0; i < look->rule_count; i++) {
+        const rule      *r = &look->rules[i];
+        part_deformation own = values_of(r);
+        if (r->use_counts[KIND_MOTION] && r->uses[KIND_MOTION][0].technique == &motion_deform &&
+            part_deformation_is_none(&own))
+            warnings_add(warnings, WARNING_UNUSED,
+                         "motion 'deform' changes nothing: set motion.stretch, squash, lean, inertia, lag or comb");
+    }
+}
+
+lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scene *scene, const lmn_look *look,
+                            warnings *warnings, lmn_error *error)
+{
+    if (when->clip_count && warnings)
+        warn_of_idle(look, warnings);
     pose_deformation made = {.part_count = scene->part_count, .response = response_of(look)};
     when->deformation = NULL;
     when->deformation_hash = 0;

@@ -7,8 +7,8 @@
 #include "pose/pose.h"
 
 /* Replaces `kept` (zero-initialised at first) unless it is the same, and makes the moment ask for it, or for none.
- * Errors: LMN_MEMORY. */
+ * Warns of rules that tell of motion by shapes alone and say of none. Errors: LMN_MEMORY. */
 lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scene *scene, const lmn_look *look,
-                            lmn_error *error);
+                            warnings *warnings, lmn_error *error);
 
 #endif

@@ -81,7 +81,7 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
     moment             when;
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
     if (status == LMN_OK)
-        status = deformation_find(&j->deformation, &when, scene, j->look, error);
+        status = deformation_find(&j->deformation, &when, scene, j->look, &j->out->warnings, error);
     if (status == LMN_OK)
         status = pose_create(&j->pose, scene, &when, error);
     if (status == LMN_OK) {
@@ -125,6 +125,9 @@ static bool is_seen_in_pictures_alone(const technique_use *motion)
 static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 {
     refusal r = refusal_of(j, error);
+    for (size_t i = 0; !j->pose.at_rest && i < j->look->rule_count; i++)
+        if (rule_use(&j->look->rules[i], KIND_MOTION))
+            warnings_add(&j->out->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
     for (size_t i = 0; j->pose.at_rest && i < j->look->rule_count; i++)
         if (is_seen_in_pictures_alone(rule_use(&j->look->rules[i], KIND_MOTION)))
             return refuse(&r, LMN_USAGE, WARNING_UNUSED, "draw a picture (.png), or set motion.technique=none",

@@ -277,6 +277,8 @@ group_draw() {
         row 0 '' 'x.svg' draw "$examples/buggy.glb" --clip Drive --time 1 --camera with --look line --motion $way -o x.svg
         cmp -s x.svg in-plain.svg && complain "--motion $way leaves the drawing as it is"
     done
+    row 0 'warning: motion: nothing moves without a time' 'x.svg' draw "$examples/buggy.glb" --look line --motion squash -o x.svg
+    row 0 "warning: motion 'deform' changes nothing" 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion deform -o x.svg
     row 0 'warning: motion: nothing is deformed' 'x.png' draw "$examples/morph-cube.glb" $small --time 0.5 --motion squash -o x.png
     row 1 "there is no motion technique 'nosuch'" '' draw "$examples/buggy.glb" $small --time 1 --motion nosuch -o x.png
     # Sizes that cannot be are told before anything is drawn, and the one that is offered is smaller.

@@ -540,14 +540,14 @@ static void rules_deform_their_parts(void **state)
     lmn_scene *scene = scene_of(&m, "two.glb");
     assert_int_equal(lmn_look_parse(&look, json, "two", &error), LMN_OK);
     moment when = moment_of(NULL, 0.5);
-    assert_int_equal(deformation_find(&kept, &when, scene, look, &error), LMN_OK);
+    assert_int_equal(deformation_find(&kept, &when, scene, look, NULL, &error), LMN_OK);
     assert_ptr_equal(when.deformation, &kept);
     assert_true(part_deformation_is_none(&kept.parts[0]));
     assert_near(kept.parts[1].stretch, 0.5, 0);
     assert_near(kept.parts[1].lean, pi / 6, 1e-12);
     const part_deformation *before = kept.parts;
     moment                  again = moment_of(NULL, 0.5);
-    assert_int_equal(deformation_find(&kept, &again, scene, look, &error), LMN_OK);
+    assert_int_equal(deformation_find(&kept, &again, scene, look, NULL, &error), LMN_OK);
     assert_ptr_equal(kept.parts, before);
     assert_true(moment_equal(&when, &again));
     shape   now, plain;
@@ -558,10 +558,10 @@ static void rules_deform_their_parts(void **state)
         assert_int_equal(memcmp(&now, &plain, sizeof now) == 0, i == 0);
     }
     assert_int_equal(lmn_look_set(look, "1:motion.stretch", "0.6", &error), LMN_OK);
-    assert_int_equal(deformation_find(&kept, &again, scene, look, &error), LMN_OK);
+    assert_int_equal(deformation_find(&kept, &again, scene, look, NULL, &error), LMN_OK);
     assert_false(moment_equal(&when, &again));
     moment rest = moment_at_rest();
-    assert_int_equal(deformation_find(&kept, &rest, scene, look, &error), LMN_OK);
+    assert_int_equal(deformation_find(&kept, &rest, scene, look, NULL, &error), LMN_OK);
     assert_null(rest.deformation);
     pose_deformation_release(&kept);
     lmn_look_destroy(&look);
