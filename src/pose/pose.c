@@ -134,6 +134,9 @@ static lmn_status deform(pose *p, const animated_state *moved, lmn_error *error)
     const lmn_scene *s = p->scene;
     deformed_nodes   d;
     lmn_status       status = deformed_nodes_find(&d, p, error);
+    p->rigid = mem_copy(p->worlds, s->node_count * sizeof *p->rigid);
+    if (status == LMN_OK && !p->rigid)
+        status = error_memory(error);
     for (size_t i = 0; i < s->node_count && status == LMN_OK; i++)
         if (d.changed[i])
             p->worlds[i] = mat4_multiply(&d.changes[i], &p->worlds[i]);
@@ -322,6 +325,7 @@ void pose_release(pose *p)
     mem_free(p->parts);
     mem_free(p->part_boxes);
     mem_free(p->joints);
+    mem_free(p->rigid);
     mem_free(p->bends);
     mem_free(p->bend_joints);
     mem_free(p->weights);
@@ -333,6 +337,11 @@ void pose_release(pose *p)
 bool pose_deforms(const part_pose *pose, const primitive *p)
 {
     return pose->joints || (pose->weights && p->morph_count) || pose->bend;
+}
+
+const mat4 *pose_rigid_worlds(const pose *p)
+{
+    return p->rigid ? p->rigid : p->worlds;
 }
 
 bool pose_part_deforms(const part_pose *pose)
@@ -397,6 +406,8 @@ static void hold_part(pose *p, const pose *held, size_t part_index)
 {
     int32_t node_index = p->scene->parts[part_index].node;
     p->worlds[node_index] = held->worlds[node_index];
+    if (p->rigid)
+        p->rigid[node_index] = pose_rigid_worlds(held)[node_index];
     p->part_boxes[part_index] = held->part_boxes[part_index];
     if (part_index >= p->part_count)
         return;
@@ -422,8 +433,11 @@ void pose_hold(pose *p, const pose *held, const bool *moves)
     if (!still)
         return;
     for (size_t i = 0; i < p->scene->node_count; i++)
-        if (p->scene->nodes[i].mesh == NONE && p->scene->nodes[i].solid == NONE)
+        if (p->scene->nodes[i].mesh == NONE && p->scene->nodes[i].solid == NONE) {
             p->worlds[i] = held->worlds[i]; /* with the cameras and lights there */
+            if (p->rigid)
+                p->rigid[i] = pose_rigid_worlds(held)[i];
+        }
     memcpy(p->cameras, held->cameras, p->scene->camera_count * sizeof *p->cameras);
     memcpy(p->lights, held->lights, p->scene->light_count * sizeof *p->lights);
     p->box = box3_empty();

@@ -39,6 +39,7 @@ typedef struct pose {
     box3         box;                 /* of all parts */
     mat4        *joints;              /* of all parts, which point into it */
     float       *weights;             /* of nodes whose weights move; parts point into it */
+    mat4        *rigid;               /* per node: where it would be, were it not deformed; NULL: as in worlds */
     part_bend   *bends;               /* per part, which point into it; NULL: none bends */
     mat4        *bend_joints;         /* of all of these */
     size_t       deformed_count;      /* nodes and parts that are deformed by how they move */
@@ -74,6 +75,9 @@ void pose_warn_of_flat(const pose *p, warnings *warnings);
 
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
+
+/* Where nodes would be, were they not deformed by how they move: what tells which way they go. */
+const mat4 *pose_rigid_worlds(const pose *p);
 
 /* Can anything move vertices of this part within its mesh? */
 bool pose_part_deforms(const part_pose *pose);

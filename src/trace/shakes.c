@@ -112,8 +112,8 @@ static lmn_status moved_since(mat4 *out, const trace_job *j, const trace_body *b
         return LMN_OK;
     lmn_status status = pose_ago(&earlier, j->o, fraction, error);
     if (status == LMN_OK) {
-        mat4 back = mat4_inverse(&j->o->pose->worlds[b->node]);
-        *out = mat4_multiply(&earlier.worlds[b->node], &back);
+        mat4 back = mat4_inverse(&pose_rigid_worlds(j->o->pose)[b->node]);
+        *out = mat4_multiply(&pose_rigid_worlds(&earlier)[b->node], &back);
     }
     pose_release(&earlier);
     return status;

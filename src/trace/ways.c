@@ -52,7 +52,9 @@ static vec3 place_earlier(const traces_options *o, const pose *earlier, const tr
     int32_t node = bodies->bodies[origin->body].node;
     if (node == NONE)
         return place(earlier, bodies, origin);
-    mat4 back = mat4_inverse(&o->pose->worlds[node]), moved = mat4_multiply(&earlier->worlds[node], &back);
+    /* Lines go the way of what moves, whatever shape it had there. */
+    mat4 back = mat4_inverse(&pose_rigid_worlds(o->pose)[node]),
+         moved = mat4_multiply(&pose_rigid_worlds(earlier)[node], &back);
     return mat4_transform_point(&moved, place(o->pose, bodies, origin));
 }
 

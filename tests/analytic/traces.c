@@ -706,6 +706,38 @@ static void pendulums_swing_below(void)
     close_scene(&t);
 }
 
+/* What is stretched ever more has lines along its way all the same, from where its rear is now. */
+static void shapes_bend_no_lines(void)
+{
+    traced           t;
+    double           aside = 0, low = PAGE, high = 0;
+    part_deformation how = {.stretch = 0.8, .full_speed = 3, .full_acceleration = 12};
+    pose_deformation all = {&how, 1, 0.04, 1};
+    lmn_error        error = {0};
+    /* At its full speed, by an acceleration of 12 a second squared. */
+    const double stretched = 1.8 * (1 + 0.8 * 12 * 0.04 / 2 / (3 * 2 * sqrt(3)));
+    if (open_scene(&t, write_ball("stretched", 3, true), 0.9, true)) {
+        moment when = t.pose.when;
+        when.deformation = &all;
+        when.deformation_hash = all.hash;
+        check_that("14", pose_move(&t.pose, &when, &error) == LMN_OK, "deformed");
+        t.values.uneven = 0;
+        check_that("14", trace(&t) == LMN_OK && t.ribbons.ribbon_count > 10, "lines are drawn");
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon       *r = &t.ribbons.ribbons[i];
+            const ribbon_point *p = &t.ribbons.points[r->first];
+            for (uint32_t n = 0; n < r->count; n++)
+                aside = fmax(aside, fabs((double)p[n].y - (double)p[0].y));
+            low = fmin(low, (double)p[0].y);
+            high = fmax(high, (double)p[0].y);
+        }
+        check_at_most("14", aside, 0.1, "how far lines leave their height");
+        check_at_most("14", fabs(high - low - 2 * UNIT / sqrt(stretched)), 0.3,
+                      "the outermost lines are beside a thinner ball");
+    }
+    close_scene(&t);
+}
+
 /* Every allocation may fail. */
 static void memory_may_run_out(void)
 {
@@ -743,6 +775,7 @@ int main(int argc, char **argv)
         {"walls", walls_hide},
         {"odd", odd_motions},
         {"chances", chances},
+        {"shapes", shapes_bend_no_lines},
         {"shaking", shaking_has_arcs},
         {"pendulum", pendulums_swing_below},
         {"memory", memory_may_run_out},
