@@ -21,6 +21,9 @@ static const motion_way motion_ways[] = {
      {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
       "motion.decay=0.8"}},
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
+    {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
+    {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
+    {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
 };
 
 static int set_one(lmn_look *look, const char *assignment)

@@ -8,6 +8,7 @@
 #include "finish/finish.h"
 #include "frame/capacity.h"
 #include "light/light.h"
+#include "plan/deformation.h"
 #include "plan/movers.h"
 #include "plan/refuse.h"
 
@@ -67,6 +68,7 @@ void renderer_destroy(lmn_renderer **renderer)
     kept_drop(r);
     upload_release(&r->up, r->g);
     pose_release(&r->pose);
+    pose_deformation_release(&r->deformation);
     swept_boxes_release(&r->swept);
     made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
@@ -81,7 +83,9 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     const lmn_draw_desc *desc = options->desc;
     moment               when;
     lmn_status           status = time_moment(&when, scene, desc, warnings, error);
-    bool                 same = r->pose.scene == scene && r->pose.revision == scene->revision,
+    if (status == LMN_OK)
+        status = deformation_find(&r->deformation, &when, scene, look, error);
+    bool same = r->pose.scene == scene && r->pose.revision == scene->revision,
          posed = same && moment_equal(&r->pose.when, &when);
     if (status == LMN_OK && !posed) {
         if (!same)
@@ -98,6 +102,7 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
     if (status == LMN_OK) {
         r->pose.fit_boxes = r->pose.part_boxes;
         pose_warn_of_flat(&r->pose, warnings);
+        pose_warn_of_rigid(&r->pose, warnings);
     }
     if (status == LMN_OK && desc->fit_time)
         status = swept_boxes_fit(&r->swept, &r->pose, error);

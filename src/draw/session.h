@@ -20,9 +20,10 @@ typedef struct kept_textures {
 
 struct lmn_renderer {
     gpu             *g;
-    kept_textures   *kept;  /* of the last drawing; NULL: it has left none */
-    pose             pose;  /* of the last scene that was drawn */
-    swept_boxes      swept; /* of its clips */
+    kept_textures   *kept;        /* of the last drawing; NULL: it has left none */
+    pose             pose;        /* of the last scene that was drawn */
+    pose_deformation deformation; /* that its moment asks for */
+    swept_boxes      swept;       /* of its clips */
     upload           up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool             up_valid;

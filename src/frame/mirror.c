@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "scene/mesh.h"
 
 /* Triangles added up: their normals times their areas, and their middles times their areas. */
 typedef struct plane_sum {
@@ -45,8 +44,7 @@ static void add_item(plane_sum *sum, const frame *f, const draw_item *item)
     }
     vec3 *moved = mem_alloc(p->vertex_count * sizeof *moved);
     if (moved) {
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count,
-                  moved, NULL);
+        pose_vertices(pose, p, NULL, NULL, p->vertex_count, moved, NULL);
         add_triangles(sum, p, moved, &eye);
     } else {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");

@@ -7,11 +7,13 @@
 extern const kind kind_motion;
 
 extern const technique motion_stochastic, motion_accumulate, motion_blur, motion_streak_map, motion_stretched;
-extern const technique motion_streaks, motion_traces;
+extern const technique motion_streaks, motion_traces, motion_deform;
 
 /* What all techniques of the kind have first. */
 typedef struct motion_common {
-    float exposure; /* seconds */
+    float   exposure;                                                                           /* seconds */
+    float   stretch, squash, lean, inertia, full_speed, full_acceleration, response, lag, comb; /* pose/deform.h */
+    int32_t comb_teeth;
 } motion_common;
 
 #endif

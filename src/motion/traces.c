@@ -81,6 +81,11 @@ static const param params[] = {
                    .doc = "They lie before what is there now instead of behind it."),
     PARAM_BOOL_ROW(traces_values, creases, .def = 0, .cpu_only = true, .only_if = "contours>0",
                    .doc = "Creases, too, where it has been."),
+    COUNT(vibration, .def = 0, .min = 0, .max = 20, .soft_max = 5,
+          .doc = "How many small arcs lie beside both sides of what swings to and fro at least once in the exposure; 0 "
+                 "draws none."),
+    NUMBER(vibration_apart, .def = 4.5, .min = 0.1, .max = 150, .soft_max = 24, .unit = UNIT_PT,
+           .only_if = "vibration>0", .doc = "How far apart those are."),
 };
 
 const technique motion_traces = {

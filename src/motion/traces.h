@@ -46,6 +46,8 @@ typedef struct traces_values {
     float         cover, fade, contour_width, contour_dash;
     int32_t       contour_brush; /* 0: that of the rule's lines; else a stroke_brush, from 1 on */
     bool          trailing, creases, in_front;
+    int32_t       vibration;
+    float         vibration_apart;
 } traces_values;
 
 #endif

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/mesh.h"
 
 /* Points are measured by the block, so that a compiler can take several at once. */
 enum { BLOCK = 256, LANES = 8 };
@@ -117,8 +116,7 @@ static vec3 *pose_points(const primitive *p, const part_pose *own)
 {
     vec3 *out = mem_alloc((size_t)p->vertex_count * sizeof *out);
     if (out)
-        mesh_pose(p, own->weights, own->weight_count, own->joints, own->joint_count, NULL, NULL, p->vertex_count, out,
-                  NULL);
+        pose_vertices(own, p, NULL, NULL, p->vertex_count, out, NULL);
     return out;
 }
 

@@ -112,7 +112,7 @@ static bool wants_rest(const plan *p, const figure *f)
         return false;
     for (size_t i = 0; i < p->scene->part_count; i++) {
         const part_pose *pose = &p->pose->parts[i];
-        if (f->designated[i] && (pose->joints || pose->weight_count > 0))
+        if (f->designated[i] && pose_part_deforms(pose))
             return true;
     }
     return false;

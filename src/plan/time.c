@@ -30,6 +30,12 @@ lmn_status time_check(const lmn_look *look, lmn_error *error)
             error_hint(error, "a picture has one exposure: give them the same motion.exposure");
             return LMN_USAGE;
         }
+        if (first && own && own->response != first->response) {
+            error_set(error, LMN_USAGE, "two rules of the look ask for different motion: responses of %g s and %g s",
+                      (double)first->response, (double)own->response);
+            error_hint(error, "give them the same motion.response");
+            return LMN_USAGE;
+        }
         first = own ? own : first;
     }
     return LMN_OK;

@@ -6,6 +6,8 @@
 
 enum { CLIPS_AT_ONCE = 16 };
 
+struct pose_deformation;
+
 /* Without clips: at rest. Zero-initialised before it is set, so that equal ones have equal bytes. */
 typedef struct moment {
     double   seconds;
@@ -13,6 +15,10 @@ typedef struct moment {
     size_t   clip_count;
     double   held_seconds; /* parts that are held are where they are then (pose_hold) */
     uint64_t held;         /* which parts; 0: none */
+    /* How what moves is deformed (pose/deform.h), lent; NULL: it is not. Poses that are made of this moment at other
+     * times are deformed as they move then. */
+    const struct pose_deformation *deformation;
+    uint64_t                       deformation_hash;
 } moment;
 
 moment moment_at_rest(void);

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "pose/animate.h"
+#include "scene/mesh.h"
 
 static const skin *skin_of(const lmn_scene *scene, size_t part_index)
 {
@@ -67,9 +68,39 @@ static bool is_moved(const pose *p, size_t part_index, const float *weights)
     return moved;
 }
 
-/* At rest the scene knows them. */
-static void set_boxes(pose *p, const animated_state *moved)
+static void forget_posed(posed_vertices *posed, size_t count)
 {
+    for (size_t i = 0; posed && i < count; i++)
+        posed[i].made = false;
+}
+
+/* Of a part that bends. False: out of memory. */
+static bool set_bent_box(pose *p, size_t part_index)
+{
+    const part_pose *own = &p->parts[part_index];
+    const mesh      *m = &p->scene->meshes[p->scene->nodes[p->scene->parts[part_index].node].mesh];
+    mat4             world = pose_instance(p, part_index, 0);
+    box3             box = box3_empty();
+    forget_posed(own->posed, own->primitive_count); /* which is not bent */
+    for (size_t i = 0; i < m->primitive_count; i++) {
+        const primitive *q = &m->primitives[i];
+        vec3            *moved = mem_alloc((size_t)q->vertex_count * sizeof *moved);
+        if (!moved)
+            return false;
+        pose_vertices(own, q, NULL, NULL, q->vertex_count, moved, NULL);
+        for (uint32_t k = 0; k < q->vertex_count; k++)
+            box = box3_with_point(box, mat4_transform_point(&world, moved[k]));
+        mem_free(moved);
+    }
+    p->part_boxes[part_index] = box;
+    return true;
+}
+
+/* At rest the scene knows them. */
+static bool set_boxes(pose *p, const animated_state *moved)
+{
+    bool good = true;
+    p->box = box3_empty();
     const lmn_scene *s = p->scene;
     size_t           all = p->part_count + p->ghost_count;
     for (size_t i = 0; i < all; i++) {
@@ -79,10 +110,50 @@ static void set_boxes(pose *p, const animated_state *moved)
             p->at_rest && is_moved(p, i, weights)
                 ? node_bounds(s, p->worlds, node_index, weights, i < p->part_count ? p->parts[i].posed : NULL)
                 : s->parts[i].bounds;
+        if (i < p->part_count && p->parts[i].bend && p->parts[i].bend->active)
+            good = set_bent_box(p, i) && good;
         if (i < p->part_count)
             p->box = box3_union(p->box, p->part_boxes[i]);
     }
     p->fit_boxes = p->part_boxes;
+    return good;
+}
+
+/* --- deformation ---------------------------------------------------------------------------------------- */
+
+/* Also while it stands still, so that it has vertices of its own before and after, too. */
+static bool part_is_late(const pose *p, size_t part_index)
+{
+    const part_deformation *how = &p->when.deformation->parts[part_index];
+    return p->scene->nodes[p->scene->parts[part_index].node].mesh != NONE && how->lag + how->comb > 0;
+}
+
+/* Deforms what has been posed by how it moves. */
+static lmn_status deform(pose *p, const animated_state *moved, lmn_error *error)
+{
+    const lmn_scene *s = p->scene;
+    deformed_nodes   d;
+    lmn_status       status = deformed_nodes_find(&d, p, error);
+    for (size_t i = 0; i < s->node_count && status == LMN_OK; i++)
+        if (d.changed[i])
+            p->worlds[i] = mat4_multiply(&d.changes[i], &p->worlds[i]);
+    if (status == LMN_OK) {
+        p->bends = d.bends;
+        p->deformed_count = d.count;
+        p->bend_joints = d.joints;
+        d.bends = NULL;
+        d.joints = NULL;
+    }
+    for (size_t i = 0; i < s->part_count && status == LMN_OK; i++) {
+        part_pose  *own = &p->parts[i];
+        const skin *k = skin_of(s, i);
+        if (k)
+            set_joints(p->joints + (own->joints - p->joints), p->worlds, k);
+        own->bend = p->bends && part_is_late(p, i) ? &p->bends[i] : NULL;
+    }
+    deformed_nodes_release(&d);
+    forget_posed(p->posed, p->posed_count);
+    return status == LMN_OK && !set_boxes(p, moved) ? error_memory(error) : status;
 }
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
@@ -128,8 +199,10 @@ static lmn_status fill(pose *p, animated_state *moved, lmn_error *error)
     moved->cameras = NULL;
     moved->lights = NULL;
     moved->weight_data = NULL;
-    set_boxes(p, moved);
-    return check_positions(p, error);
+    if (!set_boxes(p, moved))
+        return error_memory(error);
+    lmn_status status = p->when.deformation && p->when.clip_count ? deform(p, moved, error) : LMN_OK;
+    return status == LMN_OK ? check_positions(p, error) : status;
 }
 
 /* Room for what is posed on the way to the boxes. */
@@ -142,12 +215,6 @@ static lmn_status open_posed(pose *p, lmn_error *error)
     }
     p->posed = mem_calloc(p->posed_count, sizeof *p->posed);
     return p->posed ? LMN_OK : error_memory(error);
-}
-
-static void forget_posed(posed_vertices *posed, size_t count)
-{
-    for (size_t i = 0; posed && i < count; i++)
-        posed[i].made = false;
 }
 
 static void release_posed(pose *p)
@@ -254,6 +321,8 @@ void pose_release(pose *p)
     mem_free(p->parts);
     mem_free(p->part_boxes);
     mem_free(p->joints);
+    mem_free(p->bends);
+    mem_free(p->bend_joints);
     mem_free(p->weights);
     mem_free(p->cameras);
     mem_free(p->lights);
@@ -262,7 +331,32 @@ void pose_release(pose *p)
 
 bool pose_deforms(const part_pose *pose, const primitive *p)
 {
-    return pose->joints || (pose->weights && p->morph_count);
+    return pose->joints || (pose->weights && p->morph_count) || pose->bend;
+}
+
+bool pose_part_deforms(const part_pose *pose)
+{
+    return pose->joints || pose->weight_count > 0 || pose->bend;
+}
+
+void pose_vertices(const part_pose *pose, const primitive *p, const vec3 *normals, const uint32_t *source,
+                   uint32_t count, vec3 *out_positions, vec3 *out_normals)
+{
+    mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, normals, source, count,
+              out_positions, out_normals);
+    if (pose->bend && pose->bend->joints && p->joints && p->weights)
+        bend_skin(pose->bend, p, pose->weights, pose->weight_count, normals, source, count, out_positions, out_normals);
+    else if (pose->bend)
+        bend_vertices(pose->bend, count, out_positions, normals ? out_normals : NULL);
+}
+
+void pose_warn_of_rigid(const pose *p, warnings *warnings)
+{
+    if (p->when.deformation && p->when.clip_count && !p->deformed_count)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag and "
+                     "comb are set for moves from its place",
+                     p->when.seconds);
 }
 
 const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p)
@@ -282,6 +376,16 @@ mat4 pose_instance(const pose *p, size_t part_index, size_t instance)
     return n->instance_count ? mat4_multiply(&world, &n->instances[instance]) : world;
 }
 
+/* Its joints have room of their own. */
+static void hold_bend(part_bend *own, const part_bend *held)
+{
+    mat4 *joints = own->joints;
+    *own = *held;
+    own->joints = joints;
+    if (joints && held->joints)
+        memcpy(joints, held->joints, (BEND_STEPS + 1) * own->joint_count * sizeof *joints);
+}
+
 static void hold_part(pose *p, const pose *held, size_t part_index)
 {
     int32_t node_index = p->scene->parts[part_index].node;
@@ -292,6 +396,8 @@ static void hold_part(pose *p, const pose *held, size_t part_index)
     part_pose       *own = &p->parts[part_index];
     const part_pose *other = &held->parts[part_index];
     forget_posed(own->posed, own->primitive_count);
+    if (own->bend && other->bend)
+        hold_bend(&p->bends[part_index], other->bend);
     if (own->joints)
         memcpy(p->joints + (own->joints - p->joints), other->joints, own->joint_count * sizeof *own->joints);
     if (own->weights != other->weights) /* those that move are the pose's own */

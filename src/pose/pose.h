@@ -3,6 +3,7 @@
 #ifndef LIMNER_POSE_POSE_H
 #define LIMNER_POSE_POSE_H
 
+#include "pose/deform.h"
 #include "pose/moment.h"
 #include "scene/scene.h"
 
@@ -10,9 +11,10 @@
 typedef struct part_pose {
     const mat4 *joints; /* NULL: no skin; else from the mesh to the world, and the node's own matrix does not count
                            (glTF 2.0, section 3.7.3.3) */
-    size_t       joint_count;
-    const float *weights; /* of morph targets */
-    size_t       weight_count;
+    size_t           joint_count;
+    const float     *weights; /* of morph targets */
+    size_t           weight_count;
+    const part_bend *bend; /* what of it is late, after all else; NULL: it never bends */
     /* What was posed for the part's box, one a primitive of its mesh; NULL: none. pose_vertices_of reads it. */
     const primitive *primitives;
     posed_vertices  *posed;
@@ -37,6 +39,9 @@ typedef struct pose {
     box3         box;                 /* of all parts */
     mat4        *joints;              /* of all parts, which point into it */
     float       *weights;             /* of nodes whose weights move; parts point into it */
+    part_bend   *bends;               /* per part, which point into it; NULL: none bends */
+    mat4        *bend_joints;         /* of all of these */
+    size_t       deformed_count;      /* nodes and parts that are deformed by how they move */
     posed_vertices *posed;            /* of all parts' primitives; parts point into it. NULL: nobody asks */
     size_t          posed_count;
     camera         *cameras; /* as the scene's, whose names they borrow */
@@ -60,11 +65,22 @@ lmn_status pose_add_past(pose *p, double seconds, int count, lmn_error *error);
  * then one a ghost), and unless all have it, cameras and lights. */
 void pose_hold(pose *p, const pose *held, const bool *moves);
 
+/* Says that nothing is deformed although the moment asks for it. */
+void pose_warn_of_rigid(const pose *p, warnings *warnings);
+
 /* Says which parts have no extent because all the joints that they follow have none. */
 void pose_warn_of_flat(const pose *p, warnings *warnings);
 
 /* Does the pose move the vertices of this primitive within its mesh? */
 bool pose_deforms(const part_pose *pose, const primitive *p);
+
+/* Can anything move vertices of this part within its mesh? */
+bool pose_part_deforms(const part_pose *pose);
+
+/* Positions (and normals; may be NULL in and out) of a primitive in the pose, within its mesh; of skins, in the world.
+ * `source` (NULL: all in their order): which vertices. Arrays hold `count` elements. */
+void pose_vertices(const part_pose *pose, const primitive *p, const vec3 *normals, const uint32_t *source,
+                   uint32_t count, vec3 *out_positions, vec3 *out_normals);
 
 /* The vertices of this primitive in the pose where they are known already, because the part's box was made of them;
  * else NULL. */

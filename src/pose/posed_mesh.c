@@ -39,8 +39,7 @@ static bool deform(posed_mesh *out, const primitive *p, const part_pose *pose)
     out->normals = p->normals ? mem_alloc(sizeof(vec3) * (size_t)p->vertex_count) : NULL;
     if (!out->positions || (p->normals && !out->normals))
         return false;
-    mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, p->normals, NULL, p->vertex_count,
-              out->positions, out->normals);
+    pose_vertices(pose, p, p->normals, NULL, p->vertex_count, out->positions, out->normals);
     data->positions = (const float *)out->positions;
     data->normals = (const float *)out->normals;
     return true;
@@ -97,8 +96,7 @@ vec3 *posed_positions(const primitive *p, const part_pose *pose, const render_ve
     if (out && known)
         memcpy(out, known->positions, (size_t)split->vertex_count * sizeof *out);
     else if (out)
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, split->source,
-                  split->vertex_count, out, NULL);
+        pose_vertices(pose, p, NULL, split->source, split->vertex_count, out, NULL);
     return out;
 }
 

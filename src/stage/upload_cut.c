@@ -35,8 +35,7 @@ static lmn_status open_input(upload_part_job *job, size_t i, lmn_error *error)
         vec3 *moved = job->input_positions[i] = mem_alloc(p->vertex_count * sizeof *moved);
         if (!moved)
             return error_memory(error);
-        mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL, p->vertex_count,
-                  moved, NULL);
+        pose_vertices(pose, p, NULL, NULL, p->vertex_count, moved, NULL);
         for (uint32_t k = 0; k < p->vertex_count; k++)
             job->box = box3_with_point(job->box, moved[k]);
         positions = moved;

@@ -34,8 +34,7 @@ static vec3 *pose_positions(const mesh *m, const part_pose *pose)
         if (known)
             memcpy(out + at, known->positions, (size_t)p->vertex_count * sizeof *out);
         else
-            mesh_pose(p, pose->weights, pose->weight_count, pose->joints, pose->joint_count, NULL, NULL,
-                      p->vertex_count, out + at, NULL);
+            pose_vertices(pose, p, NULL, NULL, p->vertex_count, out + at, NULL);
     }
     return out;
 }

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/mesh.h"
 
 /* Limbs whose motions differ by less than this fraction of the faster one's are one body; those that are smaller than
  * the second fraction of all belong to the next one. */
@@ -49,8 +48,7 @@ vec3 *trace_positions(const pose *p, const trace_mesh *m)
         return NULL;
     mat4 world = pose_instance(p, m->part, m->instance);
     if (pose_deforms(own, m->primitive))
-        mesh_pose(m->primitive, own->weights, own->weight_count, own->joints, own->joint_count, NULL, NULL,
-                  m->primitive->vertex_count, out, NULL);
+        pose_vertices(own, m->primitive, NULL, NULL, m->primitive->vertex_count, out, NULL);
     else
         memcpy(out, m->primitive->positions, m->primitive->vertex_count * sizeof *out);
     for (uint32_t i = 0; i < m->primitive->vertex_count; i++)

@@ -18,6 +18,9 @@ void trace_warn(const trace_facts *facts, warnings *warnings)
         warnings_add(warnings, WARNING_UNUSED,
                      "motion 'traces': nothing moves on the page at this time, so nothing is drawn; --time and "
                      "motion.exposure say when and for how long");
+    if (facts->shakes_wanted && !facts->shaking)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion.vibration: nothing swings to and fro on the page within motion.exposure");
     if (facts->towards)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu things come nearer or go away: their lines are rays", facts->towards);

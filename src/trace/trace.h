@@ -31,6 +31,8 @@ typedef struct trace_facts {
     size_t          towards;  /* of these, how many come nearer or go away rather than pass: their lines are rays */
     size_t          jumps;    /* ways that were cut where something jumps */
     size_t          contours; /* times at which contours were drawn */
+    size_t          shaking;  /* bodies that swing to and fro within the exposure */
+    bool            shakes_wanted;
     trace_measures  measures;
     telling_moments telling; /* those that were chosen; wanted 0 and none: nobody asked */
 } trace_facts;

@@ -131,7 +131,8 @@ typedef struct trace_bones {
 lmn_status bones_find(trace_bones *out, const pose *now, const bool *parts, const char *wanted, lmn_error *error);
 void       bones_release(trace_bones *b);
 
-/* --- speed.c, past.c ------------------------------------------------------------------------------------------- */
+/* --- speed.c, past.c, shakes.c
+ * ------------------------------------------------------------------------------------------- */
 
 typedef struct trace_job {
     const traces_options *o;
@@ -156,6 +157,7 @@ lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, l
 /* The outline of all that is covered during the exposure, line by line. */
 typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count);
 lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
+lmn_status shakes_put(trace_job *j, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
 /* Is a position on the page, with its depth, before all that is there now? */

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/mesh.h"
 
 /* A position halfway between two steps lies off their chord by about four times as much as one halfway between two
  * steps that are half as long: so far off, units, that straight pieces are off by a quarter of a unit. */
@@ -35,8 +34,7 @@ static vec3 place(const pose *p, const trace_bodies *bodies, const trace_origin 
     const part_pose  *own = &p->parts[m->part];
     vec3              at[2];
     if (pose_deforms(own, m->primitive))
-        mesh_pose(m->primitive, own->weights, own->weight_count, own->joints, own->joint_count, NULL, origin->vertex, 2,
-                  at, NULL);
+        pose_vertices(own, m->primitive, NULL, origin->vertex, 2, at, NULL);
     else
         for (int k = 0; k < 2; k++)
             at[k] = m->primitive->positions[origin->vertex[k]];

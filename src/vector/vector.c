@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/paper.h"
 #include "base/work.h"
+#include "plan/deformation.h"
 #include "plan/plan.h"
 #include "plan/refuse.h"
 #include "plan/time.h"
@@ -27,6 +28,7 @@ typedef struct vector_job {
     surfaces_fn           draw_surfaces; /* NULL: nobody can */
     void                 *user;
     pose                  pose;
+    pose_deformation      deformation; /* that the pose's moment asks for */
     swept_boxes           swept;
     plan                  plan;
     const lmn_scene      *scene;
@@ -79,9 +81,13 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
     moment             when;
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
     if (status == LMN_OK)
-        status = pose_create(&j->pose, scene, &when, error);
+        status = deformation_find(&j->deformation, &when, scene, j->look, error);
     if (status == LMN_OK)
+        status = pose_create(&j->pose, scene, &when, error);
+    if (status == LMN_OK) {
         pose_warn_of_flat(&j->pose, &j->out->warnings);
+        pose_warn_of_rigid(&j->pose, &j->out->warnings);
+    }
     if (status == LMN_OK && j->desc->fit_time)
         status = swept_boxes_fit(&j->swept, &j->pose, error);
     if (status == LMN_OK)
@@ -109,12 +115,18 @@ static lmn_status refuse_section(const vector_job *j, lmn_error *error)
                                : LMN_OK;
 }
 
+/* What is neither lines nor a shape. */
+static bool is_seen_in_pictures_alone(const technique_use *motion)
+{
+    return motion && (motion->technique->motion->times || motion->technique->pass_count);
+}
+
 /* A picture of several times is none of lines. */
 static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 {
     refusal r = refusal_of(j, error);
     for (size_t i = 0; j->pose.at_rest && i < j->look->rule_count; i++)
-        if (rule_use(&j->look->rules[i], KIND_MOTION) && !traces_of_rule(&j->look->rules[i]))
+        if (is_seen_in_pictures_alone(rule_use(&j->look->rules[i], KIND_MOTION)))
             return refuse(&r, LMN_USAGE, WARNING_UNUSED, "draw a picture (.png), or set motion.technique=none",
                           "motion '%s' has no lines in vector drawings, which show one time",
                           rule_use(&j->look->rules[i], KIND_MOTION)->technique->name);
@@ -741,6 +753,7 @@ static void end_job(vector_job *j)
     stroke_scene_release(&j->as_is);
     plan_release(&j->plan);
     swept_boxes_release(&j->swept);
+    pose_deformation_release(&j->deformation);
     pose_release(&j->pose);
     mem_free(j->stroked);
 }

@@ -605,6 +605,95 @@ static void chances(void)
     check_that("21", same == FRAMES, "the same call draws the same");
 }
 
+/* A ball that shakes along a slope has arcs beside both of its ends, each as far beside the last as is asked for, and
+ * none of them is on it; one that passes has none. */
+static void shaking_has_arcs(void)
+{
+    enum { KEYS = 129, ARCS = 3 };
+    moving_scene m;
+    double       times[KEYS], places[3 * KEYS], worst = 0, sides[2] = {0, 0};
+    traced       t;
+    const double way[2] = {0.8, 0.6};
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
+    for (int i = 0; i < KEYS; i++) {
+        double s = 0.4 * sin(2 * pi * 2.3 * i / (KEYS - 1));
+        times[i] = (double)i / (KEYS - 1);
+        places[3 * i] = s * way[0];
+        places[3 * i + 1] = s * way[1];
+        places[3 * i + 2] = 0;
+    }
+    double at[2] = {places[3 * KEYS - 3], places[3 * KEYS - 2]};
+    moving_scene_keys(&m, ball, "translation", KEYS, times, places);
+    const char *path = check_path("shaking.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true)) {
+        t.values.lines = 0;
+        t.values.vibration = ARCS;
+        t.values.vibration_apart = 9;
+        check_that("2.2.3", trace(&t) == LMN_OK, "traced");
+        check_that("2.2.3", t.facts.shaking == 1 && t.ribbons.ribbon_count == 2 * ARCS, "%zu shake, %zu arcs",
+                   t.facts.shaking, t.ribbons.ribbon_count);
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon *r = &t.ribbons.ribbons[i];
+            double        asked = UNIT + (double)t.values.begin + 9.0 * (double)(i % ARCS);
+            for (uint32_t k = r->first; k < r->first + r->count; k++) {
+                double x = (double)t.ribbons.points[k].x - (PAGE / 2 + UNIT * at[0]),
+                       y = (double)t.ribbons.points[k].y - (PAGE / 2 - UNIT * at[1]), along = x * way[0] - y * way[1];
+                worst = fmax(worst, fabs(hypot(x, y) - asked));
+                sides[along > 0]++;
+                if (fabs(along) < 0.75 * hypot(x, y))
+                    check_that("2.2.3", false, "an arc lies across the swing");
+            }
+        }
+        check_at_most("2.2.3", worst, 0.6, "distance of arcs from where they should be");
+        check_that("2.2.3", sides[0] == sides[1], "%g and %g points beside the two ends", sides[0], sides[1]);
+    }
+    close_scene(&t);
+    if (open_scene(&t, write_ball("passes", 3, false), 1, true)) {
+        t.values.lines = 0;
+        t.values.vibration = ARCS;
+        check_that("2.2.3", trace(&t) == LMN_OK && t.facts.shaking == 0 && t.ribbons.ribbon_count == 0,
+                   "what passes has no arcs");
+    }
+    close_scene(&t);
+}
+
+/* Of a pendulum the arcs lie beside its bob, not beside its rod. */
+static void pendulums_swing_below(void)
+{
+    enum { KEYS = 129 };
+    moving_scene m;
+    double       times[KEYS], turns[4 * KEYS], middle[2] = {0, 0};
+    const double rod[3] = {0.05, 1, 0.05};
+    traced       t;
+    for (int i = 0; i < KEYS; i++) {
+        const double swing = 0.2 * sin(2 * pi * 2 * i / (KEYS - 1)), q[4] = {0, 0, sin(swing / 2), cos(swing / 2)};
+        times[i] = (double)i / (KEYS - 1);
+        memcpy(turns + 4 * i, q, sizeof q);
+    }
+    moving_scene_begin(&m);
+    int hinge = moving_scene_joint(&m, 0, 2, 0);
+    moving_scene_put_in(&m, moving_scene_box(&m, 0, -1, 0, rod, grey), hinge);
+    moving_scene_put_in(&m, moving_scene_sphere(&m, 0, -2.5, 0, 0.5, grey), hinge);
+    moving_scene_keys(&m, hinge, "rotation", KEYS, times, turns);
+    const char *path = check_path("pendulum.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true)) {
+        t.values.lines = 0;
+        t.values.vibration = 2;
+        t.values.vibration_apart = 9;
+        check_that("2.2.3", trace(&t) == LMN_OK && t.ribbons.ribbon_count == 4, "%zu arcs", t.ribbons.ribbon_count);
+        for (size_t i = 0; i < t.ribbons.point_count; i++) {
+            middle[0] += (double)t.ribbons.points[i].x / (double)t.ribbons.point_count;
+            middle[1] += (double)t.ribbons.points[i].y / (double)t.ribbons.point_count;
+        }
+        check_at_most("2.2.3", hypot(middle[0] - PAGE / 2, middle[1] - (PAGE / 2 + 0.5 * UNIT)), 0.25 * UNIT,
+                      "arcs are so far from being around the bob");
+    }
+    close_scene(&t);
+}
+
 /* Every allocation may fail. */
 static void memory_may_run_out(void)
 {
@@ -614,6 +703,7 @@ static void memory_may_run_out(void)
         long       n = 1, other = 0;
         t.values.contours = 1;
         t.values.lines = 3;
+        t.values.vibration = 1;
         for (; status != LMN_OK && n < 20000; n += 1 + n / 40) {
             mem_fail_at(n);
             status = trace(&t);
@@ -641,6 +731,8 @@ int main(int argc, char **argv)
         {"walls", walls_hide},
         {"odd", odd_motions},
         {"chances", chances},
+        {"shaking", shaking_has_arcs},
+        {"pendulum", pendulums_swing_below},
         {"memory", memory_may_run_out},
     };
     return check_main(argc, argv, "traces", cases, sizeof cases / sizeof *cases);

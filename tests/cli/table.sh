@@ -271,6 +271,13 @@ group_draw() {
     grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
     tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
     row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
+    # The shape of what moves: of vectors, too; and where nothing moves, that is said.
+    row 0 '' 'x.svg' draw "$examples/buggy.glb" --clip Drive --time 1 --camera with --look line -o x.svg && cp x.svg in-plain.svg
+    for way in squash lean; do
+        row 0 '' 'x.svg' draw "$examples/buggy.glb" --clip Drive --time 1 --camera with --look line --motion $way -o x.svg
+        cmp -s x.svg in-plain.svg && complain "--motion $way leaves the drawing as it is"
+    done
+    row 0 'warning: motion: nothing is deformed' 'x.png' draw "$examples/morph-cube.glb" $small --time 0.5 --motion squash -o x.png
     row 1 "there is no motion technique 'nosuch'" '' draw "$examples/buggy.glb" $small --time 1 --motion nosuch -o x.png
     # Sizes that cannot be are told before anything is drawn, and the one that is offered is smaller.
     row 2 'needs 20000 pixels a side, the limit is' '' draw "$gear" --size 5000x5000 --samples 16

@@ -229,6 +229,70 @@ static void sections_of_skins_move(void **state)
     lmn_renderer_destroy(&renderer);
 }
 
+/* Where the corners of a ball are that falls and is stretched by its speed. */
+static void place_ball(double (*out)[3], const primitive *p, double seconds)
+{
+    const double fall = 9.81, full = 6 * 2 * sqrt(3), speed = fmin(fall * seconds / full, 1),
+                 f = (1 + 0.8 * speed) * (1 + 0.8 * fall * 0.04 / 2 / full), thin = 1 / sqrt(f);
+    for (uint32_t i = 0; i < p->index_count; i++) {
+        vec3 at = p->positions[p->indices[i]];
+        out[i][0] = thin * (double)at.x;
+        out[i][1] = f * (double)at.y - fall / 2 * seconds * seconds;
+        out[i][2] = thin * (double)at.z;
+    }
+}
+
+/* What is deformed was deformed otherwise earlier: its surface moves by both. */
+static void what_is_deformed_moves_by_that_too(void **state)
+{
+    const double      t = 0.9, exposure = 0.25, drop = 9.81 / 2, colour[3] = {1, 1, 1};
+    double            worst = 0;
+    int               pixels = 0;
+    moving_scene      m;
+    lmn_renderer     *renderer = NULL;
+    lmn_scene        *s = NULL;
+    lmn_look         *look = NULL;
+    lmn_drawing      *d = NULL;
+    lmn_draw_desc     desc = LMN_DRAW_DESC_INIT;
+    lmn_renderer_desc rd = LMN_RENDERER_DESC_INIT;
+    (void)state;
+    moving_scene_begin(&m);
+    int node = moving_scene_sphere(&m, 0, 0, 0, 1, colour);
+    moving_scene_cubic_keys(&m, node, "translation", 2, (double[]){0, 1},
+                            (double[]){0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -2 * drop, 0, 0, -drop, 0, 0, 0, 0});
+    moving_scene_write(&m, "velocity_ball.glb");
+    DO(lmn_renderer_create(&renderer, &rd, &error));
+    DO(lmn_scene_create(&s, &error));
+    DO(lmn_scene_add_file(s, "velocity_ball.glb", NULL, &error));
+    DO(lmn_look_load(&look, "edges", &error));
+    static const char *const sets[][2] = {{"motion.technique", "accumulate"}, {"motion.times", "2"},
+                                          {"motion.exposure", "0.25"},        {"motion.stretch", "0.8"},
+                                          {"motion.full_speed", "6"},         {"motion.response", "0.04"}};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
+        DO(lmn_look_set(look, sets[i][0], sets[i][1], &error));
+    desc.width = desc.height = SIDE;
+    desc.maps = true;
+    desc.view = LMN_VIEW_FRONT;
+    desc.time_given = true;
+    desc.time_s = t;
+    DO(lmn_draw(&d, renderer, s, look, &desc, &error));
+    assert_non_null(d->maps.velocity);
+    const primitive *p = &s->meshes[0].primitives[0];
+    double(*now)[3] = malloc(p->index_count * sizeof *now), (*before)[3] = malloc(p->index_count * sizeof *before);
+    place_ball(now, p, t);
+    place_ball(before, p, t - exposure);
+    for (size_t c = 0; c + 2 < p->index_count; c += 3)
+        worst = fmax(worst, compare_triangle(d, &now[c], &before[c], &pixels));
+    printf("a ball that is stretched: %.4f px off at most, %d pixels\n", worst, pixels);
+    assert_true(pixels > SIDE * SIDE / 8 && worst < 0.1);
+    free(now);
+    free(before);
+    lmn_drawing_destroy(&d);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&s);
+    lmn_renderer_destroy(&renderer);
+}
+
 static void scenes_at_rest_have_none(void **state)
 {
     (void)state;
@@ -256,6 +320,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(velocities_are_those_of_surfaces),
                                        cmocka_unit_test(cameras_move_too), cmocka_unit_test(sections_of_skins_move),
+                                       cmocka_unit_test(what_is_deformed_moves_by_that_too),
                                        cmocka_unit_test(scenes_at_rest_have_none)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

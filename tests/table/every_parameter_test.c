@@ -64,6 +64,9 @@ static const struct {
     {"lines", "taps", "both ways give the same gradient, from fewer or more samples"},
     {"scene", "lights", "the scene has no lights of its own"},
     {"lines", "taps", "both forms are the same sums"},
+    {"motion", "squash", "the fox is not stopped while it runs; unit.deform_test has a ball that is"},
+    {"motion", "vibration", "no limb swings to and fro within the exposure; analytic.traces has a ball that does"},
+    {"motion", "vibration_apart", "likewise"},
     {"motion", "shadows", "the looks here have no shadows; engine.streaks_test has some"},
 };
 
