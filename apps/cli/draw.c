@@ -56,7 +56,8 @@ static const option options[] = {
      "side), comic (lines and contours), plate (the model at several times on one plate), vibration (arcs beside what "
      "shakes), squash (stretched along its "
      "way and flattened where it is "
-     "stopped), lean (forward by its speed, back by its acceleration), or a technique of `limner "
+     "stopped), slit (as by a slit shutter), lean (forward by its speed, back by its acceleration), or a technique of "
+     "`limner "
      "looks`, such as blur or streaks. Needs a time."},
     {"poses", 0, OPTION_TEXT, AT(poses), "N|auto",
      "Several poses in one picture, at the moments that tell most of the motion up to --time (default: the end of the "

@@ -23,6 +23,7 @@ static const motion_way motion_ways[] = {
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
     {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
     {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
+    {"slit", {"motion.technique=deform", "motion.slit=0.1", "motion.pan=0.5"}},
     {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
 };
 

@@ -471,7 +471,7 @@ group_looks() {
     for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
         case $name in
             ghost) row 0 "'@removed'" 'x.png' draw "$gear" $small --look "$name" -o x.png ;; # nothing was taken away from it
-            speed-lines|ghosts|chrono|manga) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
+            speed-lines|ghosts|chrono|manga|squash) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
                 row 0 '' 'x.png' draw "$examples/fox.glb" $small --clip Run --time 0.4 --look "$name" -o x.png ;;
             *) row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png ;;
         esac
