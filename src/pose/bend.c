@@ -28,6 +28,13 @@ static double rear_of(const part_bend *b, const double point[3])
     return fmin(fmax(b->length > 0 ? off / b->length : 0, 0), 1);
 }
 
+int32_t bend_tooth(const part_bend *b, const double point[3])
+{
+    double at = b->width > 0 ? (dot(b->across, point) - b->low) / b->width * b->teeth : 0;
+    bool   tip = rear_of(b, point) > 0.5 && fabs(2 * (at - floor(at)) - 1) < 0.5 && at < b->teeth;
+    return tip ? (int32_t)at : -1;
+}
+
 /* Teeth grow from the middle on, so that nothing tears and what goes ahead keeps its shape. */
 static double tooth_of(const part_bend *b, const double point[3], double rear)
 {

@@ -26,6 +26,9 @@ typedef struct part_bend {
 /* How late a point of the world is, seconds. */
 double bend_delay(const part_bend *b, const double point[3]);
 
+/* The tooth near whose tip a point of the world is; −1: none. */
+int32_t bend_tooth(const part_bend *b, const double point[3]);
+
 /* Where vertices that are posed as they are now come to, and unless NULL their normals. */
 void bend_vertices(const part_bend *b, uint32_t count, vec3 *positions, vec3 *normals);
 

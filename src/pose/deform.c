@@ -296,10 +296,12 @@ static bool find_middles(finder *f)
 
 /* --- how far bodies reach --------------------------------------------------------------------------------- */
 
-/* Along a direction, or with `from` off a point. */
+/* Along a direction, or with `from` off a point; with `tips`, which teeth have vertices near their tips. */
 typedef struct reach {
-    const double *along, *from;
-    double        low, high;
+    const double    *along, *from;
+    double           low, high;
+    const part_bend *bend;
+    bool            *tips;
 } reach;
 
 static void reach_point(reach *r, const double at[3])
@@ -311,6 +313,9 @@ static void reach_point(reach *r, const double at[3])
     }
     r->low = fmin(r->low, far);
     r->high = fmax(r->high, far);
+    int32_t tooth = r->tips ? bend_tooth(r->bend, at) : -1;
+    if (tooth >= 0)
+        r->tips[tooth] = true;
 }
 
 static void reach_box(reach *r, box3 box)
@@ -625,8 +630,10 @@ static void bend_part(finder *f, size_t part, const body *b, const mat4 *earlier
     memcpy(out->earlier, earlier, sizeof out->earlier);
     /* Of skins, vertices are in the world, and deformed otherwise with it. */
     out->to_world = f->p->worlds[s->parts[part].node];
-    if (skin_of(s, n))
-        out->to_world = f->out->changed[b->root] ? mat4_inverse(&f->out->changes[b->root]) : mat4_identity();
+    if (skin_of(s, n)) {
+        mat4 change = change_of(f, b, &b->how);
+        out->to_world = mat4_inverse(&change);
+    }
     out->to_mesh = mat4_inverse(&out->to_world);
     f->out->count++;
 }
@@ -646,11 +653,25 @@ static void put_joints(finder *f, size_t number, int step, const mat4 *worlds)
     }
 }
 
+/* Has what moves vertices for half of its teeth at least? False: out of memory. */
+static bool count_tips(finder *f, size_t number, const part_bend *bend)
+{
+    size_t teeth = (size_t)bend->teeth, count = 0;
+    reach  r = {.along = bend->across, .bend = bend, .tips = mem_calloc(teeth, sizeof *r.tips)};
+    bool   good = r.tips && find_reach(&r, f, number);
+    for (size_t i = 0; good && i < teeth; i++)
+        count += r.tips[i];
+    f->out->coarse += good && 2 * count < teeth;
+    mem_free(r.tips);
+    return good;
+}
+
 static lmn_status bend_body(finder *f, size_t number, lmn_error *error)
 {
-    const body *b = &f->bodies[number];
-    mat4        earlier[BEND_STEPS + 1], back = mat4_inverse(&f->p->worlds[b->root]);
-    bool        moves = b->skinned;
+    const body      *b = &f->bodies[number];
+    mat4             earlier[BEND_STEPS + 1], back = mat4_inverse(&f->p->worlds[b->root]);
+    bool             moves = b->skinned;
+    const part_bend *combed = NULL;
     earlier[0] = mat4_identity();
     put_joints(f, number, 0, f->p->worlds);
     for (int k = 1; k <= BEND_STEPS; k++) {
@@ -670,10 +691,13 @@ static lmn_status bend_body(finder *f, size_t number, lmn_error *error)
         const node             *n = &s->nodes[s->parts[i].node];
         const part_deformation *how = &f->wanted->parts[i];
         /* Instances share one shape. */
-        if (f->body_of_part[i] == (int32_t)number && n->mesh != NONE && !n->instance_count && how->lag + how->comb > 0)
-            bend_part(f, i, b, earlier);
+        if (f->body_of_part[i] != (int32_t)number || n->mesh == NONE || n->instance_count ||
+            !(how->lag + how->comb > 0))
+            continue;
+        bend_part(f, i, b, earlier);
+        combed = how->comb > 0 ? &f->out->bends[i] : combed;
     }
-    return LMN_OK;
+    return !combed || count_tips(f, number, combed) ? LMN_OK : error_memory(error);
 }
 
 static bool wants_bends(const pose_deformation *d)

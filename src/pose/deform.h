@@ -36,6 +36,7 @@ typedef struct deformed_nodes {
     part_bend *bends;   /* per part; NULL: none bends */
     mat4      *joints;  /* of all of these */
     size_t     count;   /* things that are deformed */
+    size_t     coarse;  /* things that have too few vertices for their teeth */
 } deformed_nodes;
 
 /* Of an undeformed pose whose moment has a deformation. Errors: LMN_MEMORY. Release it also after one. */

@@ -140,6 +140,7 @@ static lmn_status deform(pose *p, const animated_state *moved, lmn_error *error)
     if (status == LMN_OK) {
         p->bends = d.bends;
         p->deformed_count = d.count;
+        p->coarse_count = d.coarse;
         p->bend_joints = d.joints;
         d.bends = NULL;
         d.joints = NULL;
@@ -357,6 +358,12 @@ void pose_warn_of_rigid(const pose *p, warnings *warnings)
                      "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag and "
                      "comb are set for moves from its place",
                      p->when.seconds);
+    if (p->coarse_count)
+        warnings_add(
+            warnings, WARNING_REDUCED,
+            "motion.comb: %zu things that move have too few vertices in their rear for so many teeth; take a finer "
+            "mesh or a lower motion.comb_teeth",
+            p->coarse_count);
 }
 
 const posed_vertices *pose_vertices_of(const part_pose *pose, const primitive *p)

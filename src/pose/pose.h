@@ -42,6 +42,7 @@ typedef struct pose {
     part_bend   *bends;               /* per part, which point into it; NULL: none bends */
     mat4        *bend_joints;         /* of all of these */
     size_t       deformed_count;      /* nodes and parts that are deformed by how they move */
+    size_t       coarse_count;        /* things that have too few vertices for the teeth that they should have */
     posed_vertices *posed;            /* of all parts' primitives; parts point into it. NULL: nobody asks */
     size_t          posed_count;
     camera         *cameras; /* as the scene's, whose names they borrow */
@@ -65,7 +66,7 @@ lmn_status pose_add_past(pose *p, double seconds, int count, lmn_error *error);
  * then one a ghost), and unless all have it, cameras and lights. */
 void pose_hold(pose *p, const pose *held, const bool *moves);
 
-/* Says that nothing is deformed although the moment asks for it. */
+/* Says that nothing is deformed although the moment asks for it, or not as it asks. */
 void pose_warn_of_rigid(const pose *p, warnings *warnings);
 
 /* Says which parts have no extent because all the joints that they follow have none. */

@@ -115,10 +115,10 @@ void trace_facts_add(trace_facts *all, const trace_facts *one)
     all->towards += one->towards;
     all->jumps += one->jumps;
     all->contours += one->contours;
-    if (one->telling.count)
-        all->telling = one->telling;
     all->shaking += one->shaking;
     all->shakes_wanted = all->shakes_wanted || one->shakes_wanted;
+    if (one->telling.count)
+        all->telling = one->telling;
     m->extent = fmax(m->extent, n->extent);
     m->salient = mean_of(m->salient, m->lines, n->salient, n->lines);
     m->length = mean_of(m->length, m->lines, n->length, n->lines);

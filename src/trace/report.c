@@ -14,7 +14,7 @@ json_t *trace_facts_json(const trace_facts *facts)
 
 void trace_warn(const trace_facts *facts, warnings *warnings)
 {
-    if (facts->bodies == 0)
+    if (facts->bodies == 0 && facts->shaking == 0)
         warnings_add(warnings, WARNING_UNUSED,
                      "motion 'traces': nothing moves on the page at this time, so nothing is drawn; --time and "
                      "motion.exposure say when and for how long");

@@ -255,12 +255,46 @@ static lmn_status shake_body(trace_job *j, size_t number, lmn_error *error)
     return put_arcs(j, &s, number) ? LMN_OK : error_memory(error);
 }
 
+static uint32_t part_of(const trace_bodies *t, const trace_body *b)
+{
+    uint32_t mesh = 0;
+    while (mesh + 1 < t->mesh_count && t->meshes[mesh + 1].first <= t->triangles[b->first][0])
+        mesh++;
+    return t->meshes[mesh].part;
+}
+
+/* The shaking ones of what moves since a fraction of the exposure ago, of parts that are not `done`. */
+static lmn_status shake_bodies(trace_job *j, double fraction, bool *done, lmn_error *error)
+{
+    pose         before = {.scene = NULL};
+    trace_bodies known = j->bodies;
+    lmn_status   status = pose_ago(&before, j->o, fraction, error);
+    if (status == LMN_OK)
+        status = bodies_find(&j->bodies, j->o->pose, &before, fraction, j->o->parts, &j->o->camera, error);
+    pose_release(&before);
+    if (status == LMN_OK) {
+        const trace_bodies *t = &j->bodies;
+        for (size_t i = 0; status == LMN_OK && i < t->body_count; i++)
+            if (t->bodies[i].count && !done[part_of(t, &t->bodies[i])])
+                status = shake_body(j, i, error);
+        for (size_t i = 0; i < t->body_count; i++)
+            if (t->bodies[i].count)
+                done[part_of(t, &t->bodies[i])] = true;
+        bodies_release(&j->bodies);
+    }
+    j->bodies = known;
+    return status;
+}
+
+/* What turns round just now hardly moves: bodies are looked for over several times, and each part is taken once. */
 lmn_status shakes_put(trace_job *j, lmn_error *error)
 {
-    lmn_status status = LMN_OK;
+    static const double fractions[] = {1.0 / 16, 3.0 / 16, 5.0 / 16};
+    bool               *done = mem_calloc(j->o->pose->part_count + 1, sizeof *done);
+    lmn_status          status = done ? LMN_OK : error_memory(error);
     j->facts->shakes_wanted = true;
-    for (size_t i = 0; i < j->bodies.body_count && status == LMN_OK; i++)
-        if (j->bodies.bodies[i].count)
-            status = shake_body(j, i, error);
+    for (size_t i = 0; i < sizeof fractions / sizeof *fractions && status == LMN_OK; i++)
+        status = shake_bodies(j, fractions[i], done, error);
+    mem_free(done);
     return status;
 }

@@ -74,10 +74,10 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     bool       moves = status == LMN_OK && j.bodies.body_count > 0;
     if (moves && options->values->contours > 0)
         status = past_contours_put(&j, error);
+    if (status == LMN_OK && options->values->vibration > 0)
+        status = shakes_put(&j, error);
     if (moves && status == LMN_OK && options->values->flow > 0)
         status = flow_lines_put(&j, error);
-    if (moves && status == LMN_OK && options->values->vibration > 0)
-        status = shakes_put(&j, error);
     if (moves && status == LMN_OK && options->values->lines > 0) {
         status = origins_find(&j.origins, options, &j.bodies) ? LMN_OK : error_memory(error);
         if (status == LMN_OK)

@@ -152,12 +152,12 @@ typedef struct trace_job {
 lmn_status flow_lines_put(trace_job *j, lmn_error *error);
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
+lmn_status shakes_put(trace_job *j, lmn_error *error);
 /* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
 lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, lmn_error *error);
 /* The outline of all that is covered during the exposure, line by line. */
 typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count);
 lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
-lmn_status shakes_put(trace_job *j, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
 /* Is a position on the page, with its depth, before all that is there now? */

@@ -5,11 +5,13 @@
 #include <math.h>
 
 #include "../support/moving_scene.h"
+#include "limner/look.h"
+#include "plan/deformation.h"
 #include "pose/pose.h"
 #include "pose/posed_mesh.h"
 
 enum { POINTS_MOST = 8192 };
-static const double pi = 3.14159265358979323846, colour[3] = {0.5, 0.5, 0.5};
+static const double pi = 3.14159265358979323846, grey[3] = {0.5, 0.5, 0.5};
 
 #define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
 
@@ -145,7 +147,7 @@ static lmn_scene *ball(double *contact, double sideways)
                              0,
                              0};
     moving_scene_begin(&m);
-    int node = moving_scene_sphere(&m, 0, 0, 0, radius, colour);
+    int node = moving_scene_sphere(&m, 0, 0, 0, radius, grey);
     moving_scene_cubic_keys(&m, node, "translation", 4, times, values);
     return scene_of(&m, "ball.glb");
 }
@@ -244,10 +246,10 @@ static void rest_is_left_alone(void **state)
     const double half[3] = {0.3, 0.4, 0.5};
     (void)state;
     moving_scene_begin(&m);
-    int node = moving_scene_box(&m, 0.1, 0.2, 0.3, half, colour);
+    int node = moving_scene_box(&m, 0.1, 0.2, 0.3, half, grey);
     moving_scene_keys(&m, node, "translation", 3, (double[]){0, 1, 2}, (double[]){0, 0, 0, 0, 0, 0, 3, 0, 0});
     lmn_scene *scene = scene_of(&m, "rest.glb");
-    set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0.1, 0.1, 4});
+    set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0.1, 0, 4});
     shape_at(&now, scene, &s, 0.5, 0);
     shape_at(&plain, scene, NULL, 0.5, 0);
     assert_memory_equal(&now, &plain, sizeof now);
@@ -279,7 +281,7 @@ static lmn_scene *tram(void)
         values[9 * i + 4] = 2;
     }
     moving_scene_begin(&m);
-    int node = moving_scene_box(&m, 0, 0, 0, box_half, colour);
+    int node = moving_scene_box(&m, 0, 0, 0, box_half, grey);
     moving_scene_cubic_keys(&m, node, "translation", 4, times, values);
     return scene_of(&m, "tram.glb");
 }
@@ -333,7 +335,7 @@ static lmn_scene *comet(void)
 {
     moving_scene m;
     moving_scene_begin(&m);
-    int node = moving_scene_sphere(&m, 0, 0, 0, radius, colour);
+    int node = moving_scene_sphere(&m, 0, 0, 0, radius, grey);
     moving_scene_cubic_keys(&m, node, "translation", 2, (double[]){0, 2},
                             (double[]){0, 0, 0, 0, 1, 0, 0, 0, 0, 4 * 2, 0, 0, 8, 1, 0, 0, 0, 0});
     return scene_of(&m, "comet.glb");
@@ -374,7 +376,7 @@ static void rods_bend(void **state)
         memcpy(turns + 4 * i, q, sizeof q);
     }
     moving_scene_begin(&m);
-    int hinge = moving_scene_joint(&m, 0, 0, 0), rod = moving_scene_box(&m, 1, 0, 0, half, colour);
+    int hinge = moving_scene_joint(&m, 0, 0, 0), rod = moving_scene_box(&m, 1, 0, 0, half, grey);
     moving_scene_put_in(&m, rod, hinge);
     moving_scene_keys(&m, hinge, "rotation", KEYS, times, turns);
     lmn_scene *scene = scene_of(&m, "rod.glb");
@@ -401,7 +403,7 @@ static void wheels_keep_their_shape(void **state)
     const double turns[] = {0, 0, 0, 1, 0, 0, sqrt(0.5), sqrt(0.5), 0, 0, 1, 0};
     (void)state;
     moving_scene_begin(&m);
-    int node = moving_scene_cylinder(&m, 1, 2, 3, 0.8, 0.2, colour);
+    int node = moving_scene_cylinder(&m, 1, 2, 3, 0.8, 0.2, grey);
     moving_scene_keys(&m, node, "rotation", 3, (double[]){0, 0.5, 1}, turns);
     lmn_scene *scene = scene_of(&m, "wheel.glb");
     set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0, 0, 4});
@@ -439,7 +441,7 @@ static void rounding_is_no_motion(void **state)
     moving_scene_begin(&m);
     int axle = moving_scene_joint(&m, 0.1, 0.2, 0.3);
     for (int side = -1; side <= 1; side += 2)
-        moving_scene_put_in(&m, moving_scene_box(&m, 0.7 * side, 0.3 * side, 0.1, half, colour), axle);
+        moving_scene_put_in(&m, moving_scene_box(&m, 0.7 * side, 0.3 * side, 0.1, half, grey), axle);
     moving_scene_keys(&m, axle, "rotation", KEYS, times, turns);
     lmn_scene *scene = scene_of(&m, "axle.glb");
     set_all(&s, scene, &(part_deformation){1, 0.5, 0.5, 0.5, 6, 12, 0, 0, 4});
@@ -495,6 +497,77 @@ static void trailing_sides_have_teeth(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* A box has no vertices to make teeth of, which is said; a fine ball has. */
+static void coarse_meshes_have_no_teeth(void **state)
+{
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        lmn_scene *scene = fine ? comet() : tram();
+        lmn_error  error = {0};
+        warnings   warned = {0};
+        setting    s;
+        pose       p;
+        set_all(&s, scene, &(part_deformation){.comb = 0.2, .teeth = 6, .full_speed = 6, .full_acceleration = 12});
+        moment when = moment_of(&s, 1.5);
+        assert_int_equal(pose_create(&p, scene, &when, &error), LMN_OK);
+        pose_warn_of_rigid(&p, &warned);
+        assert_int_equal(warned.count, !fine);
+        assert_true(fine || strstr(warned.items[0].text, "too few vertices"));
+        warnings_release(&warned);
+        pose_release(&p);
+        lmn_scene_destroy(&scene);
+    }
+}
+
+/* Each part is deformed as the last rule says that selects it; the same look keeps what there is. */
+static void rules_deform_their_parts(void **state)
+{
+    static const char json[] =
+        "{\"version\": 1, \"rules\": [{\"surface\": \"lit\"}, {\"select\": \"*soft*\", \"surface\": \"lit\", "
+        "\"motion\": {\"technique\": \"traces\", \"stretch\": 0.5, \"lean\": 30}}]}";
+    moving_scene     m;
+    pose_deformation kept = {0};
+    lmn_error        error = {0};
+    lmn_look        *look = NULL;
+    const double     half[3] = {1, 1, 1};
+    (void)state;
+    moving_scene_begin(&m);
+    for (int i = 0; i < 2; i++) {
+        int node = moving_scene_box(&m, 3 * i, 0, 0, half, grey);
+        moving_scene_name(&m, node, i ? "soft" : "hard");
+        moving_scene_keys(&m, node, "translation", 2, (double[]){0, 1}, (double[]){3 * i, 0, 0, 3 * i, 9, 0});
+    }
+    lmn_scene *scene = scene_of(&m, "two.glb");
+    assert_int_equal(lmn_look_parse(&look, json, "two", &error), LMN_OK);
+    moment when = moment_of(NULL, 0.5);
+    assert_int_equal(deformation_find(&kept, &when, scene, look, &error), LMN_OK);
+    assert_ptr_equal(when.deformation, &kept);
+    assert_true(part_deformation_is_none(&kept.parts[0]));
+    assert_near(kept.parts[1].stretch, 0.5, 0);
+    assert_near(kept.parts[1].lean, pi / 6, 1e-12);
+    const part_deformation *before = kept.parts;
+    moment                  again = moment_of(NULL, 0.5);
+    assert_int_equal(deformation_find(&kept, &again, scene, look, &error), LMN_OK);
+    assert_ptr_equal(kept.parts, before);
+    assert_true(moment_equal(&when, &again));
+    shape   now, plain;
+    setting s = {.all = kept};
+    for (size_t i = 0; i < 2; i++) {
+        shape_at(&now, scene, &s, 0.5, i);
+        shape_at(&plain, scene, NULL, 0.5, i);
+        assert_int_equal(memcmp(&now, &plain, sizeof now) == 0, i == 0);
+    }
+    assert_int_equal(lmn_look_set(look, "1:motion.stretch", "0.6", &error), LMN_OK);
+    assert_int_equal(deformation_find(&kept, &again, scene, look, &error), LMN_OK);
+    assert_false(moment_equal(&when, &again));
+    moment rest = moment_at_rest();
+    assert_int_equal(deformation_find(&kept, &rest, scene, look, &error), LMN_OK);
+    assert_null(rest.deformation);
+    pose_deformation_release(&kept);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&scene);
+}
+
 /* Limbs of a character that runs on the spot are where their own joints had them so much earlier as they are far from
  * its middle; and who draws gets the very same vertices. */
 static void limbs_are_late(void **state)
@@ -539,6 +612,32 @@ static void limbs_are_late(void **state)
     }
     assert_true(latest > lag / 2 && latest <= lag && farthest > 5);
     posed_release(&drawn);
+    pose_release(&p);
+    lmn_scene_destroy(&scene);
+}
+
+/* What is held keeps the shape that it had then, also when the pose it was taken from is gone. */
+static void what_is_held_keeps_its_shape(void **state)
+{
+    lmn_scene *scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/fox.glb");
+    lmn_error  error = {0};
+    setting    s;
+    shape      now, then, held;
+    pose       p, earlier;
+    const bool moves[] = {false};
+    (void)state;
+    set_all(&s, scene, &(part_deformation){0.5, 0.5, 0.3, 0.3, 0.1, 1, 0.1, 0.05, 4});
+    moment when = moment_of(&s, 0.5), before = moment_of(&s, 0.3);
+    when.clips[0] = before.clips[0] = 2;
+    assert_int_equal(pose_create(&p, scene, &when, &error), LMN_OK);
+    assert_int_equal(pose_create(&earlier, scene, &before, &error), LMN_OK);
+    measure(&now, &p, 0);
+    measure(&then, &earlier, 0);
+    pose_hold(&p, &earlier, moves);
+    pose_release(&earlier);
+    measure(&held, &p, 0);
+    assert_memory_equal(&held, &then, sizeof then);
+    assert_memory_not_equal(&now, &then, sizeof then);
     pose_release(&p);
     lmn_scene_destroy(&scene);
 }
@@ -625,6 +724,9 @@ int main(void)
         cmocka_unit_test(trailing_sides_have_teeth),
         cmocka_unit_test(limbs_are_late),
         cmocka_unit_test(slits_shear_opposite_ways),
+        cmocka_unit_test(coarse_meshes_have_no_teeth),
+        cmocka_unit_test(rules_deform_their_parts),
+        cmocka_unit_test(what_is_held_keeps_its_shape),
         cmocka_unit_test(missing_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
