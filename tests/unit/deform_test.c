@@ -691,8 +691,8 @@ static void slits_shear_opposite_ways(void **state)
     shape        car, post;
     (void)state;
     moving_scene_begin(&m);
-    int node = moving_scene_box(&m, 0, 1, 0, (double[]){2, 1, 1}, colour);
-    moving_scene_box(&m, 0, 2, -5, (double[]){0.2, 2, 0.2}, colour);
+    int node = moving_scene_box(&m, 0, 1, 0, (double[]){2, 1, 1}, grey);
+    moving_scene_box(&m, 0, 2, -5, (double[]){0.2, 2, 0.2}, grey);
     moving_scene_keys(&m, node, "translation", 2, (double[]){0, 2}, (double[]){0, 1, 0, 2 * speed, 1, 0});
     lmn_scene *scene = scene_of(&m, "slit.glb");
     for (int i = 0; i <= 4; i++) {
