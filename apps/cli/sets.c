@@ -21,8 +21,15 @@ static const motion_way motion_ways[] = {
      {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
       "motion.decay=0.8"}},
     {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
+    {"manga",
+     {"motion.technique=traces", "motion.exposure=0.3", "motion.lines=48", "motion.ends=wedges", "motion.flow=70",
+      "motion.flow_way=converging"}},
+    {"chrono",
+     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=8", "motion.weights=plate",
+      "motion.decay=0.85"}},
     {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
     {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
+    {"slit", {"motion.technique=deform", "motion.slit=0.1", "motion.pan=0.5"}},
     {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
 };
 
@@ -135,7 +142,7 @@ int set_motion(lmn_look *look, const char *way, const char *poses)
 {
     bool traces = way && draws_traces(way);
     int  status = way ? set_way(look, way) : EXIT_DONE;
-    if (poses && way && !traces && strcmp(way, "plate") != 0)
+    if (poses && way && !traces && strcmp(way, "plate") != 0 && strcmp(way, "chrono") != 0)
         return message_usage(
             NULL, "--poses goes with --motion plate, ghosts, echoes, comic and speed-lines, not with %.60s", way);
     return status == EXIT_DONE && poses ? set_poses(look, poses, traces) : status;

@@ -135,7 +135,7 @@ static void blur_slab(frame *f, gpu_texture *slab, gpu_texture *out)
         return;
     gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
     gpu_use(f->g, p, (gpu_state){0});
-    gpu_set_texture(f->g, "t_slab", slab, false);
+    gpu_set_texture(f->g, "t_slab", slab, true);
     gpu_draw_screen(f->g);
 }
 
@@ -165,8 +165,8 @@ static gpu_texture *draw_map(frame *f, const ground_square *square, const view_c
     w = watch_start(&f->profile);
     for (int level = SLABS - 1; level >= 0 && !gpu_failed(f->g); level--) {
         int          side = MAP_SIDE >> level;
-        gpu_texture *slab = gpu_target_acquire(f->g, side, side, GPU_RGBA16F),
-                    *spread = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
+        gpu_texture *slab = gpu_target_acquire(f->g, side, side, GPU_RG16F),
+                    *spread = gpu_target_acquire(f->g, side, side, GPU_RG16F);
         if (!gpu_failed(f->g)) {
             draw_slab(f, &d, higher, level, slab);
             blur_slab(f, slab, spread);
@@ -182,20 +182,49 @@ static gpu_texture *draw_map(frame *f, const ground_square *square, const view_c
 }
 
 /* From eye space to 0 … 1 over the map. */
-static void set_map_position(frame *f, const view_camera *below)
+static mat4 map_from_eye(const frame *f, const view_camera *below)
 {
     const double origin[3] = {0, 0, 0};
     mat4         world = mat4_identity();
-    float        matrix[16];
     view_world_from_eye(&f->camera, origin, world.m);
     mat4 clip = mat4_multiply(&below->view, &world);
     clip = mat4_multiply(&below->projection, &clip);
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++) {
             double last = column == 3 ? 1 : 0;
-            matrix[4 * column + row] = (float)(row == 3 ? last : 0.5 * clip.m[4 * column + row] + 0.5 * last);
+            clip.m[4 * column + row] = row == 3 ? last : 0.5 * clip.m[4 * column + row] + 0.5 * last;
         }
-    gpu_set_mat4(f->g, "u_ground_from_eye", matrix);
+    return clip;
+}
+
+/* From pixels, through their rays, to the map; the third number is what to divide by, above 0 where the ray meets the
+ * ground, whose plane is given in eye space. */
+static void find_map_from_pixel(const frame *f, const mat4 *map, const double plane[4], float out[9])
+{
+    const double *p = f->camera.projection.m, *m = map->m;
+    bool          meets = f->camera.orthographic ? plane[2] > 0 : plane[3] < 0;
+    for (int column = 0; column < 3; column++) {
+        double right = column == 0   ? 2.0 / f->width
+                       : column == 2 ? -1
+                                     : 0,
+               up = column == 1   ? 2.0 / f->height
+                    : column == 2 ? -1
+                                  : 0,
+               last = column == 2;
+        double at[3] = {right / p[0], up / p[5], f->camera.orthographic ? 0 : -last}, divisor = last;
+        double off = plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2];
+        if (f->camera.orthographic)
+            at[2] = (plane[3] * last - off) / fmax(plane[2], 1e-6);
+        else {
+            divisor = -off;
+            for (int k = 0; k < 3; k++)
+                at[k] *= -plane[3];
+        }
+        for (int row = 0; row < 2; row++)
+            out[3 * column + row] =
+                (float)(m[row] * at[0] + m[4 + row] * at[1] + m[8 + row] * at[2] + m[12 + row] * divisor);
+        out[3 * column + 2] = (float)(meets ? divisor : -last);
+    }
 }
 
 /* Uniforms of light/ground.glsl. */
@@ -213,7 +242,13 @@ static void ground_set(frame *f, const view_camera *below, gpu_texture *map)
                  (float[]){(float)normal[0], (float)normal[1], (float)normal[2], (float)distance});
     gpu_set_vec2(f->g, "u_ground_tone", v->ground_strength, v->ground_flat ? 1 : 0);
     gpu_set_texture(f->g, "t_ground_map", map, true);
-    set_map_position(f, below);
+    mat4  position = map_from_eye(f, below);
+    float matrix[16], from_pixel[9];
+    for (int k = 0; k < 16; k++)
+        matrix[k] = (float)position.m[k];
+    gpu_set_mat4(f->g, "u_ground_from_eye", matrix);
+    find_map_from_pixel(f, &position, (double[]){normal[0], normal[1], normal[2], distance}, from_pixel);
+    gpu_set_mat3(f->g, "u_ground_from_pixel", from_pixel);
 }
 
 /* Where something of it can be seen: so many reaches around the model. */

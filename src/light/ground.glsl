@@ -16,12 +16,18 @@ vec4 on_ground(vec2 pixel)
     return vec4(origin + ray * along, falls < 0.0 && (along > 0.0 || u_perspective < 0.5) ? 1.0 : 0.0);
 }
 
-float ground_darkness(vec4 eye)
+/* At a position of the map; `there`: 1, or 0 where the ray does not meet the ground. */
+float ground_darkness_at(vec2 at, float there)
 {
-    vec2 at = (u_ground_from_eye * vec4(eye.xyz, 1.0)).xy, edge = abs(2.0 * at - 1.0);
-    float inside = eye.w * (1.0 - smoothstep(0.9, 1.0, max(edge.x, edge.y)));
+    vec2 edge = abs(2.0 * at - 1.0);
+    float inside = there * (1.0 - smoothstep(0.9, 1.0, max(edge.x, edge.y)));
     float shade = min(textureLod(t_ground_map, at, 0.0).r, 1.0) * inside;
     if (u_ground_tone.y > 0.5)
         shade = clamp((shade - BORDER) / max(fwidth(shade), 1e-5) + 0.5, 0.0, 1.0);
     return shade * u_ground_tone.x;
+}
+
+float ground_darkness(vec4 eye)
+{
+    return ground_darkness_at((u_ground_from_eye * vec4(eye.xyz, 1.0)).xy, eye.w);
 }

@@ -17,26 +17,20 @@ float share(float height, float low, float high)
     return clamp((height * height - low * low) / (high * high - low * low), 0.0, 1.0);
 }
 
-/* What heights between two take, those of one side of the slab. */
-float taken(float lowest, float highest, float low, float high)
-{
-    float from = clamp(lowest, low, high), to = clamp(highest, low, high);
-    return exp(-from) - exp(-to);
-}
-
 float middle(float lowest, float highest, float low, float high)
 {
     return 0.5 * (clamp(lowest, low, high) + clamp(highest, low, high));
 }
 
-float slab_of(float lowest, float highest)
+/* `left`: of the light at the slab before, this one and the next one. What heights between two take is what is left at one less what is left at the other. */
+float slab_of(float lowest, float highest, vec3 left)
 {
-    float before = u_slabs.x, own = u_slabs.y, next = u_slabs.z, sum = 0.0;
-    float low = u_ends.x > 0.5 ? 0.0 : before;
-    sum += taken(lowest, highest, low, own) * (u_ends.x > 0.5 ? 1.0 : share(middle(lowest, highest, low, own), before, own));
-    sum += taken(lowest, highest, own, next) * (u_ends.y > 0.5 ? 1.0 : 1.0 - share(middle(lowest, highest, own, next), own, next));
+    float before = u_slabs.x, own = u_slabs.y, next = u_slabs.z, sum = 0.0, low = u_ends.x > 0.5 ? 0.0 : before;
+    float from = exp(-lowest), to = exp(-highest), first = u_ends.x > 0.5 ? 1.0 : left.x;
+    sum += (clamp(from, left.y, first) - clamp(to, left.y, first)) * (u_ends.x > 0.5 ? 1.0 : share(middle(lowest, highest, low, own), before, own));
+    sum += (clamp(from, left.z, left.y) - clamp(to, left.z, left.y)) * (u_ends.y > 0.5 ? 1.0 : 1.0 - share(middle(lowest, highest, own, next), own, next));
     float there = lowest <= own ? (u_ends.x > 0.5 ? 1.0 : share(lowest, before, own)) : (u_ends.y > 0.5 ? 1.0 : 1.0 - share(lowest, own, next));
-    return sum + exp(-highest) * there;
+    return sum + to * there;
 }
 
 void main()
@@ -46,12 +40,17 @@ void main()
     ivec2 first = ivec2(gl_FragCoord.xy) * u_side + apart / 2;
     int last = textureSize(t_below, 0).y - 1;
     float sum = 0.0;
+    vec3 left = exp(-u_slabs);
     for (int y = 0; y < count; y++)
         for (int x = 0; x < count; x++) {
             ivec2 at = first + apart * ivec2(x, y);
             float depth = texelFetch(t_below, at, 0).r, lowest = max(u_heights.x + u_heights.y * depth, 0.0);
-            float highest = max(u_heights.z - u_heights.y * texelFetch(t_above, ivec2(at.x, last - at.y), 0).r, lowest);
-            sum += depth < 1.0 ? slab_of(lowest, highest) : 0.0;
+            /* Most places have nothing above them: a loop is left, where a condition is computed both ways. */
+            int stands = depth < 1.0 ? 1 : 0;
+            for (int once = 0; once < stands; once++) {
+                float highest = max(u_heights.z - u_heights.y * texelFetch(t_above, ivec2(at.x, last - at.y), 0).r, lowest);
+                sum += slab_of(lowest, highest, left);
+            }
         }
     sum /= float(count * count);
 #ifdef HAS_HIGHER

@@ -5,8 +5,6 @@
 #include "lines/record.glsl"
 uniform mat4 u_clip; /* from the mesh's axes to clip space */
 
-/* Of edges longer than SHORT, in pixels, some position must be seen, STEP apart, so that those wholly hidden cost no fragments; it would take too long for those longer than LONG. */
-const float SHORT = 2.5, STEP = 2.0, LONG = 240.0;
 vec3 on_page(vec4 clip)
 {
     vec3 position = 0.5 * clip.xyz / clip.w + 0.5;
@@ -39,6 +37,30 @@ void place_edge(float code)
     gl_Position = corner_of(v_begin, v_end);
 }
 
+/* Positions along the edge are looked at STEP apart, in pixels, of long ones MOST, so that those wholly hidden cost no fragments; and by turns in each
+ * of PARTS_OF_EDGE, so that the first few tell of the whole edge. */
+const float STEP = 2.0;
+const int MOST = 120, PARTS_OF_EDGE = 4;
+/* What a rim hides, less than a pixel beside it, is seen here and there as pixels have their middles, in many places with less weight than this; what is before all, with half or
+ * more nearly everywhere. One place of the one kind counts as many of the other; the first few tell which it is. */
+const float POORLY = 0.3;
+const int AGAINST = 2, SURELY = 2;
+
+bool is_hidden()
+{
+    float size = distance(v_begin.xy, v_end.xy);
+    int positions = min(int(ceil(max(size, STEP) / STEP)), MOST), parts = min(positions, PARTS_OF_EDGE), each = (positions + parts - 1) / parts;
+    int found = 0, score = 0, turns = each * parts;
+    float share = 1.0 / float(turns);
+    for (int i = 0; i < turns; i++) {
+        float at = (float(i % parts * each + i / parts) + 0.5) * share, weight = seen_weight(mix(v_begin.xyz, v_end.xyz, at), POORLY, true);
+        found += weight > 0.0 ? 1 : 0;
+        score += weight >= POORLY ? 1 : weight > 0.0 ? -AGAINST : 0;
+        turns = score >= SURELY || score <= -SURELY * AGAINST ? 0 : turns;
+    }
+    return found == 0 ? size <= STEP * float(MOST) : score < 0;
+}
+
 void main()
 {
     int line = line_of_edge();
@@ -47,13 +69,6 @@ void main()
     v_begin = v_end = v_look = vec4(0.0);
     if (code != 0.0)
         place_edge(code);
-    float size = distance(v_begin.xy, v_end.xy);
-    int   positions = v_look.x == 0.0 || size > LONG ? 0 : size <= SHORT ? 1 : int(ceil(size / STEP)), left = positions;
-    bool  seen = false;
-    for (int i = 0; i < left; i++) {
-        seen = is_visible(mix(v_begin.xyz, v_end.xyz, (float(i) + 0.5) / float(positions)), true);
-        left = seen ? 0 : left;
-    }
-    if (positions > 0 && !seen)
+    if (v_look.x != 0.0 && is_hidden())
         gl_Position = NOWHERE;
 }

@@ -268,15 +268,15 @@ enum { MARK_LIGHTS_MAX = 8 };
 
 /* How marks look and what decides. */
 typedef struct mark_style {
-    float   diameter;                   /* of dots, or width of strokes, pixels */
-    float   scale;                      /* strokes: mean distance where it is darkest, pixels */
-    float   fade, most;                 /* ramp; how much larger dots may become, times their area */
-    float   taper;                      /* fraction of a stroke over which each end runs out */
-    int32_t law;                        /* mark_law, of strokes */
-    float   crowded;                    /* mark_ink_of_strokes */
-    float   crossed, least, tip, swell; /* lines that flow: darkness from which sets cross; cover below which lines run
-                                           out; how pointed ends are; unevenness of widths. `taper` is in distances
-                                           of lines */
+    float   diameter;                           /* of dots, or width of strokes, pixels */
+    float   scale;                              /* strokes: mean distance where it is darkest, pixels */
+    float   fade, most;                         /* ramp; how much larger dots may become, times their area */
+    float   taper;                              /* fraction of a stroke over which each end runs out */
+    int32_t law;                                /* mark_law, of strokes */
+    float   crowded;                            /* mark_ink_of_strokes */
+    float   crossed, least, widest, tip, swell; /* lines that flow: darkness from which sets cross; cover below which
+                                                   lines run out; most width, in distances; how pointed ends are;
+                                                   unevenness of widths. `taper` is in distances of lines */
     int32_t series;
     float   shadow, light, contrast,
         texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */

@@ -265,8 +265,9 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
            left = fmin(fmax((double)l->ends[end].to_end / fmax(taper, 1e-20), 0), 1);
-    cover *= thin * thin * (3 - 2 * thin) * pow(left, (double)g->style->tip);
-    return (float)(mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across);
+    cover *= thin * thin * (3 - 2 * thin);
+    double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
+    return (float)(fmin(width, (double)g->style->widest * scale) * pow(left, (double)g->style->tip));
 }
 
 /* What ends leave of the width. */

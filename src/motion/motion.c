@@ -36,6 +36,13 @@ static const param common[] = {
           .doc =
               "Speeds and accelerations are taken from so long before and after, seconds: longer is softer. The same "
               "for all rules of a look."),
+    SHAPE(slit, .def = 0, .min = 0, .max = 10, .soft_max = 0.3,
+          .doc = "How much later the top of the model is exposed than its bottom, seconds, as by a shutter whose slit "
+                 "goes up: what moves leans forward."),
+    SHAPE(pan, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "slit>0",
+          .doc =
+              "How far the camera of motion.slit follows the fastest thing: at 0.5 that leans forward and what rests "
+              "leans back, at 1 what rests alone."),
     SHAPE(lag, .def = 0, .min = 0, .max = 10, .soft_max = 0.5,
           .doc = "How late the rear of what moves is, seconds; of what turns about a hinge, or moves on "
                  "the spot, what is far from its middle."),

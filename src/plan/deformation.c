@@ -17,6 +17,8 @@ static part_deformation values_of(const rule *r)
                               .inertia = (double)v->inertia * RADIANS,
                               .full_speed = (double)v->full_speed,
                               .full_acceleration = (double)v->full_acceleration,
+                              .slit = (double)v->slit,
+                              .pan = (double)v->pan,
                               .lag = (double)v->lag,
                               .comb = (double)v->comb,
                               .teeth = v->comb_teeth};
@@ -44,8 +46,8 @@ static uint64_t hash_of(const pose_deformation *d)
     uint64_t hash = hash_bytes(1469598103934665603u, &d->response, sizeof d->response);
     for (size_t i = 0; i < d->part_count; i++) {
         const part_deformation *p = &d->parts[i];
-        const double            values[] = {p->stretch,           p->squash, p->lean, p->inertia, p->full_speed,
-                                            p->full_acceleration, p->lag,    p->comb, p->teeth};
+        const double values[] = {p->stretch, p->squash, p->lean, p->inertia, p->full_speed, p->full_acceleration,
+                                 p->slit,    p->pan,    p->lag,  p->comb,    p->teeth};
         hash = hash_bytes(hash, values, sizeof values);
     }
     return hash;

@@ -41,11 +41,13 @@ typedef struct finder {
     body                   *bodies;
     size_t                  body_count, body_capacity;
     int                     up;
+    box3                    whole; /* the scene at rest */
 } finder;
 
 bool part_deformation_is_none(const part_deformation *d)
 {
-    return d->stretch == 0 && d->squash == 0 && d->lean == 0 && d->inertia == 0 && d->lag == 0 && d->comb == 0;
+    return d->stretch == 0 && d->squash == 0 && d->lean == 0 && d->inertia == 0 && d->slit == 0 && d->lag == 0 &&
+           d->comb == 0;
 }
 
 void pose_deformation_release(pose_deformation *d)
@@ -510,12 +512,53 @@ static void shear(const finder *f, const body *b, const part_deformation *how, m
     *m = mat4_multiply(&leaning, m);
 }
 
+/* --- slit shutters ------------------------------------------------------------------------------------------ */
+
+/* Who goes farthest in its own lengths is what the photographer follows. */
+static const double *followed(const finder *f)
+{
+    static const double none[3] = {0, 0, 0};
+    const double       *out = none;
+    double              most = 0;
+    for (size_t i = 0; i < f->body_count; i++) {
+        const body *b = &f->bodies[i];
+        if (b->speed * b->size > most) {
+            most = b->speed * b->size;
+            out = b->velocity;
+        }
+    }
+    return out;
+}
+
+/* A slit that goes up over the picture exposes each height a little later than what is below it, and by then things
+ * have moved on: they lean forward by their speed past a camera that follows the fastest one, and what is slower than
+ * that leans back (Lartigue). Großmann 2011, section 2.1.5; row 77f. */
+static void shear_by_slit(const finder *f, const double velocity[3], const part_deformation *how, mat4 *m)
+{
+    box3          whole = f->whole;
+    const double *subject = followed(f);
+    double        base = (double)(&whole.min.x)[f->up], height = (double)(&whole.max.x)[f->up] - base;
+    mat4          leaning = mat4_identity();
+    if (!(height > 0) || how->slit == 0)
+        return;
+    for (int k = 0; k < 3; k++) {
+        double shift = k == f->up ? 0 : (velocity[k] - how->pan * subject[k]) * how->slit / height;
+        leaning.m[4 * f->up + k] += shift;
+        leaning.m[12 + k] = -base * shift;
+    }
+    *m = mat4_multiply(&leaning, m);
+}
+
 static mat4 change_of(const finder *f, const body *b, const part_deformation *how)
 {
     double way[3], change[3], m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, anchor[3];
     mat4   out = mat4_identity();
-    if (b->still || !(b->size > 0))
+    if (!(b->size > 0))
         return out;
+    if (b->still) {
+        shear_by_slit(f, b->velocity, how, &out);
+        return out;
+    }
     memcpy(way, b->velocity, sizeof way);
     memcpy(change, b->change, sizeof change);
     double speed = to_unit(way), size = to_unit(change), full = how->full_speed * b->size,
@@ -529,6 +572,7 @@ static mat4 change_of(const finder *f, const body *b, const part_deformation *ho
         out.m[12 + r] = anchor[r] - m[r] * anchor[0] - m[3 + r] * anchor[1] - m[6 + r] * anchor[2];
     if (how->lean != 0 || how->inertia != 0)
         shear(f, b, how, &out);
+    shear_by_slit(f, b->velocity, how, &out);
     return out;
 }
 
@@ -540,14 +584,19 @@ static void change_nodes(finder *f)
         int32_t     number = body_above(f, (int32_t)i);
         const node *n = &s->nodes[i];
         bool        bare = n->mesh == NONE && n->solid == NONE;
-        if (number == NONE || (bare && (n->camera != NONE || n->light != NONE)))
+        if (bare && (n->camera != NONE || n->light != NONE))
             continue; /* who looks and what shines keep their shape */
         int32_t                 part = f->part_of_node[i];
-        const part_deformation *own =
-            part != NONE ? &f->wanted->parts[settings_of(f, (size_t)part)] : &f->bodies[number].how;
-        if (part_deformation_is_none(own))
+        const part_deformation *own = part != NONE     ? &f->wanted->parts[settings_of(f, (size_t)part)]
+                                      : number != NONE ? &f->bodies[number].how
+                                                       : NULL;
+        if (!own || part_deformation_is_none(own))
             continue;
-        f->out->changes[i] = change_of(f, &f->bodies[number], own);
+        f->out->changes[i] = none;
+        if (number != NONE)
+            f->out->changes[i] = change_of(f, &f->bodies[number], own);
+        else /* what rests, while the camera goes by */
+            shear_by_slit(f, (const double[3]){0, 0, 0}, own, &f->out->changes[i]);
         f->out->changed[i] = memcmp(&f->out->changes[i], &none, sizeof none) != 0;
         f->out->count += f->out->changed[i];
     }
@@ -703,6 +752,9 @@ lmn_status deformed_nodes_find(deformed_nodes *out, const struct pose *p, lmn_er
 {
     finder f = {.out = out, .p = p, .wanted = p->when.deformation, .up = p->scene->up == 'z' ? 2 : 1};
     memset(out, 0, sizeof *out);
+    f.whole = box3_empty();
+    for (size_t i = 0; i < p->part_count; i++)
+        f.whole = box3_union(f.whole, p->scene->parts[i].bounds);
     lmn_status status = open_finder(&f, error);
     if (status == LMN_OK && !(find_bodies(&f) && find_middles(&f)))
         status = error_memory(error);

@@ -15,6 +15,7 @@ typedef struct part_deformation {
     double  full_speed, full_acceleration; /* lengths a second, and a second squared */
     double  lag, comb;                     /* seconds that the rear, that the tips of the teeth are late */
     int32_t teeth;
+    double slit, pan; /* seconds that the top is exposed after the bottom; how far the fastest one is followed, 0 … 1 */
 } part_deformation;
 
 /* Of all parts, whose ghosts have the same; who draws makes it of a look. */

@@ -26,7 +26,8 @@
 #define LIKE_WIDTH       0.9 /* a line does not give way to finer ones */
 #define MOST_OF_IT       0.5
 #define MOST_OF_OUTLINES 0.9
-#define BARE_OUTLINE     MM /* so much of an outline may go without another line beside it */
+#define BARE_OUTLINE     MM   /* so much of an outline may go without another line beside it */
+#define BARE_LINE        LONG /* … of other lines, in one stretch: it tells what no other line does */
 #define OUTERMOST        1.1
 #define OUTLINE_ALONE    (4 * MM)
 #define INNER_WIDTH      0.7 /* of lines that are no outlines, as techniques have it */
@@ -225,14 +226,17 @@ static bool is_crowded(const density *d, const stroke *s, double width)
 {
     double limit = is_outline(s) || s->kind >= STROKE_SUGGESTIVE ? MOST_OF_OUTLINES : MOST_OF_IT;
     double detail = d->options->detail, reach = fmax(BESIDE_WIDTHS * width, BESIDE_LEAST) * 2 * (1 - detail),
-           most = DENSITY_LEAST + DENSITY_MORE * detail, all = 0, parallel = 0, dense = 0;
+           most = DENSITY_LEAST + DENSITY_MORE * detail, all = 0, parallel = 0, dense = 0, alone = 0, most_alone = 0;
     for (size_t i = 0; i < d->sample_count; i++) {
         const sample *p = &d->samples[i];
         all += (double)p->length;
-        parallel += runs_beside(d, p, reach, width) ? (double)p->length : 0;
-        dense += ink_around(d, p) > most ? (double)p->length : 0;
+        bool beside_another = runs_beside(d, p, reach, width), in_ink = ink_around(d, p) > most;
+        parallel += beside_another ? (double)p->length : 0;
+        dense += in_ink ? (double)p->length : 0;
+        alone = beside_another || in_ink ? 0 : alone + (double)p->length;
+        most_alone = fmax(most_alone, alone);
     }
-    bool bare = is_outline(s) && all - parallel > BARE_OUTLINE;
+    bool bare = is_outline(s) ? all - parallel > BARE_OUTLINE : most_alone > BARE_LINE;
     return (parallel > limit * all && !bare) || dense > limit * all;
 }
 

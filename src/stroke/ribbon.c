@@ -11,13 +11,13 @@
 
 /* Numbers of taste, on paper (1/96 inch) unless they are shares. */
 static const float pressure_wave = 70; /* how far apart swellings of the pressure are */
-static const float repeat_wave = 90;   /* the same of how repeats wander apart */
+static const float repeat_wave = 90;   /* how finely repeats are divided that lie apart */
 static const float taper_most = 0.45f; /* fraction of a chain that one of its ends may take to thin out */
 static const float taper_end = 0.12f;  /* what is left of the width at the very end */
 static const float straight_over = 8;  /* how far back an end must be straight to run on */
 static const float straight_cosine = 0.985f;
-static const float run_on_most = 0.35f; /* fraction of a chain that its end may run on */
-static const float crumb = 1.5f;        /* what is left of a cut line and shorter than this is left out */
+static const float sway_most = 0.05f; /* fraction of a line's length that it may stray */
+static const float crumb = 1.5f;      /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
 
@@ -160,7 +160,7 @@ static bool find_chains(ribbon_job *job)
 
 /* --- what is random: noise along chains ----------------------------------------------------------------- */
 
-static float lattice(uint64_t key, int64_t position)
+float ribbon_random(uint64_t key, int64_t position)
 {
     uint64_t z = key + (uint64_t)position * UINT64_C(0x9E3779B97F4A7C15);
     z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -174,7 +174,7 @@ static uint64_t noise_key(const ribbon_job *job, const stroke *s, int repeat, in
 {
     uint64_t key =
         s->id ^ ((uint64_t)job->seed << 32) ^ ((uint64_t)(unsigned)repeat << 8) ^ (uint64_t)(unsigned)purpose;
-    return (uint64_t)((double)lattice(key, 1) * 0x1p60 + 0x1p61) ^ key;
+    return (uint64_t)((double)ribbon_random(key, 1) * 0x1p60 + 0x1p61) ^ key;
 }
 
 /* Smooth, −1 … 1, waves `wave` pixels apart; closed chains end as they begin. */
@@ -190,11 +190,11 @@ static float noise_at(uint64_t key, float arc, float wave, const chain_facts *ch
         low = ((low % count) + count) % count;
         high = ((high % count) + count) % count;
     }
-    float a = lattice(key, low), b = lattice(key, high);
+    float a = ribbon_random(key, low), b = ribbon_random(key, high);
     return a + (float)smooth * (b - a);
 }
 
-enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_REPEAT_X, NOISE_REPEAT_Y, NOISE_ENDS };
+enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_HAND, NOISE_COUNT };
 
 /* --- one line: a stretch of a stroke as it is drawn once ------------------------------------------------ */
 
@@ -203,22 +203,27 @@ typedef struct builder {
     ribbon_set *out;
     size_t      ribbon_capacity, point_capacity;
     span_list   inked, dashes, spans;
+    hand_pulls  pulls;
     float      *arcs; /* where a line's points are */
     size_t      arc_count, arc_capacity;
     bool        failed;
 } builder;
 
 typedef struct line {
-    const stroke      *s;
-    const chain_facts *chain;
-    int                repeat;
-    float              begin, end;    /* of the stroke */
-    bool               starts, ends;  /* the chain does so here */
-    bool               thins[2];      /* the line runs out at its beginning, its end: nothing else is there */
-    float              thin[2];       /* what is left of the width then, fraction */
-    bool               varies, moves; /* width or opacity; position */
-    float              pen;           /* what crowding leaves of the width, where it does not vary */
-    uint64_t           keys[NOISE_ENDS + 1];
+    const stroke       *s;
+    const chain_facts  *chain;
+    const stroke_point *points; /* that it goes through: of the stroke, or of a pull of it */
+    uint32_t            count;
+    hand_piece          piece;         /* how the hand draws it; a whole stroke is one piece */
+    float               begin, end;    /* of the piece */
+    bool                starts, ends;  /* the chain does so here */
+    bool                thins[2];      /* the line runs out at its beginning, its end: nothing else is there */
+    float               thin[2];       /* what is left of the width then, fraction */
+    bool                closed;        /* it ends where it begins */
+    bool                varies, moves; /* width or opacity; position */
+    float               sway;          /* how far it strays */
+    float               pen;           /* what crowding leaves of the width, where it does not vary */
+    uint64_t            keys[NOISE_COUNT];
 } line;
 
 static void add_arc(builder *b, float arc)
@@ -237,9 +242,9 @@ static float step_of(const builder *b, const line *l)
 {
     const stroke_style *style = b->job.style;
     float               step = INFINITY;
-    if (l->moves && style->wobble > 0)
+    if (l->sway > 0)
         step = fminf(step, fmaxf(style->wobble_length, 1) / 6);
-    if (l->moves && l->repeat + style->repeats > 1)
+    if (l->moves && (l->piece.bow[0] != 0 || l->piece.bow[1] != 0))
         step = fminf(step, repeat_wave / 8);
     if (l->varies && style->pressure > 0)
         step = fminf(step, pressure_wave / 8);
@@ -253,14 +258,12 @@ static float step_of(const builder *b, const line *l)
 /* The arcs of all points from a span's beginning to its end. */
 static void divide(builder *b, const line *l, span where)
 {
-    const stroke_set *set = b->job.strokes;
-    float             step = step_of(b, l), before = where.from;
-    float             least = (where.to - where.from) / POINTS_A_SPAN_MOST;
+    float step = step_of(b, l), before = where.from, least = (where.to - where.from) / POINTS_A_SPAN_MOST;
     step = fmaxf(step, least);
     b->arc_count = 0;
     add_arc(b, where.from);
-    for (uint32_t k = 0; k <= l->s->count; k++) {
-        float next = k < l->s->count ? set->points[l->s->first + k].arc : where.to;
+    for (uint32_t k = 0; k <= l->count; k++) {
+        float next = k < l->count ? l->points[k].arc : where.to;
         if (!(next > before))
             continue;
         next = fminf(next, where.to);
@@ -277,8 +280,8 @@ static void divide(builder *b, const line *l, span where)
 /* The point of the true line; beyond the stroke's ends it runs straight on. */
 static ribbon_point true_point(const builder *b, const line *l, float arc, uint32_t *from)
 {
-    const stroke_point *points = b->job.strokes->points + l->s->first;
-    uint32_t            k = *from, last = l->s->count - 2;
+    const stroke_point *points = l->points;
+    uint32_t            k = *from, last = l->count - 2;
     while (k < last && points[k + 1].arc < arc)
         k++;
     *from = k;
@@ -294,16 +297,15 @@ static ribbon_point true_point(const builder *b, const line *l, float arc, uint3
 
 static void displace(const builder *b, const line *l, ribbon_point *p)
 {
-    const stroke_style *style = b->job.style;
-    float               along = p->arc + l->s->phase, wave = fmaxf(style->wobble_length, 1);
-    if (style->wobble > 0) {
-        p->x += style->wobble * noise_at(l->keys[NOISE_X], along, wave, l->chain);
-        p->y += style->wobble * noise_at(l->keys[NOISE_Y], along, wave, l->chain);
+    float along = p->arc + l->s->phase, wave = fmaxf(b->job.style->wobble_length, 1);
+    if (l->sway > 0) {
+        p->x += l->sway * noise_at(l->keys[NOISE_X], along, wave, l->chain);
+        p->y += l->sway * noise_at(l->keys[NOISE_Y], along, wave, l->chain);
     }
-    if (style->repeats > 1 && style->repeat_apart > 0) {
-        p->x += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_X], along, repeat_wave, l->chain);
-        p->y += style->repeat_apart * noise_at(l->keys[NOISE_REPEAT_Y], along, repeat_wave, l->chain);
-    }
+    float at = l->end > l->begin ? (p->arc - l->begin) / (l->end - l->begin) : 0, within = fminf(fmaxf(at, 0), 1);
+    const hand_piece *piece = &l->piece;
+    p->x += piece->lean[0][0] * (1 - at) + piece->lean[1][0] * at + 4 * within * (1 - within) * piece->bow[0];
+    p->y += piece->lean[0][1] * (1 - at) + piece->lean[1][1] * at + 4 * within * (1 - within) * piece->bow[1];
 }
 
 /* At a distance from an end that the line runs out at. */
@@ -382,20 +384,20 @@ static void emit(builder *b, const line *l, span where, bool dashed)
     divide(b, l, where);
     if (b->arc_count < 2 || !reserve(b))
         return;
-    bool          whole = s->closed && l->chain->closed && where.from <= l->begin && where.to >= l->end;
-    float         half = ribbon_width(&b->job, s) / 2, alpha = opacity_of(&b->job, s);
-    ribbon        r = {.kind = s->kind,
-                       .part = s->part,
-                       .hidden_by = s->hidden_by,
-                       .chain = s->chain,
-                       .id = s->id,
-                       .ink = ink_of(&b->job, s),
-                       .brush = b->job.style->brush,
-                       .first = (uint32_t)b->out->point_count,
-                       .count = (uint32_t)b->arc_count,
-                       .closed = whole,
-                       .even = !l->varies,
-                       .end = dashed ? RIBBON_BUTT : RIBBON_ROUND};
+    bool   whole = l->closed && where.from <= l->begin && where.to >= l->end;
+    float  half = ribbon_width(&b->job, s) / 2 * l->piece.weight, alpha = opacity_of(&b->job, s) * l->piece.opacity;
+    ribbon r = {.kind = s->kind,
+                .part = s->part,
+                .hidden_by = s->hidden_by,
+                .chain = s->chain,
+                .id = s->id,
+                .ink = ink_of(&b->job, s),
+                .brush = b->job.style->brush,
+                .first = (uint32_t)b->out->point_count,
+                .count = (uint32_t)b->arc_count,
+                .closed = whole,
+                .even = !l->varies,
+                .end = dashed ? RIBBON_BUTT : RIBBON_ROUND};
     ribbon_point *points = &b->out->points[b->out->point_count];
     uint32_t      from = 0;
     for (size_t i = 0; i < b->arc_count; i++) {
@@ -417,11 +419,11 @@ static void emit(builder *b, const line *l, span where, bool dashed)
 /* --- ends ----------------------------------------------------------------------------------------------- */
 
 /* Is the line straight as far back from this end as counts? */
-static bool is_straight(const builder *b, const line *l, bool at_end)
+static bool is_straight(const line *l, bool at_end)
 {
-    const stroke_point *points = b->job.strokes->points + l->s->first, *end = &points[at_end ? l->s->count - 1 : 0];
+    const stroke_point *end = &l->points[at_end ? l->count - 1 : 0];
     float               direction[2] = {0, 0};
-    for (uint32_t i = 1; i < l->s->count; i++) {
+    for (uint32_t i = 1; i < l->count; i++) {
         const stroke_point *p = at_end ? end - i : end + i, *q = at_end ? p + 1 : p - 1;
         float dx = p->x - q->x, dy = p->y - q->y, length = hypotf(dx, dy), so_far = hypotf(direction[0], direction[1]);
         if (length > 0 && so_far > 0 && dx * direction[0] + dy * direction[1] < straight_cosine * length * so_far)
@@ -432,20 +434,6 @@ static bool is_straight(const builder *b, const line *l, bool at_end)
             return true;
     }
     return true;
-}
-
-/* How far the line runs on beyond an end of its chain, or ends before it. */
-static float run_on(const builder *b, const line *l, bool at_end)
-{
-    const stroke_style *style = b->job.style;
-    if (l->s->hidden_by > 0 || !(at_end ? l->ends : l->starts) || l->chain->closed)
-        return 0;
-    float by = 0, random = lattice(l->keys[NOISE_ENDS], at_end);
-    if (style->overshoot > 0 && is_straight(b, l, at_end))
-        by = fminf(style->overshoot * (0.75f + 0.25f * random), run_on_most * l->chain->length);
-    if (style->repeats > 1 && style->repeat_apart > 0)
-        by += fmaxf(style->repeat_apart * (0.5f + random), -0.2f * l->chain->length);
-    return by;
 }
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
@@ -469,17 +457,21 @@ static void find_inked(builder *b, uint32_t index, float from, float to, const g
         span_list_add(out, from, to);
 }
 
-static line line_of(const builder *b, uint32_t index, int repeat)
+static line line_of(const builder *b, uint32_t index)
 {
     const stroke_set   *set = b->job.strokes;
     const stroke_style *style = b->job.style;
     const stroke       *s = &set->strokes[index];
     const chain_facts  *chain = &b->job.chains[b->job.chain_of[index]];
-    line                l = {
-                       .s = s, .chain = chain, .repeat = repeat, .begin = set->points[s->first].arc, .end = last_point(set, s)->arc};
+    line                l = {.s = s, .chain = chain, .points = &set->points[s->first], .count = s->count};
+    l.begin = l.points[0].arc;
+    l.end = last_point(set, s)->arc;
+    l.piece = (hand_piece){.from = l.begin, .to = l.end, .weight = 1, .opacity = 1};
     l.starts = !chain->closed && index == chain->first;
     l.ends = !chain->closed && index + 1 == chain->first + chain->count;
-    l.moves = style->wobble > 0 || (style->repeats > 1 && style->repeat_apart > 0);
+    l.closed = s->closed && chain->closed;
+    l.sway = fminf(style->wobble, sway_most * chain->length);
+    l.moves = l.sway > 0;
     for (uint32_t end = 0; end < 2; end++) {
         const stroke_meeting *m = &b->job.meetings[2 * index + end];
         bool                  may = s->hidden_by > 0 ? (end ? l.ends : l.starts) : !s->closed && !chain->closed;
@@ -488,16 +480,106 @@ static line line_of(const builder *b, uint32_t index, int repeat)
     }
     l.pen = line_room_pen(&b->job.room, set, s);
     l.varies = style->pressure > 0 || (style->taper > 0 && (l.thins[0] || l.thins[1])) || has_weights(b, s);
-    for (int i = 0; i <= NOISE_ENDS; i++)
-        l.keys[i] = noise_key(&b->job, s, repeat, i);
+    for (int i = 0; i < NOISE_COUNT; i++)
+        l.keys[i] = noise_key(&b->job, s, 0, i);
     return l;
+}
+
+/* Closed strokes: what is inked of them, in arcs that go on round and round. */
+static void unroll(builder *b, float begin)
+{
+    size_t count = b->spans.count;
+    for (int round = 1; round < HAND_ROUNDS && count > 0; round++)
+        for (size_t i = 0; i < count; i++) {
+            span  one = b->spans.items[i], *last = &b->spans.items[b->spans.count - 1];
+            float on = (float)round * b->pulls.loop;
+            if (i == 0 && one.from <= begin && last->to >= begin + on - close_points)
+                last->to = one.to + on;
+            else
+                span_list_add(&b->spans, one.from + on, one.to + on);
+        }
+}
+
+/* Draws the inked spans of a line; `beyond`: how far its ends run on where they are inked. */
+static void draw_line(builder *b, const line *l, const float beyond[2], bool dashed)
+{
+    for (size_t i = 0; i < b->spans.count && !b->failed; i++) {
+        span where = {fmaxf(b->spans.items[i].from, l->begin), fminf(b->spans.items[i].to, l->end)};
+        if (!(where.to > where.from))
+            continue;
+        if (where.from == l->begin)
+            where.from -= beyond[0];
+        if (where.to == l->end)
+            where.to += beyond[1];
+        if (where.to > where.from)
+            emit(b, l, where, dashed);
+    }
+}
+
+/* A piece of a pull, drawn for the how manieth time. */
+static void draw_piece(builder *b, const line *whole, const hand_pull *pull, int number, int copy, int index,
+                       const float onward[2], bool dashed)
+{
+    const stroke_style *style = b->job.style;
+    line                l = *whole;
+    uint64_t            key = noise_key(&b->job, l.s, number, NOISE_HAND);
+    int                 count = hand_piece_count(style, &b->pulls, pull, key), pieces = 32;
+    float               beyond[2];
+    bool                cut[2] = {pull->cut[0], pull->cut[1]};
+    if (index >= count)
+        return;
+    l.piece = hand_piece_of(style, &b->pulls, pull, key, copy, index, count);
+    l.points = &b->pulls.points[pull->first];
+    l.count = pull->count;
+    l.begin = l.piece.from;
+    l.end = l.piece.to;
+    l.sway = fminf(style->wobble, sway_most * (l.end - l.begin));
+    l.moves = true;
+    l.closed = false;
+    int own = (number * 8 + copy) * pieces + index;
+    for (int i = 0; i < NOISE_COUNT && own > 0; i++)
+        l.keys[i] = noise_key(&b->job, l.s, own, i);
+    for (int end = 0; end < 2; end++) {
+        bool free_end = cut[end] || (end ? whole->ends : whole->starts);
+        beyond[end] = l.piece.inside[end] ? 0
+                      : free_end ? hand_run_on(style, &l.piece, end, is_straight(&l, end), l.keys[NOISE_HAND], copy)
+                                 : 0;
+        bool runs = l.piece.inside[end] || (free_end && (style->repeats > 1 || beyond[end] > 0));
+        if (runs)
+            l.thin[end] = taper_end;
+        l.thins[end] = runs || (!cut[end] && l.thins[end]);
+        if (!l.piece.inside[end] && !cut[end])
+            beyond[end] += onward[end];
+    }
+    l.varies = l.varies || (style->taper > 0 && (l.thins[0] || l.thins[1]));
+    draw_line(b, &l, beyond, dashed);
+}
+
+static void draw_pulls(builder *b, const line *whole, const float onward[2], bool dashed)
+{
+    const stroke_style *style = b->job.style;
+    hand_pulls_find(&b->pulls, b->job.strokes, whole->s);
+    b->failed = b->failed || b->pulls.failed;
+    if (b->pulls.loop > 0)
+        unroll(b, whole->begin);
+    for (size_t i = 0; i < b->pulls.count && !b->failed; i++) {
+        const hand_pull *pull = &b->pulls.items[i];
+        float            length = b->pulls.round
+                                      ? b->pulls.loop
+                                      : b->pulls.points[pull->first + pull->count - 1].arc - b->pulls.points[pull->first].arc;
+        int              copies = hand_copies(style, length, whole->pen), number = (int)(i & 0xffff);
+        for (int copy = 0; copy < copies && copy < REPEATS_MOST; copy++)
+            for (int index = 0; index < HAND_PIECES_MOST && !b->failed; index++)
+                draw_piece(b, whole, pull, number, copy, index, onward, dashed);
+    }
+    b->failed = b->failed || b->spans.failed;
 }
 
 static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t *gap)
 {
     const stroke *s = &b->job.strokes->strokes[index];
-    int           repeats = b->job.style->repeats < 1 || s->hidden_by > 0 ? 1 : b->job.style->repeats;
-    line          l = line_of(b, index, 0);
+    line          l = line_of(b, index);
+    float         onward[2] = {b->job.meetings[2 * index].onward, b->job.meetings[2 * index + 1].onward};
     if (!(l.end > l.begin) || !isfinite(l.end - l.begin) || !(ribbon_width(&b->job, s) > 0))
         return;
     find_inked(b, index, l.begin, l.end, gaps, gap);
@@ -505,18 +587,10 @@ static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t
     bool dashed = b->dashes.count > 1;
     span_list_intersect(&b->spans, &b->inked, &b->dashes);
     b->failed = b->failed || b->inked.failed || b->spans.failed;
-    for (int repeat = 0; repeat < repeats && repeat < REPEATS_MOST; repeat++) {
-        l = line_of(b, index, repeat);
-        for (size_t i = 0; i < b->spans.count && !b->failed; i++) {
-            span where = b->spans.items[i];
-            if (where.from == l.begin)
-                where.from -= run_on(b, &l, false) + b->job.meetings[2 * index].onward;
-            if (where.to == l.end)
-                where.to += run_on(b, &l, true) + b->job.meetings[2 * index + 1].onward;
-            if (where.to > where.from)
-                emit(b, &l, where, dashed);
-        }
-    }
+    if (s->hidden_by == 0 && hand_draws(b->job.style))
+        draw_pulls(b, &l, onward, dashed);
+    else
+        draw_line(b, &l, onward, dashed);
 }
 
 /* One pass over the strokes: the hidden ones, or the visible ones. */
@@ -562,6 +636,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     span_list_release(&b.inked);
     span_list_release(&b.dashes);
     span_list_release(&b.spans);
+    hand_pulls_release(&b.pulls);
     mem_free(b.arcs);
     mem_free(b.job.chains);
     mem_free(b.job.chain_of);

@@ -19,9 +19,14 @@ typedef struct stroke_style {
     float   taper;                 /* length over which ends thin out; 0: none */
     float   pressure;              /* 0 … 1: how much the width varies along */
     float   wobble, wobble_length; /* how far from the true line; how far apart its waves are */
-    float   overshoot;             /* how far ends run on */
-    int32_t repeats;               /* times each line is drawn */
+    float   overshoot;             /* how far ends run on, corners too */
+    float   overshoot_most;        /* fraction of a line's own length; 0: as far as they like */
+    int32_t repeats;               /* times each line is drawn, from corner to corner */
     float   repeat_apart;          /* how far repeats differ */
+    float   repeat_turn;           /* and in direction at most, degrees */
+    float   repeat_least;          /* shorter ones are drawn once */
+    float   repeat_fade;           /* opacity of each repetition, fraction of the one before; 0: the same */
+    float   pull;                  /* longest curve that is drawn in one go; 0: any */
     float   dash, gap;             /* along the chain; dash 0: unbroken */
     float   halo;                  /* gap beside what passes in front */
     int32_t hidden;                /* hidden_style */

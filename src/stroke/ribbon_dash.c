@@ -40,11 +40,17 @@ static bool direction_from(const stroke_point *points, uint32_t count, uint32_t 
     return length >= 0.5f * reach;
 }
 
-static bool is_corner(const stroke_point *points, uint32_t count, uint32_t at, float reach)
+float ribbon_turn(const stroke_point *points, uint32_t count, uint32_t at, float reach)
 {
     float back[2], ahead[2];
-    return direction_from(points, count, at, -1, reach, back) && direction_from(points, count, at, 1, reach, ahead) &&
-           -(back[0] * ahead[0] + back[1] * ahead[1]) < corner_cosine;
+    if (!direction_from(points, count, at, -1, reach, back) || !direction_from(points, count, at, 1, reach, ahead))
+        return 1;
+    return -(back[0] * ahead[0] + back[1] * ahead[1]);
+}
+
+static bool is_corner(const stroke_point *points, uint32_t count, uint32_t at, float reach)
+{
+    return ribbon_turn(points, count, at, reach) < corner_cosine;
 }
 
 static bool add_corner(ribbon_job *job, chain_facts *chain, float arc)

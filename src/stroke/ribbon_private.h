@@ -118,6 +118,56 @@ void  line_room_release(line_room *room);
 /* Finds the corners of all chains, if dashes are wanted. False: out of memory. */
 bool ribbon_find_corners(ribbon_job *job);
 
+/* The cosine by which a stroke turns at a point, from what lies `reach` before it to what lies so far behind; 1 where
+ * there is less. */
+float ribbon_turn(const stroke_point *points, uint32_t count, uint32_t at, float reach);
+
+/* --- how a hand draws strokes (ribbon_hand.c) --- */
+
+/* From corner to corner: what a hand draws before it stops. */
+typedef struct hand_pull {
+    uint32_t first, count; /* points of hand_pulls */
+    bool     cut[2];       /* it begins, ends at a corner of the stroke */
+} hand_pull;
+
+/* The pulls of one stroke. Zero-initialise. */
+typedef struct hand_pulls {
+    stroke_point *points; /* the stroke's; of closed ones three times round, arcs going on */
+    hand_pull    *items;
+    size_t        point_count, point_capacity, count, capacity;
+    float         loop;  /* length of a closed stroke; 0: open */
+    bool          round; /* closed and without corners: one pull, and where it begins is the hand's choice */
+    bool          failed;
+} hand_pulls;
+void hand_pulls_find(hand_pulls *out, const stroke_set *set, const stroke *s);
+void hand_pulls_release(hand_pulls *p);
+
+enum { HAND_ROUNDS = 3, HAND_PIECES_MOST = 64 };
+
+/* Does the style ask for a hand that draws pull by pull? */
+bool hand_draws(const stroke_style *style);
+/* How often it draws a pull of this length, where `pen` is left of the width. */
+int hand_copies(const stroke_style *style, float length, float pen);
+
+/* A pull, or where curves are long a piece of one, as it is drawn once. */
+typedef struct hand_piece {
+    float from, to;           /* arcs, without what it runs on */
+    bool  inside[2];          /* goes on as the piece before, the next one */
+    float lean[2][2], bow[2]; /* how far it lies off at both ends, and in the middle besides */
+    float weight, opacity;    /* of the width; of the ink */
+} hand_piece;
+/* How many pieces a pull has. */
+int hand_piece_count(const stroke_style *style, const hand_pulls *p, const hand_pull *pull, uint64_t key);
+/* One of them; `key`: of the pull, `copy`: the how manieth time it is drawn. */
+hand_piece hand_piece_of(const stroke_style *style, const hand_pulls *p, const hand_pull *pull, uint64_t key, int copy,
+                         int index, int count);
+/* How far a piece runs on at an end, or ends before it; straight ends run on. */
+float hand_run_on(const stroke_style *style, const hand_piece *piece, bool at_end, bool straight, uint64_t key,
+                  int copy);
+
+/* −1 … 1, of a position in a row of random numbers. */
+float ribbon_random(uint64_t key, int64_t position);
+
 /* How long a dash of a stroke is, before it is fitted: never so short that it would be a dot. */
 float ribbon_dash_length(const ribbon_job *job, const stroke *s);
 /* The dashes of a stroke from arc `from` to `to`. */

@@ -10,7 +10,7 @@ typedef struct mark_values {
     int32_t count, pattern_seed;
     float   shadow, light, contrast, texture, fade;
     colour  ink, paper;
-    float   paper_tint;
+    float   paper_tint, paper_light;
 } mark_values;
 
 #define MARK_ROWS(COUNT, WHAT)                                                                                         \
@@ -38,7 +38,9 @@ typedef struct mark_values {
         PARAM_COLOUR_ROW(mark_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,                  \
                          .doc = "Colour between marks; auto takes the page's ground."),                                \
         PARAM_FLOAT_ROW(mark_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, \
-                        .doc = "Fraction of the model's own lit colour in the paper.")
+                        .doc = "Fraction of the model's own colour in the paper."),                                    \
+        PARAM_FLOAT_ROW(mark_values, paper_light, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,                 \
+                        .only_if = "paper_tint", .doc = "How far light shades that colour; 0 leaves it flat.")
 
 typedef struct stipple_values {
     mark_values common;
@@ -55,7 +57,7 @@ typedef struct surface_strokes_values {
 typedef struct surface_lines_values {
     mark_values common;
     int32_t     series;
-    float       scale, length, uneven, turn, crossed, least, taper, tip, swell;
+    float       scale, length, uneven, turn, crossed, least, widest, taper, tip, swell;
 } surface_lines_values;
 
 typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV } stroke_placing;

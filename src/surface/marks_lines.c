@@ -23,6 +23,8 @@ static const param params[] = {
                     .only_if = "series>1", .doc = "Darkness from which sets cross."),
     PARAM_FLOAT_ROW(surface_lines_values, least, .def = 0.08, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
                     .doc = "Width, fraction of their distance, below which lines run out."),
+    PARAM_FLOAT_ROW(surface_lines_values, widest, .def = 2, .min = 0.05, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Width, fraction of their distance, that no line exceeds where others are far; 2: any."),
     PARAM_FLOAT_ROW(surface_lines_values, taper, .def = 2.5, .min = 0, .max = 100, .soft_max = 20,
                     .doc = "Length over which an end runs out, in distances of lines."),
     PARAM_FLOAT_ROW(surface_lines_values, tip, .def = 0.7, .min = 0.2, .max = 2,

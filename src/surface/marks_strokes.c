@@ -285,6 +285,7 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->taper = l->taper;
         out->crossed = l->crossed;
         out->least = l->least;
+        out->widest = l->widest;
         out->tip = l->tip;
         out->swell = l->swell;
         out->series = l->series;

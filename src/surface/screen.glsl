@@ -79,6 +79,22 @@ float ink_of(float value, float darkness)
 #endif
 }
 
+/* On the page a screen has one size, and each ink's rows of dots their own angle to the pixels. */
+#if COORDINATES == 2 && defined(SIMILAR_SCREEN) && !defined(NEAREST_SCREEN) && SCHEME == 2
+#include "lines/stroke/coverage.glsl"
+#define ONE_SIZE
+
+/* Fraction of a pixel that is inked, by the screen's values at its corners: how far the contour is from its middle, and how it lies. `right`, `up`: from pixel to pixel. */
+float ink_of_pixel(vec2 at, vec2 right, vec2 up, float darkness)
+{
+    float a = level_value(at - 0.5 * (right + up), 0.0), b = level_value(at + 0.5 * (right - up), 0.0);
+    float c = level_value(at - 0.5 * (right - up), 0.0), d = level_value(at + 0.5 * (right + up), 0.0);
+    vec2 slope = 0.5 * vec2(b - a + d - c, c - a + d - b);
+    float steep = max(length(slope), 1.0 / 128.0), value = 0.25 * (a + b + c + d);
+    return half_plane_fraction((darkness - value) / steep, slope / steep) * smoothstep(0.0, 0.02, darkness) * clamp(255.0 * (1.0 - value), 0.0, 1.0);
+}
+#endif
+
 /* Ink at a position between two levels, whose values mix as a texture unit mixes them. Values that were mixed are no longer even: the curve says which one as many are
  * below as shall be inked. */
 float ink_between(vec2 at, float level, float darkness)
@@ -119,6 +135,13 @@ float cover_of(float darkness, int ink)
         stroke_plane s = screen_plane(i, ink);
         vec2 at = wavered(s);
         float level = screen_level(s, u_screen_facts.x, texel_of());
+#ifdef ONE_SIZE
+        float scale = exp2(-level), wanted = darkness;
+#ifdef HAS_CURVE
+        wanted = textureLod(t_curve, vec3((darkness * 63.0 + 0.5) / 64.0, (float(ink) + 0.5) / 17.0, 0.0), 0.0).r;
+#endif
+        bare *= 1.0 - ink_of_pixel(at * scale, s.right * scale, s.up * scale, wanted);
+#else
         for (int k = 0; k < SIZES; k++) {
             screen_octave o = octave_of(s, level, k, least_octave(), SIZES == 1);
             float fraction = s.weight * o.weight, wanted = darkness;
@@ -131,6 +154,7 @@ float cover_of(float darkness, int ink)
             bare *= 1.0 - ink_between(at * o.scale, o.level, darkness_of_fraction(wanted, fraction));
 #endif
         }
+#endif
     }
     return 1.0 - bare;
 }

@@ -127,9 +127,12 @@ static void describe_file(text *out, const char *name)
 void screen_describe(text *out, const void *values)
 {
     const screen_values *v = values;
-    text_append(out, "2 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g",
+    text_append(out,
+                "10 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g "
+                "page=%d angle=%.6g",
                 name_of(v), v->scheme == SCHEME_MULTIPLY ? " multiply" : "", (double)v->scale, (double)v->width,
-                v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain);
+                v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain,
+                v->common.coordinates == COORDINATES_SCREEN, (double)v->common.angle);
     describe_file(out, name_of(v));
 }
 
@@ -317,7 +320,18 @@ lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error)
 
 /* --- the curve of what lies between two levels --- */
 
-enum { CURVE_TONES = 64, CURVE_FRACTIONS = 17, CURVE_SAMPLES = 192 };
+enum {
+    CURVE_TONES = 64,
+    CURVE_FRACTIONS = 17,
+    CURVE_VALUES = 256,
+    CURVE_SAMPLES = 192,
+    CURVE_SIDE = 96,
+    CURVE_PIXELS = CURVE_SIDE * CURVE_SIDE,
+    CURVE_ANGLES = 4
+};
+
+/* Cosine and sine by which the screen of each ink is turned: turn_of_ink of surface/halftone/position.glsl. */
+static const double ink_turns[CURVE_ANGLES][2] = {{1, 0}, {0.8660254, 0.5}, {0.5, 0.8660254}, {0, 1}};
 
 /* As a texture unit finds it, in texels of the level. */
 static double value_at(const mip_chain *c, int level, double u, double v)
@@ -334,45 +348,125 @@ static double value_at(const mip_chain *c, int level, double u, double v)
     return (below * (1 - t) + above * t) / 255;
 }
 
-/* One row: fractions of values that were counted in steps of 1 / 256 become the value for each darkness. */
-static void invert_row(uint8_t *row, const uint32_t *counts, uint32_t total)
+static double clamped(double x)
 {
-    uint32_t below = 0;
-    int      value = 0;
+    return x < 0 ? 0 : x > 1 ? 1 : x;
+}
+
+/* Ink comes and goes at the ends of the range, in all sharp schemes: surface/screen.glsl. */
+static double range_ends(double value, double darkness)
+{
+    double t = clamped(darkness / 0.02);
+    return t * t * (3 - 2 * t) * clamped(255 * (1 - value));
+}
+
+/* A pixel and its neighbours in the screen: where it is, and the ways to the next ones. */
+typedef struct screen_pixel {
+    double at[2], right[2];
+} screen_pixel;
+
+static double value_beside(const mip_chain *screen, double fraction, const screen_pixel *p, double x, double y)
+{
+    double u = p->at[0] + x * p->right[0] - y * p->right[1], v = p->at[1] + x * p->right[1] + y * p->right[0];
+    u -= floor(u);
+    v -= floor(v);
+    double near = value_at(screen, 0, u, v);
+    return fraction > 0 ? near + (value_at(screen, screen->levels > 1 ? 1 : 0, u, v) - near) * fraction : near;
+}
+
+/* half_plane_fraction of lines/stroke/coverage.glsl. */
+static double half_plane(double distance, double x, double y)
+{
+    double a = fmax(fabs(x), fabs(y)), b = fmin(fabs(x), fabs(y)), away = fabs(distance);
+    double left = 0.5 * (a + b) - away;
+    double less = away <= 0.5 * (a - b) ? 0.5 - away / fmax(a, 1e-12)
+                  : left <= 0           ? 0
+                                        : left * left / fmax(2 * a * b, 1e-12);
+    return distance < 0 ? less : 1 - less;
+}
+
+/* On the page: `ink_of_pixel`. */
+static void add_contour(double inks[CURVE_VALUES], const mip_chain *screen, const screen_pixel *p)
+{
+    double a = value_beside(screen, 0, p, -0.5, -0.5), b = value_beside(screen, 0, p, 0.5, -0.5),
+           c = value_beside(screen, 0, p, -0.5, 0.5), d = value_beside(screen, 0, p, 0.5, 0.5);
+    double x = 0.5 * (b - a + d - c), y = 0.5 * (c - a + d - b), steep = fmax(hypot(x, y), 1.0 / 128);
+    double value = 0.25 * (a + b + c + d);
+    for (int k = 0; k < CURVE_VALUES; k++) {
+        double darkness = (double)k / (CURVE_VALUES - 1);
+        inks[k] +=
+            half_plane((darkness - value) / steep, x / steep, y / steep) * range_ends(value, darkness) / CURVE_PIXELS;
+    }
+}
+
+/* How much of the screen each darkness inks, where it is mixed from two levels. */
+static void find_inks(double inks[CURVE_VALUES], const mip_chain *screen, double fraction)
+{
+    for (int i = 0; i < CURVE_SAMPLES * CURVE_SAMPLES; i++) {
+        /* Positions that keep to no grid of the screen's. */
+        screen_pixel p = {.at = {(i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES,
+                                 (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES}};
+        inks[(int)(value_beside(screen, fraction, &p, 0, 0) * 255 + 0.5)] += 1;
+    }
+    /* Half of what has a value is below it. */
+    double below = 0;
+    for (int k = 0; k < CURVE_VALUES; k++) {
+        double own = inks[k];
+        inks[k] = (below + own / 2) / (CURVE_SAMPLES * CURVE_SAMPLES);
+        below += own;
+    }
+}
+
+/* How much ink each darkness leaves on the page, of the rows of dots of one ink, which lie to the pixels as they do:
+ * the first ones stand for all. */
+static void find_inks_of_page(double inks[CURVE_VALUES], const mip_chain *screen, const screen_values *v, double texel,
+                              int ink)
+{
+    double angle = (double)v->common.angle * (3.14159265358979 / 180), c = cos(angle), s = sin(angle);
+    double cosine = c * ink_turns[ink][0] - s * ink_turns[ink][1], sine = s * ink_turns[ink][0] + c * ink_turns[ink][1];
+    double step = 1 / (texel * mip_width(screen, 0));
+    for (int i = 0; i < CURVE_PIXELS; i++) {
+        double x = i % CURVE_SIDE + 0.5, y = i / CURVE_SIDE + 0.5;
+        add_contour(inks, screen,
+                    &(screen_pixel){{step * (x * cosine + y * sine), step * (y * cosine - x * sine)},
+                                    {step * cosine, -step * sine}});
+    }
+}
+
+/* One row: for each darkness the one that leaves so much ink. */
+static void invert_row(uint8_t *row, const double inks[CURVE_VALUES])
+{
+    int value = 0;
     for (int i = 0; i < CURVE_TONES; i++) {
-        double wanted = (double)total * i / (CURVE_TONES - 1);
-        while (value < 255 && below + counts[value] <= wanted)
-            below += counts[value++];
-        double rest = counts[value] ? fmin((wanted - below) / counts[value], 1) : 0;
-        row[i] = (uint8_t)fmin(fmax(value - 0.5 + rest, 0) + 0.5, 255);
+        double wanted = (double)i / (CURVE_TONES - 1);
+        while (value < CURVE_VALUES - 1 && inks[value + 1] < wanted)
+            value++;
+        double before = inks[value], after = inks[value + (value < CURVE_VALUES - 1)];
+        double rest = after > before ? clamped((wanted - before) / (after - before)) : 0;
+        row[i] = (uint8_t)fmin(value + rest + 0.5, 255);
     }
     row[0] = 0;
+    row[CURVE_TONES - 1] = 255;
 }
 
 lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *error)
 {
-    mip_chain  screen = {0};
-    lmn_status status = make_any(&screen, values, error);
+    const screen_values *v = values;
+    mip_chain            screen = {0};
+    lmn_status           status = make_any(&screen, values, error);
     if (status == LMN_OK)
         status = mip_chain_create(out, CURVE_TONES, CURVE_FRACTIONS, 1, 1, MIP_R8, error);
-    uint32_t *counts = status == LMN_OK ? mem_calloc(CURVE_FRACTIONS, 256 * sizeof *counts) : NULL;
-    if (status == LMN_OK && !counts)
-        status = error_memory(error);
-    for (int i = 0; status == LMN_OK && i < CURVE_SAMPLES * CURVE_SAMPLES; i++) {
-        /* Positions that keep to no grid of the screen's. */
-        double u = (i % CURVE_SAMPLES + 0.618 * (i / CURVE_SAMPLES % 7) / 7) / CURVE_SAMPLES,
-               v = (i / CURVE_SAMPLES + 0.382) / CURVE_SAMPLES;
-        double near = value_at(&screen, 0, u, v), far = value_at(&screen, screen.levels > 1 ? 1 : 0, u, v);
-        for (int k = 0; k < CURVE_FRACTIONS; k++) {
-            double fraction = (double)k / (CURVE_FRACTIONS - 1);
-            counts[256 * k + (int)((near + (far - near) * fraction) * 255 + 0.5)]++;
-        }
+    bool page = v->common.coordinates == COORDINATES_SCREEN && screen.similar && !screen.nearest;
+    for (int k = 0; status == LMN_OK && k < CURVE_FRACTIONS; k++) {
+        double inks[CURVE_VALUES] = {0}, texel = fmax((double)v->scale, 0.5) / (double)screen.fact;
+        if (page && k < CURVE_ANGLES)
+            find_inks_of_page(inks, &screen, v, texel, k);
+        else
+            find_inks(inks, &screen, (double)k / (CURVE_FRACTIONS - 1));
+        invert_row((uint8_t *)out->data[0] + k * CURVE_TONES, inks);
     }
-    for (int k = 0; status == LMN_OK && k < CURVE_FRACTIONS; k++)
-        invert_row((uint8_t *)out->data[0] + k * CURVE_TONES, &counts[256 * k], CURVE_SAMPLES * CURVE_SAMPLES);
     if (status == LMN_OK)
         out->clamped = true;
-    mem_free(counts);
     mip_chain_release(&screen);
     return status;
 }

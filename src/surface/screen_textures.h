@@ -23,8 +23,8 @@ lmn_status screen_check_picture(const char *name, lmn_error *error);
 bool       screen_by_material(void *values, const char *strokes);
 void       screen_describe(text *out, const void *values);
 lmn_status screen_make(mip_chain *out, const void *values, lmn_error *error);
-/* Per share that a level is mixed with the next one (17 rows, 0 … 1) and per darkness (64, 0 … 1): the value that
- * as much of the screen is below. */
+/* Per share that a level is mixed with the next one (17 rows, 0 … 1) and per darkness (64, 0 … 1): the darkness that
+ * leaves so much ink on the page, with the pixels that the values' lengths are in. */
 lmn_status screen_make_curve(mip_chain *out, const void *values, lmn_error *error);
 lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error);
 lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error);

@@ -4,7 +4,7 @@
 
 typedef struct toon {
     int32_t bands;
-    float   softness, shadow, light, highlight, saturation, smoothing, darkest;
+    float   softness, shadow, light, highlight, saturation, smoothing, darkest, lightness;
     bool    seed_blur;
 } toon;
 
@@ -28,6 +28,8 @@ static const param params[] = {
                         "both as they are. Not in what is seen through."),
     PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
                     .doc = "No fill is shown darker than this, so that ink stays legible on it."),
+    PARAM_FLOAT_ROW(toon, lightness, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Mixes the model's colours towards white: a thin wash of them."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
                    .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
                           "border's own distance."),

@@ -81,15 +81,22 @@ vec3 legible(vec3 colour)
     return colour + u_darkest * left * left * left;
 }
 
+/* A thin wash of the colour. */
+vec3 lifted(vec3 albedo)
+{
+    return u_lightness > 0.0 ? light_shown_as(mix(shown(albedo), vec3(1.0), u_lightness)) : albedo;
+}
+
 vec4 surface_colour(surface_point p)
 {
+    p.albedo.rgb = lifted(p.albedo.rgb);
     if (p.unlit)
         return vec4(shown(p.albedo.rgb), 1.0);
 #ifdef SHADED_LATER
     surroundings around = surroundings_of(p);
     surface_point right = p, above = p;
     p.normal = around.normal;
-    p.albedo.rgb = around.albedo;
+    p.albedo.rgb = lifted(around.albedo);
     right.normal = normalize(around.normal + around.across);
     above.normal = normalize(around.normal + around.up);
     float light = tone_light(p), spot = highlight(p, 40.0);

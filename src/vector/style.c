@@ -72,6 +72,8 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
                             .crease_width = 1,
                             .wobble_length = 60,
                             .repeats = 1,
+                            .repeat_turn = 2.5f,
+                            .overshoot_most = 0.15f,
                             .gap = 4,
                             .hidden = HIDDEN_NONE,
                             .hidden_fade = 1,

@@ -72,6 +72,126 @@ static void run_beneath(void)
     }
 }
 
+/* Ink across the line from a to b, of as many pixels as it is wide, at a position along it: the mean of three pixels.
+ */
+static double ink_across(const shot *s, const double a[2], const double b[2], double at)
+{
+    double dx = b[0] - a[0], dy = b[1] - a[1], size = hypot(dx, dy), ink = 0;
+    for (int i = -6; i <= 6; i++)
+        for (int k = -24; k <= 24; k++) {
+            double along = at + 0.25 * i, across = 0.25 * k;
+            double x = a[0] + (along * dx - across * dy) / size, y = a[1] + (along * dy + across * dx) / size;
+            ink += ink_of(s, (int)floor(x), (int)floor(y)) * 0.25 / 13;
+        }
+    return ink;
+}
+
+/* How much ink changes along the line from a to b, in pixels across it. */
+static double change_along(const shot *s, dvec begin, dvec end)
+{
+    double a[2], b[2], most = 0, least = 1e9;
+    shot_on_page(s, begin, a);
+    shot_on_page(s, end, b);
+    double size = hypot(b[0] - a[0], b[1] - a[1]);
+    for (double at = 24; at < size - 24; at += 0.5) {
+        double ink = ink_across(s, a, b, at);
+        most = fmax(most, ink);
+        least = fmin(least, ink);
+    }
+    return most - least;
+}
+
+/* The change along the line from begin to end, seen from four sides: the most there has been. */
+static double most_change(double most, const shape *model, dvec begin, dvec end)
+{
+    for (int turn = 0; turn < 4; turn++) {
+        shot s;
+        if (draw(&s, model, (dvec){2.2 + 0.4 * turn, 2, 3.4 - 0.7 * turn}, (dvec){0, 0, 0}, 38, 44)) {
+            most = fmax(most, change_along(&s, begin, end));
+            shot_release(&s);
+        }
+    }
+    return most;
+}
+
+/* A slab of another part on the floor, from a tenth of a pixel to four pixels high. */
+static void run_kerbs(void)
+{
+    double most = 0;
+    for (double height = 0.001; height < 0.04; height *= 1.6) {
+        shape slab = {0};
+        shape_box(&slab, "floor", (dvec){-1, -0.2, -1}, (dvec){1, 0, 1});
+        shape_box(&slab, "slab", (dvec){-0.6, 0, -0.6}, (dvec){0.6, height, 0.4});
+        most = most_change(most, &slab, (dvec){-0.6, 0.5 * height, 0.4}, (dvec){0.6, 0.5 * height, 0.4});
+        shape_release(&slab);
+    }
+    check_at_most("rough", most, 0.25, "kerbs: change of ink along them, pixels");
+}
+
+/* A lid on a box that it reaches over by a fraction of a pixel: the box's own edge is hidden beneath its rim. */
+static void run_rims(void)
+{
+    double most = 0;
+    for (double over = 0.0005; over < 0.02; over *= 1.6) {
+        shape closed = {0};
+        shape_box(&closed, "box", (dvec){-0.6, -0.6, -0.6}, (dvec){0.6, 0, 0.4 - over});
+        shape_box(&closed, "lid", (dvec){-0.6, 0.001, -0.6}, (dvec){0.6, 0.3, 0.4});
+        most = most_change(most, &closed, (dvec){-0.6, 0, 0.4}, (dvec){0.6, 0, 0.4});
+        shape_release(&closed);
+    }
+    check_at_most("rough", most, 0.25, "rims: change of ink along them, pixels");
+}
+
+enum { AROUND = 16 };
+
+static void add_pipe(shape *s, double radius)
+{
+    shape_part *p = shape_add(s, "pipe", 2 * (AROUND + 1), 6 * AROUND, true, false);
+    for (uint32_t i = 0; i <= AROUND; i++)
+        for (uint32_t end = 0; end < 2; end++) {
+            double angle = 2 * 3.14159265358979 * (i % AROUND) / AROUND;
+            float *at = p->positions[2 * i + end], *normal = p->normals[2 * i + end];
+            normal[1] = (float)cos(angle);
+            normal[2] = (float)sin(angle);
+            at[0] = end ? 0.9F : -0.9F;
+            at[1] = (float)(radius * cos(angle));
+            at[2] = (float)(radius * sin(angle));
+        }
+    for (uint32_t i = 0; i < AROUND; i++) {
+        const uint32_t corners[6] = {2 * i, 2 * i + 1, 2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 2};
+        for (uint32_t k = 0; k < 6; k++)
+            p->indices[6 * i + k] = corners[k];
+    }
+}
+
+/* The outline of a pipe, whose last face before it is about a pixel wide. */
+static void run_pipes(void)
+{
+    double most = 0;
+    for (double radius = 0.1; radius < 0.4; radius *= 1.25) {
+        shape pipe = {0};
+        shot  s;
+        add_pipe(&pipe, radius);
+        if (draw(&s, &pipe, (dvec){2.2, 2, 3.4}, (dvec){0, 0, 0}, 38, 44)) {
+            double a[2], b[2], highest = 0;
+            dvec   top = {0, 0, 0};
+            for (uint32_t i = 0; i < AROUND; i++) {
+                dvec at = {0, pipe.parts[0].positions[2 * i][1], pipe.parts[0].positions[2 * i][2]};
+                shot_on_page(&s, at, a);
+                shot_on_page(&s, (dvec){0, 0, 0}, b);
+                if (b[1] - a[1] > highest) {
+                    highest = b[1] - a[1];
+                    top = at;
+                }
+            }
+            most = fmax(most, change_along(&s, (dvec){-0.9, top.y, top.z}, (dvec){0.9, top.y, top.z}));
+            shot_release(&s);
+        }
+        shape_release(&pipe);
+    }
+    check_at_most("rough", most, 0.25, "pipes: change of ink along their outline, pixels");
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -104,8 +224,12 @@ static void run_courses(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"beneath", run_beneath}, {"courses", run_courses}};
-    int                     status = check_main(argc, argv, "line_rough", cases, 2);
+    static const check_case cases[] = {{"beneath", run_beneath},
+                                       {"kerbs", run_kerbs},
+                                       {"rims", run_rims},
+                                       {"pipes", run_pipes},
+                                       {"courses", run_courses}};
+    int                     status = check_main(argc, argv, "line_rough", cases, 5);
     shot_end();
     return status;
 }

@@ -56,7 +56,8 @@ static void wedges_are_even(void)
     static const struct {
         const char *look;
         double      worst;
-    } media[] = {{"pencil", 0.02}, {"pencil-soft", 0.02}, {"charcoal", 0.02}, {"crayon", 0.02}, {"chalk", 0.02}};
+    } media[] = {{"pencil", 0.02}, {"pencil-soft", 0.02}, {"charcoal", 0.02},
+                 {"crayon", 0.02}, {"chalk", 0.02},       {"halftone", 0.02}};
     for (size_t m = 0; m < sizeof media / sizeof *media; m++) {
         double means[LEVELS], worst = 0;
         int    at = 0;

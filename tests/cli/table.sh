@@ -265,12 +265,17 @@ group_draw() {
     row 1 '^limner: --poses goes with --motion plate' '' draw "$moving" $small -o x.png --poses 3 --motion blur
     row 0 'nothing moves without a time' 'x.png' draw "$examples/house.glb" $small -o x.png --poses 3
     # Ways to tell of motion that have a name; vectors have them, too.
+    row 0 '' 'x.png' draw "$examples/buggy.glb" $small --time 1 -o x.png && cp x.png in-rest.png
     row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
     tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
     row 0 '' 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion ghosts --set motion.contours=3 --report in-m.json -o x.svg
     grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
     tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
     row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
+    for way in echoes comic manga plate chrono squash slit lean; do
+        row 0 '' 'x.png' draw "$examples/buggy.glb" $small --time 1 --motion $way -o x.png
+        cmp -s x.png in-rest.png && complain "$way changes nothing"
+    done
     # The shape of what moves: of vectors, too; and where nothing moves, that is said.
     row 0 '' 'x.svg' draw "$examples/buggy.glb" --clip Drive --time 1 --camera with --look line -o x.svg && cp x.svg in-plain.svg
     for way in squash lean; do
@@ -473,7 +478,7 @@ group_looks() {
     for name in $("$limner" looks | sed -n 's/^\([a-z][a-z-]*\) .*/\1/p'); do
         case $name in
             ghost) row 0 "'@removed'" 'x.png' draw "$gear" $small --look "$name" -o x.png ;; # nothing was taken away from it
-            speed-lines|ghosts|chrono|manga) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
+            speed-lines|ghosts|chrono|manga|squash) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
                 row 0 '' 'x.png' draw "$examples/fox.glb" $small --clip Run --time 0.4 --look "$name" -o x.png ;;
             *) row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png ;;
         esac

@@ -666,6 +666,49 @@ static void missing_memory_is_said(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* --- slit shutters ---------------------------------------------------------------------------------------- */
+
+/* How far a box's top has gone sideways against its bottom, a unit of height. */
+static double slant_of(const shape *s)
+{
+    double top = 0, bottom = 0, tops = 0, bottoms = 0, middle = 0.5 * (s->low[1] + s->high[1]);
+    for (size_t i = 0; i < s->count; i++) {
+        bool upper = s->points[i][1] > middle;
+        top += upper ? s->points[i][0] : 0;
+        bottom += upper ? 0 : s->points[i][0];
+        tops += upper;
+        bottoms += !upper;
+    }
+    return (top / tops - bottom / bottoms) / (s->high[1] - s->low[1]);
+}
+
+/* Row 77f: a car of 5 units a second and a post that stands, in a scene that is 4 high, at rest. A camera that follows
+ * half of the car's speed sees both lean by the same, to opposite sides; one that follows it wholly, the post alone. */
+static void slits_shear_opposite_ways(void **state)
+{
+    const double speed = 5, height = 4, slit = 0.2;
+    moving_scene m;
+    shape        car, post;
+    (void)state;
+    moving_scene_begin(&m);
+    int node = moving_scene_box(&m, 0, 1, 0, (double[]){2, 1, 1}, grey);
+    moving_scene_box(&m, 0, 2, -5, (double[]){0.2, 2, 0.2}, grey);
+    moving_scene_keys(&m, node, "translation", 2, (double[]){0, 2}, (double[]){0, 1, 0, 2 * speed, 1, 0});
+    lmn_scene *scene = scene_of(&m, "slit.glb");
+    for (int i = 0; i <= 4; i++) {
+        part_deformation how = {.slit = slit, .pan = i / 4.0, .full_speed = 6, .full_acceleration = 12};
+        setting          s;
+        set_all(&s, scene, &how);
+        shape_at(&car, scene, &s, 1, 0);
+        shape_at(&post, scene, &s, 1, 1);
+        assert_near(slant_of(&car), (1 - how.pan) * speed * slit / height, 1e-4);
+        assert_near(slant_of(&post), -how.pan * speed * slit / height, 1e-4);
+        assert_near(car.low[1], 0, 1e-5); /* they stand where they stood */
+        assert_near(car.volume, 16, 1e-3);
+    }
+    lmn_scene_destroy(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -680,6 +723,7 @@ int main(void)
         cmocka_unit_test(rounding_is_no_motion),
         cmocka_unit_test(trailing_sides_have_teeth),
         cmocka_unit_test(limbs_are_late),
+        cmocka_unit_test(slits_shear_opposite_ways),
         cmocka_unit_test(coarse_meshes_have_no_teeth),
         cmocka_unit_test(rules_deform_their_parts),
         cmocka_unit_test(what_is_held_keeps_its_shape),

@@ -34,6 +34,7 @@ static stroke_style plain_style(void)
                           .crease_width = 0.5f,
                           .wobble_length = 30,
                           .repeats = 1,
+                          .overshoot_most = 0.35f,
                           .hidden = HIDDEN_SOLID,
                           .hidden_colour = {NAN, 0, 0, 1},
                           .hidden_width = 1,
@@ -589,24 +590,155 @@ static void test_widths(void **state)
     ribbon_set_release(&r);
 }
 
-static void test_repeats(void **state)
+/* --- as a hand draws ------------------------------------------------------------------------------------ */
+
+static stroke_style hand_style(void)
 {
     stroke_style style = plain_style();
-    (void)state;
-    style.repeats = 3;
+    style.repeats = 4;
     style.repeat_apart = 4;
+    style.repeat_turn = 3;
+    return style;
+}
+
+static float slope_of(const ribbon_set *r, size_t i)
+{
+    const ribbon_point *a = point_of(r, i, 0), *b = end_of(r, i);
+    return (b->y - a->y) / (b->x - a->x);
+}
+
+static void test_repeats(void **state)
+{
+    stroke_style style = hand_style();
+    (void)state;
     begin();
     add_line(0, 50, 200, 50, 5, 0);
     add_line(0, 90, 200, 90, 5, 1);
     ribbon_set r = make(&style);
-    assert_int_equal(r.ribbon_count, 1 + 3);
+    assert_int_equal(r.ribbon_count, 1 + 4);
     float apart = 0;
-    for (size_t i = 1; i < 4; i++)
+    for (size_t i = 1; i < 5; i++) {
         for (uint32_t k = 0; k < r.ribbons[i].count; k++) {
-            assert_true(fabsf(point_of(&r, i, k)->y - 50) <= 4 + 1e-3f);
+            assert_true(fabsf(point_of(&r, i, k)->y - 50) <= 1.5f * 4);
             apart = fmaxf(apart, fabsf(point_of(&r, i, k)->y - 50));
         }
+        /* No two are parallel, neighbours lean to different sides and so cross; none turns by more than it may. */
+        assert_true(fabsf(slope_of(&r, i)) <= tanf(3 * 3.14159265f / 180) + 1e-3f);
+        for (size_t k = i + 1; k < 5; k++)
+            assert_true(fabsf(slope_of(&r, i) - slope_of(&r, k)) > 1e-4f);
+        if (i > 1)
+            assert_true(slope_of(&r, i) * slope_of(&r, i - 1) < 0);
+    }
     assert_true(apart > 1);
+    ribbon_set_release(&r);
+    /* Ends of their own: some fall short while others run on. */
+    float least = 1e9f, most = -1e9f;
+    for (uint32_t seed = 0; seed < 4; seed++) {
+        r = make_seeded(&style, seed);
+        for (size_t i = 1; i < 5; i++) {
+            least = fminf(least, fminf(end_of(&r, i)->x - 200, -point_of(&r, i, 0)->x));
+            most = fmaxf(most, fmaxf(end_of(&r, i)->x - 200, -point_of(&r, i, 0)->x));
+        }
+        ribbon_set_release(&r);
+    }
+    assert_true(least < -0.5f && most > 1);
+}
+
+static void test_short_lines_are_drawn_once(void **state)
+{
+    stroke_style style = hand_style();
+    (void)state;
+    style.repeat_least = 30;
+    begin();
+    add_line(0, 50, 29, 50, 5, 0);
+    add_line(0, 90, 61, 90, 5, 0);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 1 + 4);
+    assert_true(fabsf(slope_of(&r, 0)) <= tanf(3 * 3.14159265f / 180));
+    ribbon_set_release(&r);
+}
+
+/* A hand stops at corners, and runs past each by a fraction of what it has drawn. */
+static void test_corners(void **state)
+{
+    static const float square[5][3] = {{50, 80, 5}, {50, 50, 5}, {110, 50, 5}, {110, 80, 5}, {50, 80, 5}};
+    static const float angle[3][3] = {{200, 50, 5}, {280, 50, 5}, {280, 70, 5}};
+    stroke_style       style = plain_style();
+    (void)state;
+    style.overshoot = 30;
+    style.overshoot_most = 0.1f;
+    begin();
+    add(square, 5, 0, false)->closed = true;
+    add(angle, 3, 0, false);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 4 + 2);
+    for (size_t i = 0; i < r.ribbon_count; i++) {
+        const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
+        float               length = hypotf(b->x - a->x, b->y - a->y), own = i == 5                    ? 20
+                                                                             : i == 4                  ? 80
+                                                                             : fabsf(b->x - a->x) > 40 ? 60
+                                                                                                       : 30;
+        assert_false(r.ribbons[i].closed);
+        assert_true(a->x == b->x || a->y == b->y); /* one side, straight on beyond its corners */
+        assert_float_equal(length, 1.2f * own, 1e-3f * own);
+    }
+    ribbon_set_release(&r);
+}
+
+/* Circles have no corner: each copy begins elsewhere, goes all the way round, and its ends miss each other. */
+static void test_circles(void **state)
+{
+    stroke_style style = hand_style();
+    (void)state;
+    begin();
+    add_circle(100, 100, 40, 90, 0);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 4);
+    for (size_t i = 0; i < 4; i++) {
+        const ribbon_point *a = point_of(&r, i, 0), *b = end_of(&r, i);
+        assert_false(r.ribbons[i].closed);
+        assert_true(b->arc - a->arc > 2 * 3.1415f * 40 && b->arc - a->arc < 1.2f * 2 * 3.1416f * 40);
+        for (uint32_t k = 0; k + 1 < r.ribbons[i].count; k++) {
+            const ribbon_point *p = point_of(&r, i, k);
+            assert_true(fabsf(hypotf(p->x - 100, p->y - 100) - 40) < 1.5f * 4);
+            assert_true(hypotf(p[1].x - p->x, p[1].y - p->y) < 4);
+        }
+        /* At the angle where it began it comes by again, elsewhere. */
+        float gap = 1e9f;
+        for (uint32_t k = r.ribbons[i].count / 2; k < r.ribbons[i].count; k++)
+            gap = fminf(gap, hypotf(point_of(&r, i, k)->x - a->x, point_of(&r, i, k)->y - a->y));
+        assert_true(gap > 0.2f);
+    }
+    float first = atan2f(point_of(&r, 0, 0)->y - 100, point_of(&r, 0, 0)->x - 100),
+          second = atan2f(point_of(&r, 1, 0)->y - 100, point_of(&r, 1, 0)->x - 100);
+    assert_true(cosf(first - second) < cosf(0.2f));
+    ribbon_set_release(&r);
+}
+
+/* Long curves take several pulls, each beginning before the one before it ends; straight lines one. */
+static void test_pulls(void **state)
+{
+    float        arc[80][3];
+    stroke_style style = plain_style();
+    (void)state;
+    style.pull = 60;
+    style.repeat_apart = 2;
+    for (int i = 0; i < 80; i++) {
+        arc[i][0] = 200 + 150 * cosf((float)i * 0.02f);
+        arc[i][1] = 200 + 150 * sinf((float)i * 0.02f);
+        arc[i][2] = 5;
+    }
+    begin();
+    add_line(0, 300, 237, 300, 5, 0);
+    add((const float(*)[3])arc, 80, 0, false); /* 237 long */
+    ribbon_set r = make(&style);
+    assert_true(r.ribbon_count >= 1 + 4 && r.ribbon_count <= 1 + 5);
+    for (size_t i = 2; i < r.ribbon_count; i++) {
+        assert_true(point_of(&r, i, 0)->arc < end_of(&r, i - 1)->arc - 1);
+        assert_true(point_of(&r, i, 0)->arc > point_of(&r, i - 1, 0)->arc + 20);
+    }
+    assert_float_equal(point_of(&r, 1, 0)->arc, 0, 1e-4);
+    assert_float_equal(end_of(&r, r.ribbon_count - 1)->arc, 237, 0.2);
     ribbon_set_release(&r);
 }
 
@@ -627,6 +759,9 @@ static void everything(stroke_style *style)
     style->overshoot = 5;
     style->repeats = 2;
     style->repeat_apart = 2;
+    style->repeat_turn = 3;
+    style->repeat_fade = 0.8f;
+    style->pull = 40;
 }
 
 static void test_hostile(void **state)
@@ -818,6 +953,10 @@ int main(void)
         cmocka_unit_test(test_overshoot),
         cmocka_unit_test(test_widths),
         cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_short_lines_are_drawn_once),
+        cmocka_unit_test(test_corners),
+        cmocka_unit_test(test_circles),
+        cmocka_unit_test(test_pulls),
         cmocka_unit_test(test_hostile),
         cmocka_unit_test(test_out_of_memory),
     };

@@ -166,6 +166,25 @@ static void outlines_that_reach_beyond_others_stay(void **state)
     shot_release(&shot);
 }
 
+/* A ridge a pixel beside the rim of a plate for three fifths of its length and alone for 240 px stays; one that is
+ * alone for 10 px goes. */
+static void lines_that_are_alone_for_long_stay(void **state)
+{
+    (void)state;
+    for (int most = 0; most < 2; most++) {
+        lmn_scene *s = stroke_scene_begin();
+        add_ridge(s, -3, 3);
+        add_plate(s, -3.2, 0.01, most ? 2.9 : 0.6, 1, 2);
+        stroke_options w = STROKE_OPTIONS_INIT;
+        w.contours = CONTOURS_NONE;
+        w.detail = 0.75f;
+        w.crowd = 0;
+        stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 4, true, 800, 800), w);
+        assert_int_equal(count_strokes(&shot.set, STROKE_CREASE, 0, NULL) > 0, !most);
+        shot_release(&shot);
+    }
+}
+
 /* A box of 5 px keeps its outline, drawn finer; one of 100 px its creases too. */
 static void small_pieces_keep_their_outlines(void **state)
 {
@@ -196,6 +215,7 @@ int main(void)
         cmocka_unit_test(thin_bars_do_not_end_a_line),
         cmocka_unit_test(parallels_fuse),
         cmocka_unit_test(outlines_that_reach_beyond_others_stay),
+        cmocka_unit_test(lines_that_are_alone_for_long_stay),
         cmocka_unit_test(small_pieces_keep_their_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

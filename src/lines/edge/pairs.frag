@@ -4,6 +4,7 @@
 
 #include "light/piece.glsl"
 #include "light/point.glsl"
+#include "lines/plane.glsl"
 
 /* Sixteen steps of a float below 1: what the rasteriser's rounding can add up to over the depths that are compared. Where the
  * near plane is close to the eye (a viewer inside the model), smaller differences of window depth are noise. */
@@ -60,17 +61,24 @@ vec2 inner_and_id(vec2 side, vec3 normal, bool turned, vec3 ray, uvec2 id)
     return vec2(inner, between);
 }
 
-/* Profile ink between this pixel and its neighbour of depth `next`; `before` and `behind_next` lie on either side of the two. Where
+/* Profile ink between this pixel and its neighbour at `side`, of depth `next`; `before` and `behind_next` lie on either side of the two. Where
  * one of the two is empty there is nothing but a profile, and `inks` is cleared. */
-float profile_ink(float before, float depth, float next, float behind_next, float tolerance, inout vec2 inks)
+float profile_ink(vec2 side, float before, float depth, float next, float behind_next, float tolerance, inout vec2 inks)
 {
     if ((depth >= 1.0) != (next >= 1.0)) {
         inks = vec2(0.0);
         return 1.0;
     }
     float across = next - depth;
-    float slope_before = before >= 1.0 ? behind_next - next : depth - before;
-    float slope_behind = behind_next >= 1.0 ? depth - before : behind_next - next;
+    float slope_before = depth - before, slope_behind = behind_next - next;
+    /* At the rim of the figure the last face may be a pixel wide: its normal tells how steep it is. */
+    int rim = before >= 1.0 || behind_next >= 1.0 ? 1 : 0;
+    for (int once = 0; once < rim; once++) {
+        vec2 off = before >= 1.0 ? vec2(0.0) : side;
+        float steep = dot(slope_of(neighbour(t_normal_depth, off), gl_FragCoord.xy + off), side);
+        slope_before = before >= 1.0 ? steep : slope_before;
+        slope_behind = behind_next >= 1.0 ? steep : slope_behind;
+    }
     float excess = unexplained(slope_before, across, slope_behind);
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
@@ -110,8 +118,8 @@ void main()
         float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
         int bent = bend > 0.5 * tolerance || max(depth, max(right, up)) >= 1.0 ? 1 : 0;
         for (int again = 0; again < bent; again++) {
-            steps.x = profile_ink(left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
-            steps.y = profile_ink(down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
+            steps.x = profile_ink(vec2(1.0, 0.0), left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
+            steps.y = profile_ink(vec2(0.0, 1.0), down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
         }
     }
     out_edge = vec4(steps, to_right.x + 2.0 * to_right.y, to_up.x + 2.0 * to_up.y);

@@ -73,9 +73,26 @@ static const param params[] = {
     NUMBER("wobble_length", style.wobble_length, .def = 30, .min = 1.5, .max = 300, .soft_max = 120, .unit = UNIT_PT,
            .along = true, .only_if = "wobble", .doc = "How far apart the waves of straying lines are."),
     ROW("repeats", style.repeats, PARAM_INT, int32_t, .def = 1, .min = 1, .max = 8, .soft_min = 1, .soft_max = 4,
-        .unit = UNIT_COUNT, .doc = "Times each line is drawn."),
+        .unit = UNIT_COUNT, .doc = "Times each line is drawn, from corner to corner."),
     NUMBER("repeat_apart", style.repeat_apart, .def = 1.5, .min = 0, .max = 24, .soft_max = 6, .unit = UNIT_PT,
-           .only_if = "repeats>1", .doc = "How far repeated lines differ."),
+           .only_if = "repeats>1", .doc = "How far repeated lines differ at their ends."),
+    NUMBER("repeat_turn", style.repeat_turn, .def = 2.5, .min = 0, .max = 45, .soft_max = 10, .unit = UNIT_DEGREES,
+           .only_if = "repeats>1",
+           .doc = "By how much repeated lines may differ in direction; 0: by any angle that brings their ends no "
+                  "farther apart."),
+    NUMBER("repeat_least", style.repeat_least, .def = 0, .min = 0, .max = 300, .soft_max = 60, .unit = UNIT_PT,
+           .along = true, .only_if = "repeats>1",
+           .doc = "Lines shorter than this, and those that crowd, are drawn once, those twice as long as often as any; "
+                  "0: all are drawn as often."),
+    NUMBER("repeat_fade", style.repeat_fade, .def = 1, .min = 0.05, .max = 1, .unit = UNIT_FRACTION,
+           .only_if = "repeats>1", .doc = "Opacity of each repetition, fraction of that of the one before."),
+    NUMBER("pull", style.pull, .def = 0, .min = 0, .max = 1500, .soft_max = 300, .unit = UNIT_PT, .along = true,
+           .doc =
+               "Longest curve that is drawn in one go: longer ones are drawn in several, which overlap; 0 draws from "
+               "corner to corner."),
+    NUMBER("overshoot_most", style.overshoot_most, .def = 0.15, .min = 0.01, .max = 1, .soft_max = 0.5,
+           .unit = UNIT_FRACTION, .only_if = "repeats>1",
+           .doc = "Lines run on by no more than this fraction of their own length."),
     {.key = "hidden",
      .type = PARAM_ENUM,
      .offset = PARAM_OFFSET(strokes_values, style.hidden, int32_t),
@@ -162,5 +179,5 @@ bool strokes_need_chains(const strokes_values *v)
     bool                  kinds = stroke_options_bend(w) || w->curve > 0;
     bool style = s->brush != BRUSH_PEN || s->taper > 0 || s->pressure > 0 || s->wobble > 0 || s->repeats > 1 ||
                  s->hidden != HIDDEN_NONE;
-    return kinds || style || v->common.overshoot > 0 || v->common.dash > 0 || v->common.halo > 0;
+    return kinds || style || s->pull > 0 || v->common.overshoot > 0 || v->common.dash > 0 || v->common.halo > 0;
 }

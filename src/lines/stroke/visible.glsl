@@ -15,6 +15,21 @@ float depth_at(vec2 pixel)
     return texelFetch(t_depth, ivec2(clamp(pixel, vec2(0.0), u_far_corner)), 0).r;
 }
 
+#ifdef HAS_NORMAL_DEPTH
+#include "lines/plane.glsl"
+
+/* So much deeper than its pixel's own plane may a position be. */
+const float OFF_PLANE = 0.1;
+
+/* How much nearer than the position the plane of the pixel's normal is, less what is allowed. Faces about a pixel high and what lies at their feet have no neighbours that tell
+ * how steep they are. */
+float before_plane(vec2 pixel, vec2 off, float here, float depth)
+{
+    vec2 slope = slope_of(texelFetch(t_normal_depth, ivec2(clamp(pixel, vec2(0.0), u_far_corner)), 0), pixel + 0.5);
+    return depth - here - dot(slope, off) - OFF_PLANE * (abs(slope.x) + abs(slope.y)) - ROUNDING;
+}
+#endif
+
 float smaller(float a, float b)
 {
     return abs(a) < abs(b) ? a : b;
@@ -43,6 +58,11 @@ bvec2 seen_beside(vec2 pixel, vec3 axis)
     for (int once = 0; once < valley; once++) {
         float bottom = max(least_wall(here, left, right, pixel, X), least_wall(here, below, above, pixel, Y));
         seen = nearer <= ROUNDING + VALLEY * bottom;
+#ifdef HAS_NORMAL_DEPTH
+        int steep = seen ? 0 : 1;
+        for (int again = 0; again < steep; again++)
+            seen = before_plane(pixel, off, here, axis.z) <= 0.0;
+#endif
     }
     return bvec2(seen, hidden && !seen);
 }
@@ -64,9 +84,9 @@ bool is_visible(vec3 axis, bool wanted)
     return seen;
 }
 
-/* The same of the four pixels whose middles are around the position, each with the weight that a bilinear sample gives it: what is hidden less than a pixel beside the rim of what
- * hides it, or just beneath a surface that it runs into, is not seen here and there as pixels have their middles. */
-bool is_mostly_visible(vec3 axis, bool wanted)
+/* How much of what is around a position shows nothing nearer: the four pixels whose middles are around it, each with the weight that a bilinear sample gives it, until there is
+ * `enough`. */
+float seen_weight(vec3 axis, float enough, bool wanted)
 {
     vec2 middle = floor(axis.xy), to = axis.xy - middle - 0.5, towards = vec2(to.x < 0.0 ? -1.0 : 1.0, to.y < 0.0 ? -1.0 : 1.0), fraction = abs(to);
     float weight = 0.0, left = 1.0;
@@ -76,7 +96,13 @@ bool is_mostly_visible(vec3 axis, bool wanted)
         bvec2 found = seen_beside(middle + towards * aside, axis);
         weight += found.x ? weights.x * weights.y : 0.0;
         left = found.y ? 0.0 : left - weights.x * weights.y;
-        turns = weight >= ENOUGH || weight + left < ENOUGH ? 0 : turns;
+        turns = weight >= enough || weight + left < min(enough, ENOUGH) ? 0 : turns;
     }
-    return weight >= ENOUGH;
+    return weight;
+}
+
+/* What is hidden less than a pixel beside the rim of what hides it, or just beneath a surface that it runs into, is not seen here and there as pixels have their middles. */
+bool is_mostly_visible(vec3 axis, bool wanted)
+{
+    return seen_weight(axis, ENOUGH, wanted) >= ENOUGH;
 }

@@ -30,7 +30,7 @@ typedef struct halftone_values {
     int32_t coordinates, inks;
     float   angle, shadow, light, contrast, texture;
     colour  ink, second_ink, paper;
-    float   ink_tint, paper_tint, patch;
+    float   ink_tint, paper_tint, paper_light, patch;
     int32_t directions_on_page;
 } halftone_values;
 
@@ -88,7 +88,9 @@ mesh_needs halftone_needs(const void *values);
         PARAM_COLOUR_ROW(halftone_values, paper, .can_auto = true, .def_auto = true, .auto_ground = true,              \
                          .doc = "Colour between strokes; auto takes the page's ground."),                              \
         PARAM_FLOAT_ROW(halftone_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1,                    \
-                        .unit = UNIT_FRACTION, .doc = "Fraction of the model's own lit colour in the paper.")
+                        .unit = UNIT_FRACTION, .doc = "Fraction of the model's own colour in the paper."),             \
+        PARAM_FLOAT_ROW(halftone_values, paper_light, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,             \
+                        .only_if = "paper_tint", .doc = "How far light shades that colour; 0 leaves it flat.")
 
 /* And of those that print: with one ink, two or four. */
 #define HALFTONE_INK_ROWS                                                                                              \

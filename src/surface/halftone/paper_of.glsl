@@ -1,11 +1,13 @@
-/* Paper under ink: one colour, in part the model's own lit one. */
+/* Paper under ink: one colour, in part the model's own, lit or flat. */
 #include "light/light.glsl"
 
 vec4 paper_of(surface_point p)
 {
     vec4 paper = vec4(u_paper.rgb * u_paper.a, u_paper.a);
 #ifdef WITH_PAPER_TINT
-    vec3 own = p.unlit ? p.albedo.rgb : p.albedo.rgb * min(0.25 + 0.75 * diffuse_light(p), vec3(1.0));
+    vec3 own = p.albedo.rgb;
+    if (!p.unlit && u_paper_light > 0.0)
+        own *= mix(vec3(1.0), min(0.25 + 0.75 * diffuse_light(p), vec3(1.0)), u_paper_light);
     paper = mix(paper, vec4(shown(own), 1.0), u_paper_tint);
 #endif
     return paper;
