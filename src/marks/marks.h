@@ -264,7 +264,7 @@ double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], d
 
 /* --- what is drawn of them, on a page (marks_page.c) ---------------------------------------------------- */
 
-enum { MARK_LIGHTS_MAX = 8 };
+enum { MARK_LIGHTS_MAX = 8, FLOW_ANY_WIDTH = 2 /* of mark_style.widest: no limit */ };
 
 /* How marks look and what decides. */
 typedef struct mark_style {

@@ -267,7 +267,8 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
            left = fmin(fmax((double)l->ends[end].to_end / fmax(taper, 1e-20), 0), 1);
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
-    return (float)(fmin(width, (double)g->style->widest * scale) * pow(left, (double)g->style->tip));
+    double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
+    return (float)(fmin(width, most) * pow(left, (double)g->style->tip));
 }
 
 /* What ends leave of the width. */

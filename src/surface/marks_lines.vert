@@ -73,7 +73,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end)
     float cover = cover_of_set(darkness_at(m, a_along.z), set) * (1.0 + u_swell * swell);
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
     float taper = u_taper * u_scale / max(across, 1e-20), left = clamp(to_end / max(taper, 1e-20), 0.0, 1.0);
-    return 0.5 * min(strip * cover, u_widest * u_scale) * pow(left, u_tip);
+    return 0.5 * min(strip * cover, u_widest < 2.0 ? u_widest * u_scale : 1e9) * pow(left, u_tip);
 }
 
 bool clip_near(inout vec3 a, inout vec3 b)
