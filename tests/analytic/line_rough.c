@@ -86,18 +86,27 @@ static double ink_across(const shot *s, const double a[2], const double b[2], do
     return ink;
 }
 
-/* How much ink changes along the line from a to b, in pixels across it. */
-static double change_along(const shot *s, dvec begin, dvec end)
+/* The least and the most ink along the line from a to b, in pixels across it. */
+static void ink_along(const shot *s, dvec begin, dvec end, double *least, double *most)
 {
-    double a[2], b[2], most = 0, least = 1e9;
+    double a[2], b[2];
     shot_on_page(s, begin, a);
     shot_on_page(s, end, b);
     double size = hypot(b[0] - a[0], b[1] - a[1]);
+    *most = 0;
+    *least = 1e9;
     for (double at = 24; at < size - 24; at += 0.5) {
         double ink = ink_across(s, a, b, at);
-        most = fmax(most, ink);
-        least = fmin(least, ink);
+        *most = fmax(*most, ink);
+        *least = fmin(*least, ink);
     }
+}
+
+/* How much ink changes along the line from a to b, in pixels across it. */
+static double change_along(const shot *s, dvec begin, dvec end)
+{
+    double least, most;
+    ink_along(s, begin, end, &least, &most);
     return most - least;
 }
 
@@ -192,6 +201,28 @@ static void run_pipes(void)
     check_at_most("rough", most, 0.25, "pipes: change of ink along their outline, pixels");
 }
 
+/* A chamfer of a mesh is a line, also where it turns by less than facets in pixels may; what turns by half of that is
+ * none. */
+static void run_chamfers(void)
+{
+    static const double angles[2] = {34, 18};
+    for (int flat = 0; flat < 2; flat++) {
+        shape wedge = {0};
+        shot  s;
+        shape_wedge(&wedge, "wedge", angles[flat]);
+        if (draw(&s, &wedge, (dvec){0.8, 0.4, 2}, (dvec){0, 0, 0}, 38, 44)) {
+            double least, most;
+            ink_along(&s, (dvec){0, -0.5, 0}, (dvec){0, 0.5, 0}, &least, &most);
+            if (flat)
+                check_at_most("rough", most, 0.01, "what turns by 18 degrees: ink along it");
+            else
+                check_at_least("rough", least, 0.9 * width, "chamfer of 34 degrees: ink along it");
+            shot_release(&s);
+        }
+        shape_release(&wedge);
+    }
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -224,12 +255,9 @@ static void run_courses(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"beneath", run_beneath},
-                                       {"kerbs", run_kerbs},
-                                       {"rims", run_rims},
-                                       {"pipes", run_pipes},
-                                       {"courses", run_courses}};
-    int                     status = check_main(argc, argv, "line_rough", cases, 5);
+    static const check_case cases[] = {{"beneath", run_beneath}, {"kerbs", run_kerbs},       {"rims", run_rims},
+                                       {"pipes", run_pipes},     {"chamfers", run_chamfers}, {"courses", run_courses}};
+    int                     status = check_main(argc, argv, "line_rough", cases, 6);
     shot_end();
     return status;
 }
