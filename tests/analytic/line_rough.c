@@ -223,6 +223,52 @@ static void run_chamfers(void)
     }
 }
 
+enum { STEPS = 4 }; /* of a quarter of a turn */
+
+/* Two walls at right angles, 4 high and 2 wide, and a rounding between them; and a third wall beyond a sharp edge. */
+static void add_rounded_corner(shape *s, double radius)
+{
+    enum { COLUMNS = STEPS + 4 };
+    shape_part *p = shape_add(s, "corner", 2 * COLUMNS, 6 * (COLUMNS - 1), false, false);
+    for (int i = 0; i < COLUMNS; i++) {
+        double angle = 3.14159265358979 / 2 * (STEPS + 1 - i) / STEPS, x = radius * (cos(angle) - 1),
+               z = radius * (sin(angle) - 1);
+        x = i == 0 ? -2 : x;
+        z = i == 0 ? 0 : i > STEPS + 1 ? -2 : z;
+        x = i == STEPS + 2 ? 0 : i == STEPS + 3 ? -2 : x;
+        for (int top = 0; top < 2; top++) {
+            float *at = p->positions[2 * i + top];
+            at[0] = (float)x;
+            at[1] = top ? 2 : -2;
+            at[2] = (float)z;
+        }
+    }
+    for (uint32_t i = 0; i + 1 < COLUMNS; i++) {
+        const uint32_t corners[6] = {2 * i, 2 * i + 2, 2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 1};
+        for (uint32_t k = 0; k < 6; k++)
+            p->indices[6 * i + k] = corners[k];
+    }
+}
+
+/* A narrow rounding is one line, in its middle, though none of its steps turns as far as a crease; here it is a dozen
+ * pixels wide, so that nothing but the mesh tells. */
+static void run_roundings(void)
+{
+    static const double radius = 0.024, share = 0.70710678;
+    shape               rounded = {0};
+    shot                s;
+    add_rounded_corner(&rounded, radius);
+    dvec middle = {radius * (share - 1), 0, radius * (share - 1)};
+    if (draw(&s, &rounded, (dvec){1.1, 0.3, 1}, middle, 38, 44)) {
+        double least, most;
+        ink_along(&s, (dvec){middle.x, -0.3, middle.z}, (dvec){middle.x, 0.3, middle.z}, &least, &most);
+        check_at_least("rough", least, 0.9 * width, "narrow rounding: least ink along it");
+        check_at_most("rough", most, 1.1 * width, "narrow rounding: most ink along it");
+        shot_release(&s);
+    }
+    shape_release(&rounded);
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -255,9 +301,10 @@ static void run_courses(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"beneath", run_beneath}, {"kerbs", run_kerbs},       {"rims", run_rims},
-                                       {"pipes", run_pipes},     {"chamfers", run_chamfers}, {"courses", run_courses}};
-    int                     status = check_main(argc, argv, "line_rough", cases, 6);
+    static const check_case cases[] = {
+        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},      {"pipes", run_pipes},
+        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}};
+    int status = check_main(argc, argv, "line_rough", cases, 7);
     shot_end();
     return status;
 }
