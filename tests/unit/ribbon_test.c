@@ -463,6 +463,28 @@ static void test_crowds_to_corners(void **state)
     ribbon_set_release(&r);
 }
 
+/* What crowds leave of a hidden line is as long as any that says something, or it goes too: 34 pixels are too few for
+ * four dashes. */
+static void test_crowds_leave_no_crumbs(void **state)
+{
+    (void)state;
+    for (int more = 0; more < 2; more++) {
+        const float  end = more ? 150 : 136, bent[3][3] = {{0, 102, 5}, {30, 102, 5}, {30, end, 5}};
+        stroke_style style = plain_style();
+        style.hidden = HIDDEN_DASHED;
+        style.hidden_dash = 6;
+        style.hidden_crowd = 3;
+        begin();
+        add_line(0, 100, 30, 100, 5, 0);
+        add_line(0, 90, 0, 110, 5, 0); /* where the dashed one begins, and where it ends */
+        add_line(20, end, 40, end, 5, 0);
+        add(bent, 3, 1, false)->kind = STROKE_CREASE;
+        ribbon_set r = make(&style);
+        assert_int_equal(r.ribbon_count > 3, more);
+        ribbon_set_release(&r);
+    }
+}
+
 /* A spring seen from the side: one chain whose windings crowd each other. */
 static void test_spring(void **state)
 {
@@ -854,6 +876,7 @@ int main(void)
         cmocka_unit_test(test_crowds_in_turns),
         cmocka_unit_test(test_what_is_gone_crowds_nothing),
         cmocka_unit_test(test_crowds_to_corners),
+        cmocka_unit_test(test_crowds_leave_no_crumbs),
         cmocka_unit_test(test_halos_in_perspective),
         cmocka_unit_test(test_crowds),
         cmocka_unit_test(test_spring),
