@@ -11,12 +11,21 @@ vec3 on_page(vec4 clip)
     return vec3(position.xy * u_size, position.z);
 }
 
+/* Pixels take for creases only what turns by more than facets may. Creases of meshes have been judged by feature: for them so much of those angles is enough. */
+const float JUDGED = 2.0 / 3.0;
+
+float judged(float cosine)
+{
+    return cos(JUDGED * acos(clamp(cosine, -1.0, 1.0)));
+}
+
 /* The code of a record (lines/record.glsl); 0 where there is no line. */
 float code_of(int line)
 {
     int bits = int(a_begin.w);
     float cosine = dot(a_first.xyz, a_second.xyz);
-    float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((u_line_faint - cosine) / max(u_line_faint - u_line_crease, 1e-4), 0.0, 1.0) : 0.0;
+    float faint = judged(u_line_faint), sharp = judged(u_line_crease);
+    float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
     return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
 }
 

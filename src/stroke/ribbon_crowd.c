@@ -1,7 +1,7 @@
 /* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. Lines are taken in the
- * order of their importance, the visible ones first, and leave samples in a grid; one that is hidden is left out as
- * a whole where much of it lies too near to what is there, so that nothing is left of it that could be taken for
- * something else. */
+ * order of their importance, the visible ones first, and leave samples in a grid; from corner to corner, one that is
+ * hidden is left out as a whole where much of it lies too near to what is there, so that nothing is left of it that
+ * could be taken for something else. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,9 @@ enum { CELLS_MOST = 4096 };
 static const float  samples_apart = 0.5f; /* fractions of the distance that is kept */
 static const float  own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
 static const float  run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
-static const float  crowded_from = 0.5f;  /* fraction of crowded samples */
+static const float  section_least = 4;    /* nearer to each other corners part nothing, in distances */
+static const float  crowded_from = 0.5f;  /* fraction of crowded samples from one corner to the next … */
+static const float  mostly_from = 0.6f;   /* … and of a whole run */
 static const float  least_apart = 0.5f;   /* on paper */
 static const float  longest = 1e6f;       /* of a segment that anybody draws, pixels */
 static const size_t samples_most = 50000000;
@@ -80,6 +82,17 @@ static void grid_put(crowd_grid *g, const crowd_sample *sample)
     g->samples[g->count] = *sample;
     g->samples[g->count].next = *head;
     *head = (uint32_t)++g->count;
+}
+
+/* Takes out the samples that were put in last. */
+static void grid_take_back(crowd_grid *g, size_t count)
+{
+    while (g->count > count) {
+        const crowd_sample *sample = &g->samples[--g->count];
+        int                 cell[2];
+        cell_at(g, sample->x, sample->y, cell);
+        g->heads[(size_t)cell[1] * (size_t)g->columns + (size_t)cell[0]] = sample->next;
+    }
 }
 
 /* Is there a line too near? The chain's own counts only from some way along it on. */
@@ -176,35 +189,96 @@ static hidden_run *find_runs(const ribbon_job *job, size_t *count)
     return runs;
 }
 
+/* Takes out of a run's strokes what lies between two arcs. */
+static void take_out(gap_list *out, const hidden_run *run, float from, float to)
+{
+    for (uint32_t i = 0; i < run->count; i++)
+        gap_list_add(out, run->first + i, from, to);
+}
+
+/* The corner after which the next section begins, as a number of the job's; `from`: where this one does. */
+static size_t next_corner(const crowd_grid *g, const hidden_run *run, size_t corner, float from)
+{
+    const chain_facts *chain = &g->job->chains[g->job->chain_of[run->first]];
+    size_t             end = chain->first_corner + chain->corner_count;
+    corner = corner < chain->first_corner ? chain->first_corner : corner;
+    while (corner < end && g->job->corners[corner] < from + section_least * g->apart)
+        corner++;
+    return corner < end ? corner : SIZE_MAX;
+}
+
+/* Samples of a run from one corner to the next. */
+typedef struct run_section {
+    size_t first, end;
+    float  from, to;
+} run_section;
+
+/* The section that begins with this sample, at the arc `from`. */
+static run_section find_section(const crowd_grid *g, const sample_list *list, size_t first, size_t corner, float from)
+{
+    run_section s = {first, list->count, from, corner == SIZE_MAX ? INFINITY : g->job->corners[corner]};
+    if (corner != SIZE_MAX)
+        for (s.end = first; s.end < list->count && list->items[s.end].arc < s.to; s.end++) {
+        }
+    if (s.end == list->count)
+        s.to = INFINITY;
+    return s;
+}
+
+static void judge_section(gap_list *out, crowd_grid *g, const hidden_run *run, const sample_list *list, size_t *sums,
+                          run_section s)
+{
+    size_t waiting = s.first, before = g->count;
+    for (size_t i = s.first; i < s.end; i++) {
+        bool crowded = is_crowded(g, &list->items[i]);
+        sums[i + 1] = sums[i] + crowded;
+        /* What lies free is there for the rest of its own chain at once. */
+        for (; !crowded && waiting <= i; waiting++)
+            if (sums[waiting + 1] == sums[waiting])
+                grid_put(g, &list->items[waiting]);
+    }
+    bool gone = (float)(sums[s.end] - sums[s.first]) >= crowded_from * (float)(s.end - s.first);
+    if (gone) {
+        take_out(out, run, s.from, s.to);
+        grid_take_back(g, before); /* what is not drawn crowds nothing */
+    }
+    for (size_t i = s.first; i < s.end && !gone; i++)
+        if (sums[i + 1] != sums[i])
+            grid_put(g, &list->items[i]);
+}
+
+/* Of what is nearly all crowded, single edges would be fragments. */
+static bool is_mostly_crowded(const crowd_grid *g, const sample_list *list)
+{
+    size_t crowded = 0;
+    for (size_t i = 0; i < list->count; i++)
+        crowded += is_crowded(g, &list->items[i]);
+    return (float)crowded >= mostly_from * (float)list->count;
+}
+
 static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sample_list *list)
 {
-    float step = g->apart * samples_apart;
     list->count = 0;
-    for (uint32_t i = 0; i < run->count && run->length < run_crumb * g->apart; i++)
-        gap_list_add(out, run->first + i, -INFINITY, INFINITY);
-    if (run->length < run_crumb * g->apart)
+    if (run->length < run_crumb * g->apart) {
+        take_out(out, run, -INFINITY, INFINITY);
         return;
+    }
     for (uint32_t i = 0; i < run->count; i++)
-        sample_stroke(list, g->job, run->first + i, step);
+        sample_stroke(list, g->job, run->first + i, g->apart * samples_apart);
+    if (is_mostly_crowded(g, list)) {
+        take_out(out, run, -INFINITY, INFINITY);
+        return;
+    }
     size_t *sums = mem_calloc(list->count + 1, sizeof *sums);
-    if (!sums || list->failed) {
-        g->failed = true;
-    } else {
-        size_t waiting = 0;
-        for (size_t i = 0; i < list->count; i++) {
-            bool crowded = is_crowded(g, &list->items[i]);
-            sums[i + 1] = sums[i] + crowded;
-            /* What lies free is there for the rest of its own chain at once. */
-            for (; !crowded && waiting <= i; waiting++)
-                if (sums[waiting + 1] == sums[waiting])
-                    grid_put(g, &list->items[waiting]);
-        }
-        bool gone = (float)sums[list->count] >= crowded_from * (float)list->count;
-        for (uint32_t i = 0; i < run->count && gone; i++)
-            gap_list_add(out, run->first + i, -INFINITY, INFINITY);
-        for (size_t i = 0; i < list->count && !gone; i++)
-            if (sums[i + 1] != sums[i])
-                grid_put(g, &list->items[i]);
+    g->failed = g->failed || !sums || list->failed;
+    size_t corner = 0;
+    float  from = -INFINITY;
+    for (size_t first = 0; first < list->count && !g->failed;) {
+        corner = next_corner(g, run, corner, fmaxf(from, list->items[first].arc));
+        run_section s = find_section(g, list, first, corner, from);
+        judge_section(out, g, run, list, sums, s);
+        first = s.end;
+        from = s.to;
     }
     mem_free(sums);
 }

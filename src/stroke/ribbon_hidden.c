@@ -72,6 +72,7 @@ typedef struct hidden_figures {
     const ribbon_job *job;
     bool             *kept;    /* per stroke: drawn so far */
     uint32_t         *figures; /* per stroke: another one of its figure, or itself */
+    float            *shown;   /* per stroke: length without gaps */
     float            *lengths; /* of figures */
     uint32_t         *loose;   /* of figures: ends at nothing */
     bool             *soft;    /* of figures: of smooth parts alone */
@@ -186,7 +187,7 @@ static void gather(hidden_figures *f)
         if (f->kept[i] && is_hidden(f->job, i)) {
             const stroke *s = &set->strokes[i];
             uint32_t      figure = figure_of(f, i);
-            f->lengths[figure] += length_of(set, s);
+            f->lengths[figure] += f->shown[i];
             f->loose[figure] += (uint32_t)is_loose(f, i, false) + (uint32_t)is_loose(f, i, true);
             f->soft[figure] = f->soft[figure] && f->smooth[s->part];
         }
@@ -212,23 +213,42 @@ static bool sift(hidden_figures *f)
     return some;
 }
 
+/* Lengths of strokes without their gaps. */
+static void measure(hidden_figures *f, const gap_list *gaps)
+{
+    const stroke_set *set = f->job->strokes;
+    for (size_t i = 0; i < set->stroke_count; i++)
+        f->shown[i] = length_of(set, &set->strokes[i]);
+    for (size_t i = 0; i < gaps->count; i++) {
+        const stroke_gap *gap = &gaps->items[i];
+        const stroke     *s = &set->strokes[gap->stroke];
+        if (s->count > 1)
+            f->shown[gap->stroke] -= fmaxf(fminf(gap->to, set->points[s->first + s->count - 1].arc) -
+                                               fmaxf(gap->from, set->points[s->first].arc),
+                                           0);
+    }
+}
+
 static bool open_figures(hidden_figures *f, const gap_list *gaps)
 {
     const stroke_set *set = f->job->strokes;
     size_t            count = set->stroke_count + 1;
     f->kept = mem_calloc(count, sizeof *f->kept);
     f->figures = mem_calloc(count, sizeof *f->figures);
+    f->shown = mem_calloc(count, sizeof *f->shown);
     f->lengths = mem_calloc(count, sizeof *f->lengths);
     f->loose = mem_calloc(count, sizeof *f->loose);
     f->soft = mem_calloc(count, sizeof *f->soft);
     f->twin = *set;
     f->twin.strokes = mem_calloc(count, sizeof *f->twin.strokes);
-    if (!f->kept || !f->figures || !f->lengths || !f->loose || !f->soft || !f->twin.strokes || !find_smooth(f))
+    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->soft || !f->twin.strokes ||
+        !find_smooth(f))
         return false;
     memcpy(f->twin.strokes, set->strokes, set->stroke_count * sizeof *set->strokes);
     memcpy(f->kept, f->job->drawn, set->stroke_count * sizeof *f->kept);
     for (size_t i = 0; i < set->stroke_count; i++)
         f->twin.strokes[i].hidden_by = 0;
+    measure(f, gaps);
     for (size_t i = 0; i < gaps->count; i++)
         if (isinf(gaps->items[i].from) && isinf(gaps->items[i].to))
             f->kept[gaps->items[i].stroke] = false;
@@ -246,6 +266,7 @@ static void close_figures(hidden_figures *f)
     mem_free(f->twin.strokes);
     mem_free(f->kept);
     mem_free(f->figures);
+    mem_free(f->shown);
     mem_free(f->lengths);
     mem_free(f->loose);
     mem_free(f->soft);

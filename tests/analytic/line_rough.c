@@ -86,18 +86,27 @@ static double ink_across(const shot *s, const double a[2], const double b[2], do
     return ink;
 }
 
-/* How much ink changes along the line from a to b, in pixels across it. */
-static double change_along(const shot *s, dvec begin, dvec end)
+/* The least and the most ink along the line from a to b, in pixels across it. */
+static void ink_along(const shot *s, dvec begin, dvec end, double *least, double *most)
 {
-    double a[2], b[2], most = 0, least = 1e9;
+    double a[2], b[2];
     shot_on_page(s, begin, a);
     shot_on_page(s, end, b);
     double size = hypot(b[0] - a[0], b[1] - a[1]);
+    *most = 0;
+    *least = 1e9;
     for (double at = 24; at < size - 24; at += 0.5) {
         double ink = ink_across(s, a, b, at);
-        most = fmax(most, ink);
-        least = fmin(least, ink);
+        *most = fmax(*most, ink);
+        *least = fmin(*least, ink);
     }
+}
+
+/* How much ink changes along the line from a to b, in pixels across it. */
+static double change_along(const shot *s, dvec begin, dvec end)
+{
+    double least, most;
+    ink_along(s, begin, end, &least, &most);
     return most - least;
 }
 
@@ -192,6 +201,74 @@ static void run_pipes(void)
     check_at_most("rough", most, 0.25, "pipes: change of ink along their outline, pixels");
 }
 
+/* A chamfer of a mesh is a line, also where it turns by less than facets in pixels may; what turns by half of that is
+ * none. */
+static void run_chamfers(void)
+{
+    static const double angles[2] = {34, 18};
+    for (int flat = 0; flat < 2; flat++) {
+        shape wedge = {0};
+        shot  s;
+        shape_wedge(&wedge, "wedge", angles[flat]);
+        if (draw(&s, &wedge, (dvec){0.8, 0.4, 2}, (dvec){0, 0, 0}, 38, 44)) {
+            double least, most;
+            ink_along(&s, (dvec){0, -0.5, 0}, (dvec){0, 0.5, 0}, &least, &most);
+            if (flat)
+                check_at_most("rough", most, 0.01, "what turns by 18 degrees: ink along it");
+            else
+                check_at_least("rough", least, 0.9 * width, "chamfer of 34 degrees: ink along it");
+            shot_release(&s);
+        }
+        shape_release(&wedge);
+    }
+}
+
+enum { STEPS = 4 }; /* of a quarter of a turn */
+
+/* Two walls at right angles, 4 high and 2 wide, and a rounding between them; and a third wall beyond a sharp edge. */
+static void add_rounded_corner(shape *s, double radius)
+{
+    enum { COLUMNS = STEPS + 4 };
+    shape_part *p = shape_add(s, "corner", 2 * COLUMNS, 6 * (COLUMNS - 1), false, false);
+    for (int i = 0; i < COLUMNS; i++) {
+        double angle = 3.14159265358979 / 2 * (STEPS + 1 - i) / STEPS, x = radius * (cos(angle) - 1),
+               z = radius * (sin(angle) - 1);
+        x = i == 0 ? -2 : x;
+        z = i == 0 ? 0 : i > STEPS + 1 ? -2 : z;
+        x = i == STEPS + 2 ? 0 : i == STEPS + 3 ? -2 : x;
+        for (int top = 0; top < 2; top++) {
+            float *at = p->positions[2 * i + top];
+            at[0] = (float)x;
+            at[1] = top ? 2 : -2;
+            at[2] = (float)z;
+        }
+    }
+    for (uint32_t i = 0; i + 1 < COLUMNS; i++) {
+        const uint32_t corners[6] = {2 * i, 2 * i + 2, 2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 1};
+        for (uint32_t k = 0; k < 6; k++)
+            p->indices[6 * i + k] = corners[k];
+    }
+}
+
+/* A narrow rounding is one line, in its middle, though none of its steps turns as far as a crease; here it is a dozen
+ * pixels wide, so that nothing but the mesh tells. */
+static void run_roundings(void)
+{
+    static const double radius = 0.024, share = 0.70710678;
+    shape               rounded = {0};
+    shot                s;
+    add_rounded_corner(&rounded, radius);
+    dvec middle = {radius * (share - 1), 0, radius * (share - 1)};
+    if (draw(&s, &rounded, (dvec){1.1, 0.3, 1}, middle, 38, 44)) {
+        double least, most;
+        ink_along(&s, (dvec){middle.x, -0.3, middle.z}, (dvec){middle.x, 0.3, middle.z}, &least, &most);
+        check_at_least("rough", least, 0.9 * width, "narrow rounding: least ink along it");
+        check_at_most("rough", most, 1.1 * width, "narrow rounding: most ink along it");
+        shot_release(&s);
+    }
+    shape_release(&rounded);
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -224,12 +301,10 @@ static void run_courses(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"beneath", run_beneath},
-                                       {"kerbs", run_kerbs},
-                                       {"rims", run_rims},
-                                       {"pipes", run_pipes},
-                                       {"courses", run_courses}};
-    int                     status = check_main(argc, argv, "line_rough", cases, 5);
+    static const check_case cases[] = {
+        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},      {"pipes", run_pipes},
+        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}};
+    int status = check_main(argc, argv, "line_rough", cases, 7);
     shot_end();
     return status;
 }

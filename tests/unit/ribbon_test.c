@@ -423,6 +423,69 @@ static void test_crowds_in_turns(void **state)
     check_turns(24, false);
 }
 
+/* What is left out crowds nothing: not with that part of it either that would lie free. */
+static void test_what_is_gone_crowds_nothing(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    style.hidden_crowd = 5;
+    begin();
+    add_line(0, 100, 200, 100, 5, 0);
+    add_line(0, 102, 300, 102, 5, 1);
+    add_line(210, 104, 300, 104, 5, 2);
+    ribbon_set r = make(&style);
+    assert_int_equal(r.ribbon_count, 2);
+    assert_float_equal(point_of(&r, 0, 0)->y, 104, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* Dashed lines go from corner to corner. */
+static void test_crowds_to_corners(void **state)
+{
+    const float  bent[3][3] = {{0, 102, 5}, {200, 102, 5}, {200, 282, 5}};
+    stroke_style style = plain_style();
+    float        least = 300;
+    (void)state;
+    style.hidden = HIDDEN_DASHED;
+    style.hidden_dash = 6;
+    style.hidden_crowd = 5;
+    begin();
+    add_line(0, 100, 200, 100, 5, 0);
+    add_line(150, 282, 250, 282, 5, 0); /* where the dashed one ends */
+    add(bent, 3, 1, false)->kind = STROKE_CREASE;
+    ribbon_set r = make(&style);
+    assert_true(r.ribbon_count > 12);
+    for (size_t i = 0; i < r.ribbon_count; i++)
+        if (r.ribbons[i].hidden_by > 0) {
+            assert_float_equal(point_of(&r, i, 0)->x, 200, 1e-3);
+            least = fminf(least, point_of(&r, i, 0)->y);
+        }
+    assert_float_equal(least, 102, 1e-3);
+    ribbon_set_release(&r);
+}
+
+/* What crowds leave of a hidden line is as long as any that says something, or it goes too: 34 pixels are too few for
+ * four dashes. */
+static void test_crowds_leave_no_crumbs(void **state)
+{
+    (void)state;
+    for (int more = 0; more < 2; more++) {
+        const float  end = more ? 150 : 136, bent[3][3] = {{0, 102, 5}, {30, 102, 5}, {30, end, 5}};
+        stroke_style style = plain_style();
+        style.hidden = HIDDEN_DASHED;
+        style.hidden_dash = 6;
+        style.hidden_crowd = 3;
+        begin();
+        add_line(0, 100, 30, 100, 5, 0);
+        add_line(0, 90, 0, 110, 5, 0); /* where the dashed one begins, and where it ends */
+        add_line(20, end, 40, end, 5, 0);
+        add(bent, 3, 1, false)->kind = STROKE_CREASE;
+        ribbon_set r = make(&style);
+        assert_int_equal(r.ribbon_count > 3, more);
+        ribbon_set_release(&r);
+    }
+}
+
 /* A spring seen from the side: one chain whose windings crowd each other. */
 static void test_spring(void **state)
 {
@@ -946,6 +1009,9 @@ int main(void)
         cmocka_unit_test(test_halos_at_ends),
         cmocka_unit_test(test_halo_crumbs),
         cmocka_unit_test(test_crowds_in_turns),
+        cmocka_unit_test(test_what_is_gone_crowds_nothing),
+        cmocka_unit_test(test_crowds_to_corners),
+        cmocka_unit_test(test_crowds_leave_no_crumbs),
         cmocka_unit_test(test_halos_in_perspective),
         cmocka_unit_test(test_crowds),
         cmocka_unit_test(test_spring),
