@@ -53,19 +53,19 @@ const int MOST = 120, PARTS_OF_EDGE = 4;
 /* What a rim hides, less than a pixel beside it, is seen here and there as pixels have their middles, in many places with less weight than this; what is before all, with half or
  * more nearly everywhere. One place of the one kind counts as many of the other; the first few tell which it is. */
 const float POORLY = 0.3;
-const int AGAINST = 2, SURELY = 2;
+const int AGAINST = 2, SURELY = 2, OF_SHORT = 4; /* of no more positions than these one will do */
 
 bool is_hidden()
 {
     float size = distance(v_begin.xy, v_end.xy);
     int positions = min(int(ceil(max(size, STEP) / STEP)), MOST), parts = min(positions, PARTS_OF_EDGE), each = (positions + parts - 1) / parts;
-    int found = 0, score = 0, turns = each * parts;
+    int found = 0, score = 0, surely = positions <= OF_SHORT ? 1 : SURELY, turns = each * parts;
     float share = 1.0 / float(turns);
     for (int i = 0; i < turns; i++) {
         float at = (float(i % parts * each + i / parts) + 0.5) * share, weight = seen_weight(mix(v_begin.xyz, v_end.xyz, at), POORLY, true);
         found += weight > 0.0 ? 1 : 0;
         score += weight >= POORLY ? 1 : weight > 0.0 ? -AGAINST : 0;
-        turns = score >= SURELY || score <= -SURELY * AGAINST ? 0 : turns;
+        turns = score >= surely || score <= -surely * AGAINST ? 0 : turns;
     }
     return found == 0 ? size <= STEP * float(MOST) : score < 0;
 }
