@@ -62,7 +62,7 @@ static const option options[] = {
     {"poses", 0, OPTION_TEXT, AT(poses), "N|auto",
      "Several poses in one picture, at the moments that tell most of the motion up to --time (default: the end of the "
      "clip): where things turn back, rebound or stop. auto: as many as tell something. Laid over each other as on one "
-     "plate; with --motion ghosts, echoes or comic as contours behind the last one. Fitted to all times."},
+     "plate; with --motion ghosts, echoes, comic or speed-lines as contours behind the last one. Fitted to all times."},
     {"select", 0, OPTION_TEXT, AT(select), "SEL",
      "Draw and fit only these parts, for example 'Wheel*' or '[material=Glass]'."},
     {"cut", 0, OPTION_TEXT, AT(cut), "SPEC",

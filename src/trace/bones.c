@@ -141,16 +141,22 @@ static void measure_skin(bone_finder *f, uint32_t part, size_t first, const vec3
     }
 }
 
-/* A half without vertices is as thick as the other one. */
+/* A half without vertices is as thick as the other one; joints that move nothing, as handles of animators, have no
+ * bones. */
 static void settle_radii(bone_finder *f, size_t first)
 {
+    size_t kept = first;
     for (size_t n = first; n < f->out->count; n++) {
         const growing *g = &f->growing[n];
+        if (!g->counts[0] && !g->counts[1])
+            continue;
         for (int k = 0; k < 2; k++) {
             int from = g->counts[k] ? k : 1 - k;
             f->out->items[n].radius[k] = g->counts[from] ? g->sums[from] / (double)g->counts[from] : 0;
         }
+        f->out->items[kept++] = f->out->items[n];
     }
+    f->out->count = kept;
 }
 
 /* --- other parts ------------------------------------------------------------------------------------------------ */

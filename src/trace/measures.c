@@ -115,6 +115,8 @@ void trace_facts_add(trace_facts *all, const trace_facts *one)
     all->towards += one->towards;
     all->jumps += one->jumps;
     all->contours += one->contours;
+    all->bones_missing = all->bones_missing || one->bones_missing;
+    all->lines_missing = all->lines_missing || one->lines_missing;
     all->shaking += one->shaking;
     all->shakes_wanted = all->shakes_wanted || one->shakes_wanted;
     if (one->telling.count)

@@ -145,10 +145,20 @@ static bool end_run(past_run *r)
     return good;
 }
 
+/* What leaves the page has no outline along its border. */
+static bool is_at_border(const stroke_camera *c, const double p[3])
+{
+    const double near = 4;
+    return p[0] < near || p[1] < near || p[0] > c->width - near || p[1] > c->height - near;
+}
+
 static bool put_position(past_run *r, const double p[3], double arc)
 {
     double dash = (double)r->job->o->values->contour_dash;
-    bool   gap = dash > 0 && fmod(arc, GAP_AFTER * dash) > dash;
+    bool   swept = r->job->o->values->figures == TRACES_SWEPT;
+    if (swept && is_at_border(&r->job->o->camera, p))
+        return end_run(r);
+    bool gap = dash > 0 && fmod(arc, GAP_AFTER * dash) > dash;
     if (gap || !is_shown(r->job, r->moment, p))
         return end_run(r);
     if (!mem_grow((void **)&r->points, &r->capacity, r->count + 1, sizeof *r->points))
@@ -251,6 +261,7 @@ lmn_status past_contours_put(trace_job *j, lmn_error *error)
     lmn_status status = LMN_OK;
     if (j->o->values->figures != TRACES_OUTLINES)
         status = bones_find(&j->bones, j->o->pose, j->moves, j->o->values->bones.text, error);
+    j->facts->bones_missing = j->o->values->figures != TRACES_OUTLINES && j->bones.count == 0;
     if (status == LMN_OK)
         status = moments ? find_moments(j, moments, &count, error) : error_memory(error);
     /* The oldest first, so that newer ones lie over it. */

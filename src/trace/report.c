@@ -25,6 +25,13 @@ void trace_warn(const trace_facts *facts, warnings *warnings)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu things come nearer or go away: their lines are rays", facts->towards);
     telling_warn(&facts->telling, warnings);
+    if (facts->bones_missing)
+        warnings_add(warnings, WARNING_NO_MATCH,
+                     "motion 'traces': nothing that moves has bones that motion.bones names");
+    if (facts->lines_missing)
+        warnings_add(
+            warnings, WARNING_UNUSED,
+            "motion 'traces': no speed line is seen: all of them would lie on what moves, or behind something");
     if (facts->jumps)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu lines end where something jumps from one place to another", facts->jumps);

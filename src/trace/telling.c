@@ -324,6 +324,9 @@ json_t *telling_json(const telling_moments *m)
 
 void telling_warn(const telling_moments *m, warnings *warnings)
 {
+    if (m->count == 1 && !m->wanted)
+        warnings_add(warnings, WARNING_APPROXIMATE,
+                     "one moment is drawn: the figures at all others would cover it by more than motion.cover");
     if (m->count < m->wanted)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "%zu of %zu moments are drawn: more would cover each other by more than motion.cover, or nothing "

@@ -87,6 +87,7 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     }
     if (moves && status == LMN_OK)
         status = measures_take(&j, error);
+    facts->lines_missing = moves && options->values->lines > 0 && facts->measures.lines == 0;
     page_mask_close(&j.mask);
     mem_free(j.moves);
     bones_release(&j.bones);

@@ -33,6 +33,8 @@ typedef struct trace_facts {
     size_t          contours; /* times at which contours were drawn */
     size_t          shaking;  /* bodies that swing to and fro within the exposure */
     bool            shakes_wanted;
+    bool            bones_missing; /* figures are of bones, and none is called as was asked for */
+    bool            lines_missing; /* lines were asked for, and none is seen */
     trace_measures  measures;
     telling_moments telling; /* those that were chosen; wanted 0 and none: nobody asked */
 } trace_facts;

@@ -801,7 +801,7 @@ like() {
 }
 
 group_films() {
-    local moving=("$gear" --look sketch --set perturb.boil=24 --size 65x49 --dpi 96) frames=(--frames 3:8:24) ending i
+    local moving=("$gear" --look sketch --set perturb.boil=24 --set perturb.amount=4 --size 65x49 --dpi 96) frames=(--frames 3:8:24) ending i
     # Wrong arguments, before any work.
     for ending in mp4 webm gif webp; do
         row 1 "^limner: .$ending is a film, which needs --frames" '' draw nosuch.stl -o x.$ending

@@ -11,11 +11,11 @@ static int wrong; /* all are said before the test fails */
 
 #define WRONG(...) (wrong++, print_error(__VA_ARGS__), print_error("\n"))
 
-enum { SIDE = 220, PIXELS = SIDE * SIDE };
+enum { SIDE = 160, DPI = 29, PIXELS = SIDE * SIDE };
 
 typedef struct fixture {
     lmn_renderer *renderer;
-    lmn_scene    *house;
+    lmn_scene    *house, *walker; /* the walker for looks that tell of motion */
 } fixture;
 
 static int set_up(void **state)
@@ -25,6 +25,8 @@ static int set_up(void **state)
     DO(lmn_renderer_create(&f.renderer, &desc, &error));
     DO(lmn_scene_create(&f.house, &error));
     DO(lmn_scene_add_file(f.house, EXAMPLES "/house.glb", NULL, &error));
+    DO(lmn_scene_create(&f.walker, &error));
+    DO(lmn_scene_add_file(f.walker, EXAMPLES "/walker.bvh", NULL, &error));
     *state = &f;
     return 0;
 }
@@ -33,17 +35,31 @@ static int tear_down(void **state)
 {
     fixture *f = *state;
     lmn_scene_destroy(&f->house);
+    lmn_scene_destroy(&f->walker);
     lmn_renderer_destroy(&f->renderer);
     return 0;
 }
 
-static void draw(const fixture *f, const lmn_look *look, uint8_t *out)
+static bool tells_of_motion(const char *name)
+{
+    static const char *const names[] = {"speed-lines", "ghosts", "chrono", "manga", "squash"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    return false;
+}
+
+static void draw(const fixture *f, const char *name, const lmn_look *look, uint8_t *out)
 {
     lmn_drawing  *drawing = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = SIDE;
-    desc.dpi = 40;
-    DO(lmn_draw(&drawing, f->renderer, f->house, look, &desc, &error));
+    desc.dpi = DPI;
+    if (tells_of_motion(name)) {
+        desc.time_s = 1;
+        desc.view = LMN_VIEW_RIGHT;
+    }
+    DO(lmn_draw(&drawing, f->renderer, tells_of_motion(name) ? f->walker : f->house, look, &desc, &error));
     memcpy(out, lmn_drawing_pixels(drawing, NULL, NULL), 4 * PIXELS);
     lmn_drawing_destroy(&drawing);
 }
@@ -81,7 +97,7 @@ static void check_control(const fixture *f, const char *name, const char *contro
     const bool     has_law = strcmp(control, "weight") == 0 || strcmp(control, "darkness") == 0;
     for (int i = 0; i < 5; i += has_law ? 1 : 2) {
         lmn_look *look = load(name, control, (i - 2) / 2.0);
-        draw(f, look, drawn[i]);
+        draw(f, name, look, drawn[i]);
         lmn_look_destroy(&look);
     }
     if (memcmp(drawn[2], shipped, sizeof drawn[2]) != 0)
@@ -105,7 +121,7 @@ static void all_looks(void **state)
     for (size_t i = 0; i < lmn_look_count(); i++) {
         lmn_control_info info;
         lmn_look        *look = load(lmn_look_name_at(i), NULL, 0);
-        draw(*state, look, shipped);
+        draw(*state, lmn_look_name_at(i), look, shipped);
         for (size_t c = 0; lmn_control_at(c, &info); c++)
             if (lmn_look_has_control(look, info.name)) {
                 check_control(*state, lmn_look_name_at(i), info.name, shipped);
@@ -122,13 +138,13 @@ static void as_by_parameters(void **state)
 {
     static uint8_t one[4 * PIXELS], other[4 * PIXELS];
     lmn_look      *look = load("edges", "weight", 1);
-    draw(*state, look, one);
+    draw(*state, "edges", look, one);
     uint64_t before = lmn_look_revision(look);
     DO(lmn_look_set_control(look, "weight", 0.75, &error));
     assert_true(lmn_look_changes(look, before) & LMN_CHANGE_VALUES);
     DO(lmn_look_set(look, "weight", "0", &error));
     DO(lmn_look_set(look, "lines.width", "3", &error));
-    draw(*state, look, other);
+    draw(*state, "edges", look, other);
     assert_memory_equal(one, other, sizeof one);
     lmn_look_destroy(&look);
 }
