@@ -31,7 +31,7 @@ void trace_warn(const trace_facts *facts, warnings *warnings)
     if (facts->lines_missing)
         warnings_add(
             warnings, WARNING_UNUSED,
-            "motion 'traces': no speed line is seen: all of them would lie on what moves, or behind something");
+            "motion 'traces': no speed line is seen: all would lie on what moves or behind something, or be too short");
     if (facts->jumps)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu lines end where something jumps from one place to another", facts->jumps);

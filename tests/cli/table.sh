@@ -265,7 +265,7 @@ group_draw() {
     row 1 '^limner: --poses goes with --motion plate' '' draw "$moving" $small -o x.png --poses 3 --motion blur
     row 0 'nothing moves without a time' 'x.png' draw "$examples/house.glb" $small -o x.png --poses 3
     # Ways to tell of motion that have a name; vectors have them, too.
-    row 0 '' 'x.png' draw "$examples/buggy.glb" $small --time 1 -o x.png && cp x.png in-rest.png
+    row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 -o x.png && cp x.png in-rest.png
     row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
     tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
     row 0 '' 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion ghosts --set motion.contours=3 --report in-m.json -o x.svg
@@ -273,7 +273,7 @@ group_draw() {
     tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
     row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
     for way in echoes comic manga plate chrono squash slit lean; do
-        row 0 '' 'x.png' draw "$examples/buggy.glb" $small --time 1 --motion $way -o x.png
+        row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion $way -o x.png
         cmp -s x.png in-rest.png && complain "$way changes nothing"
     done
     # The shape of what moves: of vectors, too; and where nothing moves, that is said.
