@@ -361,7 +361,8 @@ static bool sort_triangles(finder *f, const int32_t *numbers, size_t body_count)
             int32_t n = numbers[f->owners[f->keys[i]]];
             memcpy(sorted[starts[n < 0 ? body_count : (size_t)n]++], t->triangles[i], sizeof *sorted);
         }
-        memcpy(t->triangles, sorted, t->triangle_count * sizeof *sorted);
+        if (t->triangle_count)
+            memcpy(t->triangles, sorted, t->triangle_count * sizeof *sorted);
     }
     bool good = starts && sorted;
     mem_free(starts);

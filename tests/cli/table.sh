@@ -479,7 +479,7 @@ group_looks() {
         case $name in
             ghost) row 0 "'@removed'" 'x.png' draw "$gear" $small --look "$name" -o x.png ;; # nothing was taken away from it
             speed-lines|ghosts|chrono|manga|squash) row 0 'nothing moves without a time' 'x.png' draw "$gear" $small --look "$name" -o x.png
-                row 0 '' 'x.png' draw "$examples/fox.glb" $small --clip Run --time 0.4 --look "$name" -o x.png ;;
+                row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --look "$name" -o x.png ;;
             *) row 0 '' 'x.png' draw "$gear" $small --look "$name" -o x.png ;;
         esac
         row 0 '' '' looks "$name"; out "^$name: "
