@@ -443,3 +443,16 @@ void bodies_release(trace_bodies *b)
     mem_free(b->bodies);
     memset(b, 0, sizeof *b);
 }
+
+uint32_t trace_mesh_of(const trace_bodies *t, uint32_t vertex)
+{
+    uint32_t low = 0, high = (uint32_t)t->mesh_count - 1;
+    while (low < high) {
+        uint32_t middle = (low + high + 1) / 2;
+        if (t->meshes[middle].first <= vertex)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}

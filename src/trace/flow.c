@@ -47,9 +47,7 @@ static bool put_line(trace_job *j, uint32_t body, uint32_t number, const double 
     size_t        steps = (size_t)fmin(fmax(ceil(length / APART), 1), 8192), count = 0;
     ribbon_point *points = mem_alloc((steps + 2) * sizeof *points);
     bool          good = points != NULL;
-    uint32_t      vertex = j->bodies.triangles[j->bodies.bodies[body].first][0], mesh = 0;
-    while (mesh + 1 < j->bodies.mesh_count && j->bodies.meshes[mesh + 1].first <= vertex)
-        mesh++;
+    uint32_t      mesh = trace_mesh_of(&j->bodies, j->bodies.triangles[j->bodies.bodies[body].first][0]);
     for (size_t i = 0; i <= steps + 1 && good; i++) {
         double f = fmin((double)i / (double)steps, 1), end = fmin(1, 4 * fmin(f, 1 - f));
         double p[3] = {from[0] + f * (to[0] - from[0]), from[1] + f * (to[1] - from[1]), depth};

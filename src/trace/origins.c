@@ -129,22 +129,9 @@ static void find_strip_vertices(rear *rears, size_t count, const trace_bodies *t
         }
 }
 
-static uint32_t mesh_of(const trace_bodies *t, uint32_t vertex)
-{
-    uint32_t low = 0, high = (uint32_t)t->mesh_count - 1;
-    while (low < high) {
-        uint32_t middle = (low + high + 1) / 2;
-        if (t->meshes[middle].first <= vertex)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
-
 static bool put_origin(origin_list *l, const trace_bodies *t, const rear *r, uint32_t body, uint32_t number)
 {
-    uint32_t mesh = mesh_of(t, r->from), first = t->meshes[mesh].first;
+    uint32_t mesh = trace_mesh_of(t, r->from), first = t->meshes[mesh].first;
     if (!mem_grow((void **)&l->items, &l->capacity, l->count + 1, sizeof *l->items))
         return false;
     l->items[l->count++] = (trace_origin){mesh, {r->from - first, r->to - first}, r->fraction, body, number, r->across};
@@ -169,13 +156,13 @@ static bool put_round(origin_list *l, const traces_options *o, const trace_bodie
                     best = off;
                     rim = v;
                 }
-                if (across < opposite && mesh_of(t, v) == mesh_of(t, rim)) {
+                if (across < opposite && trace_mesh_of(t, v) == trace_mesh_of(t, rim)) {
                     opposite = across;
                     other = v;
                 }
             }
         rear r = {b->across[1], 0, other, rim, BEYOND};
-        if (mesh_of(t, rim) == mesh_of(t, other) && !put_origin(l, t, &r, number, n))
+        if (trace_mesh_of(t, rim) == trace_mesh_of(t, other) && !put_origin(l, t, &r, number, n))
             return false;
     }
     return true;

@@ -24,9 +24,7 @@ static lmn_status find_lengths(trace_job *j, double *out, size_t count, lmn_erro
     for (size_t i = 1; i < j->bodies.body_count; i++)
         if (j->bodies.bodies[i].count > b->count)
             b = &j->bodies.bodies[i];
-    uint32_t vertex = j->bodies.triangles[b->first][0], mesh = 0;
-    while (mesh + 1 < j->bodies.mesh_count && j->bodies.meshes[mesh + 1].first <= vertex)
-        mesh++;
+    uint32_t     vertex = j->bodies.triangles[b->first][0], mesh = trace_mesh_of(&j->bodies, vertex);
     uint32_t     own = vertex - j->bodies.meshes[mesh].first;
     trace_origin origin = {.mesh = mesh, .vertex = {own, own}, .body = (uint32_t)(b - j->bodies.bodies)};
     trace_ways   w;

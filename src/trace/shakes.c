@@ -227,14 +227,12 @@ static double farthest_ago(const trace_ways *w, const double axis[2])
 static lmn_status shake_body(trace_job *j, size_t number, lmn_error *error)
 {
     const trace_body *b = &j->bodies.bodies[number];
-    uint32_t          vertex = j->bodies.triangles[b->first][0], mesh = 0;
-    while (mesh + 1 < j->bodies.mesh_count && j->bodies.meshes[mesh + 1].first <= vertex)
-        mesh++;
-    uint32_t     own = vertex - j->bodies.meshes[mesh].first;
-    trace_origin origin = {.mesh = mesh, .vertex = {own, own}, .body = (uint32_t)number};
-    trace_ways   w;
-    shake        s = {.part = j->bodies.meshes[mesh].part + 1};
-    lmn_status   status = ways_follow(&w, j->o, &j->bodies, &origin, 1, error);
+    uint32_t          vertex = j->bodies.triangles[b->first][0], mesh = trace_mesh_of(&j->bodies, vertex);
+    uint32_t          own = vertex - j->bodies.meshes[mesh].first;
+    trace_origin      origin = {.mesh = mesh, .vertex = {own, own}, .body = (uint32_t)number};
+    trace_ways        w;
+    shake             s = {.part = j->bodies.meshes[mesh].part + 1};
+    lmn_status        status = ways_follow(&w, j->o, &j->bodies, &origin, 1, error);
     if (status != LMN_OK)
         return status;
     find_axis((const double(*)[3])w.at, w.steps + 1, s.axis);
@@ -257,10 +255,7 @@ static lmn_status shake_body(trace_job *j, size_t number, lmn_error *error)
 
 static uint32_t part_of(const trace_bodies *t, const trace_body *b)
 {
-    uint32_t mesh = 0;
-    while (mesh + 1 < t->mesh_count && t->meshes[mesh + 1].first <= t->triangles[b->first][0])
-        mesh++;
-    return t->meshes[mesh].part;
+    return t->meshes[trace_mesh_of(t, t->triangles[b->first][0])].part;
 }
 
 /* The shaking ones of what moves since a fraction of the exposure ago, of parts that are not `done`. */

@@ -74,6 +74,8 @@ typedef struct trace_bodies {
 lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
                        const stroke_camera *camera, lmn_error *error);
 void       bodies_release(trace_bodies *b);
+/* The mesh that a vertex of all is in; there is one. */
+uint32_t trace_mesh_of(const trace_bodies *t, uint32_t vertex);
 /* A position of the page in the body's own coordinates. */
 void body_coordinates(const trace_body *b, const double page[3], double *along, double *across);
 /* The direction in which the body moves at a position, unit; 0, 0 at a centre. */
