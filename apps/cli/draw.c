@@ -1,5 +1,6 @@
 /* limner draw: models into pictures. */
 #include "cli.h"
+#include "depict.h"
 #include "formats.h"
 #include "frames.h"
 #include "names.h"
@@ -17,6 +18,7 @@
 typedef struct draw_values {
     const char   *output, *format, *look, *select, *cut, *camera, *frames, *background, *maps, *report;
     const char   *clip, *motion, *poses;
+    const char   *expressions, *interval; /* of depict alone, with `explain` */
     const char   *page, *scale, *unit, *views, *title;
     word_list     sets;
     option_size   size;
@@ -24,8 +26,8 @@ typedef struct draw_values {
     option_number fov, fit, time, seed, samples, dpi;
     int           view, up_axis, angle;
     word_list     defines;
-    bool          orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume;
-    task_values   task;
+    bool        orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
+    task_values task;
 } draw_values;
 
 static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
@@ -141,6 +143,7 @@ static const option options[] = {
      "Draw what can be drawn and warn of the rest, instead of refusing it."},
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No warnings and no progress."},
     {"verbose", 'v', OPTION_FLAG, AT(verbose), NULL, "Say what is done and how long it takes."},
+    DEPICT_OPTIONS(draw_values),
 };
 
 /* One run of the command. */
@@ -156,6 +159,7 @@ typedef struct session {
     lmn_format_info    format;     /* asked before the work, not after it; of films: that of their frames */
     bool               known;      /* there is such a format */
     bool               film;       /* frames go into one file */
+    bool               depicts;    /* signs are put into the scene before it is drawn */
     progress           progress;
 } session;
 
@@ -423,7 +427,11 @@ static int check_camera(const draw_values *v)
 static int load_look(session *s)
 {
     lmn_error error = {0};
-    if (lmn_look_load(&s->look, s->values->look ? s->values->look : "edges", &error) != LMN_OK)
+    if (lmn_look_load(&s->look,
+                      s->values->look ? s->values->look
+                      : s->depicts    ? "storyboard"
+                                      : "edges",
+                      &error) != LMN_OK)
         return message_error(&error);
     int status = set_motion(s->look, s->values->motion, s->values->poses);
     if (status == EXIT_DONE)
@@ -787,6 +795,8 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
             status = message_error(&error);
     }
     place_view(s, scene);
+    if (status == EXIT_DONE && s->depicts)
+        status = depict_scene(scene, &s->desc, s->values->expressions, s->values->interval, s->values->explain);
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];
@@ -807,10 +817,9 @@ static int draw_all(session *s, const word_list *inputs)
     return status;
 }
 
-static int run(const word_list *inputs, const void *values)
+static int run_as(const word_list *inputs, const draw_values *v, bool depicts)
 {
-    session            s = {.values = values};
-    const draw_values *v = values;
+    session s = {.values = v, .depicts = depicts};
     find_format(&s);
     int status = check_camera(v);
     if (status == EXIT_DONE && v->frames)
@@ -844,6 +853,16 @@ static int run(const word_list *inputs, const void *values)
     return status;
 }
 
+static int run(const word_list *inputs, const void *values)
+{
+    return run_as(inputs, values, false);
+}
+
+static int run_depict(const word_list *inputs, const void *values)
+{
+    return run_as(inputs, values, true);
+}
+
 const command command_draw = {
     .name = "draw",
     .inputs = "INPUT…",
@@ -852,9 +871,24 @@ const command command_draw = {
               "Exit status: 0 done, 1 wrong argument, 2 wrong input, 3 no OpenGL, 4 output not written, 5 cancelled,\n"
               "6 out of memory or a defect.",
     .options = options,
-    .option_count = OPTION_COUNT(options),
+    .option_count = OPTION_COUNT(options) - DEPICT_OPTION_COUNT,
     .values_size = sizeof(draw_values),
     .inputs_min = 1,
     .inputs_max = (size_t)-1,
     .run = run,
+};
+
+const command command_depict = {
+    .name = "depict",
+    .inputs = "INPUT…",
+    .summary = "Draw what happens in models: arrows, ghost images and signs in one still.",
+    .detail =
+        "Draws as `limner draw` does, with signs that tell the motion. What is told follows from what moves, or from\n"
+        "--expressions (docs/DEPICTION.md).",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(draw_values),
+    .inputs_min = 1,
+    .inputs_max = (size_t)-1,
+    .run = run_depict,
 };

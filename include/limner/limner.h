@@ -27,6 +27,7 @@
 #define LIMNER_LIMNER_H
 
 #include "limner/content.h"
+#include "limner/depict.h"
 #include "limner/draw.h"
 #include "limner/error.h"
 #include "limner/film.h"

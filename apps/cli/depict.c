@@ -1,0 +1,68 @@
+#include "depict.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+#include "sets.h"
+
+/* "1:2.5" */
+static int parse_interval(const char *text, lmn_depict_desc *d)
+{
+    char *end = NULL, *last = NULL;
+    d->from_s = strtod(text, &end);
+    if (end != text && *end == ':')
+        d->to_s = strtod(end + 1, &last);
+    d->interval_given = last && last != end + 1 && !*last && d->from_s >= 0 && d->to_s > d->from_s;
+    return d->interval_given
+               ? EXIT_DONE
+               : message_usage("for example --interval 0:1.5",
+                               "--interval is '%.60s'; allowed is FROM:TO in seconds, FROM before TO", text);
+}
+
+/* The array of expressions that a file has, as text; NULL: message printed. */
+static char *read_expressions(const char *path)
+{
+    json_error_t  wrong;
+    json_t       *root = json_load_file(path, JSON_REJECT_DUPLICATES, &wrong);
+    const json_t *array = json_is_object(root) ? json_object_get(root, "expressions") : root;
+    char         *text = json_is_array(array) ? json_dumps(array, JSON_REAL_PRECISION(17)) : NULL;
+    if (!root)
+        message_usage(NULL, "%s: line %d, column %d: %s", path, wrong.line, wrong.column, wrong.text);
+    else if (!json_is_array(array))
+        message_usage("an array, or an object with \"expressions\"", "%s: there are no expressions in it", path);
+    else if (!text)
+        message_out_of_memory();
+    json_decref(root);
+    return text;
+}
+
+/* Without a time: where most of the motion is past and some is to come. */
+static void settle_time(const lmn_scene *scene, lmn_draw_desc *desc, const lmn_depict_desc *d)
+{
+    const double end = clip_end(scene, desc->clip);
+    if (!desc->time_given && end > 0) {
+        desc->time_s = d->interval_given ? d->from_s + 0.6 * (d->to_s - d->from_s) : 0.6 * end;
+        desc->time_given = true;
+    }
+    desc->fit_time = false;
+}
+
+int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain)
+{
+    lmn_depict_desc d = LMN_DEPICT_DESC_INIT;
+    lmn_error       error = {0};
+    char           *json = NULL, *text = expressions ? read_expressions(expressions) : NULL;
+    if (expressions && !text)
+        return EXIT_USAGE;
+    int status = interval ? parse_interval(interval, &d) : EXIT_DONE;
+    if (status == EXIT_DONE) {
+        settle_time(scene, desc, &d);
+        d.expressions = text;
+        if (lmn_depict(scene, desc, &d, explain ? &json : NULL, &error) != LMN_OK)
+            status = message_error(&error);
+    }
+    free(text);
+    return status == EXIT_DONE && explain ? print_and_free(json) : status;
+}

@@ -1,0 +1,51 @@
+/* Depiction: signs that tell what happens in a scene, as arrows for ways, ghost images, motion lines, stars where
+ * things meet. They are put into the scene as content, so that lmn_draw and lmn_draw_sheet draw them with any look.
+ * Nienhaus 2005, chapter 7. No GL context needed. A scene is changed by one thread at a time and never while it is
+ * drawn. All since 0.1. */
+#ifndef LIMNER_DEPICT_H
+#define LIMNER_DEPICT_H
+
+#include "limner/draw.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is told. Initialise with LMN_DEPICT_DESC_INIT. */
+typedef struct lmn_depict_desc {
+    size_t struct_size;
+    /* JSON: an array of expressions (docs/DEPICTION.md), each with its "target", what is to be depicted of it and how.
+     * NULL: chosen from what moves in the scene. */
+    const char *expressions;
+    bool        interval_given; /* else the whole of the clips */
+    double      from_s, to_s;   /* where nothing else is said; seconds */
+} lmn_depict_desc;
+#define LMN_DEPICT_DESC_INIT                                                                                           \
+    {                                                                                                                  \
+        sizeof(lmn_depict_desc), NULL, false, 0, 0                                                                     \
+    }
+
+/* Puts signs into the scene, in place of those of an earlier call: nodes below one called "glyphs", which looks select
+ * by [glyph=arrow], [of=NAME] and [when=past]. They turn to the viewer that `draw` places, and tell past and future of
+ * its time. Things for which ghost images stand are hidden. `json` (may be NULL) gets {"expressions", "reasons"}: what
+ * was told and, where it was chosen, why; free it with lmn_text_free. Errors: LMN_USAGE (an expression, the
+ * description), LMN_FORMAT (no JSON), LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. */
+LMN_API lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
+                              lmn_error *error);
+
+/* Takes all signs out of the scene and shows what was hidden for them. Errors: LMN_USAGE, LMN_MEMORY. */
+LMN_API lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error);
+
+/* The ways to depict something, one after the other. */
+typedef struct lmn_depiction_info {
+    const char *name;      /* as expressions call it; static, as all text here */
+    const char *semantics; /* of which things alone; NULL: any */
+    const char *doc;
+    size_t      param_count;
+} lmn_depiction_info;
+LMN_API bool lmn_depiction_at(size_t index, lmn_depiction_info *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

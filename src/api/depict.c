@@ -1,0 +1,97 @@
+/* Depiction: checks arguments and forwards. */
+#include "limner/depict.h"
+
+#include <string.h>
+
+#include "api/check_desc.h"
+#include "api/complete.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/work.h"
+#include "depict/depict.h"
+#include "look/value.h"
+#include "plan/time.h"
+
+bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
+{
+    size_t count = 0;
+    while (depictions[count])
+        count++;
+    if (index >= count || !out)
+        return false;
+    const depiction *d = depictions[index];
+    *out = (lmn_depiction_info){d->characteristic, d->semantics, d->doc, d->param_count};
+    return true;
+}
+
+lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error)
+{
+    return scene ? depict_clear(scene, error) : error_set(error, LMN_USAGE, "lmn_depict_clear: `scene` is NULL");
+}
+
+static lmn_status complete(lmn_depict_desc *full, const lmn_depict_desc *given, lmn_error *error)
+{
+    lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_DEPICT_DESC_INIT", error);
+    if (status == LMN_OK && full->interval_given &&
+        !(full->from_s >= 0 && full->to_s > full->from_s && full->to_s <= 1e9))
+        return error_set(error, LMN_USAGE, "lmn_depict: the interval is from %g to %g seconds", full->from_s,
+                         full->to_s);
+    return status;
+}
+
+/* What is told: as it is given, or as the scene proposes. */
+static lmn_status find_expressions(expression_list *out, json_t **reasons, const lmn_scene *scene,
+                                   const lmn_depict_desc *d, const lmn_draw_desc *draw, lmn_error *error)
+{
+    moment     when;
+    size_t     bad = 0;
+    lmn_status status = time_moment(&when, scene, draw, NULL, error);
+    if (status != LMN_OK)
+        return status;
+    if (!d->expressions) {
+        double from = d->interval_given ? d->from_s : 0,
+               to = d->interval_given ? d->to_s : moment_duration(&when, scene);
+        return depict_propose(out, reasons, scene, &when, from, to, error);
+    }
+    json_error_t wrong;
+    json_t      *array = json_loads(d->expressions, JSON_REJECT_DUPLICATES, &wrong);
+    if (!array)
+        return error_set(error, LMN_FORMAT, "expressions: line %d, column %d: %s", wrong.line, wrong.column,
+                         wrong.text);
+    status = expressions_read(out, array, scene, &when, &bad, error);
+    json_decref(array);
+    return status;
+}
+
+lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
+                      lmn_error *error)
+{
+    lmn_depict_desc full = LMN_DEPICT_DESC_INIT;
+    lmn_draw_desc   wanted;
+    expression_list list = {0};
+    json_t         *reasons = NULL;
+    if (json)
+        *json = NULL;
+    if (!scene)
+        return error_set(error, LMN_USAGE, "lmn_depict: `scene` is NULL");
+    lmn_status status = check_draw_desc(&wanted, draw, error);
+    if (status == LMN_OK)
+        status = complete(&full, desc, error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, wanted.progress, wanted.progress_user);
+    status = depict_clear(scene, error);
+    if (status == LMN_OK)
+        status = find_expressions(&list, &reasons, scene, &full, &wanted, error);
+    if (status == LMN_OK)
+        status = depict(scene, &list, &wanted, NULL, error);
+    if (status == LMN_OK && json) {
+        *json = value_text(json_pack("{s:o,s:O?}", "expressions", expressions_json(&list, scene), "reasons", reasons));
+        status = *json ? LMN_OK : error_memory(error);
+    }
+    status = work_end(&w, status, error);
+    json_decref(reasons);
+    expression_list_release(&list);
+    return status;
+}

@@ -1,0 +1,184 @@
+/* Glyphs as meshes. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "construct/construct.h"
+#include "depict/depict_private.h"
+
+void depict_to_eye(const depict_job *j, const double at[3], double out[3])
+{
+    vector3_add(out, j->camera.orthographic ? j->camera.target : at, 0, at);
+    for (int k = 0; k < 3; k++)
+        out[k] = j->camera.eye[k] - (j->camera.orthographic ? j->camera.target[k] : at[k]);
+    if (!vector3_normalise(out))
+        vector3_set(out, 0, 0, 1);
+}
+
+void depict_lift(const depict_job *j, double at[3], double distance)
+{
+    double to_eye[3];
+    depict_to_eye(j, at, to_eye);
+    if (!j->camera.orthographic)
+        distance = fmin(distance, 0.8 * vector3_distance(j->camera.eye, at));
+    vector3_add(at, at, distance, to_eye);
+}
+
+double depict_random(const depict_job *j, const expression *e, uint32_t which, uint32_t what)
+{
+    random_source r = random_start(j->seed ^ (e->number * 0x9E3779B9u), which * 64 + what);
+    return random_unit(&r);
+}
+
+/* --- meshes ------------------------------------------------------------------------------------------------------- */
+
+uint32_t glyph_vertex(glyph_mesh *m, const double at[3])
+{
+    if (m->failed ||
+        !mem_grow((void **)&m->positions, &m->position_capacity, m->position_count + 1, sizeof *m->positions)) {
+        m->failed = true;
+        return 0;
+    }
+    m->positions[m->position_count] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
+    return (uint32_t)m->position_count++;
+}
+
+void glyph_triangle(glyph_mesh *m, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (m->failed || !mem_grow((void **)&m->indices, &m->index_capacity, m->index_count + 3, sizeof *m->indices)) {
+        m->failed = true;
+        return;
+    }
+    m->indices[m->index_count++] = a;
+    m->indices[m->index_count++] = b;
+    m->indices[m->index_count++] = c;
+}
+
+void glyph_line(glyph_mesh *m, uint32_t a, uint32_t b)
+{
+    if (m->failed || !mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 2, sizeof *m->lines)) {
+        m->failed = true;
+        return;
+    }
+    m->lines[m->line_count++] = a;
+    m->lines[m->line_count++] = b;
+}
+
+void glyph_mesh_release(glyph_mesh *m)
+{
+    mem_free(m->positions);
+    mem_free(m->indices);
+    mem_free(m->lines);
+    memset(m, 0, sizeof *m);
+}
+
+/* --- flat things that face the viewer ----------------------------------------------------------------------------- */
+
+/* Across the way and the line of sight; what it was before where the two are one. */
+static void ribbon_side(const depict_job *j, const glyph_ribbon *r, size_t i, double side[3])
+{
+    double       along[3], to_eye[3], wanted[3];
+    const size_t before = i > 0 ? i - 1 : 0, after = i + 1 < r->count ? i + 1 : i;
+    double       a[3], b[3];
+    vector3_add(a, r->points[i], -1, r->points[before]);
+    vector3_add(b, r->points[after], -1, r->points[i]);
+    bool has_a = vector3_normalise(a), has_b = vector3_normalise(b);
+    for (int k = 0; k < 3; k++)
+        along[k] = (has_a ? a[k] : 0) + (has_b ? b[k] : 0);
+    depict_to_eye(j, r->points[i], to_eye);
+    vector3_cross(wanted, to_eye, along);
+    if (vector3_length(wanted) > 0.02 && vector3_normalise(wanted)) {
+        /* At a corner the breadth stays what it is. */
+        double across[3];
+        vector3_cross(across, to_eye, has_b ? b : a);
+        double slant = vector3_normalise(across) ? fabs(vector3_dot(across, wanted)) : 1;
+        vector3_copy(side, wanted);
+        for (int k = 0; k < 3; k++)
+            side[k] /= fmax(slant, 0.5);
+    }
+}
+
+void glyph_put_ribbon(glyph_mesh *m, const depict_job *j, const glyph_ribbon *r)
+{
+    double   side[3];
+    uint32_t last[2] = {0, 0};
+    vector3_copy(side, j->camera.up);
+    for (size_t i = 0; i < r->count && r->count > 1; i++) {
+        double left[3], right[3];
+        ribbon_side(j, r, i, side);
+        vector3_add(left, r->points[i], r->widths[i] / 2, side);
+        vector3_add(right, r->points[i], -r->widths[i] / 2, side);
+        uint32_t a = glyph_vertex(m, left), b = r->widths[i] > 0 ? glyph_vertex(m, right) : a;
+        if (i > 0 && last[0] != last[1])
+            glyph_triangle(m, last[0], last[1], a);
+        if (i > 0 && a != b)
+            glyph_triangle(m, a, last[1], b);
+        last[0] = a;
+        last[1] = b;
+    }
+}
+
+/* The page's axes. */
+static void page_axes(const depict_job *j, double right[3], double up[3])
+{
+    const double *v = j->camera.view.m;
+    for (int k = 0; k < 3; k++) {
+        right[k] = v[4 * k];
+        up[k] = v[4 * k + 1];
+    }
+}
+
+void glyph_put_polygon(glyph_mesh *m, const depict_job *j, const double at[3], const double (*points)[2], size_t count)
+{
+    double right[3], up[3], p[3];
+    page_axes(j, right, up);
+    uint32_t middle = glyph_vertex(m, at), first = 0, last = 0;
+    for (size_t i = 0; i < count; i++) {
+        vector3_add(p, at, points[i][0], right);
+        vector3_add(p, p, points[i][1], up);
+        uint32_t v = glyph_vertex(m, p);
+        if (i > 0)
+            glyph_triangle(m, middle, last, v);
+        first = i == 0 ? v : first;
+        last = v;
+    }
+    if (count > 2)
+        glyph_triangle(m, middle, last, first);
+}
+
+lmn_status glyph_put_text(glyph_mesh *m, const depict_job *j, const double at[3], const char *text, double height,
+                          double size[2], lmn_error *error)
+{
+    const text_style style = {.size = height, .spacing = 1, .font = "sans:bold"};
+    region           letters = {0};
+    polyhedron       block = {0};
+    bool             missing = false;
+    double           low[2], high[2], right[3], up[3], p[3];
+    lmn_status       status = construct_text(&letters, text, &style, (facets){.fn = 12}, &missing, error);
+    size[0] = size[1] = 0;
+    if (status == LMN_OK && region_bounds(&letters, low, high)) {
+        /* The lower face of a plate of letters: triangles of the region. */
+        linear_extrusion how = {.height = height, .scale = {1, 1}, .facets = {.fn = 12}};
+        status = construct_linear_extrude(&block, &letters, &how, error);
+        page_axes(j, right, up);
+        size[0] = high[0] - low[0];
+        size[1] = high[1] - low[1];
+        uint32_t first = (uint32_t)m->position_count;
+        for (size_t i = 0; i < block.point_count; i++) {
+            vector3_add(p, at, block.points[i].x - (low[0] + high[0]) / 2, right);
+            vector3_add(p, p, block.points[i].y - (low[1] + high[1]) / 2, up);
+            glyph_vertex(m, p);
+        }
+        for (size_t i = 0; i < block.triangle_count; i++) {
+            const uint32_t *t = &block.triangles[3 * i];
+            if (block.points[t[0]].z > height / 2 && block.points[t[1]].z > height / 2 &&
+                block.points[t[2]].z > height / 2)
+                glyph_triangle(m, first + t[0], first + t[1], first + t[2]);
+        }
+    }
+    polyhedron_release(&block);
+    region_release(&letters);
+    return status;
+}

@@ -1,0 +1,133 @@
+/* What the rooms of glyphs share. */
+#ifndef LIMNER_DEPICT_DEPICT_PRIVATE_H
+#define LIMNER_DEPICT_DEPICT_PRIVATE_H
+
+#include "base/vector3.h"
+#include "depict/depict.h"
+#include "depict/way.h"
+#include "plan/camera.h"
+
+/* --- the job: glyphs of one scene for one viewer ------------------------------------------------------------- */
+
+typedef enum glyph_tense { GLYPH_PAST, GLYPH_PRESENT, GLYPH_FUTURE } glyph_tense;
+struct glyph;
+
+typedef struct depict_job {
+    const lmn_scene *scene; /* without glyphs */
+    moment           when;
+    view_camera      camera;
+    double           size; /* of the scene: the diagonal of its box */
+    uint32_t         seed;
+    warnings        *warnings;
+    struct glyph    *glyphs; /* made so far; owned */
+    size_t           glyph_count, glyph_capacity;
+} depict_job;
+
+/* Direction from a position to the viewer, unit. */
+void depict_to_eye(const depict_job *j, const double at[3], double out[3]);
+/* 0 … 1, the same for the same numbers. */
+double depict_random(const depict_job *j, const expression *e, uint32_t which, uint32_t what);
+/* A position moved towards the viewer: the same place on the page, before all that is nearer than `distance`. */
+void depict_lift(const depict_job *j, double at[3], double distance);
+
+/* --- target.c: what is told of -------------------------------------------------------------------------------- */
+
+/* Its parts are those at its node and below. */
+typedef struct depict_target {
+    int32_t node;      /* that was named */
+    way     way;       /* of the node, or of what carries a skin: its hip */
+    double  centre[3]; /* in the way's axes */
+    double  radius;    /* of its box, world, at rest */
+    bool   *parts;     /* per part of the scene */
+    size_t  part_count;
+} depict_target;
+lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error);
+void       target_release(depict_target *t);
+
+/* All vertices of its parts in the world at a time; mem_free. NULL: out of memory, or *count is 0. */
+lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const depict_target *t, double seconds,
+                           lmn_error *error);
+
+/* When something's velocity changes at once within an interval, most of all: impacts. */
+typedef struct depict_impact {
+    double time, at[3]; /* of the centre */
+    double change[3];   /* of velocity, units a second */
+    double speed;       /* before it */
+} depict_impact;
+/* Those of a target, in order, at most `most`. *count gets how many. Errors: LMN_MEMORY. */
+lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
+                        lmn_error *error);
+/* Where it touches what it meets: the vertex that is farthest against the change of velocity. */
+lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *i,
+                          lmn_error *error);
+
+/* --- build.c: glyphs as meshes ------------------------------------------------------------------- */
+
+typedef struct glyph_mesh {
+    vec3     *positions;
+    uint32_t *indices; /* 3 a triangle */
+    uint32_t *lines;   /* 2 a line; a mesh has triangles or lines */
+    size_t    position_count, position_capacity, index_count, index_capacity, line_count, line_capacity;
+    bool      failed; /* out of memory: all later calls do nothing */
+} glyph_mesh;
+
+uint32_t glyph_vertex(glyph_mesh *m, const double at[3]);
+void     glyph_triangle(glyph_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+void     glyph_line(glyph_mesh *m, uint32_t a, uint32_t b);
+void     glyph_mesh_release(glyph_mesh *m);
+
+/* How a glyph can be selected, and its colour (sRGB, straight alpha). */
+typedef struct glyph_label {
+    const char *glyph; /* "arrow" */
+    int32_t     of;    /* node */
+    glyph_tense when;
+    colour      tint;
+    bool        sketchy; /* to be drawn loosely */
+} glyph_label;
+
+typedef struct glyph {
+    glyph_mesh  mesh;
+    glyph_label label;
+} glyph;
+
+/* --- put.c: glyphs as content of the scene ------------------------------------------------------------------- */
+
+/* Puts a mesh among the job's glyphs, which take over what it holds; nothing of an empty one. Errors: LMN_MEMORY. */
+lmn_status glyph_put(depict_job *j, glyph_mesh *m, const glyph_label *label, lmn_error *error);
+void       glyphs_release(depict_job *j);
+/* All of the job's glyphs below a node of the scene. Errors: LMN_MEMORY, LMN_LIMIT, LMN_FORMAT. */
+lmn_status glyphs_into_scene(lmn_scene *scene, depict_job *j, int32_t root, lmn_error *error);
+
+/* --- build.c: flat things that face the viewer ---------------------------------------------------------------- */
+
+/* A line with breadth that faces the viewer, through points in the world. */
+typedef struct glyph_ribbon {
+    const double (*points)[3];
+    const double *widths; /* per point */
+    size_t        count;
+} glyph_ribbon;
+void glyph_put_ribbon(glyph_mesh *m, const depict_job *j, const glyph_ribbon *r);
+/* A flat polygon in the page's plane at a place: points are across and up from it, in units of the world. It is
+ * star-shaped around the place. */
+void glyph_put_polygon(glyph_mesh *m, const depict_job *j, const double at[3], const double (*points)[2], size_t count);
+/* Lettering in the page's plane, its middle at a place; `height` of a capital. `size` gets its breadth and height.
+ * Errors: LMN_MEMORY, LMN_FORMAT … of construct_text. */
+lmn_status glyph_put_text(glyph_mesh *m, const depict_job *j, const double at[3], const char *text, double height,
+                          double size[2], lmn_error *error);
+
+/* --- arrow.c ------------------------------------------------------------------------------------------------------ */
+
+typedef struct arrow_style {
+    double width;     /* units */
+    double dash, gap; /* units along it; 0: solid */
+    double tail;      /* width where it begins, fraction */
+    double head;      /* its length in widths; 0: none */
+} arrow_style;
+/* An arrow through points in the world. */
+void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[3], size_t count,
+                     const arrow_style *style);
+
+/* The colours of tenses where nobody says another. */
+colour depict_tint(glyph_tense when, colour wanted);
+
+#endif

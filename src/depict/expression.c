@@ -1,0 +1,216 @@
+/* Expressions: read, written, kept. Nienhaus 2005, section 7.7. */
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "depict/depict.h"
+#include "look/value.h"
+
+static const char *const own_keys[] = {"target", "depict", "from", "to", "now", "partner"};
+
+const depiction *depiction_find(const char *characteristic, const char *semantics)
+{
+    const depiction *any = NULL;
+    for (size_t i = 0; depictions[i]; i++) {
+        const depiction *d = depictions[i];
+        if (strcmp(d->characteristic, characteristic) != 0)
+            continue;
+        if (d->semantics && semantics && strcmp(d->semantics, semantics) == 0)
+            return d;
+        any = d->semantics ? any : d;
+    }
+    return any;
+}
+
+void expression_list_release(expression_list *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        mem_free(l->items[i].values);
+    mem_free(l->items);
+    memset(l, 0, sizeof *l);
+}
+
+expression *expression_add(expression_list *l, const depiction *row, int32_t target, double from, double to, double now)
+{
+    void *values = mem_calloc(1, row->values_size);
+    if (!values || !mem_grow((void **)&l->items, &l->capacity, l->count + 1, sizeof *l->items)) {
+        mem_free(values);
+        return NULL;
+    }
+    params_set_defaults(row->params, row->param_count, values);
+    l->items[l->count] = (expression){row, target, NONE, from, to, now, (uint32_t)l->count, values};
+    return &l->items[l->count++];
+}
+
+/* --- names -----------------------------------------------------------------------------------------------------------
+ */
+
+int32_t depict_find_node(const lmn_scene *scene, const char *name)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < scene->node_count; i++) {
+            const node *n = &scene->nodes[i];
+            if (n->name && !n->removed && (pass ? text_glob(name, n->name) : strcmp(name, n->name) == 0))
+                return (int32_t)i;
+        }
+        for (size_t i = 0; i < scene->part_count; i++)
+            if (pass ? text_glob(name, scene->parts[i].path) : strcmp(name, scene->parts[i].path) == 0)
+                return scene->parts[i].node;
+    }
+    return NONE;
+}
+
+const char *depict_semantics(const lmn_scene *scene, int32_t node_index)
+{
+    const node *n = &scene->nodes[node_index];
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, "semantics") == 0)
+            return n->attributes[i].value;
+    return n->camera != NONE ? "camera" : NULL;
+}
+
+/* --- reading ---------------------------------------------------------------------------------------------------------
+ */
+
+static lmn_status read_node(int32_t *out, const json_t *one, const char *key, const lmn_scene *scene, lmn_error *error)
+{
+    const char *name = json_string_value(json_object_get(one, key));
+    if (!name)
+        return error_set(error, LMN_USAGE, "an expression needs \"%s\", the name of a node", key);
+    *out = depict_find_node(scene, name);
+    if (*out != NONE)
+        return LMN_OK;
+    error_set(error, LMN_USAGE, "\"%s\" is '%.120s'; there is no such node", key, name);
+    error_hint(error, "`limner info` lists parts");
+    return LMN_USAGE;
+}
+
+static lmn_status read_time(double *out, const json_t *one, const char *key, lmn_error *error)
+{
+    const json_t *value = json_object_get(one, key);
+    if (!value)
+        return LMN_OK;
+    if (!json_is_number(value))
+        return error_set(error, LMN_USAGE, "\"%s\" is no number of seconds", key);
+    *out = json_number_value(value);
+    return *out >= 0 && *out <= 1e9 ? LMN_OK
+                                    : error_set(error, LMN_USAGE, "\"%s\" is %g; allowed is 0 to 1e9", key, *out);
+}
+
+static lmn_status read_row(const depiction **out, const json_t *one, const lmn_scene *scene, int32_t target,
+                           lmn_error *error)
+{
+    enum { ROWS = 64 };
+    const char *token = json_string_value(json_object_get(one, "depict")), *names[ROWS];
+    size_t      count = 0;
+    if (!token)
+        return error_set(error, LMN_USAGE, "an expression needs \"depict\", for example \"path\"");
+    *out = depiction_find(token, depict_semantics(scene, target));
+    if (*out)
+        return LMN_OK;
+    for (size_t i = 0; depictions[i] && count < ROWS; i++)
+        names[count++] = depictions[i]->characteristic;
+    const char *near = text_nearest(token, names, count);
+    error_set(error, LMN_USAGE, "there is no way to depict '%.80s'", token);
+    error_hint(error, "%s%s%s", near ? "did you mean '" : "`limner depict --list` lists them", near ? near : "",
+               near ? "'?" : "");
+    return LMN_USAGE;
+}
+
+static lmn_status read_values(expression *e, const json_t *one, lmn_error *error)
+{
+    const char *key;
+    json_t     *value;
+    json_object_foreach((json_t *)one, key, value)
+    {
+        const param *p = NULL;
+        bool         own = false;
+        for (size_t i = 0; i < PARAM_COUNT(own_keys); i++)
+            own = own || strcmp(key, own_keys[i]) == 0;
+        for (size_t i = 0; i < e->row->param_count; i++)
+            p = strcmp(key, e->row->params[i].key) == 0 ? &e->row->params[i] : p;
+        lmn_status status = LMN_OK;
+        if (p)
+            status = value_set_json(p, e->values, value, error);
+        else if (!own)
+            status = error_set(error, LMN_USAGE, "'%.60s' has no parameter '%.60s'", e->row->characteristic, key);
+        if (status != LMN_OK)
+            return status;
+    }
+    return LMN_OK;
+}
+
+static lmn_status read_one(expression_list *out, const json_t *one, const lmn_scene *scene, const moment *when,
+                           lmn_error *error)
+{
+    int32_t          target = NONE, partner = NONE;
+    double           from = 0, to = moment_duration(when, scene), now = when->seconds;
+    const depiction *row = NULL;
+    if (!json_is_object(one))
+        return error_set(error, LMN_USAGE, "an expression is an object");
+    lmn_status status = read_node(&target, one, "target", scene, error);
+    if (status == LMN_OK && json_object_get(one, "partner"))
+        status = read_node(&partner, one, "partner", scene, error);
+    if (status == LMN_OK)
+        status = read_row(&row, one, scene, target, error);
+    if (status == LMN_OK)
+        status = read_time(&from, one, "from", error);
+    if (status == LMN_OK)
+        status = read_time(&to, one, "to", error);
+    if (status == LMN_OK)
+        status = read_time(&now, one, "now", error);
+    if (status == LMN_OK && from > to)
+        status = error_set(error, LMN_USAGE, "the interval is empty: from %g to %g", from, to);
+    if (status != LMN_OK)
+        return status;
+    expression *e = expression_add(out, row, target, from, to, now);
+    if (!e)
+        return error_memory(error);
+    e->partner = partner;
+    return read_values(e, one, error);
+}
+
+lmn_status expressions_read(expression_list *out, const json_t *array, const lmn_scene *scene, const moment *when,
+                            size_t *bad, lmn_error *error)
+{
+    if (!json_is_array(array))
+        return error_set(error, LMN_USAGE, "expressions are an array of objects");
+    for (size_t i = 0; i < json_array_size(array); i++) {
+        lmn_status status = read_one(out, json_array_get(array, i), scene, when, error);
+        if (bad)
+            *bad = i;
+        if (status != LMN_OK)
+            return status;
+    }
+    return LMN_OK;
+}
+
+/* --- writing ---------------------------------------------------------------------------------------------------------
+ */
+
+static const char *name_of(const lmn_scene *scene, int32_t node_index)
+{
+    return scene->nodes[node_index].name ? scene->nodes[node_index].name : "";
+}
+
+json_t *expressions_json(const expression_list *l, const lmn_scene *scene)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < l->count; i++) {
+        const expression *e = &l->items[i];
+        json_t           *one =
+            json_pack("{s:s,s:s,s:o,s:o,s:o}", "target", name_of(scene, e->target), "depict", e->row->characteristic,
+                      "from", value_number(e->from), "to", value_number(e->to), "now", value_number(e->now));
+        if (one && e->partner != NONE)
+            json_object_set_new(one, "partner", json_string(name_of(scene, e->partner)));
+        for (size_t k = 0; one && k < e->row->param_count; k++)
+            if (!param_is_default(&e->row->params[k], e->values))
+                json_object_set_new(one, e->row->params[k].key, value_json(&e->row->params[k], e->values));
+        if (json_array_append_new(array, one) != 0) {
+            json_decref(array);
+            return NULL;
+        }
+    }
+    return array;
+}

@@ -1,0 +1,119 @@
+/* Glyphs into the scene: meshes, nodes and materials. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "depict/depict_private.h"
+#include "scene/content.h"
+
+lmn_status glyph_put(depict_job *j, glyph_mesh *m, const glyph_label *label, lmn_error *error)
+{
+    if (m->failed || !mem_grow((void **)&j->glyphs, &j->glyph_capacity, j->glyph_count + 1, sizeof *j->glyphs))
+        return error_memory(error);
+    if (m->index_count == 0 && m->line_count == 0) {
+        glyph_mesh_release(m);
+        return LMN_OK;
+    }
+    j->glyphs[j->glyph_count++] = (glyph){*m, *label};
+    memset(m, 0, sizeof *m);
+    return LMN_OK;
+}
+
+void glyphs_release(depict_job *j)
+{
+    for (size_t i = 0; i < j->glyph_count; i++)
+        glyph_mesh_release(&j->glyphs[i].mesh);
+    mem_free(j->glyphs);
+    j->glyphs = NULL;
+    j->glyph_count = j->glyph_capacity = 0;
+}
+
+/* The material of a colour: one for all glyphs that have it. NONE: out of memory. */
+static int32_t material_for(lmn_scene *s, colour tint)
+{
+    const vec4 wanted = {colour_to_linear(tint.r), colour_to_linear(tint.g), colour_to_linear(tint.b), 1};
+    for (size_t i = 0; i < s->material_count; i++)
+        if (s->materials[i].name && strcmp(s->materials[i].name, "glyph") == 0 &&
+            memcmp(&s->materials[i].base_colour, &wanted, sizeof wanted) == 0)
+            return (int32_t)i;
+    char     *name = mem_copy_text("glyph");
+    material *m = name ? scene_append_material(s) : NULL;
+    if (!m) {
+        mem_free(name);
+        return NONE;
+    }
+    m->name = name;
+    m->base_colour = wanted;
+    m->double_sided = true;
+    return (int32_t)s->material_count - 1;
+}
+
+/* The node's name says what it is and of what: "arrow of ball". */
+static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph_label *label, lmn_error *error)
+{
+    static const char *const tenses[] = {"past", "present", "future"};
+    const char              *of = s->nodes[label->of].name;
+    char                     name[160];
+    snprintf(name, sizeof name, "%s of %.120s", label->glyph, of ? of : "it");
+    node       wanted = {.name = mem_copy_text(name),
+                         .parent = root,
+                         .first_child = NONE,
+                         .next_sibling = NONE,
+                         .last_child = NONE,
+                         .rotation = {0, 0, 0, 1},
+                         .scale = {1, 1, 1},
+                         .mesh = mesh,
+                         .skin = NONE,
+                         .camera = NONE,
+                         .light = NONE,
+                         .solid = NONE};
+    lmn_status status = wanted.name ? scene_add_node(s, &wanted, error) : error_memory(error);
+    if (status != LMN_OK) {
+        mem_free(wanted.name);
+        return status;
+    }
+    int32_t added = (int32_t)s->node_count - 1;
+    status = scene_set_attribute(s, added, "glyph", label->glyph, error);
+    if (status == LMN_OK && s->nodes[label->of].name)
+        status = scene_set_attribute(s, added, "of", s->nodes[label->of].name, error);
+    if (status == LMN_OK && label->sketchy)
+        status = scene_set_attribute(s, added, "sketchy", "true", error);
+    return status == LMN_OK ? scene_set_attribute(s, added, "when", tenses[label->when], error) : status;
+}
+
+static lmn_status add_mesh(lmn_scene *s, glyph_mesh *m, colour tint, lmn_error *error)
+{
+    primitive  p = {.vertex_count = (uint32_t)m->position_count,
+                    .index_count = (uint32_t)m->index_count,
+                    .positions = m->positions,
+                    .indices = m->indices,
+                    .lines = m->lines,
+                    .line_count = (uint32_t)m->line_count / 2,
+                    .material = material_for(s, tint)};
+    lmn_status status = p.material == NONE ? error_memory(error) : scene_check_mesh(s, NONE, &p, error);
+    mesh      *added = status == LMN_OK ? scene_append_mesh(s) : NULL;
+    if (status == LMN_OK && !added)
+        status = error_memory(error);
+    if (status != LMN_OK)
+        return status;
+    added->revision = added->topology = scene_next_revision();
+    status = scene_exchange_mesh(s, (int32_t)s->mesh_count - 1, &p, error);
+    if (status == LMN_OK)
+        memset(m, 0, sizeof *m);
+    else
+        s->mesh_count--;
+    return status;
+}
+
+lmn_status glyphs_into_scene(lmn_scene *s, depict_job *j, int32_t root, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < j->glyph_count && status == LMN_OK; i++) {
+        glyph *g = &j->glyphs[i];
+        status = add_mesh(s, &g->mesh, g->label.tint, error);
+        if (status == LMN_OK)
+            status = add_node(s, root, (int32_t)s->mesh_count - 1, &g->label, error);
+    }
+    return status;
+}

@@ -1,0 +1,271 @@
+/* Ghost images: the target where it was, is and will be; stretched along its velocity and flattened where it is
+ * stopped, volume kept; of paper planes with wings bent by what pushes them across. Nienhaus 2005, sections 7.6, 7.9.
+ */
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "depict/depict_private.h"
+
+typedef struct still_values {
+    int32_t count;
+    float   stretch, fade, bend;
+    bool    sketchy;
+    colour  colour;
+} still_values;
+
+static const param still_params[] = {
+    PARAM_INT_ROW(still_values, count, .def = 1, .min = 1, .max = 64, .soft_max = 12, .unit = UNIT_COUNT,
+                  .doc = "How many, at equal times from the interval's begin to its end; one is at now."),
+    PARAM_FLOAT_ROW(still_values, stretch, .def = 0, .min = 0, .max = 2, .soft_max = 1,
+                    .doc = "How far speed stretches it and impacts flatten it, volume kept; 0: rigid."),
+    PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How much paler than the target those farthest from now are."),
+    PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
+    PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
+                     .doc = "Of those of past and future; none: the target's own."),
+};
+
+static const param plane_params[] = {
+    PARAM_INT_ROW(still_values, count, .def = 1, .min = 1, .max = 64, .soft_max = 12, .unit = UNIT_COUNT,
+                  .doc = "How many, at equal times from the interval's begin to its end; one is at now."),
+    PARAM_FLOAT_ROW(still_values, bend, .def = 0.5, .min = 0, .max = 5, .soft_max = 1,
+                    .doc = "How far wing tips lag behind the acceleration across the way, in radii at the strongest."),
+    PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How much paler than the target those farthest from now are."),
+    PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
+    PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
+                     .doc = "Of those of past and future; none: the target's own."),
+};
+
+/* --- deformation -----------------------------------------------------------------------------------------------------
+ */
+
+/* Of positions in the world, around a middle. */
+typedef struct shape_change {
+    double middle[3], axis[3], along, across; /* factors */
+    double pull[3], reach;                    /* wings: displacement at a distance of `reach` from the way's axis */
+} shape_change;
+
+static vec3 change_apply(const shape_change *c, vec3 at)
+{
+    double p[3] = {(double)at.x, (double)at.y, (double)at.z}, d[3];
+    vector3_add(d, p, -1, c->middle);
+    double along = vector3_dot(d, c->axis);
+    vector3_add(d, d, -along, c->axis);
+    double far = c->reach > 0 ? vector3_length(d) / c->reach : 0;
+    for (int k = 0; k < 3; k++)
+        p[k] = c->middle[k] + along * c->along * c->axis[k] + d[k] * c->across + far * far * c->pull[k];
+    return (vec3){(float)p[0], (float)p[1], (float)p[2]};
+}
+
+/* Fast things are long, stopped ones flat: s along, 1/√s across, so that the volume stays. */
+static lmn_status change_find(shape_change *c, const expression *e, const depict_target *t, double seconds,
+                              double usual, lmn_error *error)
+{
+    const still_values *v = e->values;
+    depict_impact       impact;
+    size_t              impacts = 0;
+    double              velocity[3], span = 1.0 / 60;
+    memset(c, 0, sizeof *c);
+    c->along = c->across = 1;
+    way_point(&t->way, t->centre, seconds, c->middle);
+    way_velocity(&t->way, t->centre, seconds, span, velocity);
+    vector3_copy(c->axis, velocity);
+    if (!vector3_normalise(c->axis))
+        vector3_set(c->axis, 0, 1, 0);
+    lmn_status status = LMN_OK;
+    if (v->stretch > 0 && usual > 0) {
+        status =
+            impacts_find(&impact, 1, &impacts, t, fmax(seconds - span, e->from), fmin(seconds + span, e->to), error);
+        double factor = 1 + (double)v->stretch * 0.5 * vector3_length(velocity) / usual;
+        if (impacts && vector3_length(impact.change) > usual * 0.5) {
+            vector3_copy(c->axis, impact.change);
+            vector3_normalise(c->axis);
+            factor = 1 / (1 + (double)v->stretch * 0.5 * vector3_length(impact.change) / (2 * usual));
+        }
+        c->along = factor;
+        c->across = 1 / sqrt(factor);
+    }
+    return status;
+}
+
+/* What pushes a plane across its way, and how far its wings lag behind. */
+static void bend_find(shape_change *c, const expression *e, const depict_target *t, double seconds, double most)
+{
+    const still_values *v = e->values;
+    const double        span = 1.0 / 15;
+    double              a[3], b[3], across[3], to[3];
+    way_velocity(&t->way, t->centre, seconds - span / 2, span, a);
+    way_velocity(&t->way, t->centre, seconds + span / 2, span, b);
+    vector3_add(across, b, -1, a);
+    vector3_add(across, across, -vector3_dot(across, c->axis), c->axis);
+    vector3_copy(to, across);
+    if (!(most > 0) || !vector3_normalise(to))
+        return;
+    c->reach = t->radius;
+    for (int k = 0; k < 3; k++)
+        c->pull[k] = -(double)v->bend * t->radius * vector3_length(across) / span / most * to[k];
+}
+
+/* --- copies ----------------------------------------------------------------------------------------------------------
+ */
+
+static colour paler(const lmn_scene *s, const primitive *p, const still_values *v, double fade)
+{
+    colour c = {0.75f, 0.75f, 0.75f, 1};
+    if (p->material != NONE) {
+        const vec4 *own = &s->materials[p->material].base_colour;
+        c = (colour){colour_from_linear(own->x), colour_from_linear(own->y), colour_from_linear(own->z), 1};
+    }
+    if (v->colour.a > 0 && fade > 0)
+        c = v->colour;
+    c.r += (1 - c.r) * (float)fade;
+    c.g += (1 - c.g) * (float)fade;
+    c.b += (1 - c.b) * (float)fade;
+    return c;
+}
+
+/* A primitive as it is in a pose. */
+static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_t instance, const primitive *from,
+                                const shape_change *change, const glyph_label *label, lmn_error *error)
+{
+    glyph_mesh m = {0};
+    mat4       world = pose_instance(p, part, instance);
+    const bool mirrored = mat4_cofactors(&world, (double[9]){0}) < 0;
+    m.positions = mem_alloc((from->vertex_count + 1) * sizeof *m.positions);
+    m.indices = from->index_count ? mem_copy(from->indices, from->index_count * sizeof *m.indices) : NULL;
+    m.lines = from->line_count ? mem_copy(from->lines, 2 * (size_t)from->line_count * sizeof *m.lines) : NULL;
+    m.failed = !m.positions || (from->index_count && !m.indices) || (from->line_count && !m.lines);
+    if (!m.failed)
+        pose_vertices(&p->parts[part], from, NULL, NULL, from->vertex_count, m.positions, NULL);
+    for (uint32_t i = 0; i < from->vertex_count && !m.failed; i++)
+        m.positions[i] = change_apply(change, mat4_transform_point(&world, m.positions[i]));
+    for (uint32_t i = 0; i + 2 < from->index_count && mirrored && !m.failed; i += 3) {
+        uint32_t kept = m.indices[i];
+        m.indices[i] = m.indices[i + 1];
+        m.indices[i + 1] = kept;
+    }
+    m.position_count = from->vertex_count;
+    m.index_count = from->index_count;
+    m.line_count = 2 * (size_t)from->line_count;
+    lmn_status status = glyph_put(j, &m, label, error);
+    glyph_mesh_release(&m);
+    return status;
+}
+
+static lmn_status put_still(depict_job *j, const expression *e, const depict_target *t, double seconds,
+                            const shape_change *change, lmn_error *error)
+{
+    const still_values *v = e->values;
+    pose                p;
+    moment              when = j->when;
+    const double        apart = fmax(e->to - e->now, e->now - e->from);
+    const double        fade = apart > 0 ? (double)v->fade * (0.4 + 0.6 * fabs(seconds - e->now) / apart) : 0;
+    const bool          is_now = fabs(seconds - e->now) < 1e-9;
+    glyph_label         label = {"still",
+                                 e->target,
+                         is_now             ? GLYPH_PRESENT
+                                 : seconds < e->now ? GLYPH_PAST
+                                                    : GLYPH_FUTURE,
+                                 {0}};
+    when.seconds = seconds;
+    lmn_status status = pose_create(&p, j->scene, &when, error);
+    for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
+        const node   *n = &j->scene->nodes[j->scene->parts[i].node];
+        const int32_t mesh_index = n->mesh;
+        const size_t  draws = node_draw_count(n),
+                     pieces = mesh_index == NONE ? 0 : j->scene->meshes[mesh_index].primitive_count;
+        for (size_t k = 0; t->parts[i] && k < pieces * draws && status == LMN_OK; k++) {
+            const primitive *from = &j->scene->meshes[mesh_index].primitives[k / draws];
+            label.sketchy = v->sketchy;
+            label.tint = paler(j->scene, from, v, is_now ? 0 : fade);
+            status = put_primitive(j, &p, i, k % draws, from, change, &label, error);
+        }
+    }
+    pose_release(&p);
+    return status;
+}
+
+static double usual_speed(const expression *e, const depict_target *t)
+{
+    enum { STEPS = 64 };
+    double length = 0, last[3], now[3];
+    way_point(&t->way, t->centre, e->from, last);
+    for (int i = 1; i <= STEPS; i++) {
+        way_point(&t->way, t->centre, e->from + (e->to - e->from) * i / STEPS, now);
+        length += vector3_distance(last, now);
+        vector3_copy(last, now);
+    }
+    return e->to > e->from ? length / (e->to - e->from) : 0;
+}
+
+static double strongest_push(const expression *e, const depict_target *t)
+{
+    enum { STEPS = 64 };
+    const double span = 1.0 / 15;
+    double       most = 0, a[3], b[3];
+    for (int i = 0; i <= STEPS; i++) {
+        double seconds = e->from + (e->to - e->from) * i / STEPS, along[3];
+        way_velocity(&t->way, t->centre, seconds - span / 2, span, a);
+        way_velocity(&t->way, t->centre, seconds + span / 2, span, b);
+        way_velocity(&t->way, t->centre, seconds, span, along);
+        vector3_add(b, b, -1, a);
+        if (vector3_normalise(along))
+            vector3_add(b, b, -vector3_dot(b, along), along);
+        most = fmax(most, vector3_length(b) / span);
+    }
+    return most;
+}
+
+static lmn_status stills(depict_job *j, const expression *e, bool bends, lmn_error *error)
+{
+    const still_values *v = e->values;
+    depict_target       t;
+    lmn_status          status = target_open(&t, j, e->target, error);
+    const double        usual = status == LMN_OK ? usual_speed(e, &t) : 0;
+    const double        push = status == LMN_OK && bends ? strongest_push(e, &t) : 0;
+    for (int i = 0; i < v->count && status == LMN_OK; i++) {
+        double       seconds = v->count == 1 ? e->now : e->from + (e->to - e->from) * i / (v->count - 1);
+        shape_change change;
+        status = change_find(&change, e, &t, seconds, usual, error);
+        if (bends && status == LMN_OK)
+            bend_find(&change, e, &t, seconds, push);
+        if (status == LMN_OK)
+            status = put_still(j, e, &t, seconds, &change, error);
+    }
+    target_release(&t);
+    return status;
+}
+
+static lmn_status still_depict(depict_job *j, const expression *e, lmn_error *error)
+{
+    return stills(j, e, false, error);
+}
+
+static lmn_status plane_depict(depict_job *j, const expression *e, lmn_error *error)
+{
+    return stills(j, e, true, error);
+}
+
+const depiction depiction_still = {
+    "still",
+    NULL,
+    "Ghost images: the target at several times.",
+    still_params,
+    PARAM_COUNT(still_params),
+    sizeof(still_values),
+    true,
+    still_depict,
+};
+
+const depiction depiction_still_plane = {
+    "still",
+    "paper-plane",
+    "Ghost images of a paper plane, whose wings bend with the acceleration across its way.",
+    plane_params,
+    PARAM_COUNT(plane_params),
+    sizeof(still_values),
+    true,
+    plane_depict,
+};

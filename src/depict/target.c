@@ -1,0 +1,210 @@
+/* What is told of: a node with what is below it, where its middle is, and where it meets something. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/work.h"
+#include "depict/depict_private.h"
+
+/* Is a node below another one, or the same? */
+static bool is_below(const lmn_scene *s, int32_t node, int32_t above)
+{
+    while (node != NONE && node != above)
+        node = s->nodes[node].parent;
+    return node != NONE;
+}
+
+/* What carries a skinned part: its hip, or else the joint that all others are below. */
+static int32_t hip_of(const lmn_scene *s, const skin *k)
+{
+    static const char *const names[] = {"hip", "Hip", "pelvis", "Pelvis"};
+    for (size_t i = 0; i < k->joint_count; i++)
+        for (size_t n = 0; n < 4; n++)
+            if (s->nodes[k->joints[i]].name && strstr(s->nodes[k->joints[i]].name, names[n]))
+                return k->joints[i];
+    int32_t top = k->joint_count ? k->joints[0] : NONE;
+    for (size_t i = 1; i < k->joint_count; i++)
+        if (top != NONE && is_below(s, top, k->joints[i]))
+            top = k->joints[i];
+    return top;
+}
+
+lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error)
+{
+    const lmn_scene *s = j->scene;
+    box3             box = box3_empty();
+    int32_t          carrier = node;
+    mat4            *worlds = scene_world_matrices(s, NULL);
+    memset(out, 0, sizeof *out);
+    out->node = node;
+    out->part_count = s->part_count;
+    out->parts = mem_calloc(s->part_count + 1, sizeof *out->parts);
+    if (!out->parts || !worlds) {
+        mem_free(worlds);
+        return error_memory(error);
+    }
+    for (size_t i = 0; i < s->part_count; i++) {
+        int32_t own = s->parts[i].node;
+        out->parts[i] = is_below(s, own, node);
+        if (!out->parts[i])
+            continue;
+        box = box3_union(box, part_bounds(s, worlds, i));
+        if (s->nodes[own].skin != NONE && carrier == node)
+            carrier = hip_of(s, &s->skins[s->nodes[own].skin]);
+    }
+    carrier = carrier == NONE ? node : carrier;
+    mat4 inverse = mat4_inverse(&worlds[carrier]);
+    vec3 middle = {(float)worlds[node].m[12], (float)worlds[node].m[13], (float)worlds[node].m[14]};
+    if (!box3_is_empty(box))
+        middle = (vec3){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+    middle = mat4_transform_point(&inverse, middle);
+    if (carrier == node)
+        vector3_set(out->centre, (double)middle.x, (double)middle.y, (double)middle.z);
+    out->radius = box3_is_empty(box) ? j->size * 0.02 : box3_diagonal(box) / (2 * 1.7320508);
+    if (!(out->radius > 0))
+        out->radius = j->size * 0.02;
+    mem_free(worlds);
+    return way_open(&out->way, s, carrier, &j->when, error);
+}
+
+void target_release(depict_target *t)
+{
+    mem_free(t->parts);
+    way_release(&t->way);
+    memset(t, 0, sizeof *t);
+}
+
+/* --- vertices --------------------------------------------------------------------------------------------------------
+ */
+
+static bool put_part(vec3 **out, size_t *count, size_t *capacity, const pose *p, size_t part)
+{
+    const lmn_scene *s = p->scene;
+    const node      *n = &s->nodes[s->parts[part].node];
+    const mesh      *m = n->mesh == NONE ? NULL : &s->meshes[n->mesh];
+    for (size_t k = 0; m && k < m->primitive_count; k++)
+        for (size_t i = 0; i < node_draw_count(n); i++) {
+            const primitive *from = &m->primitives[k];
+            mat4             world = pose_instance(p, part, i);
+            if (!mem_grow((void **)out, capacity, *count + from->vertex_count + 1, sizeof **out))
+                return false;
+            pose_vertices(&p->parts[part], from, NULL, NULL, from->vertex_count, *out + *count, NULL);
+            for (uint32_t v = 0; v < from->vertex_count; v++, ++*count)
+                (*out)[*count] = mat4_transform_point(&world, (*out)[*count]);
+        }
+    return true;
+}
+
+lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const depict_target *t, double seconds,
+                           lmn_error *error)
+{
+    pose   p;
+    moment when = j->when;
+    size_t capacity = 0;
+    *out = NULL;
+    *count = 0;
+    when.seconds = seconds;
+    lmn_status status = pose_create(&p, j->scene, &when, error);
+    for (size_t i = 0; i < t->part_count && status == LMN_OK; i++)
+        if (t->parts[i] && !put_part(out, count, &capacity, &p, i))
+            status = error_memory(error);
+    pose_release(&p);
+    if (status != LMN_OK) {
+        mem_free(*out);
+        *out = NULL;
+        *count = 0;
+    }
+    return status;
+}
+
+/* --- impacts ---------------------------------------------------------------------------------------------------------
+ */
+
+/* Velocity in a piece of the way that ends, or begins, at a sample. */
+static void piece_velocity(const way_sample *a, const way_sample *b, double out[3])
+{
+    double span = b->time - a->time;
+    for (int k = 0; k < 3; k++)
+        out[k] = span > 0 ? (b->at[k] - a->at[k]) / span : 0;
+}
+
+/* How the velocity differs on both sides of a time, seen from as near as doubles allow. */
+static void change_at(const depict_target *t, double seconds, double span, double before[3], double change[3])
+{
+    way_sample s[3] = {{.time = seconds - span}, {.time = seconds}, {.time = seconds + span}};
+    for (int i = 0; i < 3; i++)
+        way_point(&t->way, t->centre, s[i].time, s[i].at);
+    piece_velocity(&s[0], &s[1], before);
+    piece_velocity(&s[1], &s[2], change);
+    vector3_add(change, change, -1, before);
+}
+
+static int compare_impacts(const void *a, const void *b)
+{
+    double x = ((const depict_impact *)a)->time, y = ((const depict_impact *)b)->time;
+    return (x > y) - (x < y);
+}
+
+lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
+                        lmn_error *error)
+{
+    trajectory way;
+    lmn_status status = trajectory_sample(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
+    double     length = 0;
+    *count = 0;
+    for (size_t i = 1; i < way.count && status == LMN_OK; i++)
+        length += vector3_distance(way.samples[i - 1].at, way.samples[i].at);
+    const double usual = to > from ? length / (to - from) : 0;
+    for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
+        depict_impact now = {.time = way.samples[i].time};
+        double before[3], span = fmin(now.time - way.samples[i - 1].time, way.samples[i + 1].time - now.time) / 16;
+        change_at(t, now.time, span, before, now.change);
+        /* What only bends turns less and less the nearer one looks. */
+        double near_before[3], near_change[3];
+        change_at(t, now.time, span / 8, near_before, near_change);
+        now.speed = vector3_length(before);
+        double turn = vector3_length(near_change);
+        if (turn < 0.3 * usual || turn < 0.6 * vector3_length(now.change) || now.speed < 0.05 * usual)
+            continue;
+        vector3_copy(now.change, near_change);
+        vector3_copy(now.at, way.samples[i].at);
+        size_t place = *count;
+        if (*count == most) { /* the weakest goes */
+            place = 0;
+            for (size_t k = 1; k < most; k++)
+                if (vector3_length(out[k].change) < vector3_length(out[place].change))
+                    place = k;
+            if (most == 0 || vector3_length(out[place].change) >= turn)
+                continue;
+        } else
+            ++*count;
+        out[place] = now;
+    }
+    if (*count > 1)
+        qsort(out, *count, sizeof *out, compare_impacts);
+    trajectory_release(&way);
+    return status;
+}
+
+lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *impact,
+                          lmn_error *error)
+{
+    vec3      *vertices;
+    size_t     count, best = 0;
+    double     most = -INFINITY;
+    lmn_status status = target_vertices(&vertices, &count, j, t, impact->time, error);
+    vector3_copy(out, impact->at);
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        double p[3] = {(double)vertices[i].x, (double)vertices[i].y, (double)vertices[i].z},
+               along = -vector3_dot(p, impact->change);
+        if (along > most) {
+            most = along;
+            best = i;
+        }
+    }
+    if (count > 0)
+        vector3_set(out, (double)vertices[best].x, (double)vertices[best].y, (double)vertices[best].z);
+    mem_free(vertices);
+    return status;
+}

@@ -1,0 +1,241 @@
+#include "depict/way.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/work.h"
+#include "pose/animate.h"
+
+/* --- the path from the root ------------------------------------------------------------------------------------ */
+
+static void step_take(way_step *step, const animation_channel *c)
+{
+    if (c->path == PATH_TRANSLATION)
+        step->translation = c;
+    else if (c->path == PATH_ROTATION)
+        step->rotation = c;
+    else if (c->path == PATH_SCALE)
+        step->scale = c;
+}
+
+static void take_channels(way *out, const moment *clips)
+{
+    for (size_t k = 0; k < clips->clip_count; k++) {
+        const animation *a = &out->scene->animations[clips->clips[k]];
+        for (size_t c = 0; c < a->channel_count; c++)
+            for (size_t i = 0; i < out->count; i++)
+                if (animation_thing_of(a->channels[c].path) == ANIMATED_NODE &&
+                    a->channels[c].target == out->steps[i].node && a->channels[c].key_count > 0)
+                    step_take(&out->steps[i], &a->channels[c]);
+    }
+}
+
+static const animation_channel *channel_of(const way_step *step, int which)
+{
+    return which == 0 ? step->translation : which == 1 ? step->rotation : step->scale;
+}
+
+lmn_status way_open(way *out, const lmn_scene *scene, int32_t node, const moment *clips, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    out->scene = scene;
+    for (int32_t n = node; n != NONE; n = scene->nodes[n].parent)
+        out->count++;
+    out->steps = mem_calloc(out->count, sizeof *out->steps);
+    if (!out->steps)
+        return error_memory(error);
+    size_t i = out->count;
+    for (int32_t n = node; n != NONE; n = scene->nodes[n].parent)
+        out->steps[--i].node = n;
+    take_channels(out, clips);
+    for (i = 0; i < out->count; i++)
+        for (int k = 0; k < 3; k++) {
+            const animation_channel *c = channel_of(&out->steps[i], k);
+            if (c)
+                out->end = fmax(out->end, (double)c->times[c->key_count - 1]);
+        }
+    return LMN_OK;
+}
+
+void way_release(way *w)
+{
+    mem_free(w->steps);
+    memset(w, 0, sizeof *w);
+}
+
+static mat4 local_at(const lmn_scene *scene, const way_step *step, double seconds)
+{
+    const node *n = &scene->nodes[step->node];
+    if (!step->translation && !step->rotation && !step->scale)
+        return node_local_matrix(n);
+    double t[3], r[4], s[3];
+    memcpy(t, n->translation, sizeof t);
+    memcpy(r, n->rotation, sizeof r);
+    memcpy(s, n->scale, sizeof s);
+    if (step->translation)
+        animation_channel_at(step->translation, seconds, t);
+    if (step->rotation)
+        animation_channel_at(step->rotation, seconds, r);
+    if (step->scale)
+        animation_channel_at(step->scale, seconds, s);
+    return mat4_from_trs(t, r, s);
+}
+
+mat4 way_world(const way *w, double seconds)
+{
+    mat4 world = mat4_identity();
+    for (size_t i = 0; i < w->count; i++) {
+        mat4 local = local_at(w->scene, &w->steps[i], seconds);
+        world = i == 0 ? local : mat4_multiply(&world, &local);
+    }
+    return world;
+}
+
+static void transform(const mat4 *m, const double p[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = m->m[k] * p[0] + m->m[4 + k] * p[1] + m->m[8 + k] * p[2] + m->m[12 + k];
+}
+
+void way_point(const way *w, const double local[3], double seconds, double out[3])
+{
+    mat4 world = way_world(w, seconds);
+    transform(&world, local, out);
+}
+
+void way_velocity(const way *w, const double local[3], double seconds, double span, double out[3])
+{
+    double from = fmax(seconds - span / 2, 0), to = fmin(seconds + span / 2, fmax(w->end, from)), a[3], b[3];
+    vector3_set(out, 0, 0, 0);
+    if (!(to > from))
+        return;
+    way_point(w, local, from, a);
+    way_point(w, local, to, b);
+    for (int k = 0; k < 3; k++)
+        out[k] = (b[k] - a[k]) / (to - from);
+}
+
+/* --- trajectories ----------------------------------------------------------------------------------------------- */
+
+enum { KEYS_FORCED = 4096, HALVINGS = 10, SAMPLES_MOST = 65536 };
+
+static int compare_times(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Both ends and all keys between them, in order, none twice. */
+static double *forced_times(const way *w, double from, double to, size_t *count)
+{
+    size_t room = 2;
+    for (size_t i = 0; i < w->count; i++)
+        for (int k = 0; k < 3; k++)
+            room += channel_of(&w->steps[i], k) ? channel_of(&w->steps[i], k)->key_count : 0;
+    double *times = mem_alloc(room * sizeof *times);
+    *count = 0;
+    if (!times)
+        return NULL;
+    times[(*count)++] = from;
+    for (size_t i = 0; i < w->count; i++)
+        for (int k = 0; k < 3; k++) {
+            const animation_channel *c = channel_of(&w->steps[i], k);
+            size_t                   stride = c ? c->key_count / KEYS_FORCED + 1 : 1;
+            for (size_t n = 0; c && n < c->key_count; n += stride)
+                if (c->times[n] > from && c->times[n] < to)
+                    times[(*count)++] = c->times[n];
+        }
+    times[(*count)++] = to;
+    qsort(times, *count, sizeof *times, compare_times);
+    size_t kept = 1;
+    for (size_t i = 1; i < *count; i++)
+        if (times[i] > times[kept - 1])
+            times[kept++] = times[i];
+    if (kept == 1)
+        times[kept++] = to;
+    *count = kept;
+    return times;
+}
+
+typedef struct sampler {
+    const way    *way;
+    const double *local;
+    double        tolerance;
+    trajectory   *out;
+    size_t        capacity;
+    bool          failed;
+} sampler;
+
+static void put_sample(sampler *s, double time, const double at[3])
+{
+    trajectory *t = s->out;
+    if (s->failed || !mem_grow((void **)&t->samples, &s->capacity, t->count + 1, sizeof *t->samples)) {
+        s->failed = true;
+        return;
+    }
+    t->samples[t->count].time = time;
+    vector3_copy(t->samples[t->count++].at, at);
+}
+
+static double off_chord(const double a[3], const double b[3], const double p[3])
+{
+    double along[3], to[3];
+    vector3_add(along, b, -1, a);
+    vector3_add(to, p, -1, a);
+    double length = vector3_dot(along, along), f = length > 0 ? vector3_dot(to, along) / length : 0;
+    vector3_add(to, to, -fmin(fmax(f, 0), 1), along);
+    return vector3_length(to);
+}
+
+/* What lies between two times, without the first. */
+static void put_between(sampler *s, double from, const double a[3], double to, const double b[3], int depth)
+{
+    double middle = (from + to) / 2, third[3], m[3];
+    if (depth > 0 && !s->failed && s->out->count < SAMPLES_MOST) {
+        way_point(s->way, s->local, middle, m);
+        way_point(s->way, s->local, from + (to - from) * 0.29, third);
+        if (off_chord(a, b, m) > s->tolerance || off_chord(a, b, third) > s->tolerance) {
+            put_between(s, from, a, middle, m, depth - 1);
+            put_between(s, middle, m, to, b, depth - 1);
+            return;
+        }
+    }
+    put_sample(s, to, b);
+}
+
+lmn_status trajectory_sample(trajectory *out, const way *w, const double local[3], double from, double to,
+                             double tolerance, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    sampler s = {.way = w, .local = local, .tolerance = tolerance, .out = out};
+    size_t  count;
+    double *times = forced_times(w, from, to, &count), a[3], b[3];
+    if (!times)
+        return error_memory(error);
+    way_point(w, local, times[0], a);
+    put_sample(&s, times[0], a);
+    for (size_t i = 1; i < count && !s.failed && !work_stopped(); i++) {
+        way_point(w, local, times[i], b);
+        put_between(&s, times[i - 1], a, times[i], b, HALVINGS);
+        vector3_copy(a, b);
+    }
+    mem_free(times);
+    lmn_status status = work_check(error);
+    return status == LMN_OK && s.failed ? error_memory(error) : status;
+}
+
+void trajectory_release(trajectory *t)
+{
+    mem_free(t->samples);
+    memset(t, 0, sizeof *t);
+}
+
+double *trajectory_lengths(const trajectory *t)
+{
+    double *lengths = mem_alloc(t->count * sizeof *lengths);
+    for (size_t i = 0; i < t->count && lengths; i++)
+        lengths[i] = i == 0 ? 0 : lengths[i - 1] + vector3_distance(t->samples[i - 1].at, t->samples[i].at);
+    return lengths;
+}
