@@ -49,11 +49,11 @@ static void put_piece(glyph_mesh *m, const depict_job *j, const course *c, doubl
     mem_free(widths);
 }
 
-static void put_head(glyph_mesh *m, const depict_job *j, const course *c, double base, double width)
+static void put_head(glyph_mesh *m, const depict_job *j, const course *c, double base, double end, double width)
 {
     double points[2][3], widths[2] = {2.6 * width, 0};
     course_at(c, base, points[0]);
-    course_at(c, course_end(c), points[1]);
+    course_at(c, end, points[1]);
     /* Straight on where the way's last bit is too short to say where to. */
     glyph_put_ribbon(m, j, &(glyph_ribbon){(const double(*)[3])points, widths, 2});
 }
@@ -66,13 +66,14 @@ void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[
     for (size_t i = 0; i < count && !m->failed; i++)
         c.lengths[i] = i == 0 ? 0 : c.lengths[i - 1] + vector3_distance(points[i - 1], points[i]);
     if (!m->failed && count > 1 && course_end(&c) > 0) {
-        double end = course_end(&c), head = fmin(style->head * style->width, end * 0.6), body = end - head;
+        double end = fmax(course_end(&c) - style->short_of, course_end(&c) * 0.3);
+        double head = fmin(style->head * style->width, end * 0.6), body = end - head;
         double step = style->dash > 0 ? style->dash + style->gap : body;
         for (double from = 0; from < body && step > 0 && !m->failed; from += step)
             put_piece(m, j, &c, from, fmin(from + (style->dash > 0 ? style->dash : body), body),
                       style->tail * style->width, style->width);
         if (head > 0)
-            put_head(m, j, &c, body, style->width);
+            put_head(m, j, &c, body, end, style->width);
     }
     mem_free(c.lengths);
 }
@@ -88,7 +89,7 @@ colour depict_tint(glyph_tense when, colour wanted)
 /* --- the way of a thing ------------------------------------------------------------------------------------------- */
 
 typedef struct path_values {
-    float  width, head, tail, dash, gap, offset;
+    float  width, head, tail, dash, gap, offset, short_of;
     colour colour;
 } path_values;
 
@@ -106,6 +107,9 @@ static const param path_params[] = {
     PARAM_FLOAT_ROW(path_values, offset, .def = 0, .min = -100, .max = 100, .soft_min = -2, .soft_max = 2,
                     .unit = UNIT_FRACTION,
                     .doc = "How far it lies above the way of the target's middle, fraction of the radius."),
+    PARAM_FLOAT_ROW(
+        path_values, short_of, .def = 1.2, .min = 0, .max = 100, .soft_max = 3, .unit = UNIT_FRACTION,
+        .doc = "How far before the way's end it ends, so that a ghost image there leaves the head to be seen; radii."),
     PARAM_COLOUR_ROW(path_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of the arrow; none: grey for the past, red for the future."),
 };
@@ -124,8 +128,12 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     for (size_t i = 0; i < way.count && status == LMN_OK; i++)
         vector3_add(points[i], way.samples[i].at, (double)v->offset * t->radius, j->camera.up);
     if (status == LMN_OK) {
-        const arrow_style style = {width, when == GLYPH_FUTURE ? (double)v->dash * width : 0, (double)v->gap * width,
-                                   when == GLYPH_FUTURE ? 1 : (double)v->tail, has_head ? (double)v->head : 0};
+        const arrow_style style = {width,
+                                   when == GLYPH_FUTURE ? (double)v->dash * width : 0,
+                                   (double)v->gap * width,
+                                   when == GLYPH_FUTURE ? 1 : (double)v->tail,
+                                   has_head ? (double)v->head : 0,
+                                   has_head ? (double)v->short_of * t->radius : 0};
         glyph_put_arrow(&m, j, (const double(*)[3])points, way.count, &style);
         status = glyph_put(j, &m, &(glyph_label){"arrow", e->target, when, depict_tint(when, v->colour)}, error);
     }

@@ -56,9 +56,12 @@ lmn_status expressions_read(expression_list *out, const json_t *array, const lmn
 /* As expressions_read takes them; NULL when memory is gone. */
 json_t *expressions_json(const expression_list *l, const lmn_scene *scene);
 
-/* The node that a name means: a node's name, else a part's path or a glob of these, the first one in order; NONE when
- * there is none. */
+/* The node that a name means: "#N" its number, from 1 on, else a node's name, else a part's path or a glob of these,
+ * the first one in order; NONE when there is none. */
 int32_t depict_find_node(const lmn_scene *scene, const char *name);
+/* A name that means this node: its own, or its number, which is written into `numbered`. */
+enum { DEPICT_NAME_SIZE = 16 };
+const char *depict_name_of(const lmn_scene *scene, int32_t node, char numbered[DEPICT_NAME_SIZE]);
 /* What a thing is: its own attribute "semantics", or "camera"; NULL when nothing says so. */
 const char *depict_semantics(const lmn_scene *scene, int32_t node);
 

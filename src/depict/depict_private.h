@@ -122,6 +122,7 @@ typedef struct arrow_style {
     double dash, gap; /* units along it; 0: solid */
     double tail;      /* width where it begins, fraction */
     double head;      /* its length in widths; 0: none */
+    double short_of;  /* units that it ends before the last point */
 } arrow_style;
 /* An arrow through points in the world. */
 void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[3], size_t count,

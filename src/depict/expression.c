@@ -1,4 +1,5 @@
 /* Expressions: read, written, kept. Nienhaus 2005, section 7.7. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -46,8 +47,20 @@ expression *expression_add(expression_list *l, const depiction *row, int32_t tar
 /* --- names -----------------------------------------------------------------------------------------------------------
  */
 
+const char *depict_name_of(const lmn_scene *scene, int32_t node_index, char numbered[DEPICT_NAME_SIZE])
+{
+    if (scene->nodes[node_index].name && depict_find_node(scene, scene->nodes[node_index].name) == node_index)
+        return scene->nodes[node_index].name;
+    snprintf(numbered, DEPICT_NAME_SIZE, "#%d", (int)node_index + 1);
+    return numbered;
+}
+
 int32_t depict_find_node(const lmn_scene *scene, const char *name)
 {
+    long long number;
+    if (name[0] == '#' && text_is_int(name + 1, &number) && number > 0 && (size_t)number <= scene->node_count &&
+        !scene->nodes[number - 1].removed)
+        return (int32_t)number - 1;
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < scene->node_count; i++) {
             const node *n = &scene->nodes[i];
@@ -189,21 +202,17 @@ lmn_status expressions_read(expression_list *out, const json_t *array, const lmn
 /* --- writing ---------------------------------------------------------------------------------------------------------
  */
 
-static const char *name_of(const lmn_scene *scene, int32_t node_index)
-{
-    return scene->nodes[node_index].name ? scene->nodes[node_index].name : "";
-}
-
 json_t *expressions_json(const expression_list *l, const lmn_scene *scene)
 {
     json_t *array = json_array();
+    char    target[DEPICT_NAME_SIZE], partner[DEPICT_NAME_SIZE];
     for (size_t i = 0; i < l->count; i++) {
         const expression *e = &l->items[i];
-        json_t           *one =
-            json_pack("{s:s,s:s,s:o,s:o,s:o}", "target", name_of(scene, e->target), "depict", e->row->characteristic,
-                      "from", value_number(e->from), "to", value_number(e->to), "now", value_number(e->now));
+        json_t *one = json_pack("{s:s,s:s,s:o,s:o,s:o}", "target", depict_name_of(scene, e->target, target), "depict",
+                                e->row->characteristic, "from", value_number(e->from), "to", value_number(e->to), "now",
+                                value_number(e->now));
         if (one && e->partner != NONE)
-            json_object_set_new(one, "partner", json_string(name_of(scene, e->partner)));
+            json_object_set_new(one, "partner", json_string(depict_name_of(scene, e->partner, partner)));
         for (size_t k = 0; one && k < e->row->param_count; k++)
             if (!param_is_default(&e->row->params[k], e->values))
                 json_object_set_new(one, e->row->params[k].key, value_json(&e->row->params[k], e->values));

@@ -8,12 +8,13 @@
 #include "base/work.h"
 #include "depict/depict_private.h"
 
-enum { MOVERS_TOLD = 6, IMPACTS_TOLD = 3, STILLS_MOST = 5 };
+enum { MOVERS_TOLD = 6, IMPACTS_TOLD = 3, STILLS_MOST = 5, LIMBS_LEAST = 4 };
 
 /* Something that moves by itself: nothing above it does. */
 typedef struct mover {
     int32_t node;
-    bool    camera, skinned;
+    bool    camera;
+    bool    figure; /* has limbs: a skin, or joints that move by themselves */
     double  length; /* of its middle's way */
     double  radius;
     double  turned; /* radians, all in all */
@@ -98,9 +99,9 @@ static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
         m->scaled = low > 0 ? high / low : 1;
         m->grows = first > 0 ? last_scale / first : 1;
         for (size_t i = 0; i < t.part_count; i++)
-            m->skinned = m->skinned || (t.parts[i] && p->job.scene->nodes[p->job.scene->parts[i].node].skin != NONE);
+            m->figure = m->figure || (t.parts[i] && p->job.scene->nodes[p->job.scene->parts[i].node].skin != NONE);
         status = impacts_find(impacts, IMPACTS_TOLD, &m->impacts, &t, p->from, p->to, error);
-        m->weight = m->length + m->radius * (fmin(m->turned, 6) + fabs(log(m->scaled)) + (m->skinned ? 1 : 0));
+        m->weight = m->length + m->radius * (fmin(m->turned, 6) + fabs(log(m->scaled)) + (m->figure ? 1 : 0));
     }
     target_release(&t);
     return status;
@@ -130,7 +131,8 @@ static lmn_status find_movers(mover **out, size_t *count, const proposal *p, lmn
             }
     }
     for (size_t i = 0; i < s->node_count && status == LMN_OK; i++) {
-        bool has_part = false;
+        bool   has_part = false;
+        size_t joints = 0;
         if (!moved[i] || is_below_any(s, (int32_t)i, moved))
             continue;
         mover m = {.node = (int32_t)i, .camera = has_camera(s, (int32_t)i)};
@@ -139,6 +141,9 @@ static lmn_status find_movers(mover **out, size_t *count, const proposal *p, lmn
                 has_part = n == (int32_t)i;
         if (!has_part && !m.camera)
             continue;
+        for (int32_t n = (int32_t)i; n != NONE; n = scene_next_node(s, (int32_t)i, n))
+            joints += moved[n];
+        m.figure = joints > LIMBS_LEAST;
         status = measure(&m, p, error);
         if (status == LMN_OK && !mem_grow((void **)out, &capacity, *count + 1, sizeof **out))
             status = error_memory(error);
@@ -158,12 +163,13 @@ static expression *propose(const proposal *p, const mover *m, const char *charac
                            double measure)
 {
     const lmn_scene *s = p->job.scene;
+    char             numbered[DEPICT_NAME_SIZE];
     const depiction *row = depiction_find(characteristic, depict_semantics(s, m->node));
     expression      *e = row ? expression_add(p->out, row, m->node, p->from, p->to, p->now) : NULL;
     if (e && p->reasons)
-        json_array_append_new(*p->reasons, json_pack("{s:s,s:s,s:s,s:f}", "target",
-                                                     s->nodes[m->node].name ? s->nodes[m->node].name : "", "depict",
-                                                     characteristic, "because", why, "measure", measure));
+        json_array_append_new(*p->reasons,
+                              json_pack("{s:s,s:s,s:s,s:f}", "target", depict_name_of(s, m->node, numbered), "depict",
+                                        characteristic, "because", why, "measure", measure));
     return e;
 }
 
@@ -186,18 +192,20 @@ static void tell(const proposal *p, const mover *m)
     }
     if (ways > 1) {
         expression *e = propose(p, m, "still", "it moves farther than its own size; radii", ways);
-        set_number(e, "count", fmin(fmax(floor(ways / 3) + 1, 2), STILLS_MOST));
-        if (!m->skinned)
+        set_number(e, "count", fmin(fmax(floor(ways / 3) + 2, 3), STILLS_MOST));
+        if (!m->figure)
             set_number(e, "stretch", 0.5);
         e = propose(p, m, "path", "its middle has a way; radii", ways);
-        if (e && m->skinned)
-            set_number(e, "width", 0.15);
+        if (m->figure) {
+            set_number(e, "width", 0.12);
+            set_number(e, "short_of", 0.4);
+        }
         propose(p, m, "motion", "it moves now; radii", ways);
-    } else if (m->skinned)
+    } else if (m->figure)
         set_number(propose(p, m, "still", "its limbs move, it does not", ways), "count", 1);
     if (m->impacts)
         propose(p, m, "collision", "its velocity changes at once; times", (double)m->impacts);
-    if (!m->skinned && ways <= 1 && m->turned > 0.35)
+    if (!m->figure && ways <= 1 && m->turned > 0.35)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
     if (m->scaled > 1.15)
         propose(p, m, m->grows >= 1 ? "expand" : "collapse", "its size changes; largest by smallest", m->scaled);

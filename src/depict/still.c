@@ -16,7 +16,8 @@ typedef struct still_values {
 
 static const param still_params[] = {
     PARAM_INT_ROW(still_values, count, .def = 1, .min = 1, .max = 64, .soft_max = 12, .unit = UNIT_COUNT,
-                  .doc = "How many, at equal times from the interval's begin to its end; one is at now."),
+                  .doc = "How many: now, then where the interval begins and ends, where it meets something, and evenly "
+                         "along the way."),
     PARAM_FLOAT_ROW(still_values, stretch, .def = 0, .min = 0, .max = 2, .soft_max = 1,
                     .doc = "How far speed stretches it and impacts flatten it, volume kept; 0: rigid."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -28,7 +29,8 @@ static const param still_params[] = {
 
 static const param plane_params[] = {
     PARAM_INT_ROW(still_values, count, .def = 1, .min = 1, .max = 64, .soft_max = 12, .unit = UNIT_COUNT,
-                  .doc = "How many, at equal times from the interval's begin to its end; one is at now."),
+                  .doc = "How many: now, then where the interval begins and ends, where it meets something, and evenly "
+                         "along the way."),
     PARAM_FLOAT_ROW(still_values, bend, .def = 0.5, .min = 0, .max = 5, .soft_max = 1,
                     .doc = "How far wing tips lag behind the acceleration across the way, in radii at the strongest."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -44,7 +46,8 @@ static const param plane_params[] = {
 /* Of positions in the world, around a middle. */
 typedef struct shape_change {
     double middle[3], axis[3], along, across; /* factors */
-    double pull[3], reach;                    /* wings: displacement at a distance of `reach` from the way's axis */
+    double shift[3];
+    double pull[3], reach; /* wings: displacement at a distance of `reach` from the way's axis */
 } shape_change;
 
 static vec3 change_apply(const shape_change *c, vec3 at)
@@ -55,7 +58,7 @@ static vec3 change_apply(const shape_change *c, vec3 at)
     vector3_add(d, d, -along, c->axis);
     double far = c->reach > 0 ? vector3_length(d) / c->reach : 0;
     for (int k = 0; k < 3; k++)
-        p[k] = c->middle[k] + along * c->along * c->axis[k] + d[k] * c->across + far * far * c->pull[k];
+        p[k] = c->middle[k] + c->shift[k] + along * c->along * c->axis[k] + d[k] * c->across + far * far * c->pull[k];
     return (vec3){(float)p[0], (float)p[1], (float)p[2]};
 }
 
@@ -66,7 +69,7 @@ static lmn_status change_find(shape_change *c, const expression *e, const depict
     const still_values *v = e->values;
     depict_impact       impact;
     size_t              impacts = 0;
-    double              velocity[3], span = 1.0 / 60;
+    double              velocity[3], span = fmin(1.0 / 60, (e->to - e->from) / 60);
     memset(c, 0, sizeof *c);
     c->along = c->across = 1;
     way_point(&t->way, t->centre, seconds, c->middle);
@@ -76,13 +79,15 @@ static lmn_status change_find(shape_change *c, const expression *e, const depict
         vector3_set(c->axis, 0, 1, 0);
     lmn_status status = LMN_OK;
     if (v->stretch > 0 && usual > 0) {
-        status =
-            impacts_find(&impact, 1, &impacts, t, fmax(seconds - span, e->from), fmin(seconds + span, e->to), error);
+        status = impacts_find(&impact, 1, &impacts, t, fmax(seconds - 2 * span, e->from),
+                              fmin(seconds + 2 * span, e->to), error);
         double factor = 1 + (double)v->stretch * 0.5 * vector3_length(velocity) / usual;
-        if (impacts && vector3_length(impact.change) > usual * 0.5) {
+        if (impacts && fabs(impact.time - seconds) < span && vector3_length(impact.change) > usual * 0.5) {
             vector3_copy(c->axis, impact.change);
             vector3_normalise(c->axis);
             factor = 1 / (1 + (double)v->stretch * 0.5 * vector3_length(impact.change) / (2 * usual));
+            /* What it meets stays where it is. */
+            vector3_add(c->shift, c->shift, -t->radius * (1 - factor), c->axis);
         }
         c->along = factor;
         c->across = 1 / sqrt(factor);
@@ -218,21 +223,110 @@ static double strongest_push(const expression *e, const depict_target *t)
     return most;
 }
 
-static lmn_status stills(depict_job *j, const expression *e, bool bends, lmn_error *error)
+/* --- when -------------------------------------------------------------------------------------------------------- */
+
+enum { STILLS_MOST = 64 };
+
+typedef struct still_times {
+    double at[STILLS_MOST];
+    int    count, wanted;
+} still_times;
+
+static void add_time(still_times *t, double seconds, double apart)
+{
+    for (int i = 0; i < t->count; i++)
+        if (fabs(t->at[i] - seconds) <= apart)
+            return;
+    if (t->count < t->wanted)
+        t->at[t->count++] = seconds;
+}
+
+static double length_at(const trajectory *way, const double *lengths, double seconds)
+{
+    size_t i = 1;
+    while (i + 1 < way->count && way->samples[i].time < seconds)
+        i++;
+    double span = way->samples[i].time - way->samples[i - 1].time;
+    double f = span > 0 ? (seconds - way->samples[i - 1].time) / span : 0;
+    return lengths[i - 1] + fmin(fmax(f, 0), 1) * (lengths[i] - lengths[i - 1]);
+}
+
+static double time_at(const trajectory *way, const double *lengths, double length)
+{
+    size_t i = 1;
+    while (i + 1 < way->count && lengths[i] < length)
+        i++;
+    double piece = lengths[i] - lengths[i - 1], f = piece > 0 ? (length - lengths[i - 1]) / piece : 0;
+    return way->samples[i - 1].time + fmin(fmax(f, 0), 1) * (way->samples[i].time - way->samples[i - 1].time);
+}
+
+/* In the middle of the longest piece of way between two that are there; false when nothing lies between them. */
+static bool fill_gap(still_times *t, const trajectory *way, const double *lengths, double apart)
+{
+    double longest = 0, middle = 0;
+    for (int i = 0; i < t->count; i++) {
+        double from = length_at(way, lengths, t->at[i]), next = INFINITY;
+        for (int k = 0; k < t->count; k++) {
+            double to = length_at(way, lengths, t->at[k]);
+            next = to > from && to < next ? to : next;
+        }
+        if (isfinite(next) && next - from > longest) {
+            longest = next - from;
+            middle = (from + next) / 2;
+        }
+    }
+    int before = t->count;
+    if (longest > 0)
+        add_time(t, time_at(way, lengths, middle), apart);
+    return t->count > before;
+}
+
+/* Now, the interval's ends, where it meets something, then evenly along the way. */
+static lmn_status times_find(still_times *out, const expression *e, const depict_target *t, lmn_error *error)
 {
     const still_values *v = e->values;
-    depict_target       t;
-    lmn_status          status = target_open(&t, j, e->target, error);
-    const double        usual = status == LMN_OK ? usual_speed(e, &t) : 0;
-    const double        push = status == LMN_OK && bends ? strongest_push(e, &t) : 0;
-    for (int i = 0; i < v->count && status == LMN_OK; i++) {
-        double       seconds = v->count == 1 ? e->now : e->from + (e->to - e->from) * i / (v->count - 1);
+    depict_impact       impacts[STILLS_MOST];
+    trajectory          way = {0};
+    double             *lengths = NULL, apart = (e->to - e->from) * 1e-6;
+    size_t              impact_count = 0;
+    *out = (still_times){.wanted = v->count};
+    add_time(out, e->now, apart);
+    add_time(out, e->from, apart);
+    add_time(out, e->to, apart);
+    lmn_status status = out->count < out->wanted ? impacts_find(impacts, (size_t)(out->wanted - out->count),
+                                                                &impact_count, t, e->from, e->to, error)
+                                                 : LMN_OK;
+    for (size_t i = 0; i < impact_count && status == LMN_OK; i++)
+        add_time(out, impacts[i].time, apart);
+    if (status == LMN_OK && out->count < out->wanted) {
+        status = trajectory_sample(&way, &t->way, t->centre, e->from, e->to, t->radius * 0.05, error);
+        lengths = status == LMN_OK ? trajectory_lengths(&way) : NULL;
+        if (status == LMN_OK && !lengths)
+            status = error_memory(error);
+    }
+    while (status == LMN_OK && out->count < out->wanted && fill_gap(out, &way, lengths, apart))
+        ;
+    mem_free(lengths);
+    trajectory_release(&way);
+    return status;
+}
+
+static lmn_status stills(depict_job *j, const expression *e, bool bends, lmn_error *error)
+{
+    depict_target t;
+    still_times   times = {0};
+    lmn_status    status = target_open(&t, j, e->target, error);
+    const double  usual = status == LMN_OK ? usual_speed(e, &t) : 0;
+    const double  push = status == LMN_OK && bends ? strongest_push(e, &t) : 0;
+    if (status == LMN_OK)
+        status = times_find(&times, e, &t, error);
+    for (int i = 0; i < times.count && status == LMN_OK; i++) {
         shape_change change;
-        status = change_find(&change, e, &t, seconds, usual, error);
+        status = change_find(&change, e, &t, times.at[i], usual, error);
         if (bends && status == LMN_OK)
-            bend_find(&change, e, &t, seconds, push);
+            bend_find(&change, e, &t, times.at[i], push);
         if (status == LMN_OK)
-            status = put_still(j, e, &t, seconds, &change, error);
+            status = put_still(j, e, &t, times.at[i], &change, error);
     }
     target_release(&t);
     return status;

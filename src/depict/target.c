@@ -121,29 +121,38 @@ lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const
 /* --- impacts ---------------------------------------------------------------------------------------------------------
  */
 
-/* Velocity in a piece of the way that ends, or begins, at a sample. */
-static void piece_velocity(const way_sample *a, const way_sample *b, double out[3])
-{
-    double span = b->time - a->time;
-    for (int k = 0; k < 3; k++)
-        out[k] = span > 0 ? (b->at[k] - a->at[k]) / span : 0;
-}
-
-/* How the velocity differs on both sides of a time, seen from as near as doubles allow. */
+/* How the velocity differs between `span` before a time and `span` after it. Two keys may lie at a bounce. */
 static void change_at(const depict_target *t, double seconds, double span, double before[3], double change[3])
 {
-    way_sample s[3] = {{.time = seconds - span}, {.time = seconds}, {.time = seconds + span}};
-    for (int i = 0; i < 3; i++)
-        way_point(&t->way, t->centre, s[i].time, s[i].at);
-    piece_velocity(&s[0], &s[1], before);
-    piece_velocity(&s[1], &s[2], change);
-    vector3_add(change, change, -1, before);
+    double p[4][3];
+    for (int i = 0; i < 4; i++)
+        way_point(&t->way, t->centre, seconds + (i < 2 ? i - 2 : i - 1) * span, p[i]);
+    for (int k = 0; k < 3; k++) {
+        before[k] = (p[1][k] - p[0][k]) / span;
+        change[k] = (p[3][k] - p[2][k]) / span - before[k];
+    }
 }
 
 static int compare_impacts(const void *a, const void *b)
 {
     double x = ((const depict_impact *)a)->time, y = ((const depict_impact *)b)->time;
     return (x > y) - (x < y);
+}
+
+/* Of more than there is room for the weakest goes. */
+static void impact_keep(depict_impact *out, size_t most, size_t *count, const depict_impact *now)
+{
+    size_t place = *count;
+    if (*count == most) {
+        place = 0;
+        for (size_t k = 1; k < most; k++)
+            if (vector3_length(out[k].change) < vector3_length(out[place].change))
+                place = k;
+        if (most == 0 || vector3_length(out[place].change) >= vector3_length(now->change))
+            return;
+    } else
+        ++*count;
+    out[place] = *now;
 }
 
 lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
@@ -155,31 +164,23 @@ lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const de
     *count = 0;
     for (size_t i = 1; i < way.count && status == LMN_OK; i++)
         length += vector3_distance(way.samples[i - 1].at, way.samples[i].at);
-    const double usual = to > from ? length / (to - from) : 0;
+    const double usual = to > from ? length / (to - from) : 0, span = (to - from) * 1e-4;
+    double       last = -INFINITY;
     for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
         depict_impact now = {.time = way.samples[i].time};
-        double before[3], span = fmin(now.time - way.samples[i - 1].time, way.samples[i + 1].time - now.time) / 16;
-        change_at(t, now.time, span, before, now.change);
-        /* What only bends turns less and less the nearer one looks. */
-        double near_before[3], near_change[3];
-        change_at(t, now.time, span / 8, near_before, near_change);
-        now.speed = vector3_length(before);
-        double turn = vector3_length(near_change);
-        if (turn < 0.3 * usual || turn < 0.6 * vector3_length(now.change) || now.speed < 0.05 * usual)
+        double        before[3], coarse[3];
+        if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
-        vector3_copy(now.change, near_change);
+        change_at(t, now.time, 4 * span, before, coarse);
+        change_at(t, now.time, span, before, now.change);
+        now.speed = vector3_length(before);
+        /* What only bends turns less and less the nearer one looks. */
+        double turn = vector3_length(now.change);
+        if (turn < 0.3 * usual || turn < 0.7 * vector3_length(coarse) || now.speed < 0.05 * usual)
+            continue;
+        last = now.time;
         vector3_copy(now.at, way.samples[i].at);
-        size_t place = *count;
-        if (*count == most) { /* the weakest goes */
-            place = 0;
-            for (size_t k = 1; k < most; k++)
-                if (vector3_length(out[k].change) < vector3_length(out[place].change))
-                    place = k;
-            if (most == 0 || vector3_length(out[place].change) >= turn)
-                continue;
-        } else
-            ++*count;
-        out[place] = now;
+        impact_keep(out, most, count, &now);
     }
     if (*count > 1)
         qsort(out, *count, sizeof *out, compare_impacts);
