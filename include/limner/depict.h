@@ -29,11 +29,13 @@ typedef struct lmn_depict_desc {
  * by [glyph=arrow], [of=NAME] and [when=past]. They turn to the viewer that `draw` places, and tell past and future of
  * its time. Things for which ghost images stand are hidden. `json` (may be NULL) gets {"expressions", "reasons"}: what
  * was told and, where it was chosen, why; free it with lmn_text_free. Errors: LMN_USAGE (an expression, the
- * description), LMN_FORMAT (no JSON), LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. */
+ * description), LMN_FORMAT (no JSON), LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. Where memory
+ * is missing while those of an earlier call are taken out, changes stay open: lmn_scene_end_changes. */
 LMN_API lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
                               lmn_error *error);
 
-/* Takes all signs out of the scene and shows what was hidden for them. Errors: LMN_USAGE, LMN_MEMORY. */
+/* Takes all signs out of the scene and shows what was hidden for them. Errors: LMN_USAGE, LMN_MEMORY (then changes stay
+ * open: lmn_scene_end_changes). */
 LMN_API lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error);
 
 /* The ways to depict something, one after the other. */

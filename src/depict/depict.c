@@ -32,7 +32,7 @@ static bool is_root(const node *n)
     return n->parent == NONE && !n->removed && attribute_of(n, root_name);
 }
 
-lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
+static lmn_status take_out(lmn_scene *scene, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     for (size_t i = 0; i < scene->node_count && status == LMN_OK; i++) {
@@ -44,6 +44,23 @@ lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
         }
     }
     return status;
+}
+
+static bool has_glyphs(const lmn_scene *scene)
+{
+    for (size_t i = 0; i < scene->node_count; i++)
+        if (is_root(&scene->nodes[i]) || attribute_of(&scene->nodes[i], hidden_key))
+            return true;
+    return false;
+}
+
+lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
+{
+    if (!has_glyphs(scene))
+        return LMN_OK;
+    scene_begin_changes(scene);
+    lmn_status status = take_out(scene, error), ended = scene_end_changes(scene, status == LMN_OK ? error : NULL);
+    return status == LMN_OK ? ended : status;
 }
 
 /* --- the job
@@ -121,8 +138,14 @@ static lmn_status change_scene(lmn_scene *scene, depict_job *j, const expression
         status = glyphs_into_scene(scene, j, root, error);
     for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
         status = hide_target(scene, &expressions->items[i], error);
-    lmn_status ended = scene_end_changes(scene, status == LMN_OK ? error : NULL);
-    return status == LMN_OK ? ended : status;
+    if (status == LMN_OK)
+        status = scene_end_changes(scene, error);
+    if (status != LMN_OK) {
+        /* The list of parts never knew of the glyphs. */
+        take_out(scene, NULL);
+        scene_drop_changes(scene);
+    }
+    return status;
 }
 
 lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
@@ -139,7 +162,5 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
     glyphs_release(&j);
-    if (status != LMN_OK)
-        depict_clear(scene, NULL);
     return status;
 }

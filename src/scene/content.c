@@ -45,6 +45,12 @@ lmn_status scene_end_changes(lmn_scene *s, lmn_error *error)
     return status;
 }
 
+void scene_drop_changes(lmn_scene *s)
+{
+    s->changes_open--;
+    s->revision = scene_next_revision();
+}
+
 /* --- where parts are ------------------------------------------------------------------------------------ */
 
 static bool is_far(box3 b)

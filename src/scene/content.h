@@ -11,6 +11,8 @@ lmn_status scene_list_parts(lmn_scene *scene, lmn_error *error);
 /* Between these the list of parts waits. Errors: LMN_MEMORY (then changes stay open), LMN_USAGE (none are open). */
 void       scene_begin_changes(lmn_scene *scene);
 lmn_status scene_end_changes(lmn_scene *scene, lmn_error *error);
+/* Ends them with the list of parts as it was: for who has taken out again all that was added. Cannot fail. */
+void scene_drop_changes(lmn_scene *scene);
 
 /* Appends a node, whose references are in range, below its parent, and takes it over: what it holds is freed with the
  * scene, or by the caller when this fails. Errors: LMN_LIMIT, LMN_FORMAT (it lies too far out), LMN_MEMORY. */

@@ -1,0 +1,564 @@
+/* Glyphs against the motion that they tell, which is known in closed form: a ball that falls and bounces. Nienhaus
+ * 2005, sections 7.6 to 7.8; rows D08 to D11 and D13 to D16. */
+#include "import_support.h"
+
+#include <math.h>
+
+#include "../support/moving_scene.h"
+#include "depict/depict.h"
+#include "depict/depict_private.h"
+#include "limner/content.h"
+#include "limner/depict.h"
+
+static const double red[3] = {0.8, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5}, gravity = 9.81, radius = 0.5, height = 4,
+                    forward = 2;
+
+#define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
+
+static void near_or_fail(double value, double expected, double off, const char *what, int line)
+{
+    if (!(fabs(value - expected) <= off))
+        fail_msg("line %d: %s is %.8g instead of %.8g", line, what, value, expected);
+}
+
+/* --- the ball --------------------------------------------------------------------------------------------------- */
+
+static double contact_time(void)
+{
+    return sqrt(2 * (height - radius) / gravity);
+}
+
+enum { LOSS = 80 }; /* of the speed, a hundred times what is left */
+
+static double rise_time(void)
+{
+    return 2 * contact_time() * LOSS / 100;
+}
+
+/* Its middle. */
+static void ball_at(double t, double out[3])
+{
+    double down = contact_time(), up = gravity * down * LOSS / 100, s = t - down;
+    out[0] = forward * t;
+    out[1] = t < down ? height - gravity / 2 * t * t : radius + up * s - gravity / 2 * s * s;
+    out[2] = 0;
+}
+
+static lmn_scene *ball_scene(const char *name, bool moves)
+{
+    moving_scene m;
+    char         path[256];
+    const double half[3] = {8, 0.1, 2}, down = contact_time(), end = down + rise_time(), hit = gravity * down,
+                 off = hit * LOSS / 100;
+    moving_scene_begin(&m);
+    int ground = moving_scene_box(&m, 4, -0.1, 0, half, grey),
+        ball = moving_scene_sphere(&m, 0, height, 0, radius, red);
+    moving_scene_name(&m, ground, "ground");
+    moving_scene_name(&m, ball, "ball");
+    const double times[3] = {0, down, end};
+    const double values[27] = {forward, 0,    0,       0,
+                               height,  0,    forward, 0,
+                               0, /* falls */
+                               forward, -hit, 0,       forward * down,
+                               radius,  0,    forward, off,
+                               0, /* bounces */
+                               forward, -off, 0,       forward * end,
+                               radius,  0,    forward, -off,
+                               0};
+    const double still[6] = {0, height, 0, 0, height, 0};
+    if (moves)
+        moving_scene_cubic_keys(&m, ball, "translation", 3, times, values);
+    else
+        moving_scene_keys(&m, ball, "translation", 2, times, still);
+    snprintf(path, sizeof path, "%s/%s", temp_folder(), name);
+    moving_scene_write(&m, path);
+    return load_or_fail(path);
+}
+
+static lmn_draw_desc seen_at(double seconds)
+{
+    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
+    d.view = LMN_VIEW_FRONT;
+    d.orthographic = true;
+    d.time_s = seconds;
+    d.time_given = true;
+    return d;
+}
+
+static lmn_status tell(lmn_scene *scene, const char *expressions, double seconds, char **json, lmn_error *error)
+{
+    lmn_draw_desc   draw = seen_at(seconds);
+    lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
+    desc.expressions = expressions;
+    return lmn_depict(scene, &draw, &desc, json, error);
+}
+
+static void tell_or_fail(lmn_scene *scene, const char *expressions, double seconds, char **json)
+{
+    lmn_error error = {0};
+    if (tell(scene, expressions, seconds, json, &error) != LMN_OK)
+        fail_msg("%s: %s", expressions, error.message);
+}
+
+/* --- what was put into the scene --------------------------------------------------------------------------------- */
+
+static const char *value_of(const node *n, const char *key)
+{
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, key) == 0)
+            return n->attributes[i].value;
+    return "";
+}
+
+/* The k-th glyph of a kind and tense (NULL: any); NULL when there are fewer. */
+static const primitive *glyph_at(const lmn_scene *s, const char *glyph, const char *when, size_t k)
+{
+    for (size_t i = 0; i < s->part_count; i++) {
+        const node *n = &s->nodes[s->parts[i].node];
+        if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 &&
+            (!when || strcmp(value_of(n, "when"), when) == 0) && k-- == 0)
+            return &s->meshes[n->mesh].primitives[0];
+    }
+    return NULL;
+}
+
+static void position(const primitive *p, uint32_t i, double out[3])
+{
+    out[0] = (double)p->positions[i].x;
+    out[1] = (double)p->positions[i].y;
+    out[2] = (double)p->positions[i].z;
+}
+
+static void middle_of(const primitive *p, double out[3])
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, at[3];
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        position(p, i, at);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    vector3_mix(out, low, high, 0.5);
+}
+
+static double volume_of(const primitive *p)
+{
+    double volume = 0, a[3], b[3], c[3], n[3];
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        position(p, p->indices[i], a);
+        position(p, p->indices[i + 1], b);
+        position(p, p->indices[i + 2], c);
+        vector3_cross(n, b, c);
+        volume += vector3_dot(a, n) / 6;
+    }
+    return volume;
+}
+
+/* A sum that another shape of any glyph changes. */
+static uint64_t glyphs_hash(const lmn_scene *s)
+{
+    uint64_t hash = 1469598103934665603u;
+    for (size_t i = 0; i < s->part_count; i++) {
+        const node *n = &s->nodes[s->parts[i].node];
+        if (n->mesh == NONE || !*value_of(n, "glyph"))
+            continue;
+        const primitive     *p = &s->meshes[n->mesh].primitives[0];
+        const unsigned char *bytes = (const unsigned char *)p->positions;
+        for (size_t k = 0; k < p->vertex_count * sizeof *p->positions; k++)
+            hash = (hash ^ bytes[k]) * 1099511628211u;
+        bytes = (const unsigned char *)&s->materials[p->material].base_colour;
+        for (size_t k = 0; k < sizeof(vec4); k++)
+            hash = (hash ^ bytes[k]) * 1099511628211u;
+        hash = (hash ^ (unsigned char)*value_of(n, "sketchy")) * 1099511628211u;
+    }
+    return hash;
+}
+
+/* Pieces of a mesh that share no vertices. */
+static size_t pieces_of(const primitive *p)
+{
+    uint32_t *root = malloc(p->vertex_count * sizeof *root);
+    size_t    pieces = 0;
+    for (uint32_t i = 0; i < p->vertex_count; i++)
+        root[i] = i;
+    for (int round = 0; round < 64; round++)
+        for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+            uint32_t least = root[p->indices[i]];
+            for (int k = 1; k < 3; k++)
+                least = root[p->indices[i + (uint32_t)k]] < least ? root[p->indices[i + (uint32_t)k]] : least;
+            for (int k = 0; k < 3; k++)
+                root[p->indices[i + (uint32_t)k]] = least;
+        }
+    for (uint32_t i = 0; i < p->vertex_count; i++)
+        pieces += root[i] == i;
+    free(root);
+    return pieces;
+}
+
+/* --- tests ---------------------------------------------------------------------------------------------------------
+ */
+
+static void trajectories_are_the_motion(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("way.glb", true);
+    moment     when = moment_at_rest();
+    lmn_error  error;
+    way        w;
+    trajectory t;
+    double     at[3], velocity[3], local[3] = {0, 0, 0};
+    when.clips[when.clip_count++] = 0;
+    assert_int_equal(way_open(&w, scene, depict_find_node(scene, "ball"), &when, &error), LMN_OK);
+    assert_int_equal(trajectory_sample(&t, &w, local, 0, contact_time() + rise_time(), 0.002, &error), LMN_OK);
+    bool bounced = false;
+    for (size_t i = 0; i < t.count; i++) {
+        ball_at(t.samples[i].time, at);
+        assert_near(vector3_distance(at, t.samples[i].at), 0, 2e-5);
+        bounced = bounced || fabs(t.samples[i].time - contact_time()) < 1e-6;
+    }
+    assert_true(bounced); /* keys are samples */
+    for (size_t i = 1; i < t.count; i++) {
+        double middle[3], chord[3];
+        ball_at((t.samples[i - 1].time + t.samples[i].time) / 2, middle);
+        vector3_mix(chord, t.samples[i - 1].at, t.samples[i].at, 0.5);
+        assert_near(vector3_distance(middle, chord), 0, 0.004);
+    }
+    way_velocity(&w, local, 0.4, 0.01, velocity);
+    assert_near(velocity[0], forward, 1e-4);
+    assert_near(velocity[1], -gravity * 0.4, 1e-3);
+    trajectory_release(&t);
+    way_release(&w);
+    lmn_scene_destroy(&scene);
+}
+
+static void impacts_are_found_where_they_are(void **state)
+{
+    (void)state;
+    lmn_scene    *scene = ball_scene("impact.glb", true);
+    depict_job    job = {.scene = scene, .size = 10};
+    lmn_error     error;
+    depict_target t;
+    depict_impact found[4];
+    size_t        count;
+    double        contact[3];
+    job.when.clips[job.when.clip_count++] = 0;
+    assert_int_equal(target_open(&t, &job, depict_find_node(scene, "ball"), &error), LMN_OK);
+    assert_int_equal(impacts_find(found, 4, &count, &t, 0, contact_time() + rise_time(), &error), LMN_OK);
+    assert_int_equal(count, 1); /* tops of parabolas are none */
+    assert_near(found[0].time, contact_time(), 1e-6);
+    assert_near(found[0].change[1], gravity * contact_time() * (1 + LOSS / 100.0), 0.05);
+    assert_int_equal(impact_contact(contact, &job, &t, &found[0], &error), LMN_OK);
+    assert_near(contact[0], forward * contact_time(), 1e-4);
+    assert_near(contact[1], 0, 1e-4);
+    target_release(&t);
+    lmn_scene_destroy(&scene);
+}
+
+/* Both sides of a ribbon are as far from the way as half of its breadth says. */
+static void check_arrow(const primitive *p, double from, double to, double breadth)
+{
+    assert_non_null(p);
+    double farthest = 0, along = INFINITY, last = -INFINITY;
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        double at[3], best = INFINITY, when = 0, way[3];
+        position(p, i, at);
+        for (int k = 0; k <= 4000; k++) {
+            double t = from + (to - from) * k / 4000;
+            ball_at(t, way);
+            if (vector3_distance(at, way) < best) {
+                best = vector3_distance(at, way);
+                when = t;
+            }
+        }
+        farthest = fmax(farthest, best);
+        along = fmin(along, when);
+        last = fmax(last, when);
+    }
+    /* The head is 2.6 times as broad; corners are mitred. */
+    assert_true(farthest <= breadth * 1.4);
+    assert_near(along, from, 0.02);
+    assert_true(last > to - 0.35 * (to - from));
+}
+
+static void arrows_follow_the_way(void **state)
+{
+    (void)state;
+    const double now = 1.2, end = contact_time() + rise_time(), breadth = 0.25 * radius;
+    lmn_scene   *scene = ball_scene("arrow.glb", true);
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"path\"}]", now, NULL);
+    const primitive *past = glyph_at(scene, "arrow", "past", 0), *future = glyph_at(scene, "arrow", "future", 0);
+    check_arrow(past, 0, now, breadth);
+    check_arrow(future, now, end, breadth);
+    /* Dashes are of the future alone: a piece each, and the head. */
+    assert_int_equal(pieces_of(past), 1);
+    assert_true(pieces_of(future) >= 4);
+    assert_null(glyph_at(scene, "arrow", "present", 0));
+    /* Middles of the past ribbon lie on the way, within a hundredth of the radius. */
+    for (uint32_t i = 0; i + 1 < past->vertex_count; i += 2) {
+        double a[3], b[3], middle[3], best = INFINITY, way[3];
+        position(past, i, a);
+        position(past, i + 1, b);
+        vector3_mix(middle, a, b, 0.5);
+        for (int k = 0; k <= 8000; k++) {
+            ball_at(now * k / 8000, way);
+            best = fmin(best, vector3_distance(middle, way));
+        }
+        assert_near(best, 0, 0.012 * radius);
+    }
+    /* All future: no past arrow. */
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"path\", \"now\": 0}]", now, NULL);
+    assert_null(glyph_at(scene, "arrow", "past", 0));
+    lmn_scene_destroy(&scene);
+}
+
+static void ghosts_are_where_they_were(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("ghost.glb", true);
+    double     at[3], middle[3], rest = 4 * 3.14159265 / 3 * radius * radius * radius;
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"still\", \"count\": 4}]", 0.5, NULL);
+    ball_at(0.5, at);
+    middle_of(glyph_at(scene, "still", "present", 0), middle);
+    assert_near(vector3_distance(at, middle), 0, 1e-4);
+    ball_at(0, at);
+    middle_of(glyph_at(scene, "still", "past", 0), middle);
+    assert_near(vector3_distance(at, middle), 0, 1e-4);
+    /* Of the future the end, and where it meets the ground. */
+    bool met = false;
+    for (size_t i = 0; glyph_at(scene, "still", "future", i); i++) {
+        middle_of(glyph_at(scene, "still", "future", i), middle);
+        ball_at(contact_time(), at);
+        met = met || vector3_distance(at, middle) < 1e-4;
+    }
+    assert_true(met);
+    double round = volume_of(glyph_at(scene, "still", "present", 0));
+    assert_near(round / rest, 1, 0.05); /* a ball of facets */
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"still\", \"count\": 4, \"stretch\": 1}]", 0.5, NULL);
+    size_t flat = 0, seen = 0;
+    for (; glyph_at(scene, "still", NULL, seen); seen++) {
+        const primitive *p = glyph_at(scene, "still", NULL, seen);
+        double           low = INFINITY, high = -INFINITY, v[3];
+        assert_near(volume_of(p) / round, 1, 1e-3);
+        for (uint32_t i = 0; i < p->vertex_count; i++) {
+            position(p, i, v);
+            low = fmin(low, v[1]);
+            high = fmax(high, v[1]);
+        }
+        /* On the ground it is flat, and stays on it. */
+        if (high - low < 1.6 * radius) {
+            flat++;
+            assert_near(low, 0, 0.02 * radius);
+        }
+    }
+    assert_int_equal(seen, 4);
+    assert_int_equal(flat, 1);
+    lmn_scene_destroy(&scene);
+}
+
+static void lines_trail_behind(void **state)
+{
+    (void)state;
+    lmn_scene   *scene = ball_scene("lines.glb", true);
+    const double now = 0.5;
+    double       at[3], way[3] = {forward, -gravity * now, 0}, p[3];
+    vector3_normalise(way);
+    ball_at(now, at);
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"motion\"}]", now, NULL);
+    const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
+    assert_non_null(lines);
+    for (uint32_t i = 0; i < lines->vertex_count; i++) {
+        position(lines, i, p);
+        vector3_add(p, p, -1, at);
+        assert_true(vector3_dot(p, way) < 0.1 * radius); /* none ahead of the middle */
+    }
+    assert_true(pieces_of(lines) >= 12);
+    /* At the very beginning it has come from nowhere. */
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"motion\", \"now\": 0}]", now, NULL);
+    assert_null(glyph_at(scene, "motion-lines", NULL, 0));
+    lmn_scene_destroy(&scene);
+}
+
+static void targets_are_hidden_for_their_ghosts(void **state)
+{
+    (void)state;
+    lmn_scene    *scene = ball_scene("hidden.glb", true);
+    const int32_t ball = depict_find_node(scene, "ball");
+    const size_t  parts = scene->part_count;
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"path\"}]", 1, NULL);
+    assert_false(scene->nodes[ball].hidden); /* an arrow stands for nothing */
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"still\"}]", 1, NULL);
+    assert_true(scene->nodes[ball].hidden);
+    assert_null(glyph_at(scene, "arrow", NULL, 0)); /* of the call before */
+    assert_int_equal(lmn_depict_clear(scene, NULL), LMN_OK);
+    assert_false(scene->nodes[ball].hidden);
+    assert_int_equal(scene->part_count, parts);
+    /* What somebody else has hidden stays so. */
+    scene->nodes[ball].hidden = true;
+    tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"still\"}]", 1, NULL);
+    assert_int_equal(lmn_depict_clear(scene, NULL), LMN_OK);
+    assert_true(scene->nodes[ball].hidden);
+    lmn_scene_destroy(&scene);
+}
+
+/* Another value than the default. */
+static void other_value(const param *p, char *out, size_t size)
+{
+    double most = p->soft_max != 0 ? p->soft_max : p->max;
+    if (p->type == PARAM_BOOL)
+        snprintf(out, size, "%s", p->def != 0 ? "false" : "true");
+    else if (p->type == PARAM_COLOUR)
+        snprintf(out, size, "\"#123456\"");
+    else
+        snprintf(out, size, p->type == PARAM_INT ? "%.0f" : "%g", p->def == most ? p->min : most);
+}
+
+static void every_option_changes_the_glyphs(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("options.glb", true);
+    int        options = 0;
+    for (size_t d = 0; depictions[d]; d++) {
+        const depiction *row = depictions[d];
+        if (row->semantics || (strcmp(row->characteristic, "path") != 0 && strcmp(row->characteristic, "still") != 0 &&
+                               strcmp(row->characteristic, "motion") != 0))
+            continue; /* others have tests of their own */
+        for (size_t k = 0; k < row->param_count; k++) {
+            char plain[256], set[320], value[64];
+            other_value(&row->params[k], value, sizeof value);
+            const char *more = strcmp(row->characteristic, "still") == 0 ? ", \"stretch\": 0.3" : "";
+            if (strcmp(row->params[k].key, "stretch") == 0 || strcmp(row->params[k].key, "count") == 0)
+                more = "";
+            snprintf(plain, sizeof plain, "[{\"target\": \"ball\", \"depict\": \"%s\"%s%s}]", row->characteristic, more,
+                     strcmp(row->characteristic, "still") == 0 && strcmp(row->params[k].key, "count") != 0
+                         ? ", \"count\": 3"
+                         : "");
+            tell_or_fail(scene, plain, 1, NULL);
+            uint64_t before = glyphs_hash(scene);
+            snprintf(set, sizeof set, "%.*s, \"%s\": %s}]", (int)strlen(plain) - 2, plain, row->params[k].key, value);
+            tell_or_fail(scene, set, 1, NULL);
+            if (glyphs_hash(scene) == before)
+                fail_msg("%s.%s changes nothing", row->characteristic, row->params[k].key);
+            options++;
+        }
+    }
+    assert_true(options > 12);
+    lmn_scene_destroy(&scene);
+}
+
+static void expressions_come_back_as_they_were(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("round.glb", true);
+    char      *first = NULL, *second = NULL;
+    tell_or_fail(
+        scene,
+        "[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 0.25, \"to\": 1.5, \"now\": 0.75, \"width\": 0.5, "
+        "\"colour\": \"#102030\"}, {\"target\": \"ball\", \"depict\": \"still\", \"count\": 3, \"sketchy\": true}]",
+        1, &first);
+    uint64_t hash = glyphs_hash(scene);
+    json_t  *root = json_loads(first, 0, NULL);
+    assert_int_equal(json_array_size(json_object_get(root, "expressions")), 2);
+    char *array = json_dumps(json_object_get(root, "expressions"), JSON_REAL_PRECISION(17));
+    tell_or_fail(scene, array, 1, &second);
+    assert_string_equal(first, second);
+    assert_int_equal(glyphs_hash(scene), hash);
+    free(array);
+    json_decref(root);
+    lmn_text_free(first);
+    lmn_text_free(second);
+    lmn_scene_destroy(&scene);
+}
+
+static void proposals_follow_from_the_motion(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("proposed.glb", true), *still = ball_scene("rest.glb", false);
+    char      *json = NULL;
+    tell_or_fail(scene, NULL, 1, &json);
+    assert_non_null(strstr(json, "\"path\""));
+    assert_non_null(strstr(json, "\"still\""));
+    assert_null(strstr(json, "ground")); /* it does not move */
+    assert_null(strstr(json, "turnaround"));
+    lmn_text_free(json);
+    tell_or_fail(still, NULL, 0.5, &json);
+    json_t *root = json_loads(json, 0, NULL);
+    assert_int_equal(json_array_size(json_object_get(root, "expressions")), 0);
+    json_decref(root);
+    lmn_text_free(json);
+    lmn_scene_destroy(&scene);
+    lmn_scene_destroy(&still);
+}
+
+static void mistakes_are_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *said;
+        lmn_status  status;
+    } rows[] = {
+        {"[", "line 1", LMN_FORMAT},
+        {"{}", "array", LMN_USAGE},
+        {"[1]", "object", LMN_USAGE},
+        {"[{}]", "\"target\"", LMN_USAGE},
+        {"[{\"target\": \"nobody\", \"depict\": \"path\"}]", "nobody", LMN_USAGE},
+        {"[{\"target\": \"#99\", \"depict\": \"path\"}]", "#99", LMN_USAGE},
+        {"[{\"target\": \"ball\"}]", "\"depict\"", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"paht\"}]", "paht", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 2, \"to\": 1}]", "interval", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": -1}]", "from", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": \"now\"}]", "from", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": \"wide\"}]", "width", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": 1e9}]", "width", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"breadth\": 1}]", "breadth", LMN_USAGE},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"partner\": \"nobody\"}]", "nobody", LMN_USAGE},
+    };
+    lmn_scene *scene = ball_scene("bad.glb", true);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmn_error error = {0};
+        assert_int_equal(tell(scene, rows[i].text, 1, NULL, &error), rows[i].status);
+        if (!strstr(error.message, rows[i].said))
+            fail_msg("%s: %s", rows[i].text, error.message);
+        assert_null(glyph_at(scene, "arrow", NULL, 0));
+    }
+    lmn_scene_destroy(&scene);
+}
+
+static void missing_memory_is_said(void **state)
+{
+    (void)state;
+    lmn_scene *scene = ball_scene("memory.glb", true);
+    lmn_status status = LMN_MEMORY;
+    long       n = 1;
+    for (; status != LMN_OK && n < 20000; n++) {
+        lmn_error error = {0};
+        mem_fail_at(n);
+        status = tell(scene, n % 2 ? NULL : "[{\"target\": \"ball\", \"depict\": \"motion\"}]", 1, NULL, &error);
+        mem_fail_at(0);
+        if (status != LMN_OK && status != LMN_MEMORY)
+            fail_msg("allocation %ld: %d, %s", n, (int)status, error.message);
+        if (scene->changes_open) /* those of the call before were being taken out */
+            assert_int_equal(lmn_scene_end_changes(scene, NULL), LMN_OK);
+        assert_false(status != LMN_OK && scene->nodes[depict_find_node(scene, "ball")].hidden);
+    }
+    assert_true(n > 100 && status == LMN_OK);
+    lmn_scene_destroy(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(trajectories_are_the_motion),
+        cmocka_unit_test(impacts_are_found_where_they_are),
+        cmocka_unit_test(arrows_follow_the_way),
+        cmocka_unit_test(ghosts_are_where_they_were),
+        cmocka_unit_test(lines_trail_behind),
+        cmocka_unit_test(targets_are_hidden_for_their_ghosts),
+        cmocka_unit_test(every_option_changes_the_glyphs),
+        cmocka_unit_test(expressions_come_back_as_they_were),
+        cmocka_unit_test(proposals_follow_from_the_motion),
+        cmocka_unit_test(mistakes_are_said),
+        cmocka_unit_test(missing_memory_is_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
