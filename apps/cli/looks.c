@@ -5,13 +5,15 @@
 #include <string.h>
 
 typedef struct looks_values {
-    bool json, markdown;
+    bool json, markdown, depictions;
 } looks_values;
 
 static const option options[] = {
     {"json", 0, OPTION_FLAG, offsetof(looks_values, json), NULL, "Write JSON (docs/reference/looks.md)."},
     {"markdown", 0, OPTION_FLAG, offsetof(looks_values, markdown), NULL,
      "Write the reference page of all looks and techniques."},
+    {"depictions", 0, OPTION_FLAG, offsetof(looks_values, depictions), NULL,
+     "Write the reference page of all ways to depict what happens (`limner depict`)."},
 };
 
 enum { TEXT_SIZE = 256 };
@@ -197,6 +199,10 @@ static int run(const word_list *inputs, const void *values)
     char               *text = NULL;
     if (v->markdown && (name || v->json))
         return message_usage(NULL, "--markdown goes with neither a NAME nor --json");
+    if (v->depictions && (name || v->json || v->markdown))
+        return message_usage(NULL, "--depictions goes with neither a NAME nor --json nor --markdown");
+    if (v->depictions)
+        return print_and_free(lmn_depiction_reference());
     if (lmn_look_reference_json(&text, name, &error) != LMN_OK)
         return message_error(&error);
     if (v->json)

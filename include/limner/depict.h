@@ -47,6 +47,10 @@ typedef struct lmn_depiction_info {
 } lmn_depiction_info;
 LMN_API bool lmn_depiction_at(size_t index, lmn_depiction_info *out);
 
+/* All of them with their parameters as a page of Markdown (docs/reference/depictions.md). Free with lmn_text_free.
+ * NULL when memory is gone. */
+LMN_API char *lmn_depiction_reference(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -24,6 +24,11 @@ bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
     return true;
 }
 
+char *lmn_depiction_reference(void)
+{
+    return depict_reference();
+}
+
 lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error)
 {
     return scene ? depict_clear(scene, error) : error_set(error, LMN_USAGE, "lmn_depict_clear: `scene` is NULL");

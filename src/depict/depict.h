@@ -30,6 +30,9 @@ extern const depiction *const depictions[];
 /* The row for a characteristic and what a thing is (may be NULL), or for any thing; NULL: there is none. */
 const depiction *depiction_find(const char *characteristic, const char *semantics);
 
+/* All rows as a page of Markdown; free with mem_free. NULL when memory is gone. */
+char *depict_reference(void);
+
 /* What is to be told of one target: a characteristic within an interval, with the row's parameters. */
 typedef struct expression {
     const depiction *row;

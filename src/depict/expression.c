@@ -126,7 +126,7 @@ static lmn_status read_row(const depiction **out, const json_t *one, const lmn_s
         names[count++] = depictions[i]->characteristic;
     const char *near = text_nearest(token, names, count);
     error_set(error, LMN_USAGE, "there is no way to depict '%.80s'", token);
-    error_hint(error, "%s%s%s", near ? "did you mean '" : "`limner depict --list` lists them", near ? near : "",
+    error_hint(error, "%s%s%s", near ? "did you mean '" : "`limner looks --depictions` lists them", near ? near : "",
                near ? "'?" : "");
     return LMN_USAGE;
 }

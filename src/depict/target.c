@@ -168,15 +168,14 @@ lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const de
     double       last = -INFINITY;
     for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
         depict_impact now = {.time = way.samples[i].time};
-        double        before[3], coarse[3];
+        double        before[3];
         if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
-        change_at(t, now.time, 4 * span, before, coarse);
         change_at(t, now.time, span, before, now.change);
         now.speed = vector3_length(before);
-        /* What only bends turns less and less the nearer one looks. */
+        /* What only bends hardly turns within so short a time. */
         double turn = vector3_length(now.change);
-        if (turn < 0.3 * usual || turn < 0.7 * vector3_length(coarse) || now.speed < 0.05 * usual)
+        if (turn < 0.3 * usual || now.speed < 0.05 * usual)
             continue;
         last = now.time;
         vector3_copy(now.at, way.samples[i].at);

@@ -882,6 +882,33 @@ group_films() {
 }
 
 # Ctrl-C in the middle of films leaves nothing, neither of them nor of ffmpeg.
+depict() {
+    local motion="$examples/walker.bvh" array='[{"target": "Hips", "depict": "path", "from": 0, "to": 1.5, "now": 1}]'
+    row 0 '' walker.png depict "$motion" $small -q
+    row 0 '' out.svg depict "$motion" -q -o out.svg
+    row 0 '' out.png depict "$motion" $small -o out.png --explain -q
+    out '"because"'
+    out '"path"'
+    # What it explains is what it takes, and the same bytes come of it.
+    "$limner" depict "$motion" $small -q -o in-first.png --time 1 --explain > in-told.json 2> /dev/null
+    row 0 '' out.png depict "$motion" $small -q -o out.png --time 1 --expressions in-told.json
+    "$limner" depict "$motion" $small -q -o .again.png --time 1 --expressions in-told.json && cmp -s .again.png in-first.png ||
+        complain "expressions that were explained draw another picture"
+    echo "$array" > in-path.json
+    row 0 '' out.png depict "$motion" $small -q -o out.png -l line --expressions in-path.json
+    row 0 '' out.png depict "$motion" $small -q -o out.png --interval 0.5:1
+    row 1 '--interval' '' depict "$motion" --interval 1:0.5
+    row 1 '--interval' '' depict "$motion" --interval soon
+    row 1 'none.json' '' depict "$motion" --expressions none.json
+    echo '[{"target": "Tail", "depict": "path"}]' > in-path.json
+    row 1 'Tail' '' depict "$motion" --expressions in-path.json
+    echo '{' > in-path.json
+    row 1 'in-path.json: line' '' depict "$motion" --expressions in-path.json
+    echo '{"a": 1}' > in-path.json
+    row 1 'no expressions' '' depict "$motion" --expressions in-path.json
+    row 1 '--interval' '' draw "$motion" --interval 0:1
+}
+
 films_interrupted() {
     local ending got waited bin; bin=$(mktemp -d) # not here, where each row begins with an empty folder
     printf '#!/bin/sh\necho $$ > %s/.started\nexec cat > /proc/self/fd/3\n' "$folder" > "$bin/ffmpeg" && chmod +x "$bin/ffmpeg"
