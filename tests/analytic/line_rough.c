@@ -110,12 +110,12 @@ static double change_along(const shot *s, dvec begin, dvec end)
     return most - least;
 }
 
-/* The change along the line from begin to end, seen from four sides: the most there has been. */
-static double most_change(double most, const shape *model, dvec begin, dvec end)
+/* The change along the line from begin to end, seen from four sides and from so high: the most there has been. */
+static double most_change(double most, const shape *model, dvec begin, dvec end, double high)
 {
     for (int turn = 0; turn < 4; turn++) {
         shot s;
-        if (draw(&s, model, (dvec){2.2 + 0.4 * turn, 2, 3.4 - 0.7 * turn}, (dvec){0, 0, 0}, 38, 44)) {
+        if (draw(&s, model, (dvec){2.2 + 0.4 * turn, high, 3.4 - 0.7 * turn}, (dvec){0, 0, 0}, 38, 44)) {
             most = fmax(most, change_along(&s, begin, end));
             shot_release(&s);
         }
@@ -123,17 +123,20 @@ static double most_change(double most, const shape *model, dvec begin, dvec end)
     return most;
 }
 
-/* A slab of another part on the floor, from a tenth of a pixel to four pixels high. */
+/* A slab of another part on the floor, from a tenth of a pixel to four pixels high; and one sunk in it, up to a pixel
+ * high, whose lower edge is hidden, seen from where depth steps by more than the floor's slope explains. */
 static void run_kerbs(void)
 {
     double most = 0;
-    for (double height = 0.001; height < 0.04; height *= 1.6) {
-        shape slab = {0};
-        shape_box(&slab, "floor", (dvec){-1, -0.2, -1}, (dvec){1, 0, 1});
-        shape_box(&slab, "slab", (dvec){-0.6, 0, -0.6}, (dvec){0.6, height, 0.4});
-        most = most_change(most, &slab, (dvec){-0.6, 0.5 * height, 0.4}, (dvec){0.6, 0.5 * height, 0.4});
-        shape_release(&slab);
-    }
+    for (int sunk = 0; sunk < 2; sunk++)
+        for (double height = 0.001; height < (sunk ? 0.01 : 0.04); height *= 1.6) {
+            shape slab = {0};
+            shape_box(&slab, "floor", (dvec){-1, -0.2, -1}, (dvec){1, 0, 1});
+            shape_box(&slab, "slab", (dvec){-0.6, sunk ? -0.05 : 0, -0.6}, (dvec){0.6, height, 0.4});
+            most = most_change(most, &slab, (dvec){-0.6, 0.5 * height, 0.4}, (dvec){0.6, 0.5 * height, 0.4},
+                               sunk ? 3.2 : 2);
+            shape_release(&slab);
+        }
     check_at_most("rough", most, 0.25, "kerbs: change of ink along them, pixels");
 }
 
@@ -145,7 +148,7 @@ static void run_rims(void)
         shape closed = {0};
         shape_box(&closed, "box", (dvec){-0.6, -0.6, -0.6}, (dvec){0.6, 0, 0.4 - over});
         shape_box(&closed, "lid", (dvec){-0.6, 0.001, -0.6}, (dvec){0.6, 0.3, 0.4});
-        most = most_change(most, &closed, (dvec){-0.6, 0, 0.4}, (dvec){0.6, 0, 0.4});
+        most = most_change(most, &closed, (dvec){-0.6, 0, 0.4}, (dvec){0.6, 0, 0.4}, 2);
         shape_release(&closed);
     }
     check_at_most("rough", most, 0.25, "rims: change of ink along them, pixels");
