@@ -65,7 +65,8 @@ float step_at(vec2 axis, vec2 normal)
 void main()
 {
     vec2 along = v_end.xy - v_begin.xy, from = gl_FragCoord.xy - v_begin.xy;
-    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0), half_width = 0.5 * line_width_at(gl_FragCoord.xy);
+    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0);
+    float half_width = 0.5 * line_width_at(gl_FragCoord.xy) * (v_look.x < 0.0 ? u_line_crease_width : 1.0);
     vec3 axis = mix(v_begin.xyz, v_end.xyz, at);
     vec2 way = gl_FragCoord.xy - axis.xy;
     float d = length(way);

@@ -226,6 +226,31 @@ static void run_chamfers(void)
     }
 }
 
+/* Creases may be finer than outlines: of a box, the ink along an edge between two faces that are seen, and along one
+ * before nothing. */
+static void run_classes(void)
+{
+    static const double share = 0.5, rim = 0.6;
+    shape               box = {0};
+    shot                s;
+    shot_view view = {.width = SIDE, .height = SIDE, .eye = {2.2, 2, 3.4}, .up = {0, 1, 0}, .orthographic = true};
+    char      lines[160];
+    snprintf(lines, sizeof lines,
+             "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":%g,\"cover\":1,\"crease_width\":%g}",
+             2 * width, share);
+    shape_box(&box, "box", (dvec){-rim, -rim, -rim}, (dvec){rim, rim, rim});
+    if (shot_of_shape(&s, &box, "classes.glb", shot_line_look(lines), NULL, &view)) {
+        double least, most;
+        ink_along(&s, (dvec){rim, -rim, rim}, (dvec){rim, rim, rim}, &least, &most);
+        check_near("rough", least, share * 2 * width, 0.1, "crease of half the width: least ink along it");
+        check_near("rough", most, share * 2 * width, 0.1, "crease of half the width: most ink along it");
+        ink_along(&s, (dvec){-rim, rim, -rim}, (dvec){rim, rim, -rim}, &least, &most);
+        check_near("rough", least, 2 * width, 0.1, "outline beside it: least ink along it");
+        shot_release(&s);
+    }
+    shape_release(&box);
+}
+
 enum { STEPS = 4 }; /* of a quarter of a turn */
 
 /* Two walls at right angles, 4 high and 2 wide, and a rounding between them; and a third wall beyond a sharp edge. */
@@ -305,9 +330,9 @@ static void run_courses(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},      {"pipes", run_pipes},
-        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}};
-    int status = check_main(argc, argv, "line_rough", cases, 7);
+        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},       {"pipes", run_pipes},
+        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}, {"classes", run_classes}};
+    int status = check_main(argc, argv, "line_rough", cases, 8);
     shot_end();
     return status;
 }

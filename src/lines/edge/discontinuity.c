@@ -8,7 +8,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, slope, crease, faint, meet, cover;
+    float        step, slope, crease, faint, meet, crease_width, cover;
     bool         parts;
 } discontinuity;
 
@@ -30,6 +30,8 @@ static const param params[] = {
                     .unit = UNIT_DEGREES, .as_cosine = true,
                     .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
                            "are two by construction is no accident of facets."),
+    PARAM_FLOAT_ROW(discontinuity, crease_width, .def = 1, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Width of all lines that are no outlines, fraction of the width."),
     PARAM_FLOAT_ROW(discontinuity, cover, .def = 0.3, .min = 0.02, .max = 1, .soft_min = 0.1, .soft_max = 1,
                     .unit = UNIT_FRACTION,
                     .doc = "Lines that crowd get finer, so that they cover no more than this of the page around them; "
@@ -40,7 +42,9 @@ static const param params[] = {
 static void own_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
     lines_as_strokes(options, style, values);
-    style->cover = ((const discontinuity *)values)->cover;
+    const discontinuity *lines = values;
+    style->cover = lines->cover;
+    style->crease_width = lines->crease_width;
 }
 
 static const pass passes[] = {
