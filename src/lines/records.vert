@@ -23,7 +23,8 @@ float judged(float cosine)
 float code_of(int line)
 {
     int bits = int(a_begin.w);
-    float cosine = dot(a_first.xyz, a_second.xyz);
+    /* Whole chains are as strong as they are in the mean, so that none ends where one of its edges turns less. */
+    float cosine = a_first.w > 0.0 ? cos(a_first.w) : dot(a_first.xyz, a_second.xyz);
     float faint = judged(u_line_faint), sharp = judged(u_line_crease);
     float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
     return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;

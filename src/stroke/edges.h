@@ -27,6 +27,7 @@ typedef struct mesh_edge {
     uint32_t vertex[2];
     uint32_t face[2]; /* EDGE_NO_FACE: none */
     uint32_t flags;   /* of edge_flag, not 0 */
+    float    turn;    /* of the chain of creases that it is part of, radians, the mean; 0: not known, its own counts */
 } mesh_edge;
 
 /* How a mesh samples a surface, as scans do: densely, and more or less truly. */

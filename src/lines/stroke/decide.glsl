@@ -3,7 +3,7 @@
  * middle, the same for both ends, decides exactly in perspective too. Faces seen exactly from the side count as seen from behind. */
 layout(location = 0) in vec4 a_begin;  /* position; bits */
 layout(location = 1) in vec4 a_end;    /* position; of lines that files bring, how far they may lie off their surface */
-layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something */
+layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something; by how much the crease's chain turns, radians, 0: not known */
 layout(location = 3) in vec4 a_second;
 uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the direction towards it, 0 */
 uniform int  u_wanted; /* bits of the lines that are drawn */

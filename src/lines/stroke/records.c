@@ -24,7 +24,7 @@ static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e)
     float outward = m->inward[m->pieces[e->face[0]]] ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);
     put_vector(out + 4, m->positions[e->vertex[1]], 0, 1);
-    put_vector(out + 8, m->normals[e->face[0]], 0, outward);
+    put_vector(out + 8, m->normals[e->face[0]], e->turn, outward);
     put_vector(out + 12, m->normals[e->face[pair]], 0, pair ? outward * twist : -outward);
 }
 
