@@ -75,13 +75,13 @@ void main()
     vec2 ink = vec2(0.0), strength = vec2(0.0); /* of outlines and of creases */
     for (int once = 0; once < wanted; once++) {
         vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
-        strength = vec2(v_look.x > RECORDED_OUTLINE ? 1.0 : 0.0, max(-v_look.x, 0.0));
+        strength = vec2(v_look.x > RECORDED_OUTLINE && v_look.x < RECORDED_QUIET ? 1.0 : 0.0, max(-v_look.x, 0.0));
         /* What is smooth has an outline only where something is behind it. */
         int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
         for (int again = 0; again < uncertain; again++)
             strength.x = step_at(axis.xy, normal);
         ink = strength * line_cover(d, d > 0.01 ? way / d : normal, half_width);
-        wanted = max(strength.x, strength.y) > 0.0 ? wanted : 0;
+        wanted = max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;
     }
     if (wanted == 0)
         discard;
@@ -89,5 +89,5 @@ void main()
     out_edge = vec4(left.x, left.y, left.x * left.y, 1.0);
     /* Beside a crease another piece may have an outline. */
     float bare = d <= (max(strength.x, strength.y) >= WHOLE ? max(0.5 * u_line_width + BENEATH, RECORD_REACH) : RECORD_REACH) ? 0.0 : 1.0;
-    out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, strength.y > 0.0 ? bare : 1.0, 1.0);
+    out_bare = vec4(ink.x > 0.0 || (v_look.x > 0.0 && v_look.x < RECORDED_QUIET) ? bare : 1.0, bare, strength.y > 0.0 ? bare : 1.0, 1.0);
 }

@@ -27,7 +27,8 @@ float code_of(int line)
     float cosine = a_first.w > 0.0 ? cos(a_first.w) : dot(a_first.xyz, a_second.xyz);
     float faint = judged(u_line_faint), sharp = judged(u_line_crease);
     float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
-    return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
+    float quiet = (bits & RECORD_QUIET) != 0 ? RECORDED_QUIET : 0.0;
+    return line == INNER ? -crease : line != PROFILE ? quiet : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
 }
 
 void place_edge(float code)

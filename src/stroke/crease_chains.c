@@ -177,7 +177,7 @@ static bool judge_chains(chain_net *n, double size, double weak_turn)
         for (size_t k = 0; k < f.count; k++) {
             mesh_edge *e = &m->edges[n->chain[k]];
             e->turn = goes ? 0 : (float)f.turn;
-            e->flags = goes ? (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE : e->flags;
+            e->flags = goes ? (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE | EDGE_QUIET : e->flags;
         }
         gone = gone || goes;
     }

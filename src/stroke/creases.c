@@ -632,7 +632,7 @@ static void set_flags(judge *j)
             e->flags =
                 (e->flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE | (j->verdicts[i] == IS_NARROW ? EDGE_ROUNDED : 0);
         else if (e->flags & EDGE_CREASE)
-            e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE;
+            e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE | EDGE_QUIET;
     }
 }
 

@@ -9,7 +9,7 @@ uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the dir
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 
-const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64, RECORD_DRAWN = 128, RECORD_ROUNDED = 256;
+const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64, RECORD_DRAWN = 128, RECORD_ROUNDED = 256, RECORD_QUIET = 512;
 const float EDGE_ON = 1e-5; /* what rounding turns */
 const int NO_LINE = -1, PROFILE = 0, INNER = 1, ID = 3;
 

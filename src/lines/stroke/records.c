@@ -19,7 +19,8 @@ static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e)
     bool pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
     int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
-               (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0);
+               (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0) |
+               (e->flags & EDGE_QUIET ? RECORD_QUIET : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
     float outward = m->inward[m->pieces[e->face[0]]] ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);
@@ -109,7 +110,7 @@ static void sift(size_t begin, size_t end, void *user)
         for (uint32_t i = first; i < s->m->edge_count && i < first + SIFT_STEP; i++) {
             const mesh_edge *e = &s->m->edges[i];
             s->kept[first + count] = i;
-            count += is_always_line(e) || may_be_outline(s->m, e, s->viewer);
+            count += is_always_line(e) || (e->flags & EDGE_QUIET) || may_be_outline(s->m, e, s->viewer);
         }
         s->counts[step] = count;
     }

@@ -34,8 +34,9 @@ typedef enum record_bit {
     RECORD_PAIR = 8,    /* two faces, so that it may be an outline */
     RECORD_CLOSED = 16, /* of a closed piece: seen from behind, it is hidden */
     RECORD_CROSSING = 64,
-    RECORD_DRAWN = 128,  /* the file brings it: no normals */
-    RECORD_ROUNDED = 256 /* a crease in the middle of a rounding, whatever its own faces turn */
+    RECORD_DRAWN = 128,   /* the file brings it: no normals */
+    RECORD_ROUNDED = 256, /* a crease in the middle of a rounding, whatever its own faces turn */
+    RECORD_QUIET = 512    /* judged to be no crease, though its faces turn as far */
 } record_bit;
 
 /* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. Then one
