@@ -297,6 +297,46 @@ static void run_roundings(void)
     shape_release(&rounded);
 }
 
+/* The rim of a disc of sixteen corners is the circle that it stands for, where lines may leave the mesh so far; in the
+ * middle of its sides the mesh is far inside. */
+static void run_circles(void)
+{
+    shape       disc = {0};
+    shot        s;
+    shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    shape_part *p = shape_add(&disc, "disc", AROUND + 1, 3 * AROUND, false, false);
+    for (uint32_t i = 0; i < AROUND; i++) {
+        double angle = 2 * 3.14159265358979 * i / AROUND;
+        p->positions[i + 1][0] = (float)cos(angle);
+        p->positions[i + 1][1] = (float)sin(angle);
+        p->indices[3 * i + 1] = i + 1;
+        p->indices[3 * i + 2] = (i + 1) % AROUND + 1;
+    }
+    const char *look =
+        shot_line_look("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":2,\"cover\":1,\"round\":4}");
+    if (shot_of_shape(&s, &disc, "disc.glb", look, NULL, &view)) {
+        double middle[2], corner[2], worst = 0;
+        shot_on_page(&s, (dvec){0, 0, 0}, middle);
+        shot_on_page(&s, (dvec){1, 0, 0}, corner);
+        double radius = hypot(corner[0] - middle[0], corner[1] - middle[1]);
+        for (int i = 0; i < AROUND; i++) {
+            double angle = 2 * 3.14159265358979 * (i + 0.5) / AROUND, ink = 0, moment = 0;
+            for (double at = radius - 8; at < radius + 6; at += 0.05) {
+                double here =
+                    ink_of(&s, (int)floor(middle[0] + at * cos(angle)), (int)floor(middle[1] + at * sin(angle)));
+                ink += here;
+                moment += here * at;
+            }
+            worst = fmax(worst, ink > 0 ? fabs(moment / ink - radius) : radius);
+        }
+        check_at_least("rough", radius * (1 - cos(3.14159265358979 / AROUND)), 2,
+                       "disc: how far its sides are inside the circle");
+        check_at_most("rough", worst, 0.5, "disc: how far its rim is off the circle");
+        shot_release(&s);
+    }
+    shape_release(&disc);
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -330,9 +370,10 @@ static void run_courses(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},       {"pipes", run_pipes},
-        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}, {"classes", run_classes}};
-    int status = check_main(argc, argv, "line_rough", cases, 8);
+        {"beneath", run_beneath}, {"kerbs", run_kerbs},       {"rims", run_rims},
+        {"pipes", run_pipes},     {"chamfers", run_chamfers}, {"roundings", run_roundings},
+        {"courses", run_courses}, {"classes", run_classes},   {"circles", run_circles}};
+    int status = check_main(argc, argv, "line_rough", cases, 9);
     shot_end();
     return status;
 }

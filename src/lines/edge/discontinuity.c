@@ -8,7 +8,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, slope, crease, faint, meet, crease_width, cover;
+    float        step, slope, crease, faint, meet, crease_width, cover, round;
     bool         parts;
 } discontinuity;
 
@@ -36,6 +36,10 @@ static const param params[] = {
                     .unit = UNIT_FRACTION,
                     .doc = "Lines that crowd get finer, so that they cover no more than this of the page around them; "
                            "at 1 all keep their width."),
+    PARAM_FLOAT_ROW(discontinuity, round, .def = 0, .min = 0, .max = 24, .soft_max = 3, .unit = UNIT_PT,
+                    .doc =
+                        "Outlines, borders and creases of meshes that stand for curves are drawn as curves and leave "
+                        "the mesh for it by no more than this."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 
@@ -45,6 +49,7 @@ static void own_strokes(stroke_options *options, stroke_style *style, const void
     const discontinuity *lines = values;
     style->cover = lines->cover;
     style->crease_width = lines->crease_width;
+    options->round = lines->round;
 }
 
 static const pass passes[] = {

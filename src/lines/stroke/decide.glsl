@@ -4,7 +4,7 @@
 layout(location = 0) in vec4 a_begin;  /* position; bits */
 layout(location = 1) in vec4 a_end;    /* position; of lines that files bring, how far they may lie off their surface */
 layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something; by how much the crease's chain turns, radians, 0: not known */
-layout(location = 3) in vec4 a_second;
+layout(location = 3) in vec4 a_second; /* its bend at the begin; see a_end for that at the end, which is below 0 there (record_bends.h) */
 uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the direction towards it, 0 */
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */

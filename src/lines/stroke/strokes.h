@@ -39,9 +39,9 @@ typedef enum record_bit {
     RECORD_QUIET = 512    /* judged to be no crease, though its faces turn as far */
 } record_bit;
 
-/* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. Then one
- * a line that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees
- * it. */
+/* One record an edge: x, y, z, bits; x, y, z, less the bend at the end; the normals of both faces, outward where the
+ * piece is closed, with the turn of the chain and the bend at the begin (record_bends.h) behind them. Then one a line
+ * that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees it. */
 float *strokes_edge_records(const edge_mesh *m);
 size_t strokes_edge_record_count(const edge_mesh *m);
 /* Those that may be lines for one viewer (`u_viewer` of lines/stroke/decide.glsl), in the same order, and hardly any
