@@ -62,31 +62,47 @@ float step_at(vec2 axis, vec2 normal)
     return max(step_beside(clamp(ivec2(axis + 0.5 * normal), ivec2(0), last)), step_beside(clamp(ivec2(axis - 0.5 * normal), ivec2(0), last)));
 }
 
+/* From the curve over the chord (record_bends.h), as far as its slope is small; `way` turns to it. */
+float distance_of_curve(float at, float size, vec2 along, inout vec2 way)
+{
+    float rest = 1.0 - at, height = at * rest * (rest * v_look.y + at * v_look.z);
+    float slope = (rest * (1.0 - 3.0 * at) * v_look.y + at * (2.0 - 3.0 * at) * v_look.z) / max(size, 1e-6);
+    bool inside = at > 0.0 && at < 1.0;
+    vec2 forward = along / max(size, 1e-6), normal = vec2(-forward.y, forward.x);
+    float across = (dot(way, normal) - height) * inversesqrt(1.0 + slope * slope);
+    bool bent = inside && (v_look.y != 0.0 || v_look.z != 0.0);
+    way = bent ? (normal - slope * forward) * across : way;
+    return bent ? abs(across) : length(way);
+}
+
 void main()
 {
     vec2 along = v_end.xy - v_begin.xy, from = gl_FragCoord.xy - v_begin.xy;
-    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0), half_width = 0.5 * line_width_at(gl_FragCoord.xy);
+    float size = length(along), at = clamp(dot(from, along) / max(size * size, 1e-12), 0.0, 1.0);
+    float half_width = 0.5 * line_width_at(gl_FragCoord.xy) * (v_look.x < 0.0 ? u_line_crease_width : 1.0);
     vec3 axis = mix(v_begin.xyz, v_end.xyz, at);
     vec2 way = gl_FragCoord.xy - axis.xy;
-    float d = length(way);
-    bool within = d <= max(0.5 * u_line_width + 0.75, RECORD_REACH);
+    float chord_d = length(way), reach = max(0.5 * u_line_width + 0.75, RECORD_REACH);
+    vec2 way_of_line = way;
+    float d = distance_of_curve(at, size, along, way_of_line);
+    bool within = min(d, chord_d) <= reach;
     int wanted = is_seen_around(axis, at, size, within) && within ? 1 : 0;
     vec2 ink = vec2(0.0), strength = vec2(0.0); /* of outlines and of creases */
     for (int once = 0; once < wanted; once++) {
         vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
-        strength = vec2(v_look.x > RECORDED_OUTLINE ? 1.0 : 0.0, max(-v_look.x, 0.0));
+        strength = vec2(v_look.x > RECORDED_OUTLINE && v_look.x < RECORDED_QUIET ? 1.0 : 0.0, max(-v_look.x, 0.0));
         /* What is smooth has an outline only where something is behind it. */
         int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
         for (int again = 0; again < uncertain; again++)
             strength.x = step_at(axis.xy, normal);
-        ink = strength * line_cover(d, d > 0.01 ? way / d : normal, half_width);
-        wanted = max(strength.x, strength.y) > 0.0 ? wanted : 0;
+        ink = strength * line_cover(d, length(way_of_line) > 0.01 ? normalize(way_of_line) : normal, half_width);
+        wanted = max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;
     }
     if (wanted == 0)
         discard;
     vec2 left = 1.0 - ink;
     out_edge = vec4(left.x, left.y, left.x * left.y, 1.0);
     /* Beside a crease another piece may have an outline. */
-    float bare = d <= (max(strength.x, strength.y) >= WHOLE ? max(0.5 * u_line_width + BENEATH, RECORD_REACH) : RECORD_REACH) ? 0.0 : 1.0;
-    out_bare = vec4(ink.x > 0.0 || v_look.x > 0.0 ? bare : 1.0, bare, strength.y > 0.0 ? bare : 1.0, 1.0);
+    float bare = min(d, chord_d) <= (max(strength.x, strength.y) >= WHOLE ? max(0.5 * u_line_width + BENEATH, RECORD_REACH) : RECORD_REACH) ? 0.0 : 1.0;
+    out_bare = vec4(ink.x > 0.0 || (v_look.x > 0.0 && v_look.x < RECORDED_QUIET) ? bare : 1.0, bare, strength.y > 0.0 ? bare : 1.0, 1.0);
 }

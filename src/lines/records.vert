@@ -23,10 +23,40 @@ float judged(float cosine)
 float code_of(int line)
 {
     int bits = int(a_begin.w);
-    float cosine = dot(a_first.xyz, a_second.xyz);
+    /* Whole chains are as strong as they are in the mean, so that none ends where one of its edges turns less. */
+    float cosine = a_first.w > 0.0 ? cos(a_first.w) : dot(a_first.xyz, a_second.xyz);
     float faint = judged(u_line_faint), sharp = judged(u_line_crease);
     float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
-    return line == INNER ? -crease : line != PROFILE ? 0.0 : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
+    float quiet = (bits & RECORD_QUIET) != 0 ? RECORDED_QUIET : 0.0;
+    return line == INNER ? -crease : line != PROFILE ? quiet : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
+}
+
+const float LEVELS = 127.0, BASE = 2.0 * LEVELS + 2.0, BEND_SHARE = 4.0 / 27.0;
+
+vec3 bend_of(float word)
+{
+    vec3 levels = mod(floor(word / vec3(BASE * BASE, BASE, 1.0)), BASE);
+    return word > 0.0 ? (levels - LEVELS) / LEVELS : vec3(0.0);
+}
+
+float height_of(vec3 at, vec3 bend, float size, vec2 page, vec2 normal)
+{
+    vec4 clip = u_clip * vec4(at + size * bend, 1.0);
+    return clip.w > 0.0 ? dot(on_page(clip).xy - page, normal) : 0.0;
+}
+
+/* How the curve leaves the chord at both ends, pixels; both less where it would be farther from it than it may. */
+vec2 bends_of(bool whole)
+{
+    vec2 along = v_end.xy - v_begin.xy, heights = vec2(0.0);
+    float size = length(along);
+    if (u_line_round <= 0.0 || size < 1.0 || !whole)
+        return heights;
+    vec2 normal = vec2(-along.y, along.x) / size;
+    float chord = distance(a_begin.xyz, a_end.xyz);
+    heights = vec2(height_of(a_begin.xyz, bend_of(a_second.w), chord, v_begin.xy, normal), height_of(a_end.xyz, bend_of(-a_end.w), chord, v_end.xy, normal));
+    float farthest = BEND_SHARE * (abs(heights.x) + abs(heights.y));
+    return heights * min(1.0, u_line_round / max(farthest, 1e-6));
 }
 
 void place_edge(float code)
@@ -39,10 +69,11 @@ void place_edge(float code)
         begin = mix(end, begin, second / (second - first));
     else if (second <= 0.0)
         end = mix(begin, end, first / (first - second));
-    float room = max(0.5 * u_line_width + 0.75, RECORD_REACH) - 0.5; /* a quad has half a pixel more */
-    v_begin = vec4(on_page(begin), room);
-    v_end = vec4(on_page(end), room);
-    v_look.x = code;
+    v_begin = vec4(on_page(begin), 0.0);
+    v_end = vec4(on_page(end), 0.0);
+    v_look = vec4(code, bends_of(first > 0.0 && second > 0.0), 0.0);
+    /* A quad has half a pixel more. The curves' factors are 4/27 at most. */
+    v_begin.w = v_end.w = max(0.5 * u_line_width + 0.75, RECORD_REACH) - 0.5 + BEND_SHARE * (abs(v_look.y) + abs(v_look.z));
     gl_Position = corner_of(v_begin, v_end);
 }
 

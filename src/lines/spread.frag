@@ -14,6 +14,13 @@ layout(location = 0) out vec4 out_0;
 #define t_found t_edge
 #endif
 
+/* Width of what is no outline, fraction of the width, of operators that have it. */
+#ifdef HAS_FEET
+#define CREASE_WIDTH u_line_crease_width
+#else
+#define CREASE_WIDTH 1.0
+#endif
+
 /* An edge goes on as a straight line for this long beside the pixel that knows it. */
 const float STRAIGHT = 0.75;
 
@@ -58,9 +65,9 @@ void look_around(ivec2 middle, inout nearest_edge outer, inout nearest_edge inne
     }
 }
 
-vec2 ink_of(nearest_edge found)
+vec2 ink_of(nearest_edge found, bool outline)
 {
-    float half_width = 0.5 * line_width_at(gl_FragCoord.xy), d = sqrt(found.square), share = abs(found.across) / max(d, 1e-4);
+    float half_width = 0.5 * line_width_at(gl_FragCoord.xy) * (outline ? 1.0 : CREASE_WIDTH), d = sqrt(found.square), share = abs(found.across) / max(d, 1e-4);
     /* Beyond the end the way there is what the band is measured along. */
     vec2 along = vec2(-found.normal.y, found.normal.x), way = found.normal * share + along * sqrt(max(1.0 - share * share, 0.0));
     float cover = found.normal == vec2(0.0) ? clamp(max(half_width, 1.0) - d, 0.0, 1.0) : line_cover(d, d > 0.01 ? way : found.normal, half_width);
@@ -88,9 +95,9 @@ void main()
 #endif
     int outlined = outer.square < 1e9 ? 1 : 0, creased = inner.square < 1e9 ? 1 : 0;
     for (int once = 0; once < outlined; once++)
-        outer_ink = ink_of(outer);
+        outer_ink = ink_of(outer, outer.ink.x > 0.0);
     for (int once = 0; once < creased; once++)
-        inner_ink = ink_of(inner);
+        inner_ink = ink_of(inner, false);
     vec3 left = 1.0 - vec3(outer_ink.x, inner_ink.x, outer_ink.y);
     out_0 = vec4(left.r, left.g, left.r * left.g, left.b);
 }

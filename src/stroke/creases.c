@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/crease_chains.h"
 
 #define DEGREE 0.017453292519943295
 /* Steps of a rounding turn by less; more is a prism. */
@@ -27,6 +28,8 @@
 #define SAMPLED_EDGE     0.025
 /* Those whose edges are even shorter have the outline of the surface, not of the edges. */
 #define OUTLINE_EDGE 0.013
+/* Of shapes that bend everywhere more edges turn than this fraction. */
+#define BENT_FRACTION 0.8
 /* Noise turns edges by less than this, and more than that. */
 #define TORN (75 * DEGREE)
 #define FLAT (0.05 * DEGREE)
@@ -629,8 +632,15 @@ static void set_flags(judge *j)
             e->flags =
                 (e->flags & ~(uint32_t)EDGE_CANDIDATE) | EDGE_CREASE | (j->verdicts[i] == IS_NARROW ? EDGE_ROUNDED : 0);
         else if (e->flags & EDGE_CREASE)
-            e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE;
+            e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE | EDGE_QUIET;
     }
+}
+
+/* Does hardly any edge lie in a plane, and do the file's normals not say which are sharp? So are animals and faces;
+ * what is constructed has flat faces. */
+static bool is_hand_made(const edge_mesh *m, const crease_facts *facts)
+{
+    return !facts->mixed && m->edge_count > BENT_FRACTION * m->all_edges;
 }
 
 static bool has_creases(const edge_mesh *m)
@@ -683,8 +693,10 @@ bool creases_judge(edge_mesh *m, const crease_facts *facts, const crease_measure
             j.verdicts[i] = (uint8_t)judge_edge(&j, e, half);
     }
     good = good && follow_chains(&j);
-    if (good)
+    if (good) {
         set_flags(&j);
+        good = crease_chains_judge(m, j.size, facts->angle, is_hand_made(m, facts));
+    }
     mem_free(j.verdicts);
     mem_free(j.stamps);
     return good;

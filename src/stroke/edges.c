@@ -421,7 +421,8 @@ static bool put_edge(builder *b, uint32_t low, uint32_t flags, const half_edge *
     uint32_t corner = group[0].corner, begin = corner_vertex(m, corner);
     m->edges[m->edge_count++] = (mesh_edge){{begin, begin == low ? group[0].high : low},
                                             {corner / 3, count > 1 ? group[1].corner / 3 : EDGE_NO_FACE},
-                                            flags};
+                                            flags,
+                                            0};
     return true;
 }
 

@@ -15,6 +15,7 @@ typedef enum edge_flag {
         1 << 3, /* an outline from where one face is seen from the front and the other from behind: smooth and strictly
                  * convex, or smooth and not flat where the piece it belongs to is not closed */
     EDGE_TWISTED = 1 << 4, /* beside others: both faces pass it the same way, so that one of them is inside out */
+    EDGE_QUIET = 1 << 6,   /* turns by more than the crease angle but is no crease: no line unless it is an outline */
     EDGE_ROUNDED = 1 << 5  /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
 } edge_flag;
 
@@ -27,6 +28,7 @@ typedef struct mesh_edge {
     uint32_t vertex[2];
     uint32_t face[2]; /* EDGE_NO_FACE: none */
     uint32_t flags;   /* of edge_flag, not 0 */
+    float    turn;    /* of the chain of creases that it is part of, radians, the mean; 0: not known, its own counts */
 } mesh_edge;
 
 /* How a mesh samples a surface, as scans do: densely, and more or less truly. */

@@ -110,12 +110,12 @@ static double change_along(const shot *s, dvec begin, dvec end)
     return most - least;
 }
 
-/* The change along the line from begin to end, seen from four sides: the most there has been. */
-static double most_change(double most, const shape *model, dvec begin, dvec end)
+/* The change along the line from begin to end, seen from four sides and from so high: the most there has been. */
+static double most_change(double most, const shape *model, dvec begin, dvec end, double high)
 {
     for (int turn = 0; turn < 4; turn++) {
         shot s;
-        if (draw(&s, model, (dvec){2.2 + 0.4 * turn, 2, 3.4 - 0.7 * turn}, (dvec){0, 0, 0}, 38, 44)) {
+        if (draw(&s, model, (dvec){2.2 + 0.4 * turn, high, 3.4 - 0.7 * turn}, (dvec){0, 0, 0}, 38, 44)) {
             most = fmax(most, change_along(&s, begin, end));
             shot_release(&s);
         }
@@ -123,17 +123,20 @@ static double most_change(double most, const shape *model, dvec begin, dvec end)
     return most;
 }
 
-/* A slab of another part on the floor, from a tenth of a pixel to four pixels high. */
+/* A slab of another part on the floor, from a tenth of a pixel to four pixels high; and one sunk in it, up to a pixel
+ * high, whose lower edge is hidden, seen from where depth steps by more than the floor's slope explains. */
 static void run_kerbs(void)
 {
     double most = 0;
-    for (double height = 0.001; height < 0.04; height *= 1.6) {
-        shape slab = {0};
-        shape_box(&slab, "floor", (dvec){-1, -0.2, -1}, (dvec){1, 0, 1});
-        shape_box(&slab, "slab", (dvec){-0.6, 0, -0.6}, (dvec){0.6, height, 0.4});
-        most = most_change(most, &slab, (dvec){-0.6, 0.5 * height, 0.4}, (dvec){0.6, 0.5 * height, 0.4});
-        shape_release(&slab);
-    }
+    for (int sunk = 0; sunk < 2; sunk++)
+        for (double height = 0.001; height < (sunk ? 0.01 : 0.04); height *= 1.6) {
+            shape slab = {0};
+            shape_box(&slab, "floor", (dvec){-1, -0.2, -1}, (dvec){1, 0, 1});
+            shape_box(&slab, "slab", (dvec){-0.6, sunk ? -0.05 : 0, -0.6}, (dvec){0.6, height, 0.4});
+            most = most_change(most, &slab, (dvec){-0.6, 0.5 * height, 0.4}, (dvec){0.6, 0.5 * height, 0.4},
+                               sunk ? 3.2 : 2);
+            shape_release(&slab);
+        }
     check_at_most("rough", most, 0.25, "kerbs: change of ink along them, pixels");
 }
 
@@ -145,7 +148,7 @@ static void run_rims(void)
         shape closed = {0};
         shape_box(&closed, "box", (dvec){-0.6, -0.6, -0.6}, (dvec){0.6, 0, 0.4 - over});
         shape_box(&closed, "lid", (dvec){-0.6, 0.001, -0.6}, (dvec){0.6, 0.3, 0.4});
-        most = most_change(most, &closed, (dvec){-0.6, 0, 0.4}, (dvec){0.6, 0, 0.4});
+        most = most_change(most, &closed, (dvec){-0.6, 0, 0.4}, (dvec){0.6, 0, 0.4}, 2);
         shape_release(&closed);
     }
     check_at_most("rough", most, 0.25, "rims: change of ink along them, pixels");
@@ -223,6 +226,31 @@ static void run_chamfers(void)
     }
 }
 
+/* Creases may be finer than outlines: of a box, the ink along an edge between two faces that are seen, and along one
+ * before nothing. */
+static void run_classes(void)
+{
+    static const double share = 0.5, rim = 0.6;
+    shape               box = {0};
+    shot                s;
+    shot_view view = {.width = SIDE, .height = SIDE, .eye = {2.2, 2, 3.4}, .up = {0, 1, 0}, .orthographic = true};
+    char      lines[160];
+    snprintf(lines, sizeof lines,
+             "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":%g,\"cover\":1,\"crease_width\":%g}",
+             2 * width, share);
+    shape_box(&box, "box", (dvec){-rim, -rim, -rim}, (dvec){rim, rim, rim});
+    if (shot_of_shape(&s, &box, "classes.glb", shot_line_look(lines), NULL, &view)) {
+        double least, most;
+        ink_along(&s, (dvec){rim, -rim, rim}, (dvec){rim, rim, rim}, &least, &most);
+        check_near("rough", least, share * 2 * width, 0.1, "crease of half the width: least ink along it");
+        check_near("rough", most, share * 2 * width, 0.1, "crease of half the width: most ink along it");
+        ink_along(&s, (dvec){-rim, rim, -rim}, (dvec){rim, rim, -rim}, &least, &most);
+        check_near("rough", least, 2 * width, 0.1, "outline beside it: least ink along it");
+        shot_release(&s);
+    }
+    shape_release(&box);
+}
+
 enum { STEPS = 4 }; /* of a quarter of a turn */
 
 /* Two walls at right angles, 4 high and 2 wide, and a rounding between them; and a third wall beyond a sharp edge. */
@@ -269,6 +297,46 @@ static void run_roundings(void)
     shape_release(&rounded);
 }
 
+/* The rim of a disc of sixteen corners is the circle that it stands for, where lines may leave the mesh so far; in the
+ * middle of its sides the mesh is far inside. */
+static void run_circles(void)
+{
+    shape       disc = {0};
+    shot        s;
+    shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    shape_part *p = shape_add(&disc, "disc", AROUND + 1, 3 * AROUND, false, false);
+    for (uint32_t i = 0; i < AROUND; i++) {
+        double angle = 2 * 3.14159265358979 * i / AROUND;
+        p->positions[i + 1][0] = (float)cos(angle);
+        p->positions[i + 1][1] = (float)sin(angle);
+        p->indices[3 * i + 1] = i + 1;
+        p->indices[3 * i + 2] = (i + 1) % AROUND + 1;
+    }
+    const char *look =
+        shot_line_look("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":2,\"cover\":1,\"round\":4}");
+    if (shot_of_shape(&s, &disc, "disc.glb", look, NULL, &view)) {
+        double middle[2], corner[2], worst = 0;
+        shot_on_page(&s, (dvec){0, 0, 0}, middle);
+        shot_on_page(&s, (dvec){1, 0, 0}, corner);
+        double radius = hypot(corner[0] - middle[0], corner[1] - middle[1]);
+        for (int i = 0; i < AROUND; i++) {
+            double angle = 2 * 3.14159265358979 * (i + 0.5) / AROUND, ink = 0, moment = 0;
+            for (double at = radius - 8; at < radius + 6; at += 0.05) {
+                double here =
+                    ink_of(&s, (int)floor(middle[0] + at * cos(angle)), (int)floor(middle[1] + at * sin(angle)));
+                ink += here;
+                moment += here * at;
+            }
+            worst = fmax(worst, ink > 0 ? fabs(moment / ink - radius) : radius);
+        }
+        check_at_least("rough", radius * (1 - cos(3.14159265358979 / AROUND)), 2,
+                       "disc: how far its sides are inside the circle");
+        check_at_most("rough", worst, 0.5, "disc: how far its rim is off the circle");
+        shot_release(&s);
+    }
+    shape_release(&disc);
+}
+
 /* Courses of tiles whose lower edges are faces narrower than a pixel, of the angle where lines fade in: what sixteen
  * samples a pixel show is the truth. */
 static void run_courses(void)
@@ -302,9 +370,10 @@ static void run_courses(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"beneath", run_beneath},   {"kerbs", run_kerbs},         {"rims", run_rims},      {"pipes", run_pipes},
-        {"chamfers", run_chamfers}, {"roundings", run_roundings}, {"courses", run_courses}};
-    int status = check_main(argc, argv, "line_rough", cases, 7);
+        {"beneath", run_beneath}, {"kerbs", run_kerbs},       {"rims", run_rims},
+        {"pipes", run_pipes},     {"chamfers", run_chamfers}, {"roundings", run_roundings},
+        {"courses", run_courses}, {"classes", run_classes},   {"circles", run_circles}};
+    int status = check_main(argc, argv, "line_rough", cases, 9);
     shot_end();
     return status;
 }

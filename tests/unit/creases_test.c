@@ -409,6 +409,56 @@ static void creases_fade_out_whole(void **state)
     primitive_release(&p);
 }
 
+/* A fold over a sheet begins on its rim and fades out, or with `closed` ends on the rim; one side is a plane or bent.
+ */
+static uint32_t fold_creases(double angle, bool bent, bool closed, float *least_turn, float *most_turn)
+{
+    enum { ROWS = 20, FADES = 12 };
+    primitive p = empty_primitive(3 * (ROWS + 1), 12 * ROWS);
+    uint32_t  at = 0, count = 0;
+    for (uint32_t i = 0; i <= ROWS; i++) {
+        double share = closed ? 1 : fmax(fmin((1 + FADES - (double)i) / FADES, 1), 0);
+        double turn = (angle + (i % 2 ? 1 : -1)) * share * degree; /* uneven, as modelled by hand */
+        p.positions[3 * i] = (vec3){-1, (float)i, bent ? (float)(i % 2) * 0.04f : 0};
+        p.positions[3 * i + 1] = (vec3){0, (float)i, 0};
+        p.positions[3 * i + 2] = (vec3){(float)cos(turn), (float)i, (float)-sin(turn)};
+    }
+    for (uint32_t i = 0; i < ROWS; i++)
+        for (uint32_t k = 0; k < 2; k++) {
+            uint32_t       a = 3 * i + k, b = a + 3;
+            const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+            memcpy(p.indices + at, quad, sizeof quad);
+            at += 6;
+        }
+    edge_mesh e = sort(&p, 20);
+    *least_turn = INFINITY;
+    *most_turn = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++) {
+        vec3 a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
+        if (!(e.edges[i].flags & EDGE_CREASE) || a.x != 0 || b.x != 0)
+            continue;
+        count++;
+        *least_turn = fminf(*least_turn, e.edges[i].turn);
+        *most_turn = fmaxf(*most_turn, e.edges[i].turn);
+    }
+    edge_mesh_release(&e);
+    primitive_release(&p);
+    return count;
+}
+
+/* A short weak crease that ends within a surface is none; a strong one is, and a weak one from rim to rim, which is as
+ * strong everywhere as it is in the mean. */
+static void weak_creases_end_on_lines(void **state)
+{
+    float least, most;
+    (void)state;
+    assert_int_equal(fold_creases(34, true, false, &least, &most), 0);
+    assert_true(fold_creases(34, false, false, &least, &most) >= 5); /* beside a plane it is meant */
+    assert_true(fold_creases(80, true, false, &least, &most) >= 5);
+    assert_int_equal(fold_creases(34, true, true, &least, &most), 20);
+    assert_true(least == most && fabs(least - 34 * degree) < 3 * degree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -416,6 +466,7 @@ int main(void)
         cmocka_unit_test(narrow_fillets_are_one_line),     cmocka_unit_test(thin_rods_have_no_creases),
         cmocka_unit_test(noise_of_scans_is_no_crease),     cmocka_unit_test(edges_of_scans_stay),
         cmocka_unit_test(normals_of_files_are_believed),   cmocka_unit_test(sharp_edges_stand_alone),
-        cmocka_unit_test(creases_fade_out_whole),          cmocka_unit_test(creases_do_not_fray)};
+        cmocka_unit_test(creases_fade_out_whole),          cmocka_unit_test(creases_do_not_fray),
+        cmocka_unit_test(weak_creases_end_on_lines)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

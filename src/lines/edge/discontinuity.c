@@ -8,7 +8,7 @@
 
 typedef struct discontinuity {
     lines_common common;
-    float        step, slope, crease, faint, meet, cover;
+    float        step, slope, crease, faint, meet, crease_width, cover, round;
     bool         parts;
 } discontinuity;
 
@@ -30,17 +30,26 @@ static const param params[] = {
                     .unit = UNIT_DEGREES, .as_cosine = true,
                     .doc = "The same as crease where two operands of a solid meet: an angle between surfaces that "
                            "are two by construction is no accident of facets."),
+    PARAM_FLOAT_ROW(discontinuity, crease_width, .def = 1, .min = 0.1, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Width of all lines that are no outlines, fraction of the width."),
     PARAM_FLOAT_ROW(discontinuity, cover, .def = 0.3, .min = 0.02, .max = 1, .soft_min = 0.1, .soft_max = 1,
                     .unit = UNIT_FRACTION,
                     .doc = "Lines that crowd get finer, so that they cover no more than this of the page around them; "
                            "at 1 all keep their width."),
+    PARAM_FLOAT_ROW(discontinuity, round, .def = 0, .min = 0, .max = 24, .soft_max = 3, .unit = UNIT_PT,
+                    .doc =
+                        "Outlines, borders and creases of meshes that stand for curves are drawn as curves and leave "
+                        "the mesh for it by no more than this."),
     PARAM_BOOL_ROW(discontinuity, parts, .def = 1, .variant = true, .doc = "Draw lines between parts."),
 };
 
 static void own_strokes(stroke_options *options, stroke_style *style, const void *values)
 {
     lines_as_strokes(options, style, values);
-    style->cover = ((const discontinuity *)values)->cover;
+    const discontinuity *lines = values;
+    style->cover = lines->cover;
+    style->crease_width = lines->crease_width;
+    options->round = lines->round;
 }
 
 static const pass passes[] = {

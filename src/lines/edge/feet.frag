@@ -115,19 +115,6 @@ vec4 apart(vec4 steps, vec3 normal, uvec2 id)
 }
 #endif
 
-#if defined(HAS_BARE) && defined(HAS_ID) && PARTS
-/* Steps that no crease explains. A surface goes on over its creases: what steps within one piece beside a crease is a face too narrow for pixels, and would be drawn in some of
- * them. Of other pieces it is their outline. */
-vec4 beyond_creases(vec4 steps, uvec2 id, float bare)
-{
-    const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
-    uint piece = piece_of(id);
-    for (int k = 0; k < 4; k++)
-        steps[k] *= piece_of(textureLod(t_id, (gl_FragCoord.xy + sides[k]) * u_texel, 0.0).rg) == piece ? bare : 1.0;
-    return steps;
-}
-#endif
-
 vec4 pairs_at(ivec2 off)
 {
     ivec2 at = ivec2(gl_FragCoord.xy) + off;
@@ -139,11 +126,10 @@ void main()
     vec4 own = pairs_at(ivec2(0)), left = pairs_at(ivec2(-1, 0)), down = pairs_at(ivec2(0, -1));
     vec4 steps = vec4(own.x, left.x, own.y, down.y), both = vec4(own.z, left.z, own.w, down.w);
     vec4 borders = step(2.0, both), creases = both - 2.0 * borders, foot = vec4(0.0);
-#if defined(HAS_BARE) && defined(HAS_ID) && PARTS
-    float beside_crease = texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).b;
-    int stepped = beside_crease < 1.0 && steps != vec4(0.0) ? 1 : 0;
-    for (int once = 0; once < stepped; once++)
-        steps = beyond_creases(steps, texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg, beside_crease);
+#ifdef HAS_BARE
+    /* What steps beside a crease is the foot of a face too narrow for pixels, and would be drawn in some of them: the surface goes on, or another one is where it ends, as
+     * at kerbs. Outlines there have records of their own. */
+    steps *= texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).b;
 #endif
     float profile = max(max(steps.x, steps.y), max(steps.z, steps.w));
 #if defined(HAS_BARE) && defined(HAS_ID) && PARTS

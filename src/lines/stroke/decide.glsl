@@ -3,13 +3,13 @@
  * middle, the same for both ends, decides exactly in perspective too. Faces seen exactly from the side count as seen from behind. */
 layout(location = 0) in vec4 a_begin;  /* position; bits */
 layout(location = 1) in vec4 a_end;    /* position; of lines that files bring, how far they may lie off their surface */
-layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something */
-layout(location = 3) in vec4 a_second;
+layout(location = 2) in vec4 a_first;  /* normals of the faces, outward where they enclose something; by how much the crease's chain turns, radians, 0: not known */
+layout(location = 3) in vec4 a_second; /* its bend at the begin; see a_end for that at the end, which is below 0 there (record_bends.h) */
 uniform vec4 u_viewer; /* in the mesh's axes: position of the eye, 1; or the direction towards it, 0 */
 uniform int  u_wanted; /* bits of the lines that are drawn */
 uniform bool u_inside; /* the eye may be among the parts: surfaces are seen from behind as well */
 
-const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64, RECORD_DRAWN = 128, RECORD_ROUNDED = 256;
+const int RECORD_BORDER = 1, RECORD_CREASE = 2, RECORD_MATERIAL = 4, RECORD_PAIR = 8, RECORD_CLOSED = 16, WANT_CONTOUR = 32, RECORD_CROSSING = 64, RECORD_DRAWN = 128, RECORD_ROUNDED = 256, RECORD_QUIET = 512;
 const float EDGE_ON = 1e-5; /* what rounding turns */
 const int NO_LINE = -1, PROFILE = 0, INNER = 1, ID = 3;
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "lines/stroke/record_bends.h"
 #include "lines/stroke/strokes.h"
 
 static void put_vector(float *out, vec3 v, float fourth, float sign)
@@ -14,18 +15,23 @@ static void put_vector(float *out, vec3 v, float fourth, float sign)
     out[3] = fourth;
 }
 
-static void put_edge(float *out, const edge_mesh *m, const mesh_edge *e)
+static void put_edge(float *out, const record_bends *bends, uint32_t edge)
 {
-    bool pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
-    int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
+    const edge_mesh *m = bends->m;
+    const mesh_edge *e = &m->edges[edge];
+    bool             pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
+    int bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
-               (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0);
+               (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0) |
+               (e->flags & EDGE_QUIET ? RECORD_QUIET : 0);
     /* Of faces that pass the edge in the same direction one is inside out. */
     float outward = m->inward[m->pieces[e->face[0]]] ? -1 : 1, twist = e->flags & EDGE_TWISTED ? -1 : 1;
     put_vector(out, m->positions[e->vertex[0]], (float)bits, 1);
-    put_vector(out + 4, m->positions[e->vertex[1]], 0, 1);
-    put_vector(out + 8, m->normals[e->face[0]], 0, outward);
-    put_vector(out + 12, m->normals[e->face[pair]], 0, pair ? outward * twist : -outward);
+    float begin, end;
+    record_bend(bends, edge, &begin, &end);
+    put_vector(out + 4, m->positions[e->vertex[1]], -end, 1);
+    put_vector(out + 8, m->normals[e->face[0]], e->turn, outward);
+    put_vector(out + 12, m->normals[e->face[pair]], begin, pair ? outward * twist : -outward);
 }
 
 static bool is_always_line(const mesh_edge *e)
@@ -49,17 +55,22 @@ static float *put_drawn_lines(float *at, const edge_mesh *m)
 
 float *strokes_edge_records(const edge_mesh *m)
 {
-    float *records = mem_calloc(strokes_edge_record_count(m) + 1, EDGE_RECORD_FLOATS * sizeof *records);
-    float *at = records;
+    float       *records = mem_calloc(strokes_edge_record_count(m) + 1, EDGE_RECORD_FLOATS * sizeof *records);
+    float       *at = records;
+    record_bends bends;
+    if (!records || !record_bends_open(&bends, m)) {
+        mem_free(records);
+        return NULL;
+    }
     for (int pass = 0; pass < 2;
          pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
-        for (uint32_t i = 0; i < m->edge_count && records; i++)
+        for (uint32_t i = 0; i < m->edge_count; i++)
             if (is_always_line(&m->edges[i]) == (pass == 0)) {
-                put_edge(at, m, &m->edges[i]);
+                put_edge(at, &bends, i);
                 at += EDGE_RECORD_FLOATS;
             }
-    if (records)
-        put_drawn_lines(at, m);
+    put_drawn_lines(at, m);
+    record_bends_close(&bends);
     return records;
 }
 
@@ -109,7 +120,7 @@ static void sift(size_t begin, size_t end, void *user)
         for (uint32_t i = first; i < s->m->edge_count && i < first + SIFT_STEP; i++) {
             const mesh_edge *e = &s->m->edges[i];
             s->kept[first + count] = i;
-            count += is_always_line(e) || may_be_outline(s->m, e, s->viewer);
+            count += is_always_line(e) || (e->flags & EDGE_QUIET) || may_be_outline(s->m, e, s->viewer);
         }
         s->counts[step] = count;
     }
@@ -122,18 +133,23 @@ static float *put_sifted(const sieve *s, size_t steps, size_t *count)
     *count = m->line_count;
     for (size_t i = 0; i < steps; i++)
         *count += s->counts[i];
-    float *records = mem_calloc(*count + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
+    float       *records = mem_calloc(*count + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
+    record_bends bends;
+    if (!records || !record_bends_open(&bends, m)) {
+        mem_free(records);
+        return NULL;
+    }
     for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < steps && records; i++)
+        for (size_t i = 0; i < steps; i++)
             for (uint32_t k = 0; k < s->counts[i]; k++) {
                 const mesh_edge *e = &m->edges[s->kept[i * SIFT_STEP + k]];
                 if (is_always_line(e) != (pass == 0))
                     continue;
-                put_edge(at, m, e);
+                put_edge(at, &bends, s->kept[i * SIFT_STEP + k]);
                 at += EDGE_RECORD_FLOATS;
             }
-    if (records)
-        put_drawn_lines(at, m);
+    put_drawn_lines(at, m);
+    record_bends_close(&bends);
     return records;
 }
 

@@ -34,13 +34,14 @@ typedef enum record_bit {
     RECORD_PAIR = 8,    /* two faces, so that it may be an outline */
     RECORD_CLOSED = 16, /* of a closed piece: seen from behind, it is hidden */
     RECORD_CROSSING = 64,
-    RECORD_DRAWN = 128,  /* the file brings it: no normals */
-    RECORD_ROUNDED = 256 /* a crease in the middle of a rounding, whatever its own faces turn */
+    RECORD_DRAWN = 128,   /* the file brings it: no normals */
+    RECORD_ROUNDED = 256, /* a crease in the middle of a rounding, whatever its own faces turn */
+    RECORD_QUIET = 512    /* judged to be no crease, though its faces turn as far */
 } record_bit;
 
-/* One record an edge: x, y, z, bits; x, y, z, 0; the normals of both faces, outward where the piece is closed. Then one
- * a line that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees
- * it. */
+/* One record an edge: x, y, z, bits; x, y, z, less the bend at the end; the normals of both faces, outward where the
+ * piece is closed, with the turn of the chain and the bend at the begin (record_bends.h) behind them. Then one a line
+ * that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees it. */
 float *strokes_edge_records(const edge_mesh *m);
 size_t strokes_edge_record_count(const edge_mesh *m);
 /* Those that may be lines for one viewer (`u_viewer` of lines/stroke/decide.glsl), in the same order, and hardly any
