@@ -278,8 +278,48 @@ static lmn_status make_tensors(field_surface *s, double radius, field_values *v,
     return field_cross(s, v->tensors, v->flat, v->rough) ? LMN_OK : error_memory(error);
 }
 
-/* Gives each vertex the tensor of its first element, and each further element of a vertex a tensor behind those. */
-static bool hand_out(direction_field *out, const primitive *p, const field_surface *s, const tensor *values)
+static const double of_planes = 0.05; /* how sure a plane's direction is: it was chosen, not found */
+
+/* The plane in which all of an element lies; NOWHERE: not in one. */
+static uint32_t plane_of(const field_surface *s, const field_planes *planes, size_t e)
+{
+    uint32_t first = s->starts[e], plane = first < s->starts[e + 1] ? planes->of[s->around[first] / 3] : NOWHERE;
+    for (uint32_t i = first; i < s->starts[e + 1]; i++)
+        if (planes->of[s->around[i] / 3] != plane)
+            return NOWHERE;
+    return plane;
+}
+
+/* What lies in a plane has its direction. */
+static void keep_to_planes(const field_surface *s, field_planes *planes, tensor *values)
+{
+    if (!planes->count)
+        return;
+    for (uint32_t k = 0; k < planes->count; k++)
+        for (int i = 0; i < 6; i++)
+            planes->units[k].v[i] *= (float)of_planes;
+    for (size_t e = 0; e < s->element_count; e++) {
+        uint32_t plane = plane_of(s, planes, e);
+        if (plane != NOWHERE)
+            values[e] = planes->units[plane];
+    }
+}
+
+/* Corners of planes that share their element with what is no plane, or with another one, get the plane's tensor. */
+static void part_planes(uint32_t *corners, const primitive *p, const field_surface *s, const field_planes *planes,
+                        uint32_t first)
+{
+    for (uint32_t c = 0; c < p->index_count; c++) {
+        uint32_t t = s->kept[c / 3], e = field_surface_element(s, p, c);
+        if (t != NOWHERE && e != NOWHERE && planes->of[t] != NOWHERE && plane_of(s, planes, e) == NOWHERE)
+            corners[c] = first + planes->of[t];
+    }
+}
+
+/* Gives each vertex the tensor of its first element, each further element of a vertex a tensor behind those, and each
+ * plane one behind all. */
+static bool hand_out(direction_field *out, const primitive *p, const field_surface *s, const tensor *values,
+                     const field_planes *planes)
 {
     uint32_t *first = mem_alloc((size_t)p->vertex_count * sizeof *first);
     uint32_t *further = mem_alloc((size_t)s->element_count * sizeof *further);
@@ -302,6 +342,12 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
         corners[c] = further[e];
         split = true;
     }
+    uint32_t first_plane = count;
+    if (good && planes->count) {
+        part_planes(corners, p, s, planes, first_plane);
+        count += planes->count;
+        split = true;
+    }
     out->tensors = good ? mem_calloc(count, sizeof *out->tensors) : NULL;
     if (out->tensors) {
         for (uint32_t v = 0; v < p->vertex_count; v++)
@@ -310,6 +356,8 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
         for (uint32_t e = 0; e < s->element_count; e++)
             if (further[e] != NOWHERE)
                 memcpy(out->tensors[further[e]], values[e].v, sizeof values->v);
+        for (uint32_t k = 0; k < planes->count; k++)
+            memcpy(out->tensors[first_plane + k], planes->units[k].v, sizeof values->v);
         out->count = p->vertex_count;
         out->tensor_count = count;
         out->corners = split ? corners : NULL;
@@ -334,8 +382,14 @@ static lmn_status make_field(direction_field *out, const primitive *p, double fe
                       .flat = mem_calloc(s.element_count, sizeof *v.flat)};
     status = v.tensors && v.flow && v.flat ? make_tensors(&s, radius, &v, error) : error_memory(error);
     *again = status == LMN_OK && v.rough && s.cut;
-    if (status == LMN_OK && !*again && !hand_out(out, p, &s, v.tensors))
-        status = error_memory(error);
+    field_planes planes = {0};
+    if (status == LMN_OK && !*again) {
+        bool good = v.rough || field_planes_find(&planes, &s, v.tensors, v.flat);
+        keep_to_planes(&s, &planes, v.tensors);
+        if (!good || !hand_out(out, p, &s, v.tensors, &planes))
+            status = error_memory(error);
+    }
+    field_planes_release(&planes);
     mem_free(v.tensors);
     mem_free(v.flow);
     mem_free(v.flat);

@@ -12,15 +12,6 @@ typedef struct flat_walk {
     uint32_t            *pieces, *queue; /* per element: number of its flat piece */
 } flat_walk;
 
-/* What is summed over a flat piece. */
-typedef struct shape {
-    point3 normal, mean;
-    double area, covariance[6]; /* xx, yy, zz, xy, yz, zx */
-    tensor bend;                /* of the sure positions around */
-    double bend_weight;
-    double border_cos, border_sin, border; /* edges turned by four times their angle */
-} shape;
-
 static bool in_piece(const flat_walk *c, uint32_t t, uint32_t piece)
 {
     const uint32_t *k = c->surface->corners + 3 * (size_t)t;
@@ -63,7 +54,7 @@ static point3 centre_of(const field_surface *s, uint32_t t)
     return point_scale(point_add(point_add(s->positions[k[0]], s->positions[k[1]]), s->positions[k[2]]), 1.0 / 3);
 }
 
-static void measure_middle(const flat_walk *c, uint32_t count, uint32_t piece, shape *out)
+static void measure_middle(const flat_walk *c, uint32_t count, uint32_t piece, flat_shape *out)
 {
     const field_surface *s = c->surface;
     for (uint32_t q = 0; q < count; q++)
@@ -80,7 +71,14 @@ static void measure_middle(const flat_walk *c, uint32_t count, uint32_t piece, s
     out->normal = point_unit_or(out->normal, s->normals[c->queue[0]]);
 }
 
-static void add_spread(shape *out, point3 p, double weight)
+void flat_shape_settle(flat_shape *out)
+{
+    double trace = out->covariance[0] + out->covariance[1] + out->covariance[2] + 1e-30;
+    out->covariance[0] += 0.01 * trace;
+    out->covariance[1] += 0.005 * trace;
+}
+
+void flat_shape_add(flat_shape *out, point3 p, double weight)
 {
     point3       d = point_sub(p, out->mean);
     const double products[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.y * d.z, d.z * d.x};
@@ -88,7 +86,7 @@ static void add_spread(shape *out, point3 p, double weight)
         out->covariance[k] += weight * products[k];
 }
 
-static void add_border(shape *out, point3 edge, point3 u, point3 v)
+void flat_shape_add_border(flat_shape *out, point3 edge, point3 u, point3 v)
 {
     double x = point_dot(edge, u), y = point_dot(edge, v), length = hypot(x, y), angle = 4 * atan2(y, x);
     out->border_cos += length * cos(angle);
@@ -96,15 +94,15 @@ static void add_border(shape *out, point3 edge, point3 u, point3 v)
     out->border += length;
 }
 
-static void measure_triangle(const flat_walk *c, uint32_t t, uint32_t piece, point3 u, point3 v, shape *out)
+static void measure_triangle(const flat_walk *c, uint32_t t, uint32_t piece, point3 u, point3 v, flat_shape *out)
 {
     const field_surface *s = c->surface;
     bool                 inside = in_piece(c, t, piece);
     for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
         uint32_t e = s->corners[h], next = s->corners[h % 3 == 2 ? h - 2 : h + 1], o = s->opposite[h];
-        add_spread(out, s->positions[e], s->areas[t]);
+        flat_shape_add(out, s->positions[e], s->areas[t]);
         if (inside && (o == NOWHERE || !in_piece(c, o / 3, piece)))
-            add_border(out, point_sub(s->positions[next], s->positions[e]), u, v);
+            flat_shape_add_border(out, point_sub(s->positions[next], s->positions[e]), u, v);
         if (!c->reached[e] || c->pieces[e] == piece)
             continue;
         double weight = sqrt(s->areas[t]);
@@ -114,7 +112,7 @@ static void measure_triangle(const flat_walk *c, uint32_t t, uint32_t piece, poi
     }
 }
 
-static void measure(const flat_walk *c, uint32_t count, uint32_t piece, shape *out)
+static void measure(const flat_walk *c, uint32_t count, uint32_t piece, flat_shape *out)
 {
     const field_surface *s = c->surface;
     point3               u, v;
@@ -125,10 +123,7 @@ static void measure(const flat_walk *c, uint32_t count, uint32_t piece, shape *o
         for (uint32_t i = s->starts[c->queue[q]]; i < s->starts[c->queue[q] + 1]; i++)
             if (is_first_of(c, s->around[i], piece))
                 measure_triangle(c, s->around[i] / 3, piece, u, v, out);
-    /* Where all sides are alike, rounding must not choose: x before y before z. */
-    double trace = out->covariance[0] + out->covariance[1] + out->covariance[2] + 1e-30;
-    out->covariance[0] += 0.01 * trace;
-    out->covariance[1] += 0.005 * trace;
+    flat_shape_settle(out);
 }
 
 static double covariance_apply(const double m[6], point3 a, point3 b)
@@ -137,8 +132,7 @@ static double covariance_apply(const double m[6], point3 a, point3 b)
            m[4] * (a.y * b.z + a.z * b.y) + m[5] * (a.z * b.x + a.x * b.z);
 }
 
-/* The one direction of a flat piece. */
-static tensor flat_direction(const shape *piece)
+tensor flat_shape_direction(const flat_shape *piece)
 {
     tensor out;
     point3 u, v;
@@ -174,10 +168,10 @@ bool field_flat_directions(const field_surface *s, const bool *flat, const bool 
     for (uint32_t e = 0; good && e < s->element_count; e++) {
         if (!flat[e] || c.pieces[e] != NOWHERE)
             continue;
-        shape    all;
-        uint32_t count = collect(&c, e, piece);
+        flat_shape all;
+        uint32_t   count = collect(&c, e, piece);
         measure(&c, count, piece++, &all);
-        tensor direction = flat_direction(&all);
+        tensor direction = flat_shape_direction(&all);
         for (uint32_t q = 0; q < count; q++)
             if (!field_unit_in_plane(s->normals[c.queue[q]], &direction, &units[c.queue[q]]))
                 units[c.queue[q]] = (tensor){{0}};

@@ -69,6 +69,34 @@ bool field_unit_in_plane(point3 normal, const tensor *t, tensor *out);
  * of its border, along its longer side. False when memory is gone. */
 bool field_flat_directions(const field_surface *s, const bool *flat, const bool *sure, tensor *units);
 
+/* What is summed over a flat piece. */
+typedef struct flat_shape {
+    point3 normal, mean;
+    double area, covariance[6]; /* xx, yy, zz, xy, yz, zx */
+    tensor bend;                /* of the sure positions around */
+    double bend_weight;
+    double border_cos, border_sin, border; /* edges turned by four times their angle */
+} flat_shape;
+
+/* The piece's normal and middle must be known. */
+void flat_shape_add(flat_shape *out, point3 p, double weight);
+void flat_shape_add_border(flat_shape *out, point3 edge, point3 u, point3 v);
+/* Where all sides are alike, rounding must not choose: x before y before z. */
+void flat_shape_settle(flat_shape *out);
+/* The one direction of the piece, as a unit tensor. */
+tensor flat_shape_direction(const flat_shape *piece);
+
+/* Planes of a surface: what is even from border to border, however it is triangulated and whatever bends beside it. */
+typedef struct field_planes {
+    uint32_t *of;    /* per triangle: its plane, NOWHERE for what is none */
+    tensor   *units; /* per plane: its direction, a unit tensor */
+    uint32_t  count;
+} field_planes;
+/* `tensors`: of elements, with `flat` saying which of them know nothing of their own. Pieces that lie in one plane have
+ * the direction of the largest of them. False when memory is gone or work is to stop; release it in any case. */
+bool field_planes_find(field_planes *out, const field_surface *s, const tensor *tensors, const bool *flat);
+void field_planes_release(field_planes *p);
+
 /* From what elements know, tensors T, a cross field over all of them, and which of the arms of each cross is meant;
  * out: what is to stand there. What rough surfaces know is trusted less. False when memory is gone or work is to stop.
  */

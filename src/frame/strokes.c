@@ -11,6 +11,7 @@
 #include "base/paper.h"
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
+#include "perturb/perturb.h"
 
 /* Of parts that may hide the figure's lines: of what is not seen through, for layers of all, of movers themselves.
  * NULL after an error. */
@@ -276,6 +277,13 @@ static bool copy_lines(stroke_set *out, const stroke_set *from)
     return (out->strokes || !from->stroke_count) && (out->points || !from->point_count);
 }
 
+/* Strokes boil with what else does. */
+static uint32_t seed_of(const frame *f, const figure_state *s)
+{
+    const technique_use *hand = rule_use(s->figure->rule, KIND_PERTURB);
+    return hand ? hand_seed(hand->technique->perturbs, hand->values, f->seed, f->time_s) : f->seed;
+}
+
 static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, const figure_state *s,
                                const strokes_values *v, lmn_error *error)
 {
@@ -299,7 +307,7 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
         f->strokes[set.strokes[i].kind]++;
     if (status == LMN_OK)
-        status = ribbons_make(out, &set, &style, f->seed, error);
+        status = ribbons_make(out, &set, &style, seed_of(f, s), error);
     if (status == LMN_OK)
         strokes_scale_ribbons(out, f);
     stroke_set_release(&set);

@@ -17,6 +17,11 @@ const kind kind_perturb = {
     .selector_key = "technique",
 };
 
+uint32_t hand_seed(const perturbation *p, const void *values, uint32_t seed, double time_s)
+{
+    return p->seed ? seed ^ p->seed(values, 0, time_s) ^ p->seed(values, 0, 0) : seed;
+}
+
 void hand_draw(stroke_style *style, const hand *h)
 {
     enum { COPIES_MOST = 3 };

@@ -18,4 +18,7 @@ typedef struct hand {
 } hand;
 void hand_draw(struct stroke_style *style, const hand *h);
 
+/* The drawing's seed for strokes: what boils is drawn anew with each of its steps. */
+uint32_t hand_seed(const perturbation *p, const void *values, uint32_t seed, double time_s);
+
 #endif

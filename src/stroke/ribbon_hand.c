@@ -18,6 +18,7 @@ static const float near_fraction = 0.4f; /* how far the first copy lies off, of 
 static const float lap_fraction = 0.12f; /* of a piece, by which it overlaps the next one */
 static const float lap_most = 9;
 static const float straight_most = 0.997f; /* chord over length of what is drawn in one go, however long */
+static const float met_fraction = 0.25f;   /* of corners, at which a line ends as it should */
 static const float crowded_pen = 0.85f;    /* lines that yield more are drawn once */
 
 /* What is random of a piece. */
@@ -31,7 +32,8 @@ enum {
     RANDOM_WEIGHT,
     RANDOM_SIDE,
     RANDOM_BEYOND,
-    RANDOM_SHORT = RANDOM_BEYOND + 2
+    RANDOM_SHORT = RANDOM_BEYOND + 2,
+    RANDOM_CORNER = RANDOM_SHORT + 2
 };
 
 /* --- pulls ---------------------------------------------------------------------------------------------- */
@@ -189,12 +191,26 @@ static stroke_point position_at(const hand_pulls *p, const hand_pull *pull, floa
     return a;
 }
 
-/* Copies by turns lean to one side and to the other: neighbours always cross. */
+static bool hand_restates(const stroke_style *style)
+{
+    return style->repeats > 1 || style->pull > 0;
+}
+
+/* Where a copy lies across the true line, fraction of what copies may lie off: spread out, so that two that follow each
+ * other are never on top of each other. */
+static float shift_of(uint64_t key, int copy)
+{
+    static const float places[] = {0, 0.36f, -0.36f, 0.14f, -0.2f};
+    float              spread = places[copy % (int)(sizeof places / sizeof *places)];
+    return fminf(fmaxf(spread + 0.1f * ribbon_random(key, RANDOM_SHIFT), -0.4f), 0.4f);
+}
+
+/* Copies by turns lean to one side and to the other: neighbours always cross, off their middle. */
 static void lean(const stroke_style *style, const hand_pulls *p, const hand_pull *pull, uint64_t key, int copy,
                  hand_piece *out)
 {
     float length = out->to - out->from, off = style->repeat_apart * (copy > 0 ? 1 : near_fraction);
-    if (!(style->repeats > 1 || style->pull > 0) || !(off > 0) || !(length > 0))
+    if (!hand_restates(style) || !(off > 0) || !(length > 0))
         return;
     if (style->repeat_turn > 0)
         off = fminf(off, sinf(style->repeat_turn * (3.14159265f / 180)) * length / 1.2f);
@@ -202,7 +218,7 @@ static void lean(const stroke_style *style, const hand_pulls *p, const hand_pull
     float x = b.x - a.x, y = b.y - a.y, chord = hypotf(x, y), angle = 3.1415927f * ribbon_random(key, RANDOM_SIDE);
     bool  along = chord > 0.5f * length;
     float aside[2] = {along ? -y / chord : cosf(angle), along ? x / chord : sinf(angle)};
-    float tilt = 0.45f + 0.15f * ribbon_random(key, RANDOM_TILT), shift = 0.4f * ribbon_random(key, RANDOM_SHIFT);
+    float tilt = 0.45f + 0.15f * ribbon_random(key, RANDOM_TILT), shift = shift_of(key, copy);
     float bow = 0.3f * ribbon_random(key, RANDOM_BOW), side = copy % 2 ? 1 : -1;
     for (int axis = 0; axis < 2; axis++) {
         out->lean[0][axis] = off * (shift - side * tilt) * aside[axis];
@@ -233,13 +249,23 @@ hand_piece hand_piece_of(const stroke_style *style, const hand_pulls *p, const h
     return out;
 }
 
+/* How far beyond a corner, fraction of the overshoot: one corner in four is met, a few are left far behind. */
+static float corner_share(uint64_t key, bool at_end, int copy)
+{
+    float at = 0.5f + 0.5f * ribbon_random(key, RANDOM_CORNER + at_end);
+    if (at < met_fraction)
+        return 0;
+    float share = (at - met_fraction) / (1 - met_fraction);
+    return (copy > 0 ? 0.85f : 1) * (0.25f + 1.35f * share * share);
+}
+
 float hand_run_on(const stroke_style *style, const hand_piece *piece, bool at_end, bool straight, uint64_t key,
                   int copy)
 {
     float random = ribbon_random(key, RANDOM_BEYOND + at_end), length = piece->to - piece->from, by = 0;
     float most = (style->overshoot_most > 0 ? style->overshoot_most : 1) * length;
     if (style->overshoot > 0 && straight)
-        by = style->overshoot * (copy > 0 ? 0.65f + 0.35f * random : 0.75f + 0.25f * random);
+        by = style->overshoot * (hand_restates(style) ? corner_share(key, at_end, copy) : 0.75f + 0.25f * random);
     if (style->repeats > 1 && copy > 0) /* some fall short */
         by += style->repeat_apart * (0.1f + 0.9f * ribbon_random(key, RANDOM_SHORT + at_end));
     return fmaxf(fminf(by, most), -0.5f * fminf(most, 0.2f * length));

@@ -4,7 +4,7 @@
 
 typedef struct toon {
     int32_t bands;
-    float   softness, shadow, light, highlight, saturation, smoothing, darkest, lightness;
+    float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness;
     bool    seed_blur;
 } toon;
 
@@ -13,6 +13,10 @@ static const param params[] = {
                   .doc = "Number of flat tones between shadow and full light."),
     PARAM_FLOAT_ROW(toon, softness, .def = 0.75, .min = 0, .max = 6, .soft_max = 2.25, .unit = UNIT_PT,
                     .doc = "Width of the blend across a tone border; 0 is hard."),
+    PARAM_FLOAT_ROW(toon, gradation, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How gradually one tone goes over into the next, fraction of the light that a tone stands "
+                           "for: 0 is a border, "
+                           "1 an even wash."),
     PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Brightness of the darkest tone."),
     PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_FRACTION,

@@ -1,7 +1,7 @@
 #include "light/light.glsl"
 
 /* Brightness of the summed light in steps; a step's border is blended over u_softness pixels, measured by how fast the light
- * changes on the screen: by `slope` a pixel. */
+ * changes on the screen: by `slope` a pixel; or over u_gradation of a step's light, where that is more. */
 float banded(float light, float slope)
 {
     float bands = float(u_bands);
@@ -12,7 +12,8 @@ float banded(float light, float slope)
     float lower = band / max(bands - 1.0, 1.0);
     float upper = min(band + 1.0, bands - 1.0) / max(bands - 1.0, 1.0);
     float before = max(band - 1.0, 0.0) / max(bands - 1.0, 1.0);
-    if (width <= 0.0 || width > 1.0)
+    width = max(width > 1.0 ? 0.0 : width, u_gradation);
+    if (width <= 0.0)
         return lower;
     float rise = clamp((to_border - 1.0) / width + 0.5, 0.0, 0.5);
     float fall = clamp(0.5 - to_border / width, 0.0, 0.5);

@@ -129,6 +129,36 @@ static void tones_are_counted(void)
         }
 }
 
+/* An even wash has every tone between shadow and light; half of one leaves both of them flat. */
+static void washes(void)
+{
+    enum { MOST = 256 };
+    uint32_t colours[MOST];
+    int      pixels[MOST], flat[3];
+    for (int k = 0; k < 3; k++) {
+        char surface[160];
+        shot s;
+        snprintf(surface, sizeof surface,
+                 "{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"gradation\":%g}", 0.5 * k);
+        flat[k] = 0;
+        if (take_ball(&s, surface_look(surface, "0.5,0.5,0.5", 0), NULL)) {
+            int count = colours_of(&s, colours, pixels, MOST), all = 0, most = 0;
+            for (int i = 0; i < count; i++) {
+                all += pixels[i];
+                most = pixels[i] > most ? pixels[i] : most;
+            }
+            flat[k] = 100 * most / (all ? all : 1);
+            if (k == 0)
+                check_near("G1", count, 2, 0, "tones of toon without gradation");
+            else
+                check_at_least("G1", count, 40, "with a gradation of %g", 0.5 * k);
+        }
+        shot_release(&s);
+    }
+    check_at_least("G1", flat[0] - flat[1], 5, "percent that the flat tone loses to half a wash");
+    check_at_least("G1", flat[1] - flat[2], 5, "and half a wash to a whole one");
+}
+
 /* Flat tones stay constant; between them lie one to three pixels of transition. Counted along rows that cross the
  * borders nearly at right angles. */
 static void tone_borders(void)
@@ -477,6 +507,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"tones", tones_are_counted},
+        {"washes", washes},
         {"borders", tone_borders},
         {"blur", blur_is_a_box},
         {"gooch", gooch_ramp},

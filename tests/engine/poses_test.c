@@ -80,6 +80,33 @@ static int tear_down(void **state)
     return 0;
 }
 
+/* Films of a sketch: strokes of a hand are drawn anew with each step of what boils, and stand still in between. */
+static void films_of_a_sketch_boil(void **state)
+{
+    /* Next to nothing is displaced in the picture: what moves is the hand. */
+    static const char *const boiling[][2] = {{"perturb.amount", "0.05"}, {"perturb.boil", "12"}, {NULL, NULL}};
+    static const char *const still[][2] = {{"perturb.amount", "0.05"}, {NULL, NULL}};
+    static const double      times[] = {0, 0.02, 0.07, 0.1};
+    lmn_scene               *s = load("box");
+    picture                  boils[4], stands[2];
+    for (size_t i = 0; i < 4; i++) {
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        desc.time_s = times[i];
+        draw(&boils[i], *state, s, "redraw", boiling, &desc);
+        desc.lenient = true;
+        if (i % 3 == 0)
+            draw(&stands[i / 3], *state, s, "redraw", still, &desc);
+    }
+    int inked = covered(&boils[0]);
+    assert_true(inked > 500);
+    assert_int_equal(difference(&boils[0], &boils[1], 0), 0);
+    assert_int_equal(difference(&boils[1], &boils[2], 0), 0);
+    assert_true(difference(&boils[2], &boils[3], 32) > inked / 5);
+    assert_int_equal(difference(&stands[0], &stands[1], 0), 0);
+    assert_int_equal(difference(&stands[0], &boils[0], 0), 0);
+    lmn_scene_destroy(&s);
+}
+
 /* --- as if it had been modelled so ---------------------------------------------------------------------- */
 
 /* Writes vertices where joints and morphs put them, and takes these away. Nodes above skinned ones must be at the
@@ -299,6 +326,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(poses_are_drawn_as_models, set_up, tear_down),
         cmocka_unit_test_setup_teardown(strokes_go_with_joints, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(films_of_a_sketch_boil, set_up, tear_down),
         cmocka_unit_test_setup_teardown(pictures_do_not_hang_on_earlier_ones, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -375,6 +375,53 @@ static void flat_positions_take_after_what_bends_beside_them(void **state)
     primitive_release(&p);
 }
 
+/* A wall between two rounded edges, in two triangles that share their vertices with the roundings; beside it, in the
+ * same plane, a strip of its own that stands upright. What bends at the rims must not be drawn into the wall, and the
+ * strip goes along with the wall. */
+static void planes_have_one_direction_whatever_bends_beside_them(void **state)
+{
+    (void)state;
+    enum { STEPS = 4, RINGS = STEPS + 1, ROWS = 2 * RINGS };
+    primitive p = empty_primitive(3 * ROWS + 4, 12 * (ROWS - 1) + 6);
+    for (uint32_t r = 0; r < ROWS; r++) {
+        /* A quarter of a round, the wall from y = 0 to 4, and a quarter again; the wall is askew at one end. */
+        bool   after = r >= RINGS;
+        double a = (after ? r - RINGS : STEPS - r) * field_pi / 2 / STEPS, y = 0.3 * sin(a), z = 0.3 * cos(a) - 0.3;
+        for (uint32_t k = 0; k < 3; k++)
+            p.positions[3 * r + k] =
+                (vec3){(float)(k == 2 ? 9 + (after ? 2 : 0) : 3.0 * k), (float)(after ? 4 + y : -y), (float)z};
+    }
+    uint32_t *to = p.indices;
+    for (uint32_t r = 0; r + 1 < ROWS; r++)
+        for (uint32_t k = 0; k < 2; k++) {
+            uint32_t       a = 3 * r + k;
+            const uint32_t two[6] = {a, a + 1, a + 4, a, a + 4, a + 3};
+            memcpy(to, two, sizeof two);
+            to += 6;
+        }
+    static const vec3 strip[4] = {{12, 0, 0}, {12.5f, 0, 0}, {12.5f, 4, 0}, {12, 4, 0}};
+    const uint32_t    first = 3 * ROWS, two[6] = {first, first + 1, first + 2, first, first + 2, first + 3};
+    memcpy(&p.positions[first], strip, sizeof strip);
+    memcpy(to, two, sizeof two);
+    turn_primitive(&p);
+    direction_field f = make_field(&p);
+    check_tensors(&p, &f, false);
+    uint32_t     wall = 12 * (RINGS - 1), count = 0;
+    const float *one = direction_field_at(&f, &p, wall);
+    assert_true(fabs(fabs(along(one, turned((place3){0, 1, 0}))) - 0.05) < 1e-3);
+    for (uint32_t c = wall; c < p.index_count; c++)
+        if (c < wall + 12 || c >= p.index_count - 6) {
+            assert_memory_equal(direction_field_at(&f, &p, c), one, sizeof *f.tensors);
+            count++;
+        }
+    assert_int_equal(count, 18);
+    /* The roundings keep what they know: they bend across. */
+    for (uint32_t c = 12; c < wall - 12; c++)
+        assert_true(along(direction_field_at(&f, &p, c), turned((place3){1, 0, 0})) < -0.5);
+    direction_field_release(&f);
+    primitive_release(&p);
+}
+
 /* --- crosses -------------------------------------------------------------------------------------------- */
 
 typedef struct corner_frame {
@@ -768,6 +815,7 @@ int main(void)
         cmocka_unit_test(a_facade_is_drawn_along_its_border),
         cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
         cmocka_unit_test(flat_positions_take_after_what_bends_beside_them),
+        cmocka_unit_test(planes_have_one_direction_whatever_bends_beside_them),
         cmocka_unit_test(crosses_turn_no_more_than_they_must),
         cmocka_unit_test(noise_is_looked_through),
         cmocka_unit_test(crosses_stand_along_creases),

@@ -707,6 +707,60 @@ static void test_repeats(void **state)
     assert_true(least < -0.5f && most > 1);
 }
 
+/* Copies that follow each other are not on top of each other: also in the middle, where they lean to both sides of it,
+ * most lie apart. */
+static void test_repeats_lie_apart(void **state)
+{
+    stroke_style style = hand_style();
+    double       apart = 0;
+    int          count = 0, close = 0;
+    (void)state;
+    style.wobble = 0;
+    style.repeat_turn = 0;
+    begin();
+    add_line(0, 50, 200, 50, 5, 0);
+    for (uint32_t seed = 0; seed < 32; seed++) {
+        ribbon_set r = make_seeded(&style, seed);
+        for (size_t i = 1; i + 1 < r.ribbon_count; i++, count++) {
+            float one = 0.5f * (point_of(&r, i, 0)->y + end_of(&r, i)->y),
+                  other = 0.5f * (point_of(&r, i + 1, 0)->y + end_of(&r, i + 1)->y);
+            apart += fabs((double)one - (double)other);
+            close += fabsf(one - other) < 0.15f * style.repeat_apart;
+        }
+        ribbon_set_release(&r);
+    }
+    assert_true(count == 32 * 2);
+    assert_true(apart / count > 0.4 * (double)style.repeat_apart);
+    assert_true(close * 20 < count);
+}
+
+/* Corners are run past by a hand as it happens: some not at all, most a little, a few far. */
+static void test_corners_are_run_past_unevenly(void **state)
+{
+    stroke_style style = hand_style();
+    int          met = 0, little = 0, far = 0;
+    (void)state;
+    style.wobble = style.repeat_apart = 0;
+    style.repeats = 1;
+    style.pull = 400;
+    style.overshoot = 10;
+    style.overshoot_most = 0;
+    begin();
+    add_line(0, 50, 200, 50, 5, 0);
+    for (uint32_t seed = 0; seed < 200; seed++) {
+        ribbon_set r = make_seeded(&style, seed);
+        float      by = end_of(&r, 0)->x - 200;
+        assert_true(by > -1e-3f && by <= 16 + 1e-3f);
+        met += by < 0.1f;
+        little += by >= 0.1f && by < 8;
+        far += by >= 11;
+        ribbon_set_release(&r);
+    }
+    assert_true(met > 30 && met < 70);
+    assert_true(little > 60);
+    assert_true(far > 20 && far < 70);
+}
+
 static void test_short_lines_are_drawn_once(void **state)
 {
     stroke_style style = hand_style();
@@ -1019,6 +1073,8 @@ int main(void)
         cmocka_unit_test(test_overshoot),
         cmocka_unit_test(test_widths),
         cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_repeats_lie_apart),
+        cmocka_unit_test(test_corners_are_run_past_unevenly),
         cmocka_unit_test(test_short_lines_are_drawn_once),
         cmocka_unit_test(test_corners),
         cmocka_unit_test(test_circles),
