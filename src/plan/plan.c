@@ -331,13 +331,19 @@ static void share_parts(plan *p)
     }
 }
 
+/* Rules for what only some scenes have: looks that ship have them for these. */
+static bool is_for_some_scenes(const char *select)
+{
+    return !select || strcmp(select, "*") == 0 || strcmp(select, "@solid") == 0 || strncmp(select, "[glyph", 6) == 0;
+}
+
 /* Rules for what solids take away have no parts where that is left to others. */
 static void warn_of_idle_rules(const plan *p, bool without_removed, warnings *warnings)
 {
     const lmn_look *look = p->look;
     for (size_t r = 0; r < look->rule_count; r++) {
         const rule *own = &look->rules[r];
-        bool        idle = own->select && strcmp(own->select, "*") != 0 && strcmp(own->select, "@solid") != 0;
+        bool        idle = !is_for_some_scenes(own->select);
         if (without_removed && own->selector && selector_names_removed(own->selector))
             idle = false;
         for (size_t i = 0; idle && i < p->part_count; i++)

@@ -49,6 +49,7 @@ static const lmn_node_desc     node_desc = LMN_NODE_DESC_INIT;
 static const lmn_load_desc     load_desc = LMN_LOAD_DESC_INIT;
 static const lmn_renderer_desc renderer_desc = LMN_RENDERER_DESC_INIT;
 static const lmn_sheet_desc    sheet_desc = LMN_SHEET_DESC_INIT;
+static const lmn_depict_desc   depict_desc = LMN_DEPICT_DESC_INIT;
 static const lmn_pattern_desc  pattern_desc = LMN_PATTERN_DESC_INIT;
 static const lmn_strokes_view  strokes_view = {sizeof(lmn_strokes_view), SIDE, 0, 0, 0};
 static const lmn_film_desc     film_desc = {sizeof(lmn_film_desc), SIDE, SIDE, 24, 0, NULL, NULL, NULL};
@@ -488,6 +489,27 @@ CALL(lmn_draw_sheet)
                                        P(5, w->desc[1]), P(6, &w->error));
     lmn_sheet_destroy(&made);
     return status;
+}
+CALL(lmn_depict)
+{
+    char      *json = NULL;
+    lmn_status status = lmn_depict(P(0, w->scene), P(1, w->desc[0]), P(2, w->desc[1]), P(3, &json), P(4, &w->error));
+    lmn_text_free(json);
+    lmn_depict_clear(w->scene, NULL);
+    return status;
+}
+CALL(lmn_depict_clear)
+{
+    return lmn_depict_clear(P(0, w->scene), P(1, &w->error));
+}
+CALL(lmn_depiction_at)
+{
+    lmn_depiction_info info;
+    return neutral(!lmn_depiction_at(0, P(0, &info)));
+}
+CALL(lmn_depiction_reference)
+{
+    return freed(w->null ? NULL : lmn_depiction_reference());
 }
 CALL(lmn_sheet_write)
 {
