@@ -212,7 +212,7 @@ static lmn_status put_moment(trace_job *j, double fraction, float alpha, lmn_err
         status = o->values->figures == TRACES_OUTLINES ? find_outlines(&m, j, &then, error)
                                                        : figures_find(&m.set, j, &then, error);
     if (status == LMN_OK)
-        status = bodies_find(&m.bodies, &then, &before, MOMENT, j->moves, &o->camera, error);
+        status = bodies_find(&m.bodies, &then, &before, MOMENT, j->moves, NULL, &o->camera, error);
     if (status == LMN_OK && !page_mask_open(&m.mask, &o->camera))
         status = error_memory(error);
     for (size_t i = 0; i < m.bodies.triangle_count && status == LMN_OK; i++) {

@@ -265,7 +265,7 @@ static lmn_status shake_bodies(trace_job *j, double fraction, bool *done, lmn_er
     trace_bodies known = j->bodies;
     lmn_status   status = pose_ago(&before, j->o, fraction, error);
     if (status == LMN_OK)
-        status = bodies_find(&j->bodies, j->o->pose, &before, fraction, j->o->parts, &j->o->camera, error);
+        status = bodies_find(&j->bodies, j->o->pose, &before, fraction, j->o->parts, NULL, &j->o->camera, error);
     pose_release(&before);
     if (status == LMN_OK) {
         const trace_bodies *t = &j->bodies;

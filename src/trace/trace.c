@@ -41,13 +41,31 @@ bool nothing_hides(const traces_options *o, const double page[3])
     return before == 0;
 }
 
+/* Bodies, again without those that jump: beside these, others may have been too slow. */
+static lmn_status find_what_goes(trace_job *j, const pose *before, bool *jumping, lmn_error *error)
+{
+    const traces_options *o = j->o;
+    lmn_status            status = LMN_OK;
+    size_t                known = SIZE_MAX;
+    while (status == LMN_OK && known != j->facts->leaps) {
+        known = j->facts->leaps;
+        bodies_release(&j->bodies);
+        status = bodies_find(&j->bodies, o->pose, before, BEFORE, o->parts, jumping, &o->camera, error);
+        if (status == LMN_OK)
+            status = jumps_find(jumping, &j->facts->leaps, &j->bodies, o, before, BEFORE, error);
+    }
+    return status;
+}
+
 static lmn_status find_bodies(trace_job *j, lmn_error *error)
 {
     pose       before = {.scene = NULL};
-    lmn_status status = pose_ago(&before, j->o, BEFORE, error);
+    bool      *jumping = mem_calloc(j->o->pose->scene->node_count + 1, sizeof *jumping);
+    lmn_status status = jumping ? pose_ago(&before, j->o, BEFORE, error) : error_memory(error);
     if (status == LMN_OK)
-        status = bodies_find(&j->bodies, j->o->pose, &before, BEFORE, j->o->parts, &j->o->camera, error);
+        status = find_what_goes(j, &before, jumping, error);
     pose_release(&before);
+    mem_free(jumping);
     j->moves = status == LMN_OK ? mem_calloc(j->o->pose->part_count + 1, sizeof *j->moves) : NULL;
     if (status == LMN_OK && (!j->moves || !page_mask_open(&j->mask, &j->o->camera)))
         status = error_memory(error);
@@ -79,7 +97,9 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     if (moves && status == LMN_OK && options->values->flow > 0)
         status = flow_lines_put(&j, error);
     if (moves && status == LMN_OK && options->values->lines > 0) {
-        status = origins_find(&j.origins, options, &j.bodies) ? LMN_OK : error_memory(error);
+        status = heights_find(&j.heights, &j, error);
+        if (status == LMN_OK && !origins_find(&j.origins, options, &j.bodies, &j.heights))
+            status = error_memory(error);
         if (status == LMN_OK)
             status = ways_follow(&j.ways, options, &j.bodies, j.origins.items, j.origins.count, error);
         if (status == LMN_OK)
@@ -91,6 +111,7 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     page_mask_close(&j.mask);
     mem_free(j.moves);
     bones_release(&j.bones);
+    heights_release(&j.heights);
     mem_free(j.origins.items);
     ways_release(&j.ways);
     bodies_release(&j.bodies);
