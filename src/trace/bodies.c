@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 
 /* Limbs whose motions differ by less than this fraction of the faster one's are one body; those that are smaller than
  * the second fraction of all belong to the next one. */
@@ -31,12 +32,12 @@ typedef struct finder {
     const pose          *now, *before;
     const stroke_camera *camera;
     double               fraction;
-    double (*was)[3];   /* per vertex, before */
-    int32_t    *keys;   /* per triangle: a node */
-    int32_t    *owners; /* per node: the key whose body it is in */
-    fit        *fits;   /* per node */
-    const bool *jumping;
-    size_t      mesh_capacity, vertex_capacity, was_capacity, triangle_capacity, key_capacity, body_capacity;
+    double (*was)[3];            /* per vertex, before */
+    int32_t             *keys;   /* per triangle: a node */
+    int32_t             *owners; /* per node: the key whose body it is in */
+    fit                 *fits;   /* per node */
+    const bodies_wanted *wanted;
+    size_t               mesh_capacity, vertex_capacity, was_capacity, triangle_capacity, key_capacity, body_capacity;
 } finder;
 
 /* --- positions -------------------------------------------------------------------------------------------- */
@@ -102,6 +103,22 @@ static int32_t key_of(const finder *f, const trace_mesh *m, uint32_t vertex, int
     return rigid != NONE ? rigid : own;
 }
 
+/* Does a section take all of a triangle away? */
+static bool is_taken(const finder *f, const trace_mesh *m, const uint32_t *corners)
+{
+    const stroke_section *s = &f->wanted->section;
+    box3                  box = box3_empty();
+    if (!s->cut || s->cut->cell_count == 0 || (s->spared && s->spared[m->part]))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        double at[3];
+        page_unproject(f->camera, f->out->now[m->first + corners[k]], at);
+        const vec3 point = {(float)at[0], (float)at[1], (float)at[2]};
+        box = box3_union(box, (box3){point, point});
+    }
+    return cut_judge_box(s->cut, box) == CUT_GONE;
+}
+
 static bool add_triangles(finder *f, const trace_mesh *m)
 {
     trace_bodies    *b = f->out;
@@ -117,7 +134,7 @@ static bool add_triangles(finder *f, const trace_mesh *m)
         for (int k = 0; k < 3; k++)
             seen = seen && corners[k] < p->vertex_count && isfinite(b->now[m->first + corners[k]][0]) &&
                    isfinite(f->was[m->first + corners[k]][0]);
-        if (!seen)
+        if (!seen || is_taken(f, m, corners))
             continue;
         for (int k = 0; k < 3; k++)
             b->triangles[b->triangle_count][k] = m->first + corners[k];
@@ -360,7 +377,7 @@ static bool sort_triangles(finder *f, const int32_t *numbers, size_t body_count)
 static bool is_body(const finder *f, size_t key)
 {
     return f->fits[key].area > 0 && f->fits[key].farthest / f->fraction >= LEAST_WAY &&
-           !(f->jumping && f->jumping[key]);
+           !(f->wanted->jumping && f->wanted->jumping[key]);
 }
 
 static double fastest_of(const finder *f)
@@ -404,15 +421,16 @@ static bool make_bodies(finder *f)
     return good;
 }
 
-lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
-                       const bool *jumping, const stroke_camera *camera, lmn_error *error)
+lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction,
+                       const bodies_wanted *wanted, lmn_error *error)
 {
-    finder f = {.out = out, .now = now, .before = before, .camera = camera, .fraction = fraction, .jumping = jumping};
+    finder f = {
+        .out = out, .now = now, .before = before, .camera = wanted->camera, .fraction = fraction, .wanted = wanted};
     size_t count = now->scene->node_count;
     memset(out, 0, sizeof *out);
     f.owners = mem_alloc((count + 1) * sizeof *f.owners);
     f.fits = mem_calloc(count + 1, sizeof *f.fits);
-    bool good = f.owners && f.fits && add_parts(&f, parts);
+    bool good = f.owners && f.fits && add_parts(&f, wanted->parts);
     for (size_t k = 0; good && k < count; k++)
         f.owners[k] = (int32_t)k;
     if (good) {

@@ -168,10 +168,10 @@ static bool take_ray(way *w, trace_job *j, size_t origin)
 }
 
 /* Which points are neither on what moves nor behind anything. */
-static void see(way *w, const trace_job *j)
+static void see(way *w, const trace_job *j, uint32_t part)
 {
     for (size_t i = 0; i < w->count; i++)
-        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, w->at[i]);
+        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, part, w->at[i]);
 }
 
 /* Half the width and the opacity at a fraction of the line, 0 where it begins. */
@@ -264,7 +264,7 @@ lmn_status speed_lines_put(trace_job *j, lmn_error *error)
         if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
             status = error_memory(error);
         if (status == LMN_OK && w.count > 1)
-            see(&w, j);
+            see(&w, j, j->bodies.meshes[origin->mesh].part);
         if (status == LMN_OK && w.count > 1 && !put_line(j, &w, origin))
             status = error_memory(error);
     }
@@ -293,7 +293,8 @@ static bool is_open(const trace_job *j, const way *w, const trace_origin *origin
         return false;
     double end = end_of(j, w, origin, begin, LENGTHS_APART * (double)v->uneven);
     for (size_t i = 0; i < w->count && w->arcs[i] <= end; i++) {
-        bool beside = w->arcs[i] >= begin && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]);
+        bool beside = w->arcs[i] >= begin && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) &&
+                      !is_cut_away(j->o, j->bodies.meshes[origin->mesh].part, w->at[i]);
         run = beside ? fmin(run, w->arcs[i]) : INFINITY;
         if (w->arcs[i] - run >= SHORTEST * (double)v->width)
             return true;

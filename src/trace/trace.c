@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 #include "trace/trace_private.h"
 
 /* The pose before, from which it is measured how things move: fraction of the exposure. */
@@ -30,10 +31,22 @@ bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, con
     return true;
 }
 
-bool nothing_hides(const traces_options *o, const double page[3])
+bool is_cut_away(const traces_options *o, uint32_t part, const double page[3])
+{
+    double at[3];
+    if (!o->section.cut || o->section.cut->cell_count == 0 || (o->section.spared && o->section.spared[part]))
+        return false;
+    page_unproject(&o->camera, page, at);
+    const vec3 point = {(float)at[0], (float)at[1], (float)at[2]};
+    return cut_judge_box(o->section.cut, (box3){point, point}) == CUT_GONE;
+}
+
+bool nothing_hides(const traces_options *o, uint32_t part, const double page[3])
 {
     double   world[1][3];
     uint32_t before;
+    if (is_cut_away(o, part, page))
+        return false;
     if (!o->camera.orthographic && page[2] < o->camera.near * 1.001)
         return true; /* before all that is there now */
     page_unproject(&o->camera, page, world[0]);
@@ -50,7 +63,8 @@ static lmn_status find_what_goes(trace_job *j, const pose *before, bool *jumping
     while (status == LMN_OK && known != j->facts->leaps) {
         known = j->facts->leaps;
         bodies_release(&j->bodies);
-        status = bodies_find(&j->bodies, o->pose, before, BEFORE, o->parts, jumping, &o->camera, error);
+        status = bodies_find(&j->bodies, o->pose, before, BEFORE,
+                             &(bodies_wanted){o->parts, jumping, &o->camera, o->section}, error);
         if (status == LMN_OK)
             status = jumps_find(jumping, &j->facts->leaps, &j->bodies, o, before, BEFORE, error);
     }

@@ -46,7 +46,8 @@ typedef struct traces_options {
     const bool          *parts;  /* per part: what draws traces */
     const traces_values *values; /* lengths in units of the page */
     stroke_camera        camera;
-    const stroke_view   *seen; /* what may hide them */
+    const stroke_view   *seen;    /* what may hide them */
+    stroke_section       section; /* of what it cuts away nothing is drawn; cut NULL: nothing is */
     double               crease_angle;
     uint32_t             seed;
     colour               ink;

@@ -71,10 +71,16 @@ typedef struct trace_bodies {
     size_t      mesh_count, vertex_count, triangle_count, body_count;
 } trace_bodies;
 
-/* Finds what of these parts moves between two poses, `before` being `fraction` of the exposure earlier. `jumping`, per
- * node, or NULL: those move by no way, and are none. Errors: LMN_MEMORY. */
-lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
-                       const bool *jumping, const stroke_camera *camera, lmn_error *error);
+/* Which parts' bodies are looked for, and without what. */
+typedef struct bodies_wanted {
+    const bool          *parts;
+    const bool          *jumping; /* per node, or NULL: those move by no way, and are none */
+    const stroke_camera *camera;
+    stroke_section       section; /* triangles that are cut away are none of a body */
+} bodies_wanted;
+/* Finds what moves between two poses, `before` being `fraction` of the exposure earlier. Errors: LMN_MEMORY. */
+lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction,
+                       const bodies_wanted *wanted, lmn_error *error);
 void       bodies_release(trace_bodies *b);
 /* The mesh that a vertex of all is in; there is one. */
 uint32_t trace_mesh_of(const trace_bodies *t, uint32_t vertex);
@@ -197,8 +203,10 @@ typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count
 lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
-/* Is a position on the page, with its depth, before all that is there now? */
-bool nothing_hides(const traces_options *o, const double page[3]);
+/* Is a position on the page, with its depth, before all that is there now, and not cut away with its part? */
+bool nothing_hides(const traces_options *o, uint32_t part, const double page[3]);
+/* Is it cut away? */
+bool is_cut_away(const traces_options *o, uint32_t part, const double page[3]);
 /* 0 … 1, the same for the same numbers. */
 double trace_random(const traces_options *o, uint32_t body, uint32_t line, uint32_t what);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 #include "check.h"
 #include "limner/scene.h"
 #include "moving_scene.h"
@@ -16,15 +17,16 @@ static const double pi = 3.14159265358979323846, grey[3] = {0.5, 0.5, 0.5};
 enum { PAGE = 800, UNIT = 80 };
 
 typedef struct traced {
-    lmn_scene    *scene;
-    pose          pose;
-    stroke_scene  strokes;
-    stroke_view  *view;
-    stroke_camera camera;
-    traces_values values;
-    ribbon_set    ribbons;
-    trace_facts   facts;
-    bool         *parts;
+    lmn_scene     *scene;
+    pose           pose;
+    stroke_scene   strokes;
+    stroke_view   *view;
+    stroke_camera  camera;
+    traces_values  values;
+    ribbon_set     ribbons;
+    trace_facts    facts;
+    stroke_section section;
+    bool          *parts;
 } traced;
 
 static traces_values standard(void)
@@ -82,6 +84,7 @@ static lmn_status trace(traced *t)
                               .values = &t->values,
                               .camera = t->camera,
                               .seen = t->view,
+                              .section = t->section,
                               .crease_angle = pi / 6,
                               .seed = 7,
                               .brush = BRUSH_PEN};
@@ -738,6 +741,40 @@ static void shapes_bend_no_lines(void)
     close_scene(&t);
 }
 
+/* Of what a section takes away there are neither lines nor contours: here all above the middle of a ball. A part that
+ * it spares has all of them. */
+static void sections_take_lines(void)
+{
+    traced t;
+    cut    upper = {.plane_count = 1, .cell_count = 1, .planes = {{{0, 1, 0}, 0}}, .snap = 1e-6};
+    upper.cells[0] = (cut_cell){1, {{0, true}}};
+    if (open_scene(&t, write_ball("section", 3, false), 1, true)) {
+        t.values.contours = 2;
+        t.section.cut = &upper;
+        for (int spared = 0; spared < 2; spared++) {
+            size_t points[2][2] = {{0, 0}, {0, 0}}; /* of lines, contours: above, below */
+            t.section.spared = spared ? t.parts : NULL;
+            check_that("section", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon *r = &t.ribbons.ribbons[i];
+                for (uint32_t k = r->first; k < r->first + r->count; k++)
+                    points[r->kind == STROKE_PAST][(double)t.ribbons.points[k].y > PAGE / 2.0 - 0.1]++;
+            }
+            for (int past = 0; past < 2; past++) {
+                check_at_least("section", (double)points[past][1], 200, "points below");
+                if (spared)
+                    check_at_least("section", (double)points[past][0], 200, "points above, spared");
+                else
+                    check_at_most("section", (double)points[past][0], 0, "points above");
+            }
+            if (!spared)
+                check_that("A3", count_of(&t, STROKE_SPEED) == 24, "%zu lines of 24, all of what is left",
+                           count_of(&t, STROKE_SPEED));
+        }
+    }
+    close_scene(&t);
+}
+
 /* --- figures whose parts pass before each other ------------------------------------------------------------------ */
 
 /* An arm passes before a body that moves more slowly, the upper quarter of it above that: there all of its lines are,
@@ -879,6 +916,7 @@ int main(int argc, char **argv)
         {"shapes", shapes_bend_no_lines},
         {"shaking", shaking_has_arcs},
         {"pendulum", pendulums_swing_below},
+        {"section", sections_take_lines},
         {"limbs", arms_before_bodies},
         {"wheels", wheels_at_any_angle},
         {"leap", jumps_take_no_lines},
