@@ -9,6 +9,7 @@
 void exposure_release(exposure *e)
 {
     mem_free(e->moves);
+    mem_free(e->goes);
     mem_free(e->values);
     mem_free(e->ago);
     memset(e, 0, sizeof *e);
@@ -73,7 +74,7 @@ static lmn_status draw_one(const exposure *e, int i, session *s, lmn_renderer *r
         s->frame.anchor = anchor;
         s->frame.time_s = options->desc->time_s; /* what boils does so from picture to picture, not within one */
         if (plate)
-            frame_draw_onto_plate(&s->frame, mean, part);
+            frame_draw_onto_plate(&s->frame, mean, part, e->goes);
         else
             frame_draw_into_mean(&s->frame, mean, part);
         status = gpu_check(r->g, error);
@@ -111,6 +112,34 @@ static lmn_status settle_moments(exposure *e, const session *s, lmn_error *error
     return e->ago ? LMN_OK : error_memory(error);
 }
 
+static bool differs(const pose *a, const pose *b, size_t part)
+{
+    const part_pose *p = &a->parts[part], *q = &b->parts[part];
+    int32_t          node = a->scene->parts[part].node;
+    return memcmp(&a->worlds[node], &b->worlds[node], sizeof *a->worlds) != 0 ||
+           (p->joint_count && memcmp(p->joints, q->joints, p->joint_count * sizeof *p->joints) != 0) ||
+           (p->weight_count && memcmp(p->weights, q->weights, p->weight_count * sizeof *p->weights) != 0);
+}
+
+/* What of a plate hides what was there before it. */
+static lmn_status find_what_goes(exposure *e, const pose *now, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    e->goes = mem_calloc(now->scene->part_count + now->scene->ghost_count + 1, sizeof *e->goes);
+    if (!e->goes)
+        return error_memory(error);
+    for (int i = 0; i < e->times && status == LMN_OK; i++) {
+        pose   then = {.scene = NULL};
+        moment when = now->when;
+        when.seconds = when.seconds > e->ago[i] ? when.seconds - e->ago[i] : 0;
+        status = pose_create(&then, now->scene, &when, error);
+        for (size_t part = 0; part < now->scene->part_count && status == LMN_OK; part++)
+            e->goes[part] = e->goes[part] || (e->moves[part] && differs(now, &then, part));
+        pose_release(&then);
+    }
+    return status;
+}
+
 static bool everything_moves(const exposure *e, const lmn_scene *scene)
 {
     for (size_t i = 0; i < scene->part_count; i++)
@@ -137,6 +166,8 @@ lmn_status exposure_draw(exposure *e, session *s, const lmn_look *look, const dr
     memset(&held, 0, sizeof held);
     if (status == LMN_OK)
         status = pose_create(&held, scene, &r->pose.when, error);
+    if (status == LMN_OK && plate && !row->through(e->values))
+        status = find_what_goes(e, &held, error);
     one.held = &held;
     one.moves = e->moves;
     /* A camera of the file that moves is exposed too, when everything is. */

@@ -13,6 +13,7 @@ typedef struct exposure {
     double          *ago;     /* how many seconds before the time that is drawn each picture is, oldest first */
     telling_moments  telling; /* where moments are chosen */
     bool            *moves;   /* per part, then per ghost */
+    bool            *goes;    /* the same: what is elsewhere, or has another shape, at one of these times */
 } exposure;
 
 /* Errors: LMN_USAGE (rules that ask for different exposures), LMN_MEMORY. Release it also after one. */

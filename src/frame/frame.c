@@ -188,13 +188,18 @@ void frame_draw(frame *f, gpu_texture *out)
 }
 
 /* Draws the page and makes the next of pictures that are taken together; `value` is what the program is told. */
-static void take_page(frame *f, gpu_texture **all, const char *fragment, const char *uniform, double value)
+static void take_page(frame *f, gpu_texture **all, const char *fragment, const char *uniform, double value, bool *hides)
 {
+    gpu_texture *depths[2] = {NULL, NULL};
     text         prelude = {0};
     float        ground[4];
     gpu_texture *next = gpu_target_acquire(f->g, f->width, f->height, GPU_RGBA32F);
     draw_page(f);
     frame_ground(f, ground);
+    for (int i = 0; i < 2 && hides && !gpu_failed(f->g); i++) {
+        depths[i] = frame_acquire(f, TARGET_DEPTH);
+        raster_depth_of(f, depths[i], i ? f->plan->selected : hides);
+    }
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", fragment, &prelude);
     if (p && !gpu_failed(f->g)) {
         gpu_pass_begin(f->g, &(gpu_pass){.colours = {next}, .colour_count = 1});
@@ -204,8 +209,15 @@ static void take_page(frame *f, gpu_texture **all, const char *fragment, const c
         gpu_set_float(f->g, uniform, (float)value);
         gpu_set_vec4(f->g, "u_ground", ground);
         gpu_set_int(f->g, "u_first", *all == NULL);
+        if (depths[1]) {
+            gpu_set_texture(f->g, "t_moving", depths[0], false);
+            gpu_set_texture(f->g, "t_all", depths[1], false);
+            gpu_set_int(f->g, "u_hides", 1);
+        }
         gpu_draw_screen(f->g);
     }
+    for (int i = 0; i < 2; i++)
+        gpu_target_release(f->g, depths[i]);
     release_page(f);
     gpu_target_release(f->g, *all);
     *all = next;
@@ -213,12 +225,12 @@ static void take_page(frame *f, gpu_texture **all, const char *fragment, const c
 
 void frame_draw_into_mean(frame *f, gpu_texture **mean, double part)
 {
-    take_page(f, mean, "motion/mean.frag", "u_part", part);
+    take_page(f, mean, "motion/mean.frag", "u_part", part, NULL);
 }
 
-void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink)
+void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink, bool *hides)
 {
-    take_page(f, plate, "motion/plate.frag", "u_ink", ink);
+    take_page(f, plate, "motion/plate.frag", "u_ink", ink, hides);
 }
 
 void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out)

@@ -63,8 +63,8 @@ void frame_draw(frame *f, gpu_texture *out);
  * caller's to release), of which it is this `part` of all so far; then the mean is encoded. */
 void frame_draw_into_mean(frame *f, gpu_texture **mean, double part);
 /* Instead, laid over each other: each channel of a pixel keeps what differs most from the ground; of this picture, that
- * is made less by `ink` first. */
-void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink);
+ * is made less by `ink` first. Where it has the parts that `hides` says (NULL: none), it alone is kept. */
+void frame_draw_onto_plate(frame *f, gpu_texture **plate, double ink, bool *hides);
 void frame_encode_mean(frame *f, gpu_texture *mean, gpu_texture *out);
 
 /* What one layer was made of: 28 bytes a pixel. */

@@ -17,6 +17,7 @@ static lmn_status make(ribbon_set *out, colour *ink, frame *f, const figure *fig
                               .values = &values,
                               .camera = store->camera,
                               .seen = store->view,
+                              .section = {&f->up->section.cut, f->up->section.spared},
                               .crease_angle = f->up->crease_angle,
                               .seed = f->seed};
     traces_take_lines(&options, fig->rule);

@@ -8,15 +8,19 @@
 typedef enum accumulate_moments { MOMENTS_EQUAL, MOMENTS_TELLING, MOMENTS_AUTO } accumulate_moments;
 typedef enum accumulate_weights { WEIGHTS_EQUAL, WEIGHTS_LAST, WEIGHTS_DECAY, WEIGHTS_PLATE } accumulate_weights;
 
+typedef enum accumulate_overlap { OVERLAP_NEWEST, OVERLAP_THROUGH } accumulate_overlap;
+
 typedef struct accumulate_values {
     motion_common common;
     int32_t       times, weights;
     float         last, decay;
     int32_t       moments;
     float         cover;
+    int32_t       overlap;
 } accumulate_values;
 
 static const char *const moments_names[] = {"equal", "telling", "auto", NULL};
+static const char *const overlap_names[] = {"newest", "through", NULL};
 static const char *const weights_names[] = {"equal", "last", "decay", "plate", NULL};
 
 static const param params[] = {
@@ -28,13 +32,16 @@ static const param params[] = {
         .doc =
             "How much each counts: equal, all alike; last, the newest most, so that it stands out and the "
             "direction can be told; decay, each less than the one after it; plate, no mean: all are there whole, as on "
-            "one plate that is exposed again and again (Marey), each pixel keeping what differs most from the "
-            "ground."),
+            "one plate that is exposed again and again (Marey)."),
     PARAM_FLOAT_ROW(accumulate_values, last, .def = 6, .min = 1, .max = 512, .soft_max = 32, .cpu_only = true,
                     .only_if = "weights=last", .doc = "How many times as much as each other the newest counts."),
     PARAM_FLOAT_ROW(accumulate_values, decay, .def = 0.8, .min = 0, .max = 1, .cpu_only = true,
                     .only_if = "weights=decay,plate",
                     .doc = "How much of the one after it each counts; on a plate, how much of its ink each has."),
+    PARAM_ENUM_ROW(accumulate_values, overlap, .names = overlap_names, .def = OVERLAP_NEWEST, .cpu_only = true,
+                   .only_if = "weights=plate",
+                   .doc = "Where figures of a plate lie over each other: newest, the newer one hides older ones; "
+                          "through, each pixel keeps what differs most from the ground, as light adds up on a plate."),
     PARAM_ENUM_ROW(
         accumulate_values, moments, .names = moments_names, .def = MOMENTS_EQUAL, .cpu_only = true,
         .doc = "When pictures are taken: equal, at equal times; telling, where most of what moves turns back, rebounds "
@@ -71,6 +78,11 @@ static bool is_plate(const void *values)
     return ((const accumulate_values *)values)->weights == WEIGHTS_PLATE;
 }
 
+static bool is_through(const void *values)
+{
+    return ((const accumulate_values *)values)->overlap == OVERLAP_THROUGH;
+}
+
 const technique motion_accumulate = {
     .name = "accumulate",
     .doc = "The mean of pictures at several times of the exposure.",
@@ -78,5 +90,7 @@ const technique motion_accumulate = {
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(accumulate_values),
-    .motion = &(const motion_row){.times = times_of, .weight = weight_of, .plate = is_plate, .chooses = chooses},
+    .motion =
+        &(const motion_row){
+            .times = times_of, .weight = weight_of, .plate = is_plate, .through = is_through, .chooses = chooses},
 };

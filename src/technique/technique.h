@@ -168,7 +168,8 @@ typedef struct surface_row {
 typedef struct motion_row {
     int (*times)(const void *values);                /* pictures: how many; NULL: none */
     double (*weight)(const void *values, int newer); /* of one that so many are newer than */
-    bool (*plate)(const void *values); /* the pictures are laid over each other; weights are of their ink */
+    bool (*plate)(const void *values);   /* the pictures are laid over each other; weights are of their ink */
+    bool (*through)(const void *values); /* of a plate: older figures show through newer ones */
     /* Are their moments those that tell most? How many, 0: as many as tell something, and how much of one figure may
      * lie over another one. NULL: they are equally far apart */
     bool (*chooses)(const void *values, int *count, double *cover);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 
 /* Limbs whose motions differ by less than this fraction of the faster one's are one body; those that are smaller than
  * the second fraction of all belong to the next one. */
@@ -18,12 +19,12 @@
 /* Slower than the first of these fractions of what is fastest, bodies have no lines. */
 #define LEAST_SPEED 0.3
 static const double pi = 3.14159265358979323846;
-enum { SECTORS = 36, SECTORS_ROUND = 32 };
 
 /* Sums over faces of what moves by one key. */
 typedef struct fit {
     double area, x, y, vx, vy;             /* weighted by area */
     double square, turn, growth, farthest; /* around the middle */
+    double energy;                         /* squares of displacements, weighted by area */
 } fit;
 
 typedef struct finder {
@@ -31,11 +32,12 @@ typedef struct finder {
     const pose          *now, *before;
     const stroke_camera *camera;
     double               fraction;
-    double (*was)[3]; /* per vertex, before */
-    int32_t *keys;    /* per triangle: a node */
-    int32_t *owners;  /* per node: the key whose body it is in */
-    fit     *fits;    /* per node */
-    size_t   mesh_capacity, vertex_capacity, was_capacity, triangle_capacity, key_capacity, body_capacity;
+    double (*was)[3];            /* per vertex, before */
+    int32_t             *keys;   /* per triangle: a node */
+    int32_t             *owners; /* per node: the key whose body it is in */
+    fit                 *fits;   /* per node */
+    const bodies_wanted *wanted;
+    size_t               mesh_capacity, vertex_capacity, was_capacity, triangle_capacity, key_capacity, body_capacity;
 } finder;
 
 /* --- positions -------------------------------------------------------------------------------------------- */
@@ -101,6 +103,22 @@ static int32_t key_of(const finder *f, const trace_mesh *m, uint32_t vertex, int
     return rigid != NONE ? rigid : own;
 }
 
+/* Does a section take all of a triangle away? */
+static bool is_taken(const finder *f, const trace_mesh *m, const uint32_t *corners)
+{
+    const stroke_section *s = &f->wanted->section;
+    box3                  box = box3_empty();
+    if (!s->cut || s->cut->cell_count == 0 || (s->spared && s->spared[m->part]))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        double at[3];
+        page_unproject(f->camera, f->out->now[m->first + corners[k]], at);
+        const vec3 point = {(float)at[0], (float)at[1], (float)at[2]};
+        box = box3_union(box, (box3){point, point});
+    }
+    return cut_judge_box(s->cut, box) == CUT_GONE;
+}
+
 static bool add_triangles(finder *f, const trace_mesh *m)
 {
     trace_bodies    *b = f->out;
@@ -116,7 +134,7 @@ static bool add_triangles(finder *f, const trace_mesh *m)
         for (int k = 0; k < 3; k++)
             seen = seen && corners[k] < p->vertex_count && isfinite(b->now[m->first + corners[k]][0]) &&
                    isfinite(f->was[m->first + corners[k]][0]);
-        if (!seen)
+        if (!seen || is_taken(f, m, corners))
             continue;
         for (int k = 0; k < 3; k++)
             b->triangles[b->triangle_count][k] = m->first + corners[k];
@@ -211,6 +229,7 @@ static void sum_turns(finder *f)
         s->square += area * (x * x + y * y);
         s->turn += area * (x * vy - y * vx);
         s->growth += area * (x * vx + y * vy);
+        s->energy += area * (moved[0] * moved[0] + moved[1] * moved[1]);
         s->farthest = fmax(s->farthest, hypot(moved[0], moved[1]));
     }
 }
@@ -286,22 +305,6 @@ void body_way(const trace_body *b, double x, double y, double out[2])
     out[1] = r > 0 ? b->sense * (towards * ry + around * rx) / r : 0;
 }
 
-/* Does it lie all around its centre? */
-static bool is_round(const trace_bodies *t, const trace_body *b)
-{
-    bool sectors[SECTORS] = {false};
-    int  count = 0;
-    for (uint32_t i = b->first; i < b->first + b->count; i++)
-        for (int k = 0; k < 3; k++) {
-            const double *p = t->now[t->triangles[i][k]];
-            double        angle = atan2(p[1] - b->centre[1], p[0] - b->centre[0]);
-            sectors[(int)fmin(fmax((angle + pi) / (2 * pi) * SECTORS, 0), SECTORS - 1)] = true;
-        }
-    for (int i = 0; i < SECTORS; i++)
-        count += sectors[i];
-    return count >= SECTORS_ROUND;
-}
-
 static void settle_motion(trace_body *b, const fit *s, double fraction)
 {
     double radius = sqrt(s->square / s->area), turn = s->turn / fmax(s->square, 1e-12),
@@ -309,7 +312,7 @@ static void settle_motion(trace_body *b, const fit *s, double fraction)
     b->centre[0] = s->x;
     b->centre[1] = s->y;
     b->sense = 1;
-    b->speed = hypot(shift, radius * hypot(turn, growth)) / fraction;
+    b->speed = sqrt(s->energy / s->area) / fraction;
     b->motion = MOVES_ALONG;
     if (fabs(turn) * radius > fmax(shift, fabs(growth) * radius)) {
         /* v + turn · J (c − middle) = 0, J (x, y) = (−y, x). */
@@ -370,23 +373,33 @@ static bool sort_triangles(finder *f, const int32_t *numbers, size_t body_count)
     return good;
 }
 
+/* What moves at all, and not by a jump. */
+static bool is_body(const finder *f, size_t key)
+{
+    return f->fits[key].area > 0 && f->fits[key].farthest / f->fraction >= LEAST_WAY &&
+           !(f->wanted->jumping && f->wanted->jumping[key]);
+}
+
+static double fastest_of(const finder *f)
+{
+    double fastest = 0;
+    for (size_t k = 0; k < f->now->scene->node_count; k++)
+        if (is_body(f, k))
+            fastest = fmax(fastest, sqrt(f->fits[k].energy / f->fits[k].area));
+    return fastest;
+}
+
 static bool make_bodies(finder *f)
 {
     trace_bodies *t = f->out;
     size_t        count = f->now->scene->node_count;
-    double        fastest = 0;
+    double        fastest = fastest_of(f);
     int32_t      *numbers = mem_alloc((count + 1) * sizeof *numbers);
-    for (size_t k = 0; numbers && k < count; k++)
-        if (f->fits[k].area > 0 && f->fits[k].farthest / f->fraction >= LEAST_WAY)
-            fastest =
-                fmax(fastest, hypot(hypot(f->fits[k].vx, f->fits[k].vy), sqrt(f->fits[k].square / f->fits[k].area) *
-                                                                             hypot(f->fits[k].turn, f->fits[k].growth) /
-                                                                             fmax(f->fits[k].square, 1e-12)));
-    bool good = numbers != NULL;
+    bool          good = numbers != NULL;
     for (size_t k = 0; good && k < count; k++) {
         trace_body b = {.first = 0};
         numbers[k] = -1;
-        if (!(f->fits[k].area > 0) || f->fits[k].farthest / f->fraction < LEAST_WAY)
+        if (!is_body(f, k))
             continue;
         settle_motion(&b, &f->fits[k], f->fraction);
         b.node = memcmp(&f->now->worlds[k], &f->before->worlds[k], sizeof *f->now->worlds) != 0 ? (int32_t)k : NONE;
@@ -400,22 +413,24 @@ static bool make_bodies(finder *f)
     }
     good = good && sort_triangles(f, numbers, t->body_count);
     for (size_t k = 0; good && k < t->body_count; k++) {
-        t->bodies[k].round = t->bodies[k].motion == MOVES_AROUND && is_round(t, &t->bodies[k]);
-        measure_across(t, &t->bodies[k]);
+        trace_body *b = &t->bodies[k];
+        b->round = b->node != NONE && body_turns(b, t, f->now, f->before, f->fraction, f->camera);
+        measure_across(t, b);
     }
     mem_free(numbers);
     return good;
 }
 
-lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
-                       const stroke_camera *camera, lmn_error *error)
+lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction,
+                       const bodies_wanted *wanted, lmn_error *error)
 {
-    finder f = {.out = out, .now = now, .before = before, .camera = camera, .fraction = fraction};
+    finder f = {
+        .out = out, .now = now, .before = before, .camera = wanted->camera, .fraction = fraction, .wanted = wanted};
     size_t count = now->scene->node_count;
     memset(out, 0, sizeof *out);
     f.owners = mem_alloc((count + 1) * sizeof *f.owners);
     f.fits = mem_calloc(count + 1, sizeof *f.fits);
-    bool good = f.owners && f.fits && add_parts(&f, parts);
+    bool good = f.owners && f.fits && add_parts(&f, wanted->parts);
     for (size_t k = 0; good && k < count; k++)
         f.owners[k] = (int32_t)k;
     if (good) {

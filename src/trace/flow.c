@@ -51,7 +51,7 @@ static bool put_line(trace_job *j, uint32_t body, uint32_t number, const double 
     for (size_t i = 0; i <= steps + 1 && good; i++) {
         double f = fmin((double)i / (double)steps, 1), end = fmin(1, 4 * fmin(f, 1 - f));
         double p[3] = {from[0] + f * (to[0] - from[0]), from[1] + f * (to[1] - from[1]), depth};
-        if (i <= steps && !page_mask_has(&j->mask, p[0], p[1]) && nothing_hides(j->o, p)) {
+        if (i <= steps && !page_mask_has(&j->mask, p[0], p[1]) && nothing_hides(j->o, j->bodies.meshes[mesh].part, p)) {
             points[count++] = (ribbon_point){(float)p[0],
                                              (float)p[1],
                                              (float)depth,

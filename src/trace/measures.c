@@ -10,7 +10,7 @@
 /* So near to the outline, units, a line begins on it, once it is followed back over the gap. */
 #define ON_OUTLINE 2.0
 /* Lines of wheels begin beyond the rim by this fraction of the radius at most. */
-#define AROUND 0.05
+#define AROUND_MOST 0.25
 /* Density is counted over this fraction of the extent. */
 #define WINDOW 0.2
 
@@ -28,7 +28,7 @@ static bool meets(const trace_job *j, const trace_body *b, const ribbon_point *p
     if (b->round) {
         x = b->centre[0] - (double)p->x;
         y = b->centre[1] - (double)p->y;
-        reach += AROUND * b->across[1];
+        reach += AROUND_MOST * b->across[1];
     }
     double length = fmax(hypot(x, y), 1e-9);
     for (double d = 0; d <= reach; d += 0.5)
@@ -39,12 +39,30 @@ static bool meets(const trace_job *j, const trace_body *b, const ribbon_point *p
     return false;
 }
 
-/* Of one body that moves along: how uneven and how crowded the heights of its lines are. */
-static void measure_heights(trace_measures *m, const trace_body *b, double *heights, size_t count)
+/* The extremes of what of a body would have lines beside all that moves. False: nothing would. */
+static bool find_extremes(const trace_job *j, uint32_t number, double out[2])
 {
-    double mean = 0, square = 0, range = b->across[1] - b->across[0];
+    const trace_body *b = &j->bodies.bodies[number];
+    uint32_t          first = j->heights.first ? j->heights.first[number] : 0,
+             count = j->heights.first ? j->heights.first[number + 1] - first : 0;
+    bool any = false;
+    for (uint32_t i = 0; i < count; i++) {
+        double across = b->across[0] + (b->across[1] - b->across[0]) * i / fmax(count - 1.0, 1);
+        if (!j->heights.open[first + i])
+            continue;
+        out[0] = any ? out[0] : across;
+        out[1] = across;
+        any = true;
+    }
+    return any;
+}
+
+/* Of one body that moves along: how uneven and how crowded the heights of its lines are. */
+static void measure_heights(trace_measures *m, const double extremes[2], double *heights, size_t count)
+{
+    double mean = 0, square = 0, range = extremes[1] - extremes[0];
     qsort(heights, count, sizeof *heights, compare_numbers);
-    m->extent = fmax(m->extent, fmax(fabs(heights[0] - b->across[0]), fabs(heights[count - 1] - b->across[1])));
+    m->extent = fmax(m->extent, fmax(fabs(heights[0] - extremes[0]), fabs(heights[count - 1] - extremes[1])));
     for (size_t i = 1; i < count; i++)
         mean += (heights[i] - heights[i - 1]) / (double)(count - 1);
     for (size_t i = 1; i < count; i++)
@@ -58,20 +76,51 @@ static void measure_heights(trace_measures *m, const trace_body *b, double *heig
     }
 }
 
+/* Is it a speed line, and the piece where it begins? What hides a line may leave several pieces, one after the other.
+ */
+static bool begins(const trace_job *j, size_t ribbon_number)
+{
+    const ribbon *r = &j->out->ribbons[ribbon_number];
+    return r->kind == STROKE_SPEED && !(r->id & TRACE_FLOW) &&
+           !(ribbon_number > 0 && r[-1].kind == r->kind && r[-1].id == r->id);
+}
+
+/* The origin of a line; there is one. */
+static size_t origin_of(const trace_job *j, const ribbon *r)
+{
+    size_t i = 0;
+    while (i + 1 < j->origins.count &&
+           !(j->origins.items[i].body == r->id >> 32 && j->origins.items[i].number == (uint32_t)r->id / TRACE_GROUPS))
+        i++;
+    return i;
+}
+
+/* Heights are those of the positions whose ways lines are: where these bend, they may begin at others. */
 static void measure_body(trace_measures *m, const trace_job *j, uint32_t number, double *heights)
 {
     const trace_body *b = &j->bodies.bodies[number];
+    double            extremes[2];
     size_t            count = 0;
-    for (size_t i = 0; i < j->out->ribbon_count; i++) {
+    for (size_t i = 0; i < j->out->ribbon_count && b->motion == MOVES_ALONG; i++) {
         const ribbon *r = &j->out->ribbons[i];
-        if (r->kind != STROKE_SPEED || r->id >> 32 != number || r->id & TRACE_FLOW)
+        if (!begins(j, i) || r->id >> 32 != number)
             continue;
-        const ribbon_point *p = &j->out->points[r->first];
-        double              along, page[3] = {(double)p->x, (double)p->y, 0};
-        body_coordinates(b, page, &along, &heights[count++]);
+        double along;
+        body_coordinates(b, j->ways.at[origin_of(j, r) * (j->ways.steps + 1)], &along, &heights[count++]);
     }
-    if (count > 2 && b->motion == MOVES_ALONG)
-        measure_heights(m, b, heights, count);
+    if (count > 2 && find_extremes(j, number, extremes))
+        measure_heights(m, extremes, heights, count);
+}
+
+/* The length of a line, with what hides it between its pieces, as a fraction of its own way. */
+static double length_of(const trace_job *j, size_t first)
+{
+    const ribbon *r = &j->out->ribbons[first], *last = r;
+    while (last + 1 < j->out->ribbons + j->out->ribbon_count && last[1].kind == r->kind && last[1].id == r->id)
+        last++;
+    double length = (double)(j->out->points[last->first + last->count - 1].arc - j->out->points[r->first].arc);
+    double way = way_length(&j->ways, origin_of(j, r));
+    return way > 0 ? length / way : 0;
 }
 
 lmn_status measures_take(trace_job *j, lmn_error *error)
@@ -86,13 +135,14 @@ lmn_status measures_take(trace_job *j, lmn_error *error)
         if (r->kind != STROKE_SPEED || r->id & TRACE_FLOW)
             continue;
         const ribbon_point *p = &j->out->points[r->first];
-        m->lines++;
-        on_outline += meets(j, &j->bodies.bodies[r->id >> 32], p, (double)j->o->values->begin + ON_OUTLINE);
         for (uint32_t k = 1; k < r->count; k++)
             if (page_mask_has(&j->mask, (double)p[k].x, (double)p[k].y))
                 m->inside += (double)(p[k].arc - p[k - 1].arc);
-        double speed = j->bodies.bodies[r->id >> 32].speed;
-        lengths += speed > 0 ? (double)(p[r->count - 1].arc - p[0].arc) / speed : 0;
+        if (!begins(j, i))
+            continue;
+        m->lines++;
+        on_outline += meets(j, &j->bodies.bodies[r->id >> 32], p, (double)j->o->values->begin + ON_OUTLINE);
+        lengths += length_of(j, i);
     }
     for (uint32_t i = 0; i < j->bodies.body_count; i++)
         measure_body(m, j, i, heights);
@@ -114,6 +164,7 @@ void trace_facts_add(trace_facts *all, const trace_facts *one)
     all->bodies += one->bodies;
     all->towards += one->towards;
     all->jumps += one->jumps;
+    all->leaps += one->leaps;
     all->contours += one->contours;
     all->bones_missing = all->bones_missing || one->bones_missing;
     all->lines_missing = all->lines_missing || one->lines_missing;

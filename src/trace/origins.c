@@ -10,8 +10,12 @@
 
 /* Lines are moved within their strips by this fraction of a strip at most, times `uneven`. */
 #define SHAKEN 1.4
-/* Of bodies all around their centre lines begin beyond the rim, so far as a fraction of the radius. */
-#define BEYOND 1.04
+/* Of what lies all around its axis lines begin beyond the rim, so far as a fraction of the radius, on circles in turn;
+ * no line reaches farther than this fraction of the way to the next one on its circle. */
+#define BEYOND     1.04
+#define RING_APART 0.07
+#define OF_RING    0.7
+enum { RINGS = 3 };
 static const double pi = 3.14159265358979323846;
 
 /* The rearmost position at a height. */
@@ -101,15 +105,41 @@ static void find_rears(rear *rears, size_t count, const trace_bodies *t, const t
     }
 }
 
-/* Heights of so many lines: both extremes, and between them one in each strip. */
-static void spread_heights(rear *rears, size_t count, const traces_options *o, const trace_body *b, uint32_t number)
+static size_t count_open(const trace_heights *h, uint32_t body)
 {
-    double low = b->across[0], high = b->across[1], shaken = SHAKEN * (double)o->values->uneven;
+    size_t count = 0;
+    for (uint32_t i = h->first[body]; i < h->first[body + 1]; i++)
+        count += h->open[i];
+    return count;
+}
+
+/* The height that a fraction of all open ones lie below: fractions 0 and 1 are the extremes of what is open. */
+static double open_height(const trace_heights *h, uint32_t body, const trace_body *b, double fraction)
+{
+    uint32_t first = h->first[body], count = h->first[body + 1] - first;
+    double   wanted = fraction * (double)(count_open(h, body) - 1), passed = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!h->open[first + i])
+            continue;
+        bool on = i + 1 < count && h->open[first + i + 1];
+        if (passed + 1 > wanted || !(passed + 1 < (double)count_open(h, body)))
+            return b->across[0] +
+                   (b->across[1] - b->across[0]) * (i + (on ? wanted - passed : 0)) / fmax(count - 1.0, 1);
+        passed++;
+    }
+    return b->across[0];
+}
+
+/* Heights of so many lines: both extremes of what is open, and between them one in each strip. */
+static void spread_heights(rear *rears, size_t count, const traces_options *o, const trace_body *b, uint32_t number,
+                           const trace_heights *h)
+{
+    double shaken = SHAKEN * (double)o->values->uneven;
     for (size_t i = 0; i < count; i++) {
         bool   extreme = (i == 0 || i + 1 == count) && count > 1 && b->motion != MOVES_TOWARDS;
         double at = count > 1 ? (double)i / (double)(count - 1) : 0.5,
                shake = extreme ? 0 : shaken * (trace_random(o, number, (uint32_t)i, 0) - 0.5) / (double)count;
-        rears[i] = (rear){.across = fmin(fmax(low + (at + shake) * (high - low), low), high), .along = INFINITY};
+        rears[i] = (rear){.across = open_height(h, number, b, fmin(fmax(at + shake, 0), 1)), .along = INFINITY};
     }
 }
 
@@ -129,54 +159,74 @@ static void find_strip_vertices(rear *rears, size_t count, const trace_bodies *t
         }
 }
 
+static bool put_item(origin_list *l, trace_origin item)
+{
+    if (!mem_grow((void **)&l->items, &l->capacity, l->count + 1, sizeof *l->items))
+        return false;
+    l->items[l->count++] = item;
+    return true;
+}
+
 static bool put_origin(origin_list *l, const trace_bodies *t, const rear *r, uint32_t body, uint32_t number)
 {
     uint32_t mesh = trace_mesh_of(t, r->from), first = t->meshes[mesh].first;
-    if (!mem_grow((void **)&l->items, &l->capacity, l->count + 1, sizeof *l->items))
-        return false;
-    l->items[l->count++] = (trace_origin){mesh, {r->from - first, r->to - first}, r->fraction, body, number, r->across};
-    return true;
+    return put_item(l, (trace_origin){.mesh = mesh,
+                                      .vertex = {r->from - first, r->to - first},
+                                      .fraction = r->fraction,
+                                      .body = body,
+                                      .number = number,
+                                      .longest = 1});
 }
 
-/* A wheel: lines begin beyond the rim, at angles of their own, on what the centre and a vertex of the rim span. */
-static bool put_round(origin_list *l, const traces_options *o, const trace_bodies *t, uint32_t number, size_t count)
+/* A wheel: lines begin beyond the rim, on circles about its axis, at angles of their own. */
+static bool put_round(origin_list *l, const traces_options *o, const trace_bodies *t, uint32_t number, uint32_t count)
 {
     const trace_body *b = &t->bodies[number];
-    for (uint32_t n = 0; n < count; n++) {
-        double wanted = 2 * pi * (n + trace_random(o, number, n, 1)) / (double)count, best = INFINITY,
-               opposite = INFINITY;
-        uint32_t rim = 0, other = 0;
-        for (uint32_t i = b->first; i < b->first + b->count; i++)
-            for (int k = 0; k < 3; k++) {
-                uint32_t v = t->triangles[i][k];
-                double   x = t->now[v][0] - b->centre[0], y = t->now[v][1] - b->centre[1], angle = atan2(y, x),
-                       off = fabs(remainder(angle - wanted, 2 * pi)) - 4 * hypot(x, y) / b->across[1],
-                       across = fabs(remainder(angle - wanted - pi, 2 * pi)) - 4 * hypot(x, y) / b->across[1];
-                if (off < best) {
-                    best = off;
-                    rim = v;
-                }
-                if (across < opposite && trace_mesh_of(t, v) == trace_mesh_of(t, rim)) {
-                    opposite = across;
-                    other = v;
-                }
-            }
-        rear r = {b->across[1], 0, other, rim, BEYOND};
-        if (trace_mesh_of(t, rim) == trace_mesh_of(t, other) && !put_origin(l, t, &r, number, n))
-            return false;
+    uint32_t          mesh = trace_mesh_of(t, t->triangles[b->first][0]);
+    bool              good = true;
+    for (uint32_t n = 0; n < count && good; n++) {
+        double ring = BEYOND + RING_APART * (n % RINGS), apart = RINGS * 2 * pi / fmax(count, RINGS),
+               shaken = (double)o->values->uneven * (trace_random(o, number, n, 1) - 0.5),
+               angle = 2 * pi * (n + shaken) / count;
+        good = put_item(l, (trace_origin){.mesh = mesh,
+                                          .beside = true,
+                                          .at = body_circle(b, ring * b->radius, angle),
+                                          .body = number,
+                                          .number = n,
+                                          .longest = fmin(OF_RING * apart / b->turn, 1)});
     }
-    return true;
+    return good;
 }
 
-static bool put_body(origin_list *l, const traces_options *o, const trace_bodies *t, uint32_t number, size_t count)
+bool origins_of_heights(origin_list *out, const trace_bodies *bodies, uint32_t body, uint32_t heights)
+{
+    const trace_body *b = &bodies->bodies[body];
+    rear             *rears = mem_alloc((heights + 1) * sizeof *rears);
+    bool              good = rears != NULL;
+    for (uint32_t i = 0; i < heights && good; i++)
+        rears[i] = (rear){.across = b->across[0] + (b->across[1] - b->across[0]) * i / fmax(heights - 1.0, 1),
+                          .along = INFINITY};
+    if (good)
+        find_rears(rears, heights, bodies, b);
+    for (uint32_t i = 0; i < heights && good; i++)
+        if (isfinite(rears[i].along))
+            good = put_origin(out, bodies, &rears[i], body, i);
+    mem_free(rears);
+    return good;
+}
+
+static bool put_body(origin_list *l, const traces_options *o, const trace_bodies *t, uint32_t number, size_t count,
+                     const trace_heights *h)
 {
     const trace_body *b = &t->bodies[number];
     if (b->round)
-        return put_round(l, o, t, number, count);
+        return put_round(l, o, t, number, (uint32_t)count);
+    if (count_open(h, number) == 0)
+        return true;
     rear *rears = mem_alloc((count + 1) * sizeof *rears);
     bool  good = rears != NULL;
     if (good) {
-        spread_heights(rears, count, o, b, number);
+        spread_heights(rears, count, o, b, number, h);
         if (o->values->origin == TRACES_VERTICES)
             find_strip_vertices(rears, count, t, b);
         else
@@ -189,26 +239,30 @@ static bool put_body(origin_list *l, const traces_options *o, const trace_bodies
     return good;
 }
 
-static double weight_of(const trace_body *b)
+/* What of a body's extent is open, times its speed. */
+static double weight_of(const trace_bodies *t, uint32_t body, const trace_heights *h)
 {
-    double wide = b->motion == MOVES_TOWARDS ? 2 * pi : b->across[1] - b->across[0];
-    return fmax(wide, 1) * b->speed;
+    const trace_body *b = &t->bodies[body];
+    double            wide = b->motion == MOVES_TOWARDS ? 2 * pi : b->across[1] - b->across[0];
+    uint32_t          heights = h->first[body + 1] - h->first[body];
+    double            open = b->round ? 1 : (double)count_open(h, body) / fmax(heights, 1);
+    return open * fmax(wide, 1) * b->speed;
 }
 
-bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies)
+bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies, const trace_heights *heights)
 {
     double whole = 0, carried = 0;
     bool   good = true;
     memset(out, 0, sizeof *out);
-    for (size_t i = 0; i < bodies->body_count; i++)
-        whole += weight_of(&bodies->bodies[i]);
-    for (size_t i = 0; i < bodies->body_count && good && whole > 0; i++) {
+    for (uint32_t i = 0; i < bodies->body_count; i++)
+        whole += weight_of(bodies, i, heights);
+    for (uint32_t i = 0; i < bodies->body_count && good && whole > 0; i++) {
         /* What rounding leaves goes to the next one, so that there are as many in all as were wished for. */
-        carried += weight_of(&bodies->bodies[i]) / whole * o->values->lines;
+        carried += weight_of(bodies, i, heights) / whole * o->values->lines;
         double own = floor(carried + 0.5);
         carried -= own;
         if (own >= 1)
-            good = put_body(out, o, bodies, (uint32_t)i, (size_t)own);
+            good = put_body(out, o, bodies, i, (size_t)own, heights);
     }
     return good;
 }

@@ -91,16 +91,21 @@ static lmn_status find_outlines(past_moment *m, const trace_job *j, const pose *
     stroke_scene          scene = {NULL};
     stroke_view          *view = NULL;
     stroke_options        w = STROKE_OPTIONS_INIT;
+    stroke_topologies     own = {NULL};
     w.creases = o->values->creases;
     w.materials = w.drawn = w.intersections = false;
     w.width = o->values->contour_width;
-    lmn_status status = stroke_scene_create(&scene, then, j->moves, o->crease_angle, NULL, NULL, error);
+    lmn_status status = stroke_scene_create_keeping(&scene, then, j->moves, o->crease_angle, 0, &own,
+                                                    o->section.cut ? &o->section : NULL, error);
+    if (status == LMN_OK)
+        status = stroke_scene_calm(&scene, error);
     if (status == LMN_OK)
         status = stroke_view_create(&view, &scene, &camera, NULL, NULL, error);
     if (status == LMN_OK)
         status = stroke_find(&m->set, view, &w, NULL, NULL, NULL, error);
     stroke_view_destroy(&view);
     stroke_scene_release(&scene);
+    stroke_topologies_release(&own);
     return status;
 }
 
@@ -117,13 +122,13 @@ static bool trails(const past_moment *m, double x, double y)
     return false;
 }
 
-static bool is_shown(const trace_job *j, const past_moment *m, const double p[3])
+static bool is_shown(const trace_job *j, const past_moment *m, uint32_t part, const double p[3])
 {
     if (j->o->values->in_front)
-        return true;
+        return !is_cut_away(j->o, part, p);
     if (page_mask_has(&j->mask, p[0], p[1]) || (j->o->values->trailing && !trails(m, p[0], p[1])))
         return false;
-    return nothing_hides(j->o, p);
+    return nothing_hides(j->o, part, p);
 }
 
 /* A line of the past while it is put down, in runs of what is shown. */
@@ -157,7 +162,7 @@ static bool put_position(past_run *r, const double p[3], double arc)
     if (swept && is_at_border(&r->job->o->camera, p))
         return end_run(r);
     bool gap = dash > 0 && fmod(arc, GAP_AFTER * dash) > dash;
-    if (gap || !is_shown(r->job, r->moment, p))
+    if (gap || !is_shown(r->job, r->moment, r->part - 1, p))
         return end_run(r);
     if (!mem_grow((void **)&r->points, &r->capacity, r->count + 1, sizeof *r->points))
         return false;
@@ -212,7 +217,8 @@ static lmn_status put_moment(trace_job *j, double fraction, float alpha, lmn_err
         status = o->values->figures == TRACES_OUTLINES ? find_outlines(&m, j, &then, error)
                                                        : figures_find(&m.set, j, &then, error);
     if (status == LMN_OK)
-        status = bodies_find(&m.bodies, &then, &before, MOMENT, j->moves, &o->camera, error);
+        status = bodies_find(&m.bodies, &then, &before, MOMENT,
+                             &(bodies_wanted){j->moves, NULL, &o->camera, o->section}, error);
     if (status == LMN_OK && !page_mask_open(&m.mask, &o->camera))
         status = error_memory(error);
     for (size_t i = 0; i < m.bodies.triangle_count && status == LMN_OK; i++) {

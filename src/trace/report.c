@@ -14,7 +14,7 @@ json_t *trace_facts_json(const trace_facts *facts)
 
 void trace_warn(const trace_facts *facts, warnings *warnings)
 {
-    if (facts->bodies == 0 && facts->shaking == 0)
+    if (facts->bodies == 0 && facts->shaking == 0 && facts->leaps == 0)
         warnings_add(warnings, WARNING_UNUSED,
                      "motion 'traces': nothing moves on the page at this time, so nothing is drawn; --time and "
                      "motion.exposure say when and for how long");
@@ -32,6 +32,10 @@ void trace_warn(const trace_facts *facts, warnings *warnings)
         warnings_add(
             warnings, WARNING_UNUSED,
             "motion 'traces': no speed line is seen: all would lie on what moves or behind something, or be too short");
+    if (facts->leaps)
+        warnings_add(warnings, WARNING_APPROXIMATE,
+                     "motion 'traces': %zu things jump from one place to another at this time and have no lines",
+                     facts->leaps);
     if (facts->jumps)
         warnings_add(warnings, WARNING_APPROXIMATE,
                      "motion 'traces': %zu lines end where something jumps from one place to another", facts->jumps);

@@ -119,17 +119,6 @@ static lmn_status moved_since(mat4 *out, const trace_job *j, const trace_body *b
     return status;
 }
 
-static bool is_shown(const trace_job *j, const double p[3])
-{
-    double   world[1][3];
-    uint32_t before;
-    if (page_mask_has(&j->mask, p[0], p[1]))
-        return false;
-    page_unproject(&j->o->camera, p, world[0]);
-    stroke_view_count(j->o->seen, (const double(*)[3])world, 1, &before);
-    return before == 0;
-}
-
 /* An arc beside one side: concentric with a body as wide as it is long, else round a circle that touches its side. */
 typedef struct shake_arc {
     const shake *s;
@@ -178,7 +167,7 @@ static bool put_arc(trace_job *j, const shake_arc *a, uint64_t id)
     for (double n = 0; n <= pieces + 1 && good; n++) {
         double at = n / pieces, angle = (2 * at - 1) * a->half;
         arc_point(a, angle, p);
-        if (n > pieces || !is_shown(j, p)) {
+        if (n > pieces || page_mask_has(&j->mask, p[0], p[1]) || !nothing_hides(j->o, a->s->part - 1, p)) {
             good = count < 3 || put_ribbon(j, STROKE_SPEED, a->s->part, id, points, count);
             count = 0;
             begin = at;
@@ -265,7 +254,8 @@ static lmn_status shake_bodies(trace_job *j, double fraction, bool *done, lmn_er
     trace_bodies known = j->bodies;
     lmn_status   status = pose_ago(&before, j->o, fraction, error);
     if (status == LMN_OK)
-        status = bodies_find(&j->bodies, j->o->pose, &before, fraction, j->o->parts, &j->o->camera, error);
+        status = bodies_find(&j->bodies, j->o->pose, &before, fraction,
+                             &(bodies_wanted){j->o->parts, NULL, &j->o->camera, j->o->section}, error);
     pose_release(&before);
     if (status == LMN_OK) {
         const trace_bodies *t = &j->bodies;

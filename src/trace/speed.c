@@ -16,8 +16,6 @@
 #define JUMP_STEPS    8.0
 /* Lengths differ by this fraction of the longest, times `uneven`. */
 #define LENGTHS_APART 0.6
-/* Rays of what comes nearer are as long as this fraction of its radius. */
-#define RAY 0.8
 /* Fading lines are opaque up to so far from their end, fraction of their length: else they look shorter than they are.
  */
 #define FADES 0.4
@@ -126,6 +124,17 @@ static void look_around(const trace_job *j, size_t origin, double *radius, uint3
         *count += j->origins.items[i].body == body;
 }
 
+/* How far a position has gone on the page during the exposure. */
+double way_length(const trace_ways *w, size_t origin)
+{
+    double whole = 0;
+    for (uint32_t k = 1; k <= w->steps; k++) {
+        const double *p = w->at[origin * (w->steps + 1) + k];
+        whole += hypot(p[0] - p[-3], p[1] - p[-2]);
+    }
+    return whole;
+}
+
 /* A ray that begins on a circle around what comes nearer, after Song (2005): all at equal angles. */
 static bool take_ray_of_circle(way *w, trace_job *j, size_t origin, double depth)
 {
@@ -135,14 +144,14 @@ static bool take_ray_of_circle(way *w, trace_job *j, size_t origin, double depth
     look_around(j, origin, &radius, &count);
     for (size_t i = 0; i < origin; i++)
         number += j->origins.items[i].body == j->origins.items[origin].body;
-    double       angle = 2 * pi * number / count, x = cos(angle), y = sin(angle);
-    const double from[3] = {b->centre[0] + CIRCLE * radius * x, b->centre[1] + CIRCLE * radius * y, depth},
-                 to[3] = {b->centre[0] + (CIRCLE + RAY) * radius * x, b->centre[1] + (CIRCLE + RAY) * radius * y,
-                          depth};
+    double angle = 2 * pi * number / count, x = cos(angle), y = sin(angle), near = CIRCLE * radius,
+           far = near + way_length(&j->ways, origin);
+    const double from[3] = {b->centre[0] + near * x, b->centre[1] + near * y, depth},
+                 to[3] = {b->centre[0] + far * x, b->centre[1] + far * y, depth};
     return put_point(w, from) && put_step(w, from, to);
 }
 
-/* A straight ray away from the middle of what comes nearer. */
+/* A straight ray away from the middle of what comes nearer, as long as the way of its rim. */
 static bool take_ray(way *w, trace_job *j, size_t origin)
 {
     const trace_body *b = &j->bodies.bodies[j->origins.items[origin].body];
@@ -153,15 +162,16 @@ static bool take_ray(way *w, trace_job *j, size_t origin)
         return true;
     if (j->o->values->origin == TRACES_CIRCLE)
         return take_ray_of_circle(w, j, origin, p[2]);
-    const double to[3] = {p[0] + RAY * x, p[1] + RAY * y, p[2]};
+    const double longer = way_length(&j->ways, origin) / fmax(hypot(x, y), 1e-9),
+                 to[3] = {p[0] + longer * x, p[1] + longer * y, p[2]};
     return put_point(w, p) && put_step(w, p, to);
 }
 
 /* Which points are neither on what moves nor behind anything. */
-static void see(way *w, const trace_job *j)
+static void see(way *w, const trace_job *j, uint32_t part)
 {
     for (size_t i = 0; i < w->count; i++)
-        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, w->at[i]);
+        w->shown[i] = !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) && nothing_hides(j->o, part, w->at[i]);
 }
 
 /* Half the width and the opacity at a fraction of the line, 0 where it begins. */
@@ -218,20 +228,27 @@ static double leaves_at(const trace_job *j, const way *w)
     return INFINITY;
 }
 
+/* Where a line ends that begins so far along its way, by what it is shortened. */
+static double end_of(const trace_job *j, const way *w, const trace_origin *origin, double begin, double shorter)
+{
+    double whole = w->arcs[w->count - 1];
+    return fmin(begin + (double)j->o->values->length * origin->longest * whole * (1 - shorter), whole);
+}
+
 static bool put_line(trace_job *j, const way *w, const trace_origin *origin)
 {
     const traces_values *v = j->o->values;
     uint32_t             frame = (uint32_t)llround(j->o->pose->when.seconds * 1000);
-    double               begin = leaves_at(j, w) + (double)v->begin, whole = w->arcs[w->count - 1];
+    double               begin = leaves_at(j, w) + (double)v->begin;
     for (int32_t g = 0; g < v->groups && isfinite(begin); g++) {
-        uint32_t number = origin->number * 8 + (uint32_t)g;
+        uint32_t number = origin->number * TRACE_GROUPS + (uint32_t)g;
         if (trace_random(j->o, origin->body, number, 16 + frame) >= (double)v->probability)
             continue;
         double shorter = LENGTHS_APART * (double)v->uneven * trace_random(j->o, origin->body, number, 2),
-               end = begin + (double)v->length * whole * (1 - shorter),
+               end = end_of(j, w, origin, begin, shorter),
                aside = (double)v->group_apart * (g - 0.5 * (v->groups - 1) +
                                                  (g ? 0.5 * (trace_random(j->o, origin->body, number, 3) - 0.5) : 0));
-        if (!put_runs(j, w, origin, number, begin, fmin(end, whole), v->groups > 1 ? aside : 0))
+        if (!put_runs(j, w, origin, number, begin, end, v->groups > 1 ? aside : 0))
             return false;
     }
     return true;
@@ -247,10 +264,81 @@ lmn_status speed_lines_put(trace_job *j, lmn_error *error)
         if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
             status = error_memory(error);
         if (status == LMN_OK && w.count > 1)
-            see(&w, j);
+            see(&w, j, j->bodies.meshes[origin->mesh].part);
         if (status == LMN_OK && w.count > 1 && !put_line(j, &w, origin))
             status = error_memory(error);
     }
     release_way(&w);
+    return status;
+}
+
+/* --- heights -------------------------------------------------------------------------------------------------- */
+
+/* Heights are looked at so often: units, and at most. */
+#define HEIGHTS_APART 1.0
+enum { HEIGHTS_LEAST = 33, HEIGHTS_MOST = 512 };
+
+void heights_release(trace_heights *h)
+{
+    mem_free(h->open);
+    mem_free(h->first);
+}
+
+/* Has a line beside all that moves the shortest length that is drawn, even where it is shortened by chance? */
+static bool is_open(const trace_job *j, const way *w, const trace_origin *origin)
+{
+    const traces_values *v = j->o->values;
+    double               begin = leaves_at(j, w) + (double)v->begin, run = INFINITY;
+    if (!isfinite(begin))
+        return false;
+    double end = end_of(j, w, origin, begin, LENGTHS_APART * (double)v->uneven);
+    for (size_t i = 0; i < w->count && w->arcs[i] <= end; i++) {
+        bool beside = w->arcs[i] >= begin && !page_mask_has(&j->mask, w->at[i][0], w->at[i][1]) &&
+                      !is_cut_away(j->o, j->bodies.meshes[origin->mesh].part, w->at[i]);
+        run = beside ? fmin(run, w->arcs[i]) : INFINITY;
+        if (w->arcs[i] - run >= SHORTEST * (double)v->width)
+            return true;
+    }
+    return false;
+}
+
+static uint32_t heights_of(const trace_body *b)
+{
+    double wide = b->motion == MOVES_TOWARDS ? HEIGHTS_LEAST : (b->across[1] - b->across[0]) / HEIGHTS_APART;
+    return b->round ? 0 : (uint32_t)fmin(fmax(wide, HEIGHTS_LEAST), HEIGHTS_MOST);
+}
+
+/* Lines from many heights are tried. Walls do not count: what is behind one has its lines there, too. */
+lmn_status heights_find(trace_heights *out, trace_job *j, lmn_error *error)
+{
+    const size_t count = j->bodies.body_count;
+    uint32_t     all = 0;
+    bool         good;
+    way          w = {NULL};
+    out->first = mem_calloc(count + 1, sizeof *out->first);
+    for (size_t i = 0; i < count && out->first; i++)
+        out->first[i + 1] = all += heights_of(&j->bodies.bodies[i]);
+    out->open = mem_calloc((size_t)all + 1, sizeof *out->open);
+    good = out->first && out->open;
+    for (uint32_t i = 0; i < count && good; i++)
+        good = j->bodies.bodies[i].round ||
+               origins_of_heights(&j->origins, &j->bodies, i, out->first[i + 1] - out->first[i]);
+    lmn_status status = good ? LMN_OK : error_memory(error);
+    size_t     jumps = j->facts->jumps;
+    if (status == LMN_OK)
+        status = ways_follow(&j->ways, j->o, &j->bodies, j->origins.items, j->origins.count, error);
+    for (size_t i = 0; i < j->origins.count && status == LMN_OK; i++) {
+        const trace_origin *origin = &j->origins.items[i];
+        bool                ray = j->bodies.bodies[origin->body].motion == MOVES_TOWARDS;
+        if (!(ray ? take_ray(&w, j, i) : take_way(&w, j, i)))
+            status = error_memory(error);
+        if (status == LMN_OK && w.count > 1)
+            out->open[out->first[origin->body] + origin->number] = is_open(j, &w, origin);
+    }
+    j->facts->jumps = jumps;
+    release_way(&w);
+    ways_release(&j->ways);
+    mem_free(j->origins.items);
+    memset(&j->origins, 0, sizeof j->origins);
     return status;
 }

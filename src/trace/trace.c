@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 #include "trace/trace_private.h"
 
 /* The pose before, from which it is measured how things move: fraction of the exposure. */
@@ -30,10 +31,22 @@ bool put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, con
     return true;
 }
 
-bool nothing_hides(const traces_options *o, const double page[3])
+bool is_cut_away(const traces_options *o, uint32_t part, const double page[3])
+{
+    double at[3];
+    if (!o->section.cut || o->section.cut->cell_count == 0 || (o->section.spared && o->section.spared[part]))
+        return false;
+    page_unproject(&o->camera, page, at);
+    const vec3 point = {(float)at[0], (float)at[1], (float)at[2]};
+    return cut_judge_box(o->section.cut, (box3){point, point}) == CUT_GONE;
+}
+
+bool nothing_hides(const traces_options *o, uint32_t part, const double page[3])
 {
     double   world[1][3];
     uint32_t before;
+    if (is_cut_away(o, part, page))
+        return false;
     if (!o->camera.orthographic && page[2] < o->camera.near * 1.001)
         return true; /* before all that is there now */
     page_unproject(&o->camera, page, world[0]);
@@ -41,13 +54,32 @@ bool nothing_hides(const traces_options *o, const double page[3])
     return before == 0;
 }
 
+/* Bodies, again without those that jump: beside these, others may have been too slow. */
+static lmn_status find_what_goes(trace_job *j, const pose *before, bool *jumping, lmn_error *error)
+{
+    const traces_options *o = j->o;
+    lmn_status            status = LMN_OK;
+    size_t                known = SIZE_MAX;
+    while (status == LMN_OK && known != j->facts->leaps) {
+        known = j->facts->leaps;
+        bodies_release(&j->bodies);
+        status = bodies_find(&j->bodies, o->pose, before, BEFORE,
+                             &(bodies_wanted){o->parts, jumping, &o->camera, o->section}, error);
+        if (status == LMN_OK)
+            status = jumps_find(jumping, &j->facts->leaps, &j->bodies, o, before, BEFORE, error);
+    }
+    return status;
+}
+
 static lmn_status find_bodies(trace_job *j, lmn_error *error)
 {
     pose       before = {.scene = NULL};
-    lmn_status status = pose_ago(&before, j->o, BEFORE, error);
+    bool      *jumping = mem_calloc(j->o->pose->scene->node_count + 1, sizeof *jumping);
+    lmn_status status = jumping ? pose_ago(&before, j->o, BEFORE, error) : error_memory(error);
     if (status == LMN_OK)
-        status = bodies_find(&j->bodies, j->o->pose, &before, BEFORE, j->o->parts, &j->o->camera, error);
+        status = find_what_goes(j, &before, jumping, error);
     pose_release(&before);
+    mem_free(jumping);
     j->moves = status == LMN_OK ? mem_calloc(j->o->pose->part_count + 1, sizeof *j->moves) : NULL;
     if (status == LMN_OK && (!j->moves || !page_mask_open(&j->mask, &j->o->camera)))
         status = error_memory(error);
@@ -79,7 +111,9 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     if (moves && status == LMN_OK && options->values->flow > 0)
         status = flow_lines_put(&j, error);
     if (moves && status == LMN_OK && options->values->lines > 0) {
-        status = origins_find(&j.origins, options, &j.bodies) ? LMN_OK : error_memory(error);
+        status = heights_find(&j.heights, &j, error);
+        if (status == LMN_OK && !origins_find(&j.origins, options, &j.bodies, &j.heights))
+            status = error_memory(error);
         if (status == LMN_OK)
             status = ways_follow(&j.ways, options, &j.bodies, j.origins.items, j.origins.count, error);
         if (status == LMN_OK)
@@ -91,6 +125,7 @@ lmn_status traces_make(ribbon_set *out, trace_facts *facts, const traces_options
     page_mask_close(&j.mask);
     mem_free(j.moves);
     bones_release(&j.bones);
+    heights_release(&j.heights);
     mem_free(j.origins.items);
     ways_release(&j.ways);
     bodies_release(&j.bodies);

@@ -16,13 +16,14 @@
 
 /* The requirements of speed lines, measured on what was drawn (Großmann 2011, section 3.3.3.1, after Schulz). */
 typedef struct trace_measures {
-    double extent;  /* A1: how far the outermost lines begin from the extremes of what moves, units, at most */
+    double extent;  /* A1: how far the outermost lines begin from the extremes of what moves and has not all of itself
+                       behind these, units, at most */
     double salient; /* A2: share of lines that begin on its outline */
     size_t lines;   /* A3 */
     double uneven;  /* A4: deviation of the gaps between lines, fraction of their mean */
     double crowded; /* A5: most lines on a fifth of the extent, as a multiple of the mean */
     double inside;  /* A6: length of lines that lies on what moves, units */
-    double length;  /* A7: mean length, fraction of the way during the exposure */
+    double length;  /* A7: mean length, fraction of the line's own way during the exposure */
 } trace_measures;
 
 /* What was drawn. */
@@ -30,6 +31,7 @@ typedef struct trace_facts {
     size_t          bodies;   /* that move on the page */
     size_t          towards;  /* of these, how many come nearer or go away rather than pass: their lines are rays */
     size_t          jumps;    /* ways that were cut where something jumps */
+    size_t          leaps;    /* things that jump just now */
     size_t          contours; /* times at which contours were drawn */
     size_t          shaking;  /* bodies that swing to and fro within the exposure */
     bool            shakes_wanted;
@@ -44,7 +46,8 @@ typedef struct traces_options {
     const bool          *parts;  /* per part: what draws traces */
     const traces_values *values; /* lengths in units of the page */
     stroke_camera        camera;
-    const stroke_view   *seen; /* what may hide them */
+    const stroke_view   *seen;    /* what may hide them */
+    stroke_section       section; /* of what it cuts away nothing is drawn; cut NULL: nothing is */
     double               crease_angle;
     uint32_t             seed;
     colour               ink;

@@ -57,7 +57,9 @@ typedef struct trace_body {
     double      zero;         /* the angle from which others are counted */
     double      speed;        /* how far it moves during the exposure, units, mean */
     double      across[2];    /* from, to */
-    bool        round;        /* MOVES_AROUND: it lies all around the centre */
+    bool        round;        /* MOVES_AROUND: it lies all around an axis, as a wheel does, however that is seen */
+    vec3        axis, pivot;  /* of that, in the world: unit, and where its nearer end meets it */
+    double      radius, turn; /* in the world; radians during the exposure, about the axis */
     uint32_t    first, count; /* triangles */
 } trace_body;
 
@@ -69,10 +71,16 @@ typedef struct trace_bodies {
     size_t      mesh_count, vertex_count, triangle_count, body_count;
 } trace_bodies;
 
-/* Finds what of these parts moves between two poses, `before` being `fraction` of the exposure earlier. Errors:
- * LMN_MEMORY. */
-lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction, const bool *parts,
-                       const stroke_camera *camera, lmn_error *error);
+/* Which parts' bodies are looked for, and without what. */
+typedef struct bodies_wanted {
+    const bool          *parts;
+    const bool          *jumping; /* per node, or NULL: those move by no way, and are none */
+    const stroke_camera *camera;
+    stroke_section       section; /* triangles that are cut away are none of a body */
+} bodies_wanted;
+/* Finds what moves between two poses, `before` being `fraction` of the exposure earlier. Errors: LMN_MEMORY. */
+lmn_status bodies_find(trace_bodies *out, const pose *now, const pose *before, double fraction,
+                       const bodies_wanted *wanted, lmn_error *error);
 void       bodies_release(trace_bodies *b);
 /* The mesh that a vertex of all is in; there is one. */
 uint32_t trace_mesh_of(const trace_bodies *t, uint32_t vertex);
@@ -83,12 +91,29 @@ void body_way(const trace_body *b, double x, double y, double out[2]);
 
 /* --- ways.c: where positions were ----------------------------------------------------------------------------- */
 
-/* A position on an edge or on what goes on beyond it: between two vertices. */
+/* --- turns.c: what turns about an axis ------------------------------------------------------------------------ */
+
+/* Is a body one that lies all around the axis that its node turns about? Then sets motion, centre and all of `round`.
+ */
+bool body_turns(trace_body *b, const trace_bodies *all, const pose *now, const pose *before, double fraction,
+                const stroke_camera *camera);
+/* A position on a circle about the axis of a round body. */
+vec3 body_circle(const trace_body *b, double radius, double angle);
+
+/* --- jumps.c --------------------------------------------------------------------------------------------------- */
+
+/* Which bodies' nodes jump from one place to another between two poses; counts them. Errors: LMN_MEMORY, LMN_FORMAT. */
+lmn_status jumps_find(bool *jumping, size_t *count, const trace_bodies *bodies, const traces_options *o,
+                      const pose *before, double fraction, lmn_error *error);
+
+/* A position on an edge or on what goes on beyond it: between two vertices; or any position of the world. */
 typedef struct trace_origin {
     uint32_t mesh, vertex[2]; /* of the mesh's primitive */
     double   fraction;
+    bool     beside; /* it is `at`, on no edge */
+    vec3     at;
     uint32_t body, number; /* of the line in its body */
-    double   across;
+    double   longest;      /* of its way, fraction */
 } trace_origin;
 
 /* Ways of all origins: position k of way i is at[i · (steps + 1) + k], at k / steps of the exposure ago. */
@@ -112,8 +137,17 @@ typedef struct origin_list {
     trace_origin *items;
     size_t        count, capacity;
 } origin_list;
-/* Spreads the lines that are wished for over bodies, by how large and fast they are. False: out of memory. */
-bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies);
+/* The rearmost positions of a body at heights from one of its extremes to the other, where there are any: their
+ * `number` says at which. False: out of memory. */
+bool origins_of_heights(origin_list *out, const trace_bodies *bodies, uint32_t body, uint32_t heights);
+/* Heights of bodies from which a line would be seen beside all that moves: one after the other for all bodies. */
+typedef struct trace_heights {
+    bool     *open;
+    uint32_t *first; /* per body, and one more */
+} trace_heights;
+/* Spreads the lines that are wished for over bodies, by how large and fast they are, and over what of them is open.
+ * False: out of memory. */
+bool origins_find(origin_list *out, const traces_options *o, const trace_bodies *bodies, const trace_heights *heights);
 
 /* --- bones.c, figures.c ------------------------------------------------------------------------------------- */
 
@@ -133,8 +167,7 @@ typedef struct trace_bones {
 lmn_status bones_find(trace_bones *out, const pose *now, const bool *parts, const char *wanted, lmn_error *error);
 void       bones_release(trace_bones *b);
 
-/* --- speed.c, past.c, shakes.c
- * ------------------------------------------------------------------------------------------- */
+/* --- speed.c, past.c, shakes.c -------------------------------------------------------------------------------- */
 
 typedef struct trace_job {
     const traces_options *o;
@@ -142,6 +175,7 @@ typedef struct trace_job {
     bool                 *moves; /* per part */
     page_mask             mask;  /* of all that moves, now */
     trace_bones           bones;
+    trace_heights         heights;
     origin_list           origins;
     trace_ways            ways;
     ribbon_set           *out;
@@ -151,8 +185,15 @@ typedef struct trace_job {
 
 /* In the number of a line, the lower half of its ribbons' ids: it is a flow line. */
 #define TRACE_FLOW 0x80000000u
+/* Otherwise it is its origin's number, times this, and which of its group it is. */
+#define TRACE_GROUPS 8u
 lmn_status flow_lines_put(trace_job *j, lmn_error *error);
 lmn_status speed_lines_put(trace_job *j, lmn_error *error);
+/* How far a position has gone on the page during the exposure, units; NaN: it was behind the viewer. */
+double way_length(const trace_ways *w, size_t origin);
+/* From which heights lines would be seen. Errors: LMN_MEMORY, LMN_FORMAT. */
+lmn_status heights_find(trace_heights *out, trace_job *j, lmn_error *error);
+void       heights_release(trace_heights *h);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 lmn_status shakes_put(trace_job *j, lmn_error *error);
 /* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
@@ -162,8 +203,10 @@ typedef bool (*past_line_fn)(void *user, const double (*points)[3], size_t count
 lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *error);
 bool       put_ribbon(trace_job *j, stroke_class kind, uint32_t part, uint64_t id, const ribbon_point *points,
                       size_t count); /* false: out of memory */
-/* Is a position on the page, with its depth, before all that is there now? */
-bool nothing_hides(const traces_options *o, const double page[3]);
+/* Is a position on the page, with its depth, before all that is there now, and not cut away with its part? */
+bool nothing_hides(const traces_options *o, uint32_t part, const double page[3]);
+/* Is it cut away? */
+bool is_cut_away(const traces_options *o, uint32_t part, const double page[3]);
 /* 0 … 1, the same for the same numbers. */
 double trace_random(const traces_options *o, uint32_t body, uint32_t line, uint32_t what);
 

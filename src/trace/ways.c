@@ -33,6 +33,8 @@ static vec3 place(const pose *p, const trace_bodies *bodies, const trace_origin 
     const trace_mesh *m = &bodies->meshes[origin->mesh];
     const part_pose  *own = &p->parts[m->part];
     vec3              at[2];
+    if (origin->beside)
+        return origin->at;
     if (pose_deforms(own, m->primitive))
         pose_vertices(own, m->primitive, NULL, origin->vertex, 2, at, NULL);
     else

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "cut/cut.h"
 #include "check.h"
 #include "limner/scene.h"
 #include "moving_scene.h"
@@ -16,15 +17,16 @@ static const double pi = 3.14159265358979323846, grey[3] = {0.5, 0.5, 0.5};
 enum { PAGE = 800, UNIT = 80 };
 
 typedef struct traced {
-    lmn_scene    *scene;
-    pose          pose;
-    stroke_scene  strokes;
-    stroke_view  *view;
-    stroke_camera camera;
-    traces_values values;
-    ribbon_set    ribbons;
-    trace_facts   facts;
-    bool         *parts;
+    lmn_scene     *scene;
+    pose           pose;
+    stroke_scene   strokes;
+    stroke_view   *view;
+    stroke_camera  camera;
+    traces_values  values;
+    ribbon_set     ribbons;
+    trace_facts    facts;
+    stroke_section section;
+    bool          *parts;
 } traced;
 
 static traces_values standard(void)
@@ -82,6 +84,7 @@ static lmn_status trace(traced *t)
                               .values = &t->values,
                               .camera = t->camera,
                               .seen = t->view,
+                              .section = t->section,
                               .crease_angle = pi / 6,
                               .seed = 7,
                               .brush = BRUSH_PEN};
@@ -738,6 +741,141 @@ static void shapes_bend_no_lines(void)
     close_scene(&t);
 }
 
+/* Of what a section takes away there are neither lines nor contours: here all above the middle of a ball. A part that
+ * it spares has all of them. */
+static void sections_take_lines(void)
+{
+    traced t;
+    cut    upper = {.plane_count = 1, .cell_count = 1, .planes = {{{0, 1, 0}, 0}}, .snap = 1e-6};
+    upper.cells[0] = (cut_cell){1, {{0, true}}};
+    if (open_scene(&t, write_ball("section", 3, false), 1, true)) {
+        t.values.contours = 2;
+        t.section.cut = &upper;
+        for (int spared = 0; spared < 2; spared++) {
+            size_t points[2][2] = {{0, 0}, {0, 0}}; /* of lines, contours: above, below */
+            t.section.spared = spared ? t.parts : NULL;
+            check_that("section", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon *r = &t.ribbons.ribbons[i];
+                for (uint32_t k = r->first; k < r->first + r->count; k++)
+                    points[r->kind == STROKE_PAST][(double)t.ribbons.points[k].y > PAGE / 2.0 - 0.1]++;
+            }
+            for (int past = 0; past < 2; past++) {
+                check_at_least("section", (double)points[past][1], 200, "points below");
+                if (spared)
+                    check_at_least("section", (double)points[past][0], 200, "points above, spared");
+                else
+                    check_at_most("section", (double)points[past][0], 0, "points above");
+            }
+            if (!spared)
+                check_that("A3", count_of(&t, STROKE_SPEED) == 24, "%zu lines of 24, all of what is left",
+                           count_of(&t, STROKE_SPEED));
+        }
+    }
+    close_scene(&t);
+}
+
+/* --- figures whose parts pass before each other ------------------------------------------------------------------ */
+
+/* An arm passes before a body that moves more slowly, the upper quarter of it above that: there all of its lines are,
+ * from one end of what can be seen to the other, as many as were asked for. */
+static void arms_before_bodies(void)
+{
+    moving_scene m;
+    traced       t;
+    moving_scene_begin(&m);
+    int body = moving_scene_box(&m, 0, 0, 0, (double[]){2, 2, 0.2}, grey),
+        arm = moving_scene_box(&m, 0, 1, 1, (double[]){0.2, 2, 0.2}, grey);
+    moving_scene_keys(&m, body, "translation", 2, (double[]){0, 1}, (double[]){-0.1, 0, 0, 0, 0, 0});
+    moving_scene_keys(&m, arm, "translation", 2, (double[]){0, 1}, (double[]){-1.5, 1, 1, 0, 1, 1});
+    const char *path = check_path("arm_before.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true) && check_that("A1", trace(&t) == LMN_OK, "traced")) {
+        double low = PAGE, high = 0;
+        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+            const ribbon_point *p = &t.ribbons.points[t.ribbons.ribbons[i].first];
+            low = fmin(low, (double)p->y);
+            high = fmax(high, (double)p->y);
+        }
+        check_that("A3", count_of(&t, STROKE_SPEED) == 24, "%zu of 24 lines", count_of(&t, STROKE_SPEED));
+        check_near("A1", low, PAGE / 2.0 - 3 * UNIT, 2, "the uppermost line is that of the arm's end");
+        check_near("A1", high, PAGE / 2.0 - 2 * UNIT, 2, "the lowest line is where it passes above the body");
+        check_at_most("A1", t.facts.measures.extent, 2, "as measured");
+        check_at_most("A6", t.facts.measures.inside, 0, "length of lines on the figure");
+    }
+    close_scene(&t);
+}
+
+/* How far points of a ribbon are off a circle about an axis that is aslant by an angle and lies along x, at best. */
+static double off_circle(const ribbon_point *p, uint32_t count, double aslant)
+{
+    double best = INFINITY;
+    for (double middle = -1.2; middle <= 1.2; middle += 0.002) {
+        double least = INFINITY, most = 0;
+        for (uint32_t k = 0; k < count; k++) {
+            double x = ((double)p[k].x - PAGE / 2.0 - middle * UNIT) / cos(aslant), y = (double)p[k].y - PAGE / 2.0;
+            least = fmin(least, hypot(x, y));
+            most = fmax(most, hypot(x, y));
+        }
+        best = fmin(best, most - least);
+    }
+    return best;
+}
+
+/* A ball that turns about an axis that is aslant has lines on circles about that axis, and edge-on, too. */
+static void wheels_at_any_angle(void)
+{
+    for (int step = 0; step < 4; step++) {
+        moving_scene m;
+        traced       t;
+        double       aslant = step * pi / 6, times[9], turns[36];
+        moving_scene_begin(&m);
+        int joint = moving_scene_joint(&m, 0, 0, 0), ball = moving_scene_sphere(&m, 0, 0, 0, 1, grey);
+        moving_scene_put_in(&m, ball, joint);
+        for (int i = 0; i < 9; i++) { /* aslant · turned */
+            double half = pi / 2 * i / 8, c = cos(aslant / 2), s = sin(aslant / 2);
+            times[i] = i / 8.0;
+            memcpy(&turns[4 * i], (double[]){s * sin(half), s * cos(half), c * sin(half), c * cos(half)},
+                   4 * sizeof(double));
+        }
+        moving_scene_keys(&m, joint, "rotation", 9, times, turns);
+        const char *path = check_path("wheel%d.glb", step);
+        moving_scene_write(&m, path);
+        if (open_scene(&t, path, 1, true) && check_that("23", trace(&t) == LMN_OK, "traced")) {
+            double off = 0;
+            for (size_t i = 0; i < t.ribbons.ribbon_count && step < 3; i++) {
+                const ribbon *r = &t.ribbons.ribbons[i];
+                off = fmax(off, off_circle(&t.ribbons.points[r->first], r->count, aslant));
+            }
+            check_at_least("23", (double)t.facts.measures.lines, step < 3 ? 8 : 2, "lines at an angle");
+            check_at_most("23", off, 0.5, "lines are off circles about the axis by, units");
+            check_at_most("A6", t.facts.measures.inside, 0, "length of lines on the ball");
+            check_at_most("A7", t.facts.measures.length, 1, "of their ways");
+        }
+        close_scene(&t);
+    }
+}
+
+/* What jumps from one place to another is no measure of how fast things are: what goes beside it keeps its lines. */
+static void jumps_take_no_lines(void)
+{
+    moving_scene m;
+    traced       t;
+    moving_scene_begin(&m);
+    int slow = moving_scene_sphere(&m, 0, 2, 0, 1, grey), jumping = moving_scene_sphere(&m, 0, -2, 0, 1, grey);
+    moving_scene_keys(&m, slow, "translation", 2, (double[]){0, 1}, (double[]){-1, 2, 0, 0, 2, 0});
+    moving_scene_keys(&m, jumping, "translation", 4, (double[]){0, 0.97, 0.9701, 1},
+                      (double[]){-3, -2, 0, -3, -2, 0, 3, -2, 0, 3, -2, 0});
+    const char *path = check_path("leap.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true) && check_that("bad", trace(&t) == LMN_OK, "traced")) {
+        check_that("bad", t.facts.leaps == 1 && t.facts.bodies == 1, "%zu jump, %zu bodies", t.facts.leaps,
+                   t.facts.bodies);
+        check_that("A3", count_of(&t, STROKE_SPEED) == 24, "%zu of 24 lines", count_of(&t, STROKE_SPEED));
+    }
+    close_scene(&t);
+}
+
 /* Every allocation may fail. */
 static void memory_may_run_out(void)
 {
@@ -778,6 +916,10 @@ int main(int argc, char **argv)
         {"shapes", shapes_bend_no_lines},
         {"shaking", shaking_has_arcs},
         {"pendulum", pendulums_swing_below},
+        {"section", sections_take_lines},
+        {"limbs", arms_before_bodies},
+        {"wheels", wheels_at_any_angle},
+        {"leap", jumps_take_no_lines},
         {"memory", memory_may_run_out},
     };
     return check_main(argc, argv, "traces", cases, sizeof cases / sizeof *cases);

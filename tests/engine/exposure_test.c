@@ -125,8 +125,10 @@ static void a_plate_has_all_of_them(void **state)
     const fixture *f = *state;
     static uint8_t one[4 * PIXELS], whole[4 * PIXELS], wanted[4 * PIXELS];
     const char    *plain = "{\"lines\": \"discontinuity\", \"surface\": \"lit\"}";
-    const char    *plate = "{\"lines\": \"discontinuity\", \"surface\": \"lit\", \"motion\": {\"technique\": "
-                           "\"accumulate\", \"times\": 4, \"weights\": \"plate\", \"decay\": %g, \"exposure\": 0.4}}";
+    const char    *plate =
+        "{\"lines\": \"discontinuity\", \"surface\": \"lit\", \"motion\": {\"technique\": "
+        "\"accumulate\", \"times\": 4, \"weights\": \"plate\", \"overlap\": \"through\", \"decay\": %g, "
+        "\"exposure\": 0.4}}";
     for (int k = 0; k < 2; k++) {
         double        decay = k ? 0.5 : 1;
         char          rules[512];
@@ -153,6 +155,38 @@ static void a_plate_has_all_of_them(void **state)
         printf("a plate, ink of older ones times %g: off by %d of 255\n", decay, worst);
         assert_true(worst <= 1 && figures > 500);
     }
+}
+
+/* The newest figure of a plate is as it is alone, wherever it is: what was there before it does not show through. */
+static void the_newest_lies_in_front(void **state)
+{
+    const fixture *f = *state;
+    static uint8_t one[4 * PIXELS], front[4 * PIXELS], through[4 * PIXELS];
+    const char *plate = "{" PLAIN ", \"motion\": {\"technique\": \"accumulate\", \"times\": 4, \"weights\": \"plate\", "
+                        "\"overlap\": \"%s\", \"decay\": 0.9, \"exposure\": 0.4}}";
+    char        rules[512];
+    int         worst = 0, shown = 0, behind = 0;
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    desc.clip = "Run";
+    desc.time_given = desc.fit_time = true;
+    desc.time_s = 0.5;
+    draw(f, f->fox, "{" PLAIN "}", &desc, one);
+    snprintf(rules, sizeof rules, plate, "newest");
+    draw(f, f->fox, rules, &desc, front);
+    snprintf(rules, sizeof rules, plate, "through");
+    draw(f, f->fox, rules, &desc, through);
+    for (int n = 0; n < 4 * PIXELS; n += 4) {
+        bool inside = true; /* beside its outline lines lie beyond what it covers */
+        for (int k = 0; k < 25; k++) {
+            int beside = n + 4 * (SIDE * (k / 5 - 2) + k % 5 - 2);
+            inside = inside && beside >= 0 && beside < 4 * PIXELS && one[beside] < 250;
+        }
+        worst = inside && abs(front[n] - one[n]) > worst ? abs(front[n] - one[n]) : worst;
+        shown += inside && abs(through[n] - one[n]) > 10;
+        behind += one[n] == 255 && front[n] < 240;
+    }
+    printf("the newest figure of a plate is off by %d of 255; others show through at %d pixels\n", worst, shown);
+    assert_true(worst <= 1 && shown > 50 && behind > 200);
 }
 
 static void what_rests_keeps_every_bit(void **state)
@@ -219,11 +253,9 @@ static void it_can_be_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_the_mean),
-        cmocka_unit_test(a_plate_has_all_of_them),
-        cmocka_unit_test(what_rests_keeps_every_bit),
-        cmocka_unit_test(one_exposure_a_picture),
-        cmocka_unit_test(it_can_be_cancelled),
+        cmocka_unit_test(it_is_the_mean),           cmocka_unit_test(a_plate_has_all_of_them),
+        cmocka_unit_test(the_newest_lies_in_front), cmocka_unit_test(what_rests_keeps_every_bit),
+        cmocka_unit_test(one_exposure_a_picture),   cmocka_unit_test(it_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
