@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "behaviour/clip.h"
 #include "behaviour/evaluate.h"
+#include "behaviour/inspect.h"
 #include "behaviour/map.h"
 #include "import_support.h"
 #include "scene/channel.h"
@@ -424,6 +425,74 @@ static void test_follower_is_where_the_other_was(void **state)
     scene_free(s);
 }
 
+/* --- inspection ------------------------------------------------------------------------------------------ */
+
+static void test_dynamics_are_the_brute_force_sets(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 0; seed < 200; seed++) {
+        random_source r = random_start(seed, 3);
+        lmn_scene    *s = scene_of_nodes(5);
+        schedule      c;
+        for (int32_t i = 1; i < 5; i++)
+            scene_link_child(s, (int32_t)random_below(&r, (size_t)i), i);
+        assert_true(behaviour_append_root(s, random_graph(s, &r, 4)));
+        assert_int_equal(schedule_create(&c, s, NULL), LMN_OK);
+        double   from = c.duration * random_unit(&r), to = from + (seed % 3 ? c.duration * random_unit(&r) / 4 : 0);
+        int32_t  target = (int32_t)random_below(&r, 5);
+        dynamics d;
+        assert_int_equal(dynamics_create(&d, &c, target, from, to, NULL), LMN_OK);
+        assert_int_equal(d.path[d.path_count - 1], target);
+        assert_int_equal(s->nodes[d.path[0]].parent, NONE);
+        size_t found = 0;
+        for (size_t i = 0; i < c.span_count; i++) {
+            bool above = false, meets = c.spans[i].from <= to && from <= c.spans[i].to;
+            for (int32_t k = target; k != NONE; k = s->nodes[k].parent)
+                above = above || c.nodes[c.spans[i].node].target == k;
+            if (above && meets)
+                assert_int_equal(d.spans[found++], i); /* random ends meet no owned instant */
+        }
+        assert_int_equal(d.span_count, found);
+        dynamics_release(&d);
+        schedule_release(&c);
+        scene_free(s);
+    }
+}
+
+static void test_trajectory_is_the_parabola(void **state)
+{
+    (void)state;
+    lmn_scene     *s = scene_of_nodes(1);
+    int32_t        bounce = add_constraint(s, 0, PATH_TRANSLATION, MAP_BOUNCE, NULL, 0, 3, 2);
+    behaviour_map *m = &at(s, bounce)->map;
+    memcpy(m->start, (double[3]){0, 3, 0}, sizeof m->start);
+    memcpy(m->velocity, (double[3]){2, 1, 0}, sizeof m->velocity);
+    memcpy(m->gravity, (double[3]){0, -9.81, 0}, sizeof m->gravity);
+    m->restitution = 0.5;
+    assert_true(behaviour_append_root(s, bounce));
+    schedule   c;
+    trajectory t;
+    double     first = bounce_impact(m, 0), before = 0, behind = 0;
+    assert_int_equal(schedule_create(&c, s, NULL), LMN_OK);
+    assert_int_equal(trajectory_create(&t, &c, 0, NULL, 0, 2, 0.01, NULL), LMN_OK);
+    assert_true(t.count > 8 && t.count < 200);
+    for (size_t i = 0; i < t.count; i++) {
+        const trajectory_sample *p = &t.samples[i];
+        if (p->seconds < first) {
+            assert_true(fabs(p->position[1] - (3 + p->seconds - 9.81 * p->seconds * p->seconds / 2)) < 1e-9);
+            assert_true(fabs(p->velocity[1] - (1 - 9.81 * p->seconds)) < 1e-6);
+            assert_true(fabs(p->velocity[0] - 2) < 1e-6 && fabs(p->acceleration[1] + 9.81) < 1e-4);
+        }
+        if (fabs(p->seconds - first) < 1e-9)
+            *(p->velocity[1] < 0 ? &before : &behind) = p->velocity[1];
+    }
+    /* The corner is there: what arrives leaves with half of it. */
+    assert_true(before < -1 && fabs(behind + 0.5 * before) < 1e-5);
+    trajectory_release(&t);
+    schedule_release(&c);
+    scene_free(s);
+}
+
 /* --- what is wrong --------------------------------------------------------------------------------------- */
 
 static void expect(lmn_scene *s, lmn_status status, const char *words)
@@ -520,6 +589,8 @@ int main(void)
         cmocka_unit_test(test_maps_give_their_formulas),
         cmocka_unit_test(test_clip_is_the_exact_behaviour),
         cmocka_unit_test(test_follower_is_where_the_other_was),
+        cmocka_unit_test(test_dynamics_are_the_brute_force_sets),
+        cmocka_unit_test(test_trajectory_is_the_parabola),
         cmocka_unit_test(test_wrong_graphs_are_refused),
         cmocka_unit_test(test_ten_thousand_activities_are_laid_out),
         cmocka_unit_test(test_memory_may_end_anywhere),
