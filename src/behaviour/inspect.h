@@ -39,6 +39,19 @@ lmn_status trajectory_create(trajectory *out, const schedule *s, int32_t node_in
                              double to, double tolerance, lmn_error *error);
 void       trajectory_release(trajectory *t);
 
+/* An impact: an instant at which a node's velocity jumps while its place does not. The normal is the way that it is
+ * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its outermost vertex against
+ * the normal, or its origin where it and all below it have no mesh. Read from the motion alone: what it hits need not
+ * be in the scene. */
+typedef struct impact {
+    double seconds, place[3], normal[3], speed;
+} impact;
+
+/* Those of a node in from … to with a speed of `least` or more, in order; free *out with mem_free. Errors: as of
+ * trajectory_create. */
+lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, double from, double to,
+                        double least, lmn_error *error);
+
 /* What a node is: its attribute "semantics", or a guess from what it has and what it is called: "camera", "light",
  * "character", "vehicle", "plane", "door", "ball", "ground" …; NULL: nobody knows. */
 const char *semantics_of(const lmn_scene *scene, int32_t node_index);

@@ -493,6 +493,31 @@ static void test_trajectory_is_the_parabola(void **state)
     scene_free(s);
 }
 
+static void test_impacts_are_those_of_the_ball(void **state)
+{
+    (void)state;
+    lmn_scene *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/balls.json");
+    schedule   c;
+    impact    *found;
+    size_t     count = 0;
+    assert_int_equal(schedule_create(&c, s, NULL), LMN_OK);
+    for (size_t i = 0; i < s->node_count; i++) {
+        if (!s->nodes[i].name || strcmp(s->nodes[i].name, "green") != 0)
+            continue;
+        assert_int_equal(impacts_find(&found, &count, &c, (int32_t)i, 0, 4, 1, NULL), LMN_OK);
+        double falls = sqrt(2 * 3.5 / 9.81), arrives = 9.81 * falls;
+        assert_true(count >= 3);
+        assert_true(fabs(found[0].seconds - falls) < 1e-9 && fabs(found[0].speed - 1.7 * arrives) < 1e-4);
+        assert_true(fabs(found[0].normal[1] - 1) < 1e-6);
+        assert_true(fabs(found[0].place[1]) < 1e-6 && fabs(found[0].place[0] - 2 * falls) < 1e-6); /* on the ground */
+        assert_true(fabs(found[1].seconds - falls - 1.4 * arrives / 9.81) < 1e-9);
+        mem_free(found);
+    }
+    assert_true(count > 0);
+    schedule_release(&c);
+    lmn_scene_destroy(&s);
+}
+
 /* --- what is wrong --------------------------------------------------------------------------------------- */
 
 static void expect(lmn_scene *s, lmn_status status, const char *words)
@@ -591,6 +616,7 @@ int main(void)
         cmocka_unit_test(test_follower_is_where_the_other_was),
         cmocka_unit_test(test_dynamics_are_the_brute_force_sets),
         cmocka_unit_test(test_trajectory_is_the_parabola),
+        cmocka_unit_test(test_impacts_are_those_of_the_ball),
         cmocka_unit_test(test_wrong_graphs_are_refused),
         cmocka_unit_test(test_ten_thousand_activities_are_laid_out),
         cmocka_unit_test(test_memory_may_end_anywhere),
