@@ -102,14 +102,13 @@ static void test_mistakes_have_places(void **state)
 static void test_deep_activities_are_refused(void **state)
 {
     (void)state;
-    static char text[40000] = "\"behaviour\": ";
+    static char whole[40000];
+    size_t      used = (size_t)snprintf(whole, sizeof whole, "{\"limner_script\": 1, \"behaviour\": ");
     for (int i = 0; i < 1000; i++)
-        strcat(text, "{\"reverse\": ");
-    strcat(text, "{\"event\": \"e\"}");
-    for (int i = 0; i < 1000; i++)
-        strcat(text, "}");
-    static char whole[40100];
-    snprintf(whole, sizeof whole, "{\"limner_script\": 1, %s}", text);
+        used += (size_t)snprintf(whole + used, sizeof whole - used, "{\"reverse\": ");
+    used += (size_t)snprintf(whole + used, sizeof whole - used, "{\"event\": \"e\"}");
+    for (int i = 0; i < 1001; i++)
+        used += (size_t)snprintf(whole + used, sizeof whole - used, "}");
     lmn_error error;
     assert_int_equal(load_status(temp_file("deep.json", whole, strlen(whole)), &error), LMN_LIMIT);
 }
