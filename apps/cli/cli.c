@@ -6,9 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
-const command *const commands[] = {&command_draw,    &command_info,   &command_looks,
-                                   &command_strokes, &command_bench,  &command_doctor,
-                                   &command_view,    &command_depict, NULL};
+const command *const commands[] = {&command_draw,    &command_depict, &command_simulate, &command_info, &command_looks,
+                                   &command_strokes, &command_bench,  &command_doctor,   &command_view, NULL};
 
 const char *const up_axis_choices[] = {"y", "z", NULL};
 

@@ -863,6 +863,67 @@ static int run_depict(const word_list *inputs, const void *values)
     return run_as(inputs, values, true);
 }
 
+/* --- what happens, from its begin to its end -------------------------------------------------------------- */
+
+enum { SIMULATION_RATE = 24 };
+
+/* Frames for the whole of the scene's first animation. */
+static int find_whole(char *out, size_t size, const word_list *inputs, const draw_values *v)
+{
+    lmn_scene            *scene = NULL;
+    progress              bar;
+    lmn_task             *task = NULL;
+    const program_options programs = {&v->defines, v->strict};
+    double                duration = 0;
+    progress_begin(&bar, true);
+    int status = check_programs(inputs, &programs);
+    if (status == EXIT_DONE)
+        status = task_begin(&task, &v->task, &bar);
+    if (status == EXIT_DONE)
+        status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &bar);
+    json_t *root = status == EXIT_DONE ? parse_and_free(lmn_scene_dynamics_json(scene)) : NULL;
+    if (status == EXIT_DONE && !root)
+        status = EXIT_INTERNAL;
+    if (root)
+        duration = number_at(root, "duration", 0);
+    if (status == EXIT_DONE && !(duration > 0))
+        status = message_usage("`limner draw` draws what stands still", "nothing happens in '%s'", inputs->items[0]);
+    snprintf(out, size, "0:%.0f:%d", duration * SIMULATION_RATE, SIMULATION_RATE);
+    json_decref(root);
+    lmn_scene_destroy(&scene);
+    lmn_task_end(&task);
+    return status;
+}
+
+static int run_simulation(const word_list *inputs, const void *values)
+{
+    draw_values whole = *(const draw_values *)values;
+    char        frames[64];
+    int         status = EXIT_DONE;
+    if (!whole.output && !whole.format)
+        whole.format = "webp";
+    if (!whole.frames) {
+        status = find_whole(frames, sizeof frames, inputs, &whole);
+        whole.frames = frames;
+    }
+    return status == EXIT_DONE ? run(inputs, &whole) : status;
+}
+
+const command command_simulate = {
+    .name = "simulate",
+    .inputs = "SCRIPT",
+    .summary = "Play what happens in a script or model as frames.",
+    .detail =
+        "Draws the whole of it, 24 frames a second, into a film unless OUT has {frame}. Scripts: docs/SCRIPTS.md.\n"
+        "Exit status: as `limner draw`.",
+    .options = options,
+    .option_count = OPTION_COUNT(options),
+    .values_size = sizeof(draw_values),
+    .inputs_min = 1,
+    .inputs_max = 1,
+    .run = run_simulation,
+};
+
 const command command_draw = {
     .name = "draw",
     .inputs = "INPUT…",

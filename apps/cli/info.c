@@ -6,7 +6,7 @@
 #include <string.h>
 
 typedef struct info_values {
-    bool        json, strict;
+    bool        json, dynamics, strict;
     int         up_axis;
     word_list   defines;
     task_values task;
@@ -14,6 +14,8 @@ typedef struct info_values {
 
 static const option options[] = {
     {"json", 0, OPTION_FLAG, offsetof(info_values, json), NULL, "Write JSON (docs/reference/info.md)."},
+    {"dynamics", 0, OPTION_FLAG, offsetof(info_values, dynamics), NULL,
+     "Tell what happens instead: what drives what, when, and where it goes."},
     TASK_OPTIONS(info_values),
     {"up-axis", 0, OPTION_CHOICE, offsetof(info_values, up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
@@ -180,6 +182,21 @@ static void print_table(const json_t *root)
         message_warning(text_at(item, "text", ""), (size_t)number_at(item, "count", 1));
 }
 
+/* "ball  green  0 s to 4 s: translation (bounce)" */
+static void print_dynamics(const json_t *root)
+{
+    const json_t *node, *one;
+    size_t        i, k;
+    printf("duration    %.6g s\n", number_at(root, "duration", 0));
+    json_array_foreach(json_object_get(root, "nodes"), i, node)
+    {
+        printf("%-11s %s\n", text_at(node, "semantics", "-"), text_at(node, "node", "(no name)"));
+        json_array_foreach(json_object_get(node, "constraints"), k, one)
+            printf("%12s%.6g s to %.6g s: %s (%s)\n", "", number_at(one, "from", 0), number_at(one, "to", 0),
+                   text_at(one, "property", text_at(one, "name", "event")), text_at(one, "map", "event"));
+    }
+}
+
 static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
     lmn_scene            *scene = NULL;
@@ -189,14 +206,14 @@ static int tell(const word_list *inputs, const info_values *v, progress *bar)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);
     if (status != EXIT_DONE)
         return status;
-    char *text = lmn_scene_info_json(scene);
+    char *text = v->dynamics ? lmn_scene_dynamics_json(scene) : lmn_scene_info_json(scene);
     if (v->json) {
         status = print_and_free(text);
     } else {
         json_t *root = parse_and_free(text);
         status = root ? EXIT_DONE : EXIT_INTERNAL;
         if (root)
-            print_table(root);
+            (v->dynamics ? print_dynamics : print_table)(root);
         json_decref(root);
     }
     lmn_scene_destroy(&scene);

@@ -376,6 +376,10 @@ class scene : public detail::handle<lmn_scene, lmn_scene_destroy>
     {
         return detail::take(lmn_scene_info_json(get()));
     }
+    std::string dynamics_json() const
+    {
+        return detail::take(lmn_scene_dynamics_json(get()));
+    }
     /* By index from 0; its texts are the scene's. nullopt: out of range. */
     std::optional<lmn_part_info> part(std::size_t index) const
     {

@@ -97,6 +97,11 @@ LMN_API bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_in
  * NULL when memory is gone. */
 LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
 
+/* What happens in the scene as JSON text: for each node that moves or is something, what it is, what drives it when,
+ * and where it goes (documented in docs/reference/info.md); free with lmn_text_free. NULL when memory is gone, or when
+ * the behaviour of a script is none that can be laid out. */
+LMN_API char *lmn_scene_dynamics_json(const lmn_scene *scene);
+
 /* Frees text that Limner returned. NULL is accepted. */
 LMN_API void lmn_text_free(char *text);
 

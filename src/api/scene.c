@@ -146,6 +146,11 @@ char *lmn_scene_info_json(const lmn_scene *scene)
     return scene ? scene_info_json(scene) : NULL;
 }
 
+char *lmn_scene_dynamics_json(const lmn_scene *scene)
+{
+    return scene ? scene_dynamics_json(scene) : NULL;
+}
+
 void lmn_text_free(char *text)
 {
     mem_free(text);

@@ -139,7 +139,7 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     }
     glyph_mesh_release(&m);
     mem_free(points);
-    trajectory_release(&way);
+    trajectory_free(&way);
     return status;
 }
 

@@ -55,8 +55,8 @@ typedef struct depict_impact {
     double speed;       /* before it */
 } depict_impact;
 /* Those of a target, in order, at most `most`. *count gets how many. Errors: LMN_MEMORY. */
-lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
-                        lmn_error *error);
+lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
+                          double to, lmn_error *error);
 /* Where it touches what it meets: the vertex that is farthest against the change of velocity. */
 lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *i,
                           lmn_error *error);

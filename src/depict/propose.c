@@ -100,7 +100,7 @@ static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
         m->grows = first > 0 ? last_scale / first : 1;
         for (size_t i = 0; i < t.part_count; i++)
             m->figure = m->figure || (t.parts[i] && p->job.scene->nodes[p->job.scene->parts[i].node].skin != NONE);
-        status = impacts_find(impacts, IMPACTS_TOLD, &m->impacts, &t, p->from, p->to, error);
+        status = target_impacts(impacts, IMPACTS_TOLD, &m->impacts, &t, p->from, p->to, error);
         m->weight = m->length + m->radius * (fmin(m->turned, 6) + fabs(log(m->scaled)) + (m->figure ? 1 : 0));
     }
     target_release(&t);

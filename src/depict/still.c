@@ -79,8 +79,8 @@ static lmn_status change_find(shape_change *c, const expression *e, const depict
         vector3_set(c->axis, 0, 1, 0);
     lmn_status status = LMN_OK;
     if (v->stretch > 0 && usual > 0) {
-        status = impacts_find(&impact, 1, &impacts, t, fmax(seconds - 2 * span, e->from),
-                              fmin(seconds + 2 * span, e->to), error);
+        status = target_impacts(&impact, 1, &impacts, t, fmax(seconds - 2 * span, e->from),
+                                fmin(seconds + 2 * span, e->to), error);
         double factor = 1 + (double)v->stretch * 0.5 * vector3_length(velocity) / usual;
         if (impacts && fabs(impact.time - seconds) < span && vector3_length(impact.change) > usual * 0.5) {
             vector3_copy(c->axis, impact.change);
@@ -293,8 +293,8 @@ static lmn_status times_find(still_times *out, const expression *e, const depict
     add_time(out, e->now, apart);
     add_time(out, e->from, apart);
     add_time(out, e->to, apart);
-    lmn_status status = out->count < out->wanted ? impacts_find(impacts, (size_t)(out->wanted - out->count),
-                                                                &impact_count, t, e->from, e->to, error)
+    lmn_status status = out->count < out->wanted ? target_impacts(impacts, (size_t)(out->wanted - out->count),
+                                                                  &impact_count, t, e->from, e->to, error)
                                                  : LMN_OK;
     for (size_t i = 0; i < impact_count && status == LMN_OK; i++)
         add_time(out, impacts[i].time, apart);
@@ -307,7 +307,7 @@ static lmn_status times_find(still_times *out, const expression *e, const depict
     while (status == LMN_OK && out->count < out->wanted && fill_gap(out, &way, lengths, apart))
         ;
     mem_free(lengths);
-    trajectory_release(&way);
+    trajectory_free(&way);
     return status;
 }
 

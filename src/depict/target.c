@@ -155,8 +155,8 @@ static void impact_keep(depict_impact *out, size_t most, size_t *count, const de
     out[place] = *now;
 }
 
-lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
-                        lmn_error *error)
+lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
+                          double to, lmn_error *error)
 {
     trajectory way;
     lmn_status status = trajectory_sample(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
@@ -183,7 +183,7 @@ lmn_status impacts_find(depict_impact *out, size_t most, size_t *count, const de
     }
     if (*count > 1)
         qsort(out, *count, sizeof *out, compare_impacts);
-    trajectory_release(&way);
+    trajectory_free(&way);
     return status;
 }
 

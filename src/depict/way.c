@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
-#include "pose/animate.h"
+#include "scene/channel.h"
 
 /* --- the path from the root ------------------------------------------------------------------------------------ */
 
@@ -226,7 +226,7 @@ lmn_status trajectory_sample(trajectory *out, const way *w, const double local[3
     return status == LMN_OK && s.failed ? error_memory(error) : status;
 }
 
-void trajectory_release(trajectory *t)
+void trajectory_free(trajectory *t)
 {
     mem_free(t->samples);
     memset(t, 0, sizeof *t);

@@ -45,7 +45,7 @@ typedef struct trajectory {
 /* Errors: LMN_MEMORY, LMN_CANCELLED. Release it also after one. */
 lmn_status trajectory_sample(trajectory *out, const way *w, const double local[3], double from, double to,
                              double tolerance, lmn_error *error);
-void       trajectory_release(trajectory *t);
+void       trajectory_free(trajectory *t);
 /* Of a trajectory, the length up to each sample; free with mem_free. NULL: out of memory. */
 double *trajectory_lengths(const trajectory *t);
 

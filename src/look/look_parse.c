@@ -10,7 +10,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "look/locate.h"
+#include "base/locate.h"
 #include "look/look_change.h"
 #include "look/look_version.h"
 #include "look/value.h"

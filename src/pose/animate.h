@@ -18,8 +18,4 @@ typedef struct animated_state {
 lmn_status animate(animated_state *out, const lmn_scene *scene, const moment *when, lmn_error *error);
 void       animated_state_release(animated_state *s);
 
-/* One channel's value at a time, `components` numbers. Rotations come out as unit quaternions. Before the first key and
- * behind the last one it stays. */
-void animation_channel_at(const animation_channel *c, double seconds, double *out);
-
 #endif

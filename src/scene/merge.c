@@ -4,6 +4,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "scene/behaviour.h"
 #include "scene/parts.h"
 #include "scene/solid.h"
 
@@ -25,7 +26,7 @@ static bool reserve_all(lmn_scene *into, const lmn_scene *from)
            RESERVE(skins, skin_count, skin_capacity, from->skin_count) &&
            RESERVE(solids, solid_count, solid_capacity, into->solid_count + 2 * from->solid_count) &&
            RESERVE(animations, animation_count, animation_capacity, from->animation_count) &&
-           RESERVE(files, file_count, file_capacity, 1);
+           RESERVE(files, file_count, file_capacity, 1) && behaviour_reserve(into, from);
 #undef RESERVE
 }
 
@@ -203,6 +204,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,   (int32_t)into->material_count,
                   (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
                   (int32_t)into->skin_count,     (int32_t)into->solid_count};
+    behaviour_take(into, from, &(behaviour_offsets){by.nodes, by.cameras, by.lights, (int32_t)into->animation_count});
     shift_references(from, &by);
     int32_t root = by.nodes - 1;
     node   *n = scene_append_node(into); /* room was reserved */

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "scene/behaviour.h"
 #include "scene/parts.h"
 #include "scene/solid.h"
 
@@ -262,6 +263,7 @@ void scene_free(lmn_scene *s)
     for (size_t i = 0; i < s->animation_count; i++)
         animation_release(&s->animations[i]);
     mem_free(s->animations);
+    behaviour_free(s->behaviour);
     for (size_t i = 0; i < s->file_count; i++)
         mem_free(s->files[i]);
     mem_free(s->files);

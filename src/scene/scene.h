@@ -203,37 +203,38 @@ typedef struct part {
 } part;
 
 struct lmn_scene {
-    node         *nodes;
-    size_t        node_count, node_capacity;
-    mesh         *meshes;
-    size_t        mesh_count, mesh_capacity;
-    material     *materials;
-    size_t        material_count, material_capacity;
-    image        *images;
-    size_t        image_count, image_capacity;
-    camera       *cameras;
-    size_t        camera_count, camera_capacity;
-    light        *lights;
-    size_t        light_count, light_capacity;
-    skin         *skins;
-    size_t        skin_count, skin_capacity;
-    animation    *animations;
-    size_t        animation_count, animation_capacity;
-    struct solid *solids; /* scene/solid.h */
-    size_t        solid_count, solid_capacity;
-    part         *parts; /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
-    size_t        part_count, ghost_count;
-    char        **files; /* paths as they were given, one per merged file */
-    size_t        file_count, file_capacity;
-    uint64_t      revision; /* changes whenever the content does; no two scenes of a process ever share one */
-    uint64_t      identity; /* the same as long as the scene lives; no other scene of the process ever has it */
-    size_t        spare_meshes;
-    int           changes_open; /* above 0 the list of parts waits for changes to end, and nothing draws */
-    char          up;           /* 'y', 'z', or 0 while empty */
-    bool          may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
-    bool          is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */
-    warnings      warnings;
-    double        load_ms;
+    node             *nodes;
+    size_t            node_count, node_capacity;
+    mesh             *meshes;
+    size_t            mesh_count, mesh_capacity;
+    material         *materials;
+    size_t            material_count, material_capacity;
+    image            *images;
+    size_t            image_count, image_capacity;
+    camera           *cameras;
+    size_t            camera_count, camera_capacity;
+    light            *lights;
+    size_t            light_count, light_capacity;
+    skin             *skins;
+    size_t            skin_count, skin_capacity;
+    animation        *animations;
+    size_t            animation_count, animation_capacity;
+    struct solid     *solids; /* scene/solid.h */
+    size_t            solid_count, solid_capacity;
+    struct behaviour *behaviour; /* scene/behaviour.h; NULL: none */
+    part             *parts;     /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
+    size_t            part_count, ghost_count;
+    char            **files; /* paths as they were given, one per merged file */
+    size_t            file_count, file_capacity;
+    uint64_t          revision; /* changes whenever the content does; no two scenes of a process ever share one */
+    uint64_t          identity; /* the same as long as the scene lives; no other scene of the process ever has it */
+    size_t            spare_meshes;
+    int               changes_open; /* above 0 the list of parts waits for changes to end, and nothing draws */
+    char              up;           /* 'y', 'z', or 0 while empty */
+    bool              may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
+    bool     is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */
+    warnings warnings;
+    double   load_ms;
 };
 
 /* An empty scene; NULL when memory is gone. */

@@ -227,7 +227,7 @@ static void trajectories_are_the_motion(void **state)
     way_velocity(&w, local, 0.4, 0.01, velocity);
     assert_near(velocity[0], forward, 1e-4);
     assert_near(velocity[1], -gravity * 0.4, 1e-3);
-    trajectory_release(&t);
+    trajectory_free(&t);
     way_release(&w);
     lmn_scene_destroy(&scene);
 }
@@ -244,7 +244,7 @@ static void impacts_are_found_where_they_are(void **state)
     double        contact[3];
     job.when.clips[job.when.clip_count++] = 0;
     assert_int_equal(target_open(&t, &job, depict_find_node(scene, "ball"), &error), LMN_OK);
-    assert_int_equal(impacts_find(found, 4, &count, &t, 0, contact_time() + rise_time(), &error), LMN_OK);
+    assert_int_equal(target_impacts(found, 4, &count, &t, 0, contact_time() + rise_time(), &error), LMN_OK);
     assert_int_equal(count, 1); /* tops of parabolas are none */
     assert_near(found[0].time, contact_time(), 1e-6);
     assert_near(found[0].change[1], gravity * contact_time() * (1 + LOSS / 100.0), 0.05);

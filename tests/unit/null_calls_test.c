@@ -461,6 +461,10 @@ CALL(lmn_scene_info_json)
 {
     return freed(lmn_scene_info_json(P(0, w->scene)));
 }
+CALL(lmn_scene_dynamics_json)
+{
+    return freed(lmn_scene_dynamics_json(P(0, w->scene)));
+}
 CALL(lmn_text_free)
 {
     char *text = lmn_look_json(w->look);

@@ -7,6 +7,7 @@
 
 #include "../support/gltf_truth.h"
 #include "pose/animate.h"
+#include "scene/channel.h"
 #include "pose/pose.h"
 #include "pose/posed_mesh.h"
 

@@ -779,6 +779,7 @@ FUNCTIONS = {
     "lmn_scene_info_of": (lmn_scene_info, [c_void_p]),
     "lmn_scene_part_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_part_info)]),
     "lmn_scene_info_json": (c_void_p, [c_void_p]),
+    "lmn_scene_dynamics_json": (c_void_p, [c_void_p]),
     "lmn_text_free": (None, [c_void_p]),
     "lmn_text_write": (c_int, [c_char_p, c_char_p, POINTER(lmn_error)]),
     "lmn_look_needs_pixels": (c_bool, [c_void_p]),

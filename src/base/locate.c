@@ -1,4 +1,4 @@
-#include "look/locate.h"
+#include "base/locate.h"
 
 #include <stdbool.h>
 #include <string.h>

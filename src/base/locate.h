@@ -1,6 +1,6 @@
 /* Where in a JSON text something stands, so that messages can name line and column of what was parsed long ago. */
-#ifndef LIMNER_LOOK_LOCATE_H
-#define LIMNER_LOOK_LOCATE_H
+#ifndef LIMNER_BASE_LOCATE_H
+#define LIMNER_BASE_LOCATE_H
 
 #include <stddef.h>
 
