@@ -276,7 +276,7 @@ static void release(script_reader *r)
 
 static lmn_status read_script(const import_job *job, lmn_error *error)
 {
-    if (job->model != job->path) {
+    if (job->model && job->model != job->path) {
         error_in_file(error, LMN_UNSUPPORTED, job->path, 0, "a script cannot be a model of another file");
         error_hint(error, "name it in that script's \"include\"");
         return LMN_UNSUPPORTED;

@@ -19,6 +19,7 @@ static const fuzz_target targets[] = {
     {"obj", fuzz_obj, NULL},
     {"mtl", fuzz_mtl, NULL},
     {"bvh", fuzz_bvh, NULL},
+    {"script", fuzz_script, NULL},
     {"csg", fuzz_csg, fuzz_mutate_csg},
     {"dxf", fuzz_dxf, NULL},
     {"stream", fuzz_stream, NULL},

@@ -29,6 +29,7 @@ void fuzz_ply(const uint8_t *bytes, size_t size);
 void fuzz_obj(const uint8_t *bytes, size_t size);
 void fuzz_mtl(const uint8_t *bytes, size_t size);
 void fuzz_bvh(const uint8_t *bytes, size_t size);
+void fuzz_script(const uint8_t *bytes, size_t size);
 void fuzz_csg(const uint8_t *bytes, size_t size);
 void fuzz_dxf(const uint8_t *bytes, size_t size);
 void fuzz_stream(const uint8_t *bytes, size_t size);

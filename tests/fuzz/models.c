@@ -107,6 +107,15 @@ static void check_motion(const animation *a)
     }
 }
 
+/* What happens is laid out, written as a clip, and told. */
+void fuzz_script(const uint8_t *bytes, size_t size)
+{
+    lmn_scene *scene = fuzz_read_model(import_script.read, 'y', bytes, size);
+    if (scene)
+        mem_free(scene_dynamics_json(scene));
+    use(scene);
+}
+
 /* The motion moves its own skeleton, and a model's. */
 void fuzz_bvh(const uint8_t *bytes, size_t size)
 {
