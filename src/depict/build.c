@@ -1,11 +1,9 @@
 /* Glyphs as meshes. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "construct/construct.h"
 #include "depict/depict_private.h"
 
 void depict_to_eye(const depict_job *j, const double at[3], double out[3])
@@ -24,6 +22,20 @@ void depict_lift(const depict_job *j, double at[3], double distance)
     if (!j->camera.orthographic)
         distance = fmin(distance, 0.8 * vector3_distance(j->camera.eye, at));
     vector3_add(at, at, distance, to_eye);
+}
+
+double depict_front(const depict_job *j, const double at[3])
+{
+    const double ends[2][3] = {{(double)j->box.min.x, (double)j->box.min.y, (double)j->box.min.z},
+                               {(double)j->box.max.x, (double)j->box.max.y, (double)j->box.max.z}};
+    double       to_eye[3], most = 0;
+    depict_to_eye(j, at, to_eye);
+    for (int i = 0; i < 8 && !box3_is_empty(j->box); i++) {
+        double corner[3] = {ends[i & 1][0], ends[i >> 1 & 1][1], ends[i >> 2][2]};
+        vector3_add(corner, corner, -1, at);
+        most = fmax(most, vector3_dot(corner, to_eye));
+    }
+    return most + 0.02 * j->size;
 }
 
 double depict_random(const depict_job *j, const expression *e, uint32_t which, uint32_t what)
@@ -120,65 +132,11 @@ void glyph_put_ribbon(glyph_mesh *m, const depict_job *j, const glyph_ribbon *r)
     }
 }
 
-/* The page's axes. */
-static void page_axes(const depict_job *j, double right[3], double up[3])
+void depict_page_axes(const depict_job *j, double right[3], double up[3])
 {
     const double *v = j->camera.view.m;
     for (int k = 0; k < 3; k++) {
         right[k] = v[4 * k];
         up[k] = v[4 * k + 1];
     }
-}
-
-void glyph_put_polygon(glyph_mesh *m, const depict_job *j, const double at[3], const double (*points)[2], size_t count)
-{
-    double right[3], up[3], p[3];
-    page_axes(j, right, up);
-    uint32_t middle = glyph_vertex(m, at), first = 0, last = 0;
-    for (size_t i = 0; i < count; i++) {
-        vector3_add(p, at, points[i][0], right);
-        vector3_add(p, p, points[i][1], up);
-        uint32_t v = glyph_vertex(m, p);
-        if (i > 0)
-            glyph_triangle(m, middle, last, v);
-        first = i == 0 ? v : first;
-        last = v;
-    }
-    if (count > 2)
-        glyph_triangle(m, middle, last, first);
-}
-
-lmn_status glyph_put_text(glyph_mesh *m, const depict_job *j, const double at[3], const char *text, double height,
-                          double size[2], lmn_error *error)
-{
-    const text_style style = {.size = height, .spacing = 1, .font = "sans:bold"};
-    region           letters = {0};
-    polyhedron       block = {0};
-    bool             missing = false;
-    double           low[2], high[2], right[3], up[3], p[3];
-    lmn_status       status = construct_text(&letters, text, &style, (facets){.fn = 12}, &missing, error);
-    size[0] = size[1] = 0;
-    if (status == LMN_OK && region_bounds(&letters, low, high)) {
-        /* The lower face of a plate of letters: triangles of the region. */
-        linear_extrusion how = {.height = height, .scale = {1, 1}, .facets = {.fn = 12}};
-        status = construct_linear_extrude(&block, &letters, &how, error);
-        page_axes(j, right, up);
-        size[0] = high[0] - low[0];
-        size[1] = high[1] - low[1];
-        uint32_t first = (uint32_t)m->position_count;
-        for (size_t i = 0; i < block.point_count; i++) {
-            vector3_add(p, at, block.points[i].x - (low[0] + high[0]) / 2, right);
-            vector3_add(p, p, block.points[i].y - (low[1] + high[1]) / 2, up);
-            glyph_vertex(m, p);
-        }
-        for (size_t i = 0; i < block.triangle_count; i++) {
-            const uint32_t *t = &block.triangles[3 * i];
-            if (block.points[t[0]].z > height / 2 && block.points[t[1]].z > height / 2 &&
-                block.points[t[2]].z > height / 2)
-                glyph_triangle(m, first + t[0], first + t[1], first + t[2]);
-        }
-    }
-    polyhedron_release(&block);
-    region_release(&letters);
-    return status;
 }

@@ -6,15 +6,25 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "depict/depict_private.h"
+#include "depict/preview.h"
 #include "plan/time.h"
 #include "scene/content.h"
 
+enum { PASSES = 2 };
+
 static const char root_name[] = "glyphs", hidden_key[] = "depicted";
 
-extern const depiction depiction_path, depiction_still, depiction_still_plane, depiction_motion;
+extern const depiction depiction_path, depiction_motion, depiction_still, depiction_still_plane, depiction_collision,
+    depiction_turnaround, depiction_tailspin, depiction_expand, depiction_collapse, depiction_speech, depiction_thought,
+    depiction_camera_path, depiction_shot_flow, depiction_explode, depiction_split_path, depiction_cause,
+    depiction_travelling;
 
-const depiction *const depictions[] = {&depiction_path, &depiction_motion, &depiction_still, &depiction_still_plane,
-                                       NULL};
+const depiction *const depictions[] = {&depiction_path,        &depiction_motion,     &depiction_still,
+                                       &depiction_still_plane, &depiction_collision,  &depiction_turnaround,
+                                       &depiction_tailspin,    &depiction_expand,     &depiction_collapse,
+                                       &depiction_speech,      &depiction_thought,    &depiction_camera_path,
+                                       &depiction_shot_flow,   &depiction_explode,    &depiction_split_path,
+                                       &depiction_cause,       &depiction_travelling, NULL};
 
 /* --- taking glyphs out
  * ------------------------------------------------------------------------------------------------ */
@@ -66,28 +76,49 @@ lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
 /* --- the job
  * ------------------------------------------------------------------------------------------------------------ */
 
-/* The viewer that the description places before there are glyphs: these turn towards it. */
-static lmn_status place_viewer(depict_job *j, const lmn_draw_desc *desc, lmn_error *error)
+static bool is_hidden(const lmn_scene *s, int32_t n)
+{
+    while (n != NONE && !s->nodes[n].hidden)
+        n = s->nodes[n].parent;
+    return n != NONE;
+}
+
+/* The boxes of all that the scene has, wherever it goes. */
+static lmn_status measure_scene(depict_job *j, lmn_error *error)
+{
+    box3  *swept = NULL;
+    moment clips = j->when;
+    clips.seconds = 0;
+    lmn_status status = pose_swept_boxes(&swept, j->scene, &clips, error);
+    j->box = box3_empty();
+    for (size_t i = 0; i < j->scene->part_count && status == LMN_OK; i++)
+        if (!is_hidden(j->scene, j->scene->parts[i].node))
+            j->box = box3_union(j->box, swept[i]);
+    j->size = box3_is_empty(j->box) ? 1 : box3_diagonal(j->box);
+    mem_free(swept);
+    return status;
+}
+
+/* The viewer that the description places before a scene: glyphs turn towards it. */
+static lmn_status place_viewer(depict_job *j, const lmn_scene *scene, const lmn_draw_desc *desc, lmn_error *error)
 {
     pose       p;
-    lmn_status status = pose_create(&p, j->scene, &j->when, error);
+    lmn_status status = pose_create(&p, scene, &j->when, error);
     box3      *swept = NULL;
-    if (status == LMN_OK) {
-        moment clips = j->when;
-        clips.seconds = 0;
-        status = pose_swept_boxes(&swept, j->scene, &clips, error);
-    }
+    moment     clips = j->when;
+    clips.seconds = 0;
+    if (status == LMN_OK && desc->fit_time)
+        status = pose_swept_boxes(&swept, scene, &clips, error);
     bool *fitted = status == LMN_OK ? mem_alloc(p.part_count + p.ghost_count + 1) : NULL;
     if (status == LMN_OK && !fitted)
         status = error_memory(error);
     if (status == LMN_OK) {
         fit_body body = {.pose = &p, .fitted = fitted, .part_count = p.part_count, .box = box3_empty()};
-        for (size_t i = 0; i < p.part_count + p.ghost_count; i++)
-            fitted[i] = i < p.part_count;
-        p.fit_boxes = swept;
-        for (size_t i = 0; i < p.part_count; i++)
-            body.box = box3_union(body.box, swept[i]);
-        j->size = box3_is_empty(body.box) ? 1 : box3_diagonal(body.box);
+        p.fit_boxes = swept ? swept : p.part_boxes;
+        for (size_t i = 0; i < p.part_count; i++) {
+            fitted[i] = !is_hidden(scene, scene->parts[i].node);
+            body.box = fitted[i] ? box3_union(body.box, p.fit_boxes[i]) : body.box;
+        }
         status = camera_place(&j->camera, desc, &p, &body, error);
         p.fit_boxes = p.part_boxes;
     }
@@ -148,6 +179,27 @@ static lmn_status change_scene(lmn_scene *scene, depict_job *j, const expression
     return status;
 }
 
+static lmn_status make_glyphs(depict_job *j, const expression_list *expressions, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
+        status = expressions->items[i].row->depict(j, &expressions->items[i], error);
+    return status;
+}
+
+/* Glyphs have room on the page, so that the viewer steps back for them; they are made anew for where it is then. */
+static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressions, const lmn_draw_desc *desc,
+                                 lmn_error *error)
+{
+    preview    with;
+    lmn_status status = preview_open(&with, j, expressions, error);
+    if (status == LMN_OK)
+        status = place_viewer(j, &with.scene, desc, error);
+    preview_release(&with);
+    glyphs_release(j);
+    return status == LMN_OK ? make_glyphs(j, expressions, error) : status;
+}
+
 lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
                   lmn_error *error)
 {
@@ -156,9 +208,13 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     if (status == LMN_OK)
         status = time_moment(&j.when, scene, desc, warnings, error);
     if (status == LMN_OK)
-        status = place_viewer(&j, desc, error);
-    for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
-        status = expressions->items[i].row->depict(&j, &expressions->items[i], error);
+        status = measure_scene(&j, error);
+    if (status == LMN_OK)
+        status = place_viewer(&j, scene, desc, error);
+    if (status == LMN_OK)
+        status = make_glyphs(&j, expressions, error);
+    for (int pass = 0; pass < PASSES && status == LMN_OK; pass++)
+        status = turn_to_viewer(&j, expressions, desc, error);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
     glyphs_release(&j);

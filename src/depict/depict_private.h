@@ -17,6 +17,7 @@ typedef struct depict_job {
     moment           when;
     view_camera      camera;
     double           size; /* of the scene: the diagonal of its box */
+    box3             box;  /* of all that it has, wherever it goes */
     uint32_t         seed;
     warnings        *warnings;
     struct glyph    *glyphs; /* made so far; owned */
@@ -27,8 +28,12 @@ typedef struct depict_job {
 void depict_to_eye(const depict_job *j, const double at[3], double out[3]);
 /* 0 … 1, the same for the same numbers. */
 double depict_random(const depict_job *j, const expression *e, uint32_t which, uint32_t what);
+/* The page's axes, unit. */
+void depict_page_axes(const depict_job *j, double right[3], double up[3]);
 /* A position moved towards the viewer: the same place on the page, before all that is nearer than `distance`. */
 void depict_lift(const depict_job *j, double at[3], double distance);
+/* How far a position is to be moved so that it is before all that the scene has, wherever that goes. */
+double depict_front(const depict_job *j, const double at[3]);
 
 /* --- target.c: what is told of -------------------------------------------------------------------------------- */
 
@@ -107,13 +112,6 @@ typedef struct glyph_ribbon {
     size_t        count;
 } glyph_ribbon;
 void glyph_put_ribbon(glyph_mesh *m, const depict_job *j, const glyph_ribbon *r);
-/* A flat polygon in the page's plane at a place: points are across and up from it, in units of the world. It is
- * star-shaped around the place. */
-void glyph_put_polygon(glyph_mesh *m, const depict_job *j, const double at[3], const double (*points)[2], size_t count);
-/* Lettering in the page's plane, its middle at a place; `height` of a capital. `size` gets its breadth and height.
- * Errors: LMN_MEMORY, LMN_FORMAT … of construct_text. */
-lmn_status glyph_put_text(glyph_mesh *m, const depict_job *j, const double at[3], const char *text, double height,
-                          double size[2], lmn_error *error);
 
 /* --- arrow.c ------------------------------------------------------------------------------------------------------ */
 

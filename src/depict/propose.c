@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "depict/depict_private.h"
+#include "depict/groups.h"
 
 enum { MOVERS_TOLD = 6, IMPACTS_TOLD = 3, STILLS_MOST = 5, LIMBS_LEAST = 4 };
 
@@ -21,7 +22,11 @@ typedef struct mover {
     double  scaled; /* largest by smallest size */
     double  grows;  /* last by first */
     size_t  impacts;
-    double  weight; /* how much it matters */
+    double  origin;   /* way of its own origin, about which it turns */
+    bool    spins;    /* about its way */
+    bool    followed; /* by a camera */
+    bool    grouped;  /* told with others */
+    double  weight;   /* how much it matters */
 } mover;
 
 typedef struct proposal {
@@ -80,7 +85,7 @@ static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
     depict_impact impacts[IMPACTS_TOLD];
     lmn_status    status = target_open(&t, &p->job, m->node, error);
     if (status == LMN_OK) {
-        double low = INFINITY, high = 0, first = 0, last_scale = 0, last_at[3], at[3];
+        double low = INFINITY, high = 0, first = 0, last_scale = 0, last_at[3], at[3], own[3];
         mat4   last = way_world(&t.way, p->from);
         way_point(&t.way, t.centre, p->from, last_at);
         for (int i = 0; i <= STEPS; i++) {
@@ -88,6 +93,8 @@ static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
             way_point(&t.way, t.centre, p->from + (p->to - p->from) * i / STEPS, at);
             m->length += vector3_distance(last_at, at);
             m->turned += angle_between(&last, &now);
+            vector3_add(own, &now.m[12], -1, &last.m[12]);
+            m->origin += vector3_length(own);
             last_scale = cbrt(fabs(mat4_cofactors(&now, (double[9]){0})));
             first = i == 0 ? last_scale : first;
             low = fmin(low, last_scale);
@@ -183,29 +190,87 @@ static void set_number(expression *e, const char *key, double number)
         }
 }
 
+/* Patterns of several things, and what needs a closer look than measures give. */
+static lmn_status find_patterns(mover *movers, size_t count, const proposal *p, lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        mover *m = &movers[i];
+        if (m->camera || m->figure || m->length < m->radius)
+            continue;
+        if (m->turned > 6)
+            status = spins_along(&m->spins, &p->job, m->node, p->from, p->to, error);
+        for (size_t k = 0; k < count && status == LMN_OK && !m->followed; k++)
+            if (movers[k].camera) {
+                status = goes_with(&m->followed, &p->job, m->node, movers[k].node, p->from, p->to, error);
+                movers[k].grouped = movers[k].grouped || m->followed;
+            }
+    }
+    return status;
+}
+
+/* What many do that lie in one node is told of that node. */
+static lmn_status tell_groups(mover *movers, size_t count, const proposal *p, lmn_error *error)
+{
+    const lmn_scene *s = p->job.scene;
+    lmn_status       status = LMN_OK;
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        mover parent = {.node = s->nodes[movers[i].node].parent};
+        group g;
+        if (parent.node == NONE || movers[i].grouped || movers[i].camera)
+            continue;
+        status = group_find(&g, &p->job, parent.node, p->from, p->to, error);
+        if (status != LMN_OK || g.kind == GROUP_NONE)
+            continue;
+        for (size_t k = 0; k < count; k++)
+            movers[k].grouped = movers[k].grouped || s->nodes[movers[k].node].parent == parent.node;
+        if (g.kind == GROUP_BURSTS)
+            propose(p, &parent, "explode", "many things part at once, to all sides; things", (double)g.things);
+        else
+            propose(p, &parent, "split-path", "things go together, then part; things", (double)g.things);
+    }
+    return status;
+}
+
+/* What goes on: as it was and will be, and along which way. */
+static void tell_way(const proposal *p, const mover *m, double ways)
+{
+    if (m->followed) {
+        propose(p, m, "travelling", "a camera follows it; radii", ways);
+        return;
+    }
+    expression *e = propose(p, m, "still", "it moves farther than its own size; radii", ways);
+    set_number(e, "count", fmin(fmax(floor(ways / 3) + 2, 3), STILLS_MOST));
+    if (!m->figure)
+        set_number(e, "stretch", m->spins ? 0 : 0.5);
+    if (m->spins) {
+        propose(p, m, "tailspin", "it turns about its way; radians", m->turned);
+        return;
+    }
+    e = propose(p, m, "path", "its middle has a way; radii", ways);
+    if (m->figure) {
+        set_number(e, "width", 0.12);
+        set_number(e, "short_of", 0.4);
+    }
+    propose(p, m, "motion", "it moves now; radii", ways);
+}
+
 static void tell(const proposal *p, const mover *m)
 {
+    const bool   on_the_spot = m->origin < 0.1 * m->length || m->length <= m->radius;
     const double ways = m->radius > 0 ? m->length / m->radius : 0;
     if (m->camera && ways > 0) {
         propose(p, m, "camera-path", "a camera moves; units", m->length);
         return;
     }
-    if (ways > 1) {
-        expression *e = propose(p, m, "still", "it moves farther than its own size; radii", ways);
-        set_number(e, "count", fmin(fmax(floor(ways / 3) + 2, 3), STILLS_MOST));
-        if (!m->figure)
-            set_number(e, "stretch", 0.5);
-        e = propose(p, m, "path", "its middle has a way; radii", ways);
-        if (m->figure) {
-            set_number(e, "width", 0.12);
-            set_number(e, "short_of", 0.4);
-        }
-        propose(p, m, "motion", "it moves now; radii", ways);
-    } else if (m->figure)
+    const bool turns = !m->figure && on_the_spot && m->turned > 0.35;
+    if (ways > 1 && !turns)
+        tell_way(p, m, ways);
+    else if (m->figure)
         set_number(propose(p, m, "still", "its limbs move, it does not", ways), "count", 1);
-    if (m->impacts)
+    if (m->impacts && !m->figure && !turns)
         propose(p, m, "collision", "its velocity changes at once; times", (double)m->impacts);
-    if (!m->figure && ways <= 1 && m->turned > 0.35)
+    if (turns)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
     if (m->scaled > 1.15)
         propose(p, m, m->grows >= 1 ? "expand" : "collapse", "its size changes; largest by smallest", m->scaled);
@@ -225,8 +290,16 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
     lmn_status status = find_movers(&movers, &count, &p, error);
     if (reasons)
         *reasons = json_array();
-    for (size_t i = 0; i < count && i < MOVERS_TOLD && status == LMN_OK; i++)
-        tell(&p, &movers[i]);
+    if (status == LMN_OK)
+        status = find_patterns(movers, count, &p, error);
+    if (status == LMN_OK)
+        status = tell_groups(movers, count, &p, error);
+    size_t told = 0;
+    for (size_t i = 0; i < count && told < MOVERS_TOLD && status == LMN_OK; i++)
+        if (!movers[i].grouped) {
+            tell(&p, &movers[i]);
+            told++;
+        }
     mem_free(movers);
     return status == LMN_OK ? work_check(error) : status;
 }

@@ -4,14 +4,12 @@
 
 static void put_param(text *out, const param *p)
 {
-    double values[16]; /* a field at a time, wherever it stands in its own struct */
-    char   value[PARAM_TEXT_MAX] = "", range[128] = "";
-    param  alone = *p;
+    param_value values; /* a field at a time, wherever it stands in its own struct */
+    char        value[PARAM_TEXT_MAX] = "", range[128] = "";
+    param       alone = *p;
     alone.offset = 0;
-    if (param_size(p->type) <= sizeof values) {
-        params_set_defaults(&alone, 1, values);
-        param_print(&alone, values, value, sizeof value);
-    }
+    params_set_defaults(&alone, 1, &values);
+    param_print(&alone, &values, value, sizeof value);
     if (p->type == PARAM_FLOAT || p->type == PARAM_INT)
         param_print_range(p, range, sizeof range);
     text_append(out, "| `%s` | %s | %s | %s |\n", p->key, value, *range ? range : param_type_text(p->type), p->doc);

@@ -99,7 +99,11 @@ static void set_default(const param *p, void *values)
             ((direction *)field)->x = NAN;
         break;
     case PARAM_PALETTE: *(palette *)field = p->def_palette; break;
-    case PARAM_TEXT: memset(field, 0, sizeof(param_words)); break;
+    case PARAM_TEXT:
+        memset(field, 0, sizeof(param_words));
+        if (p->def_text)
+            memcpy(field, p->def_text, strnlen(p->def_text, PARAM_TEXT_MAX - 1));
+        break;
     }
 }
 

@@ -65,7 +65,8 @@ typedef struct param {
     colour             def_colour;
     direction          def_direction;
     palette            def_palette;
-    const char *const *names; /* PARAM_ENUM, NULL-terminated */
+    const char        *def_text; /* NULL: empty */
+    const char *const *names;    /* PARAM_ENUM, NULL-terminated */
     param_unit         unit;
     bool               can_auto; /* the word "auto" is allowed */
     bool               def_auto;

@@ -1,0 +1,206 @@
+/* Where a camera goes: frames that show how much it sees, joined along the ways of their corners, or with arrows from
+ * one to the next. Nienhaus 2005, section 7.9, figure 7-8. */
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "depict/page.h"
+
+typedef struct camera_values {
+    int32_t count;
+    float   focus, width;
+    colour  colour;
+} camera_values;
+
+#define CAMERA_ROWS(DEFAULT_COUNT)                                                                                     \
+    PARAM_INT_ROW(camera_values, count, .def = DEFAULT_COUNT, .min = 2, .max = 64, .soft_max = 16, .unit = UNIT_COUNT, \
+                  .doc = "How many frames, at equal times from the interval's begin to its end."),                     \
+        PARAM_FLOAT_ROW(camera_values, focus, .def = 0, .min = 0, .max = 1e6, .soft_max = 100,                         \
+                        .doc = "How far before the camera a frame stands, units; it is so large that the camera sees " \
+                               "just all of it; 0: a fifth of the way to the middle of the scene."),                   \
+        PARAM_FLOAT_ROW(camera_values, width, .def = 0.1, .min = 0.001, .max = 1, .soft_max = 0.3,                     \
+                        .unit = UNIT_FRACTION, .doc = "Breadth of a frame's bars, share of its height."),              \
+        PARAM_COLOUR_ROW(camera_values, colour, .def_colour = {0, 0, 0, 0},                                            \
+                         .doc = "Of frames and lines; none: grey for the past, orange for now, red for the future.")
+
+static const param path_params[] = {CAMERA_ROWS(5)};
+static const param flow_params[] = {CAMERA_ROWS(3)};
+
+/* A camera on its way. */
+typedef struct shot {
+    way           way;
+    const camera *camera;
+    double        aspect, focus;
+} shot;
+
+static lmn_status shot_open(shot *out, const depict_job *j, const expression *e, lmn_error *error)
+{
+    const lmn_scene     *s = j->scene;
+    const camera_values *v = e->values;
+    int32_t              own = e->target;
+    memset(out, 0, sizeof *out);
+    while (own != NONE && s->nodes[own].camera == NONE)
+        own = scene_next_node(s, e->target, own);
+    if (own == NONE)
+        return error_set(error, LMN_USAGE, "'%s' is for cameras; '%.80s' has none", e->row->characteristic,
+                         s->nodes[e->target].name ? s->nodes[e->target].name : "the target");
+    out->camera = &s->cameras[s->nodes[own].camera];
+    out->aspect = j->camera.aspect;
+    lmn_status status = way_open(&out->way, s, own, &j->when, error);
+    if (status != LMN_OK)
+        return status;
+    mat4 world = way_world(&out->way, fmin(fmax(e->now, e->from), e->to));
+    out->focus = v->focus > 0 ? (double)v->focus : vector3_distance(&world.m[12], j->camera.target) / 5;
+    if (!(out->focus > 0))
+        out->focus = j->size / 5;
+    return LMN_OK;
+}
+
+/* A place of the plane that is in focus; (±1, ±1) are the corners of what is seen. */
+static void shot_point(const shot *s, double seconds, double x, double y, double out[3])
+{
+    const mat4   world = way_world(&s->way, seconds);
+    const double half = s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus;
+    double       axes[3][3];
+    for (int k = 0; k < 3; k++) {
+        vector3_copy(axes[k], &world.m[4 * k]);
+        vector3_normalise(axes[k]);
+    }
+    vector3_add(out, &world.m[12], x * half * s->aspect, axes[0]);
+    vector3_add(out, out, y * half, axes[1]);
+    vector3_add(out, out, -s->focus, axes[2]);
+}
+
+static double shot_height(const shot *s)
+{
+    return 2 * (s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus);
+}
+
+static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+static glyph_tense tense_of(const expression *e, double seconds, double slack)
+{
+    return fabs(seconds - e->now) <= slack ? GLYPH_PRESENT : seconds < e->now ? GLYPH_PAST : GLYPH_FUTURE;
+}
+
+/* Four bars around what is seen: the inner corners are those of the view. */
+static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, double seconds, lmn_error *error)
+{
+    const camera_values *v = e->values;
+    glyph_mesh           m = {0};
+    const double         bar = 2 * (double)v->width;
+    uint32_t             vertices[8];
+    for (int i = 0; i < 8; i++) {
+        const double *c = corners[i % 4], out = i < 4 ? 0 : bar;
+        double        at[3];
+        shot_point(s, seconds, c[0] * (1 + out / s->aspect), c[1] * (1 + out), at);
+        vertices[i] = glyph_vertex(&m, at);
+    }
+    for (int i = 0; i < 4; i++) {
+        const int next = (i + 1) % 4;
+        glyph_triangle(&m, vertices[i], vertices[4 + i], vertices[4 + next]);
+        glyph_triangle(&m, vertices[i], vertices[4 + next], vertices[next]);
+    }
+    const glyph_tense when = tense_of(e, seconds, (e->to - e->from) / (2 * v->count));
+    lmn_status status = glyph_put(j, &m, &(glyph_label){"frame", e->target, when, depict_tint(when, v->colour)}, error);
+    glyph_mesh_release(&m);
+    return status;
+}
+
+/* The ways of the corners of all frames. */
+static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, double from, double to, glyph_tense when,
+                            lmn_error *error)
+{
+    enum { STEPS = 96 };
+    const camera_values *v = e->values;
+    glyph_mesh           m = {0};
+    double               points[STEPS + 1][3], widths[STEPS + 1];
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i <= STEPS; i++) {
+            shot_point(s, from + (to - from) * i / STEPS, corners[k][0], corners[k][1], points[i]);
+            widths[i] = 0.4 * (double)v->width * shot_height(s);
+        }
+        glyph_put_ribbon(&m, j, &(glyph_ribbon){(const double(*)[3])points, widths, STEPS + 1});
+    }
+    lmn_status status = glyph_put(j, &m, &(glyph_label){"rails", e->target, when, depict_tint(when, v->colour)}, error);
+    glyph_mesh_release(&m);
+    return status;
+}
+
+static lmn_status put_frames(depict_job *j, const expression *e, const shot *s, lmn_error *error)
+{
+    const camera_values *v = e->values;
+    lmn_status           status = LMN_OK;
+    for (int i = 0; i < v->count && status == LMN_OK; i++)
+        status = put_frame(j, e, s, e->from + (e->to - e->from) * i / (v->count - 1), error);
+    return status;
+}
+
+static lmn_status camera_path_depict(depict_job *j, const expression *e, lmn_error *error)
+{
+    shot         s;
+    lmn_status   status = shot_open(&s, j, e, error);
+    const double split = fmin(fmax(e->now, e->from), e->to);
+    if (status == LMN_OK)
+        status = put_frames(j, e, &s, error);
+    if (status == LMN_OK && split > e->from)
+        status = put_rails(j, e, &s, e->from, split, GLYPH_PAST, error);
+    if (status == LMN_OK && split < e->to)
+        status = put_rails(j, e, &s, split, e->to, GLYPH_FUTURE, error);
+    way_release(&s.way);
+    return status;
+}
+
+/* From the middle of one frame to that of the next. */
+static lmn_status put_flow(depict_job *j, const expression *e, const shot *s, double from, double to, lmn_error *error)
+{
+    enum { STEPS = 32 };
+    const camera_values *v = e->values;
+    glyph_mesh           m = {0};
+    double               points[STEPS + 1][3];
+    for (int i = 0; i <= STEPS; i++)
+        shot_point(s, from + (to - from) * i / STEPS, 0, 0, points[i]);
+    const glyph_tense when = from >= e->now ? GLYPH_FUTURE : GLYPH_PAST;
+    glyph_put_arrow(&m, j, (const double(*)[3])points, STEPS + 1,
+                    &(arrow_style){.width = 1.2 * (double)v->width * shot_height(s), .tail = 0.5, .head = 2.4});
+    lmn_status status =
+        glyph_put(j, &m, &(glyph_label){"flow-arrow", e->target, when, depict_tint(when, v->colour)}, error);
+    glyph_mesh_release(&m);
+    return status;
+}
+
+static lmn_status shot_flow_depict(depict_job *j, const expression *e, lmn_error *error)
+{
+    const camera_values *v = e->values;
+    shot                 s;
+    lmn_status           status = shot_open(&s, j, e, error);
+    const double         step = (e->to - e->from) / (v->count - 1);
+    if (status == LMN_OK)
+        status = put_frames(j, e, &s, error);
+    for (int i = 0; i + 1 < v->count && status == LMN_OK; i++)
+        status = put_flow(j, e, &s, e->from + step * i, e->from + step * (i + 1), error);
+    way_release(&s.way);
+    return status;
+}
+
+const depiction depiction_camera_path = {
+    "camera-path",
+    NULL,
+    "Frames of what a camera sees at several times, joined along the ways of their corners.",
+    path_params,
+    PARAM_COUNT(path_params),
+    sizeof(camera_values),
+    false,
+    camera_path_depict,
+};
+
+const depiction depiction_shot_flow = {
+    "shot-flow",
+    NULL,
+    "Frames of what a camera sees at several times, with arrows from one to the next.",
+    flow_params,
+    PARAM_COUNT(flow_params),
+    sizeof(camera_values),
+    false,
+    shot_flow_depict,
+};
