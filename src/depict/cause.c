@@ -42,7 +42,7 @@ static lmn_status find_event(double *out, const expression *e, const depict_targ
     *out = (double)v->at;
     if (!isnan(v->at))
         return LMN_OK;
-    lmn_status status = impacts_find(&impact, 1, &count, t, e->from, e->to, error);
+    lmn_status status = target_impacts(&impact, 1, &count, t, e->from, e->to, error);
     *out = count ? impact.time : begin_of_motion(e, t);
     return status;
 }

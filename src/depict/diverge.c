@@ -87,7 +87,7 @@ static lmn_status put_piece_arrow(depict_job *j, const expression *e, const depi
             &(arrow_style){
                 .width = (double)v->width * t->radius, .tail = 0.25, .head = 2.4, .short_of = 1.3 * t->radius});
     mem_free(points);
-    trajectory_release(&way);
+    trajectory_free(&way);
     return status;
 }
 

@@ -55,7 +55,7 @@ static lmn_status impact_depict(depict_job *j, const expression *e, lmn_error *e
     double               strongest = 0;
     lmn_status           status = target_open(&t, j, e->target, error);
     if (status == LMN_OK)
-        status = impacts_find(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
+        status = target_impacts(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
     for (size_t i = 0; i < count && status == LMN_OK; i++)
         strongest = fmax(strongest, vector3_length(impacts[i].change));
     for (size_t i = 0; i < count && status == LMN_OK; i++)

@@ -191,7 +191,7 @@ static lmn_status put_helix(depict_job *j, const expression *e, const depict_tar
     }
     glyph_mesh_release(&m);
     mem_free(points);
-    trajectory_release(&way);
+    trajectory_free(&way);
     return status;
 }
 
