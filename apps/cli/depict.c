@@ -38,6 +38,55 @@ static char *read_expressions(const char *path)
     return text;
 }
 
+static char *copy_text(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? strdup(text) : NULL;
+}
+
+/* A member that is there and of another type. */
+static int check_depiction(const char *path, const json_t *given)
+{
+    static const char *const texts[] = {"look", "camera", "view"};
+    const char              *key;
+    json_t                  *value;
+    json_object_foreach((json_t *)given, key, value)
+    {
+        bool known = strcmp(key, "time") == 0 && json_is_number(value);
+        for (int i = 0; i < 3; i++)
+            known = known || (strcmp(key, texts[i]) == 0 && json_is_string(value));
+        if (!known)
+            return message_usage("look, view and camera are texts, time is seconds",
+                                 "%s: \"depiction\" has a member '%.60s' that is not known, or not of its type", path,
+                                 key);
+    }
+    return EXIT_DONE;
+}
+
+int depiction_read(depiction *out, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    *out = (depiction){NULL, NULL, NULL, {false, 0}, false};
+    json_t *root = dot && strcmp(dot, ".json") == 0 ? json_load_file(path, 0, NULL) : NULL;
+    /* What is wrong with a script is told when it is read as one. */
+    const json_t *given = json_object_get(root, "depiction"), *time = json_object_get(given, "time");
+    int           status = given ? check_depiction(path, given) : EXIT_DONE;
+    out->look = copy_text(given, "look");
+    out->camera = copy_text(given, "camera");
+    out->view = copy_text(given, "view");
+    out->time = (option_number){json_is_number(time), json_number_value(time)};
+    out->has_expressions = json_is_array(json_object_get(root, "expressions"));
+    json_decref(root);
+    return status;
+}
+
+void depiction_release(depiction *d)
+{
+    free(d->look);
+    free(d->camera);
+    free(d->view);
+}
+
 /* Without a time: where most of the motion is past and some is to come. */
 static void settle_time(const lmn_scene *scene, lmn_draw_desc *desc, const lmn_depict_desc *d)
 {

@@ -25,6 +25,16 @@ enum { DEPICT_OPTION_COUNT = 3 };
             "Print what was depicted and why, as JSON that --expressions takes."                                       \
     }
 
+/* What a script says of its still ("depiction"), and whether it has expressions. Freed with depiction_release. */
+typedef struct depiction {
+    char         *look, *camera, *view; /* NULL: nothing is said */
+    option_number time;
+    bool          has_expressions;
+} depiction;
+/* Nothing is said where the file is no script. Prints what is wrong; exit status. Release it also after one. */
+int  depiction_read(depiction *out, const char *path);
+void depiction_release(depiction *d);
+
 /* Puts signs into a scene and brings the description to a time that tells something, unless it has one. Prints what
  * goes wrong; exit status. */
 int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain);

@@ -858,9 +858,26 @@ static int run(const word_list *inputs, const void *values)
     return run_as(inputs, values, false);
 }
 
+/* What a script says counts where the command line says nothing. */
 static int run_depict(const word_list *inputs, const void *values)
 {
-    return run_as(inputs, values, true);
+    draw_values full = *(const draw_values *)values;
+    depiction   d = {.look = NULL};
+    bool        viewed = full.view >= 0 || full.camera || full.eye.given;
+    int         status = inputs->count == 1 ? depiction_read(&d, inputs->items[0]) : EXIT_DONE;
+    full.look = full.look ? full.look : d.look;
+    full.camera = viewed ? full.camera : d.camera;
+    full.time = full.time.given ? full.time : d.time;
+    if (!full.expressions && d.has_expressions)
+        full.expressions = inputs->items[0];
+    for (int i = 0; d.view && !viewed && views[i]; i++)
+        full.view = strcmp(views[i], d.view) == 0 ? i : full.view;
+    if (status == EXIT_DONE && d.view && !viewed && full.view < 0)
+        status = message_usage(NULL, "%s: there is no view '%.60s'", inputs->items[0], d.view);
+    if (status == EXIT_DONE)
+        status = run_as(inputs, &full, true);
+    depiction_release(&d);
+    return status;
 }
 
 /* --- what happens, from its begin to its end -------------------------------------------------------------- */

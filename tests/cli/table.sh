@@ -907,6 +907,19 @@ group_depict() {
     echo '{"a": 1}' > in-path.json
     row 1 'no expressions' '' depict "$motion" --expressions in-path.json
     row 1 '--interval' '' draw "$motion" --interval 0:1
+    # A script says what is told of it, and how it is seen.
+    local script=$examples/scripts/bounce.json
+    row 0 '' bounce.png depict "$script" $small --explain
+    out 'BOING'
+    cp bounce.png in-script.png
+    row 0 '' again.png depict "$script" $small -o again.png --view front --time 2.2 --look storyboard
+    cmp -s again.png in-script.png || complain "what the script says is not what the command line says"
+    row 0 '' other.png depict "$script" $small -o other.png --time 1
+    cmp -s other.png in-script.png && complain "the command line does not count more than the script"
+    sed 's/"time": 2.2/"tine": 2.2/' "$script" > in-bad.json
+    row 1 "'tine'" '' depict in-bad.json
+    sed 's/"view": "front"/"view": "above"/' "$script" > in-bad.json
+    row 1 "no view 'above'" '' depict in-bad.json
 }
 
 films_interrupted() {
