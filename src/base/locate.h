@@ -14,4 +14,19 @@ typedef struct locate_step {
  * there. The text is valid JSON. */
 void locate(const char *text, size_t size, const locate_step *steps, size_t count, int *line, int *column);
 
+/* The same many times in one text, each mostly behind the one before: what was found is not searched again.
+ * Zero-initialise. */
+enum { LOCATE_LEVELS = 64 };
+typedef struct locate_level {
+    const char *container, *at; /* an array or object, and where its element or member `index` begins */
+    size_t      index;
+} locate_level;
+typedef struct locate_memo {
+    locate_level levels[LOCATE_LEVELS];
+    const char  *counted; /* lines are counted up to here */
+    int          line, column;
+} locate_memo;
+void locate_on(locate_memo *memo, const char *text, size_t size, const locate_step *steps, size_t count, int *line,
+               int *column);
+
 #endif

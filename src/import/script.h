@@ -46,6 +46,8 @@ typedef struct script_reader {
     const script_file *file; /* that is read now, and where in it */
     locate_step        steps[SCRIPT_STEPS_MAX];
     size_t             step_count;
+    locate_memo        memo; /* of the file of `memo_file` */
+    const script_file *memo_file;
     script_activity   *activities;
     size_t             activity_count, activity_capacity;
     script_node       *nodes;

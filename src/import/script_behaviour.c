@@ -174,7 +174,10 @@ static void read_own(script_reader *r, json_t *object, int32_t index, behaviour_
     int         line = 0, column = 0;
     if (kind != BEHAVIOUR_EVENT && script_number(r, object, "duration", r->file->time, &duration) && !(duration > 0))
         script_fail(r, LMN_FORMAT, "a duration has to be above 0");
-    locate((const char *)r->file->data.data, r->file->data.size, r->steps, r->step_count, &line, &column);
+    if (r->memo_file != r->file)
+        r->memo = (locate_memo){.counted = NULL};
+    r->memo_file = r->file;
+    locate_on(&r->memo, (const char *)r->file->data.data, r->file->data.size, r->steps, r->step_count, &line, &column);
     behaviour_node *n = at(r, index);
     n->line = (uint32_t)line;
     n->column = (uint32_t)column;
