@@ -145,6 +145,20 @@ static lmn_scene *growth_scene(double from, double to, double way)
     return finish(&m, "growth");
 }
 
+/* A foot comes to a ball after a second, which flies off then, and rises. */
+static lmn_scene *kick_scene(void)
+{
+    moving_scene m;
+    moving_scene_begin(&m);
+    int foot = moving_scene_box(&m, -1, 0, 0, (double[]){0.3, 0.3, 0.3}, grey),
+        ball = moving_scene_sphere(&m, 0, 0, 0, 0.3, red);
+    moving_scene_name(&m, foot, "foot");
+    moving_scene_name(&m, ball, "ball");
+    moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
+    moving_scene_keys(&m, ball, "translation", 3, (double[]){0, 1, 2}, (double[]){0, 0, 0, 0, 0, 0, 5, 2, 0});
+    return finish(&m, "kick");
+}
+
 /* A body with a head, and in this a mouth where it is wanted. */
 static lmn_scene *speaker_scene(bool with_head, bool with_mouth)
 {
@@ -583,15 +597,7 @@ static void stems_branch_smoothly(void **state)
 static void causes_are_shown(void **state)
 {
     (void)state;
-    moving_scene m;
-    moving_scene_begin(&m);
-    int foot = moving_scene_box(&m, -1, 0, 0, (double[]){0.3, 0.3, 0.3}, grey),
-        ball = moving_scene_sphere(&m, 0, 0, 0, 0.3, red);
-    moving_scene_name(&m, foot, "foot");
-    moving_scene_name(&m, ball, "ball");
-    moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
-    moving_scene_keys(&m, ball, "translation", 3, (double[]){0, 1, 2}, (double[]){0, 0, 0, 0, 0, 0, 5, 2, 0});
-    lmn_scene *scene = finish(&m, "kick");
+    lmn_scene *scene = kick_scene();
     double     tip[3], tail[3], low = INFINITY, high = -INFINITY;
     tell_at(scene, 1.6, "[{\"target\": \"ball\", \"depict\": \"cause\", \"partner\": \"foot\"}]");
     const primitive *arrow = sign_at(scene, "cause-arrow", 0), *ghost = sign_at(scene, "still", 0);
@@ -689,8 +695,8 @@ static lmn_scene *scene_for(const char *row, char text[160])
     if (strcmp(row, "collision") == 0)
         scene = bounce_scene(0);
     else if (strcmp(row, "cause") == 0) {
-        scene = bounce_scene(0);
-        more = ", \"partner\": \"wall\"";
+        scene = kick_scene();
+        more = ", \"partner\": \"foot\"";
     } else if (strcmp(row, "turnaround") == 0 || strcmp(row, "tailspin") == 0) {
         scene = spin_scene((double[]){1, 0, 0}, 0.7);
         target = "plane";
