@@ -174,7 +174,7 @@ static lmn_status put_branch(depict_job *j, const expression *e, const pieces *p
     middle_of_all(p, split - span, before);
     for (int i = 0; i <= SPLIT_STEPS; i++) {
         const double f = (double)i / SPLIT_STEPS, seconds = split + (e->to - split) * f, u = fmin(3 * f, 1),
-                     own = u * u * (3 - 2 * u);
+                     own = u * u * u * (10 + u * (6 * u - 15));
         double straight[3], at[3];
         vector3_copy(straight, end);
         for (int k = 0; k < 3 && span > 0; k++)

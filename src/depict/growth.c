@@ -13,8 +13,9 @@ typedef struct growth_values {
 static const param growth_params[] = {
     PARAM_INT_ROW(growth_values, count, .def = 8, .min = 2, .max = 64, .soft_max = 16, .unit = UNIT_COUNT,
                   .doc = "How many arrows."),
-    PARAM_FLOAT_ROW(growth_values, width, .def = 0.2, .min = 0.001, .max = 10, .soft_max = 1, .unit = UNIT_FRACTION,
-                    .doc = "Breadth of an arrow at its head, fraction of the target's radius."),
+    PARAM_FLOAT_ROW(
+        growth_values, width, .def = 0.2, .min = 0.001, .max = 10, .soft_max = 1, .unit = UNIT_FRACTION,
+        .doc = "Breadth of an arrow at its head, fraction of the target's radius; less where heads would touch."),
     PARAM_FLOAT_ROW(growth_values, inner, .def = 0.35, .min = 0, .max = 0.95, .unit = UNIT_FRACTION,
                     .doc = "Distance of the arrows' inner ends from the middle, share of the smaller outline."),
     PARAM_COLOUR_ROW(growth_values, colour, .def_colour = {0.2f, 0.5f, 0.78f, 1}, .doc = "Of the arrows."),
