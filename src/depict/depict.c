@@ -83,19 +83,21 @@ static bool is_hidden(const lmn_scene *s, int32_t n)
     return n != NONE;
 }
 
-/* The boxes of all that the scene has, wherever it goes. */
+/* The box of all that the scene has, wherever it goes. */
 static lmn_status measure_scene(depict_job *j, lmn_error *error)
 {
-    box3  *swept = NULL;
-    moment clips = j->when;
-    clips.seconds = 0;
-    lmn_status status = pose_swept_boxes(&swept, j->scene, &clips, error);
+    enum { MOMENTS = 8 };
+    const double end = moment_duration(&j->when, j->scene);
+    lmn_status   status = LMN_OK;
     j->box = box3_empty();
-    for (size_t i = 0; i < j->scene->part_count && status == LMN_OK; i++)
-        if (!is_hidden(j->scene, j->scene->parts[i].node))
-            j->box = box3_union(j->box, swept[i]);
+    for (int i = 0; i <= MOMENTS && status == LMN_OK; i++) {
+        const pose *p = NULL;
+        status = depict_pose(&p, j, end * i / MOMENTS, error);
+        for (size_t k = 0; k < j->scene->part_count && status == LMN_OK; k++)
+            if (!is_hidden(j->scene, j->scene->parts[k].node))
+                j->box = box3_union(j->box, p->part_boxes[k]);
+    }
     j->size = box3_is_empty(j->box) ? 1 : box3_diagonal(j->box);
-    mem_free(swept);
     return status;
 }
 
@@ -203,8 +205,9 @@ static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressio
 lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
                   lmn_error *error)
 {
-    depict_job j = {.scene = scene, .seed = desc->seed, .warnings = warnings};
-    lmn_status status = depict_clear(scene, error);
+    depict_poses poses = {.count = 0};
+    depict_job   j = {.scene = scene, .poses = &poses, .seed = desc->seed, .warnings = warnings};
+    lmn_status   status = depict_clear(scene, error);
     if (status == LMN_OK)
         status = time_moment(&j.when, scene, desc, warnings, error);
     if (status == LMN_OK)
@@ -215,6 +218,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
         status = make_glyphs(&j, expressions, error);
     for (int pass = 0; pass < PASSES && status == LMN_OK; pass++)
         status = turn_to_viewer(&j, expressions, desc, error);
+    depict_poses_release(&poses);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
     glyphs_release(&j);

@@ -12,6 +12,14 @@
 typedef enum glyph_tense { GLYPH_PAST, GLYPH_PRESENT, GLYPH_FUTURE } glyph_tense;
 struct glyph;
 
+enum { DEPICT_POSES = 64 };
+/* Zero-initialise. */
+typedef struct depict_poses {
+    pose   at[DEPICT_POSES];
+    size_t count, next; /* who goes next when there are more */
+    mat4  *worlds;      /* of all nodes at rest; NULL: nobody has asked */
+} depict_poses;
+
 typedef struct depict_job {
     const lmn_scene *scene; /* without glyphs */
     moment           when;
@@ -20,6 +28,7 @@ typedef struct depict_job {
     box3             box;  /* of all that it has, wherever it goes */
     uint32_t         seed;
     warnings        *warnings;
+    depict_poses    *poses;  /* kept; lent */
     struct glyph    *glyphs; /* made so far; owned */
     size_t           glyph_count, glyph_capacity;
 } depict_job;
@@ -34,6 +43,14 @@ void depict_page_axes(const depict_job *j, double right[3], double up[3]);
 void depict_lift(const depict_job *j, double at[3], double distance);
 /* How far a position is to be moved so that it is before all that the scene has, wherever that goes. */
 double depict_front(const depict_job *j, const double at[3]);
+
+/* --- poses.c: the scene at moments, without glyphs --------------------------------------------------------------- */
+
+/* Lent until the next call. Errors: as of pose_create. */
+lmn_status depict_pose(const pose **out, const depict_job *j, double seconds, lmn_error *error);
+/* Lent; NULL: out of memory. */
+const mat4 *depict_worlds_at_rest(const depict_job *j);
+void        depict_poses_release(depict_poses *kept);
 
 /* --- target.c: what is told of -------------------------------------------------------------------------------- */
 

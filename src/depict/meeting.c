@@ -68,10 +68,8 @@ static void nearest_on_primitive(const double p[3], const primitive *from, const
 static lmn_status nearest_place(const double p[3], double best[3], double *distance, const depict_job *j,
                                 const depict_target *t, double seconds, lmn_error *error)
 {
-    pose   posed;
-    moment when = j->when;
-    when.seconds = seconds;
-    lmn_status status = pose_create(&posed, j->scene, &when, error);
+    const pose *posed = NULL;
+    lmn_status  status = depict_pose(&posed, j, seconds, error);
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node *n = &j->scene->nodes[j->scene->parts[i].node];
         const mesh *m = !t->parts[i] || n->mesh == NONE ? NULL : &j->scene->meshes[n->mesh];
@@ -81,15 +79,14 @@ static lmn_status nearest_place(const double p[3], double best[3], double *dista
             if (!positions)
                 status = error_memory(error);
             else
-                pose_vertices(&posed.parts[i], from, NULL, NULL, from->vertex_count, positions, NULL);
+                pose_vertices(&posed->parts[i], from, NULL, NULL, from->vertex_count, positions, NULL);
             for (size_t d = 0; d < node_draw_count(n) && status == LMN_OK; d++) {
-                mat4 world = pose_instance(&posed, i, d);
+                mat4 world = pose_instance(posed, i, d);
                 nearest_on_primitive(p, from, positions, &world, best, distance);
             }
             mem_free(positions);
         }
     }
-    pose_release(&posed);
     return status == LMN_OK ? work_check(error) : status;
 }
 

@@ -279,15 +279,16 @@ static void tell(const proposal *p, const mover *m)
 lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scene *scene, const moment *when,
                           double from, double to, lmn_error *error)
 {
-    proposal   p = {.job = {.scene = scene, .when = *when, .size = 1},
-                    .out = out,
-                    .reasons = reasons,
-                    .from = from,
-                    .to = to,
-                    .now = when->seconds};
-    mover     *movers = NULL;
-    size_t     count = 0;
-    lmn_status status = find_movers(&movers, &count, &p, error);
+    depict_poses poses = {.count = 0};
+    proposal     p = {.job = {.scene = scene, .when = *when, .poses = &poses, .size = 1},
+                      .out = out,
+                      .reasons = reasons,
+                      .from = from,
+                      .to = to,
+                      .now = when->seconds};
+    mover       *movers = NULL;
+    size_t       count = 0;
+    lmn_status   status = find_movers(&movers, &count, &p, error);
     if (reasons)
         *reasons = json_array();
     if (status == LMN_OK)
@@ -301,5 +302,6 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
             told++;
         }
     mem_free(movers);
+    depict_poses_release(&poses);
     return status == LMN_OK ? work_check(error) : status;
 }

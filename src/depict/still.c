@@ -163,8 +163,7 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                             const shape_change *change, lmn_error *error)
 {
     const still_values *v = e->values;
-    pose                p;
-    moment              when = j->when;
+    const pose         *p = NULL;
     const double        apart = fmax(e->to - e->now, e->now - e->from);
     const double        fade = apart > 0 ? (double)v->fade * (0.4 + 0.6 * fabs(seconds - e->now) / apart) : 0;
     const bool          is_now = fabs(seconds - e->now) < 1e-9;
@@ -174,8 +173,7 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                  : seconds < e->now ? GLYPH_PAST
                                                     : GLYPH_FUTURE,
                                  {0}};
-    when.seconds = seconds;
-    lmn_status status = pose_create(&p, j->scene, &when, error);
+    lmn_status          status = depict_pose(&p, j, seconds, error);
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
         const int32_t mesh_index = n->mesh;
@@ -185,10 +183,9 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
             const primitive *from = &j->scene->meshes[mesh_index].primitives[k / draws];
             label.sketchy = v->sketchy;
             label.tint = paler(j->scene, from, v, is_now ? 0 : fade);
-            status = put_primitive(j, &p, i, k % draws, from, change, &label, error);
+            status = put_primitive(j, p, i, k % draws, from, change, &label, error);
         }
     }
-    pose_release(&p);
     return status;
 }
 

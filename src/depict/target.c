@@ -35,15 +35,13 @@ lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lm
     const lmn_scene *s = j->scene;
     box3             box = box3_empty();
     int32_t          carrier = node;
-    mat4            *worlds = scene_world_matrices(s, NULL);
+    const mat4      *worlds = depict_worlds_at_rest(j);
     memset(out, 0, sizeof *out);
     out->node = node;
     out->part_count = s->part_count;
     out->parts = mem_calloc(s->part_count + 1, sizeof *out->parts);
-    if (!out->parts || !worlds) {
-        mem_free(worlds);
+    if (!out->parts || !worlds)
         return error_memory(error);
-    }
     for (size_t i = 0; i < s->part_count; i++) {
         int32_t own = s->parts[i].node;
         out->parts[i] = is_below(s, own, node);
@@ -64,7 +62,6 @@ lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lm
     out->radius = box3_is_empty(box) ? j->size * 0.02 : box3_diagonal(box) / (2 * 1.7320508);
     if (!(out->radius > 0))
         out->radius = j->size * 0.02;
-    mem_free(worlds);
     return way_open(&out->way, s, carrier, &j->when, error);
 }
 
@@ -99,17 +96,14 @@ static bool put_part(vec3 **out, size_t *count, size_t *capacity, const pose *p,
 lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const depict_target *t, double seconds,
                            lmn_error *error)
 {
-    pose   p;
-    moment when = j->when;
-    size_t capacity = 0;
+    const pose *p = NULL;
+    size_t      capacity = 0;
     *out = NULL;
     *count = 0;
-    when.seconds = seconds;
-    lmn_status status = pose_create(&p, j->scene, &when, error);
+    lmn_status status = depict_pose(&p, j, seconds, error);
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++)
-        if (t->parts[i] && !put_part(out, count, &capacity, &p, i))
+        if (t->parts[i] && !put_part(out, count, &capacity, p, i))
             status = error_memory(error);
-    pose_release(&p);
     if (status != LMN_OK) {
         mem_free(*out);
         *out = NULL;

@@ -236,7 +236,8 @@ static void impacts_are_found_where_they_are(void **state)
 {
     (void)state;
     lmn_scene    *scene = ball_scene("impact.glb", true);
-    depict_job    job = {.scene = scene, .size = 10};
+    depict_poses  poses = {.count = 0};
+    depict_job    job = {.scene = scene, .poses = &poses, .size = 10};
     lmn_error     error;
     depict_target t;
     depict_impact found[4];
@@ -252,6 +253,7 @@ static void impacts_are_found_where_they_are(void **state)
     assert_near(contact[0], forward * contact_time(), 1e-4);
     assert_near(contact[1], 0, 1e-4);
     target_release(&t);
+    depict_poses_release(&poses);
     lmn_scene_destroy(&scene);
 }
 
