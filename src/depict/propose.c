@@ -255,25 +255,83 @@ static void tell_way(const proposal *p, const mover *m, double ways)
     propose(p, m, "motion", "it moves now; radii", ways);
 }
 
-static void tell(const proposal *p, const mover *m)
+/* Of what stays where it is, the limb that goes farthest about now; NONE: none goes far. */
+static lmn_status find_limb(int32_t *out, double *length, const proposal *p, const mover *m, double from, double to,
+                            lmn_error *error)
 {
+    enum { STEPS = 16 };
+    const lmn_scene *s = p->job.scene;
+    bool            *moved = find_moved(s, &p->job.when);
+    lmn_status       status = moved ? LMN_OK : error_memory(error);
+    *out = NONE;
+    *length = 0.5 * m->radius;
+    for (size_t i = 0; i < s->node_count && status == LMN_OK && to > from; i++) {
+        way          w;
+        const double local[3] = {0, 0, 0};
+        double       last[3], at[3], gone = 0;
+        if (!moved[i])
+            continue;
+        status = way_open(&w, s, (int32_t)i, &p->job.when, error);
+        if (status == LMN_OK)
+            way_point(&w, local, from, last);
+        for (int k = 1; k <= STEPS && status == LMN_OK; k++) {
+            way_point(&w, local, from + (to - from) * k / STEPS, at);
+            gone += vector3_distance(last, at);
+            vector3_copy(last, at);
+        }
+        way_release(&w);
+        if (status == LMN_OK && gone > *length) {
+            *length = gone;
+            *out = (int32_t)i;
+        }
+    }
+    mem_free(moved);
+    return status;
+}
+
+/* What has limbs and stays: as it is now, and the way of the limb that goes farthest. */
+static lmn_status tell_figure(const proposal *p, const mover *m, double ways, lmn_error *error)
+{
+    const double around = fmin(0.4, (p->to - p->from) / 4), from = fmax(p->now - around, p->from),
+                 to = fmin(p->now + around, p->to);
+    int32_t limb;
+    double  length;
+    set_number(propose(p, m, "still", "its limbs move, it does not", ways), "count", 1);
+    lmn_status status = find_limb(&limb, &length, p, m, from, to, error);
+    if (status != LMN_OK || limb == NONE)
+        return status;
+    mover       other = {.node = limb};
+    expression *e = propose(p, &other, "path", "of all limbs it goes farthest now; units", length);
+    if (e) {
+        e->from = from;
+        e->to = to;
+        set_number(e, "width", 0.8);
+        set_number(e, "short_of", 0);
+    }
+    return LMN_OK;
+}
+
+static lmn_status tell(const proposal *p, const mover *m, lmn_error *error)
+{
+    lmn_status   status = LMN_OK;
     const bool   on_the_spot = m->origin < 0.1 * m->length || m->length <= m->radius;
     const double ways = m->radius > 0 ? m->length / m->radius : 0;
     if (m->camera && ways > 0) {
         propose(p, m, "camera-path", "a camera moves; units", m->length);
-        return;
+        return LMN_OK;
     }
     const bool turns = !m->figure && on_the_spot && m->turned > 0.35;
     if (ways > 1 && !turns)
         tell_way(p, m, ways);
     else if (m->figure)
-        set_number(propose(p, m, "still", "its limbs move, it does not", ways), "count", 1);
+        status = tell_figure(p, m, ways, error);
     if (m->impacts && !m->figure && !turns)
         propose(p, m, "collision", "its velocity changes at once; times", (double)m->impacts);
     if (turns)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
     if (m->scaled > 1.15)
         propose(p, m, m->grows >= 1 ? "expand" : "collapse", "its size changes; largest by smallest", m->scaled);
+    return status;
 }
 
 lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scene *scene, const moment *when,
@@ -298,7 +356,7 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
     size_t told = 0;
     for (size_t i = 0; i < count && told < MOVERS_TOLD && status == LMN_OK; i++)
         if (!movers[i].grouped) {
-            tell(&p, &movers[i]);
+            status = tell(&p, &movers[i], error);
             told++;
         }
     mem_free(movers);

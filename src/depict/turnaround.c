@@ -30,21 +30,27 @@ typedef struct bend {
     double radius;
 } bend;
 
-/* Around the axis, level with the target's middle, outside all of it. It begins where the middle does, if that goes
+/* Around the axis, at the end of the target that the viewer sees, or level with its middle where the axis lies across
+ * the line of sight; outside all of it. It begins where the middle does, if that goes
  * around, else so that its own middle faces the viewer. */
 static void bend_place(bend *b, const depict_job *j, const expression *e, const depict_target *t, const turning *turn,
                        const vec3 *vertices, size_t count)
 {
-    double centre[3], off[3], begin[3], far = 0;
+    double centre[3], off[3], begin[3], to_eye[3], far = 0, near = 0;
     way_point(&t->way, t->centre, fmin(fmax(e->now, e->from), e->to), centre);
     vector3_add(off, centre, -1, turn->pivot);
     vector3_add(b->middle, turn->pivot, vector3_dot(off, turn->axis), turn->axis);
+    depict_to_eye(j, b->middle, to_eye);
+    const double facing = vector3_dot(to_eye, turn->axis);
     for (size_t i = 0; i < count; i++) {
         double p[3] = {(double)vertices[i].x, (double)vertices[i].y, (double)vertices[i].z};
         vector3_add(p, p, -1, b->middle);
+        near = fmax(near, facing * vector3_dot(p, turn->axis));
         vector3_add(p, p, -vector3_dot(p, turn->axis), turn->axis);
         far = fmax(far, vector3_length(p));
     }
+    if (fabs(facing) > 0.3)
+        vector3_add(b->middle, b->middle, near / facing + copysign(0.15 * t->radius, facing), turn->axis);
     const turn_values *v = e->values;
     b->radius = (double)v->radius * (far > 0 ? far : t->radius);
     way_point(&t->way, t->centre, e->from, begin);

@@ -57,6 +57,38 @@ static void sum_turns(const way *parent, const way *whole, double from, double t
     }
 }
 
+/* The piece of an interval around `now` in which it does not turn back. */
+static void narrow_to_one_sense(const way *parent, const way *whole, double *from, double *to, double now)
+{
+    enum { STEPS = 256 };
+    const double begin = *from, span = (*to - *from) / STEPS;
+    double       turns[STEPS][3], sense[3];
+    mat4         last = own_turn(parent, whole, begin);
+    int          here = (int)fmin(fmax((now - begin) / span, 0), STEPS - 1), nearest = -1;
+    for (int i = 0; i < STEPS; i++) {
+        mat4 next = own_turn(parent, whole, begin + span * (i + 1));
+        small_turn(&last, &next, turns[i]);
+        last = next;
+    }
+    /* What rests now will go on, or else has been turned. */
+    for (int i = 0; i < STEPS; i++) {
+        int away = i >= here ? i - here : 2 * (here - i);
+        if (vector3_length(turns[i]) > 1e-6 &&
+            (nearest < 0 || away < (nearest >= here ? nearest - here : 2 * (here - nearest))))
+            nearest = i;
+    }
+    if (nearest < 0)
+        return;
+    vector3_copy(sense, turns[nearest]);
+    int first = nearest, end = nearest + 1;
+    while (first > 0 && vector3_dot(turns[first - 1], sense) >= 0)
+        first--;
+    while (end < STEPS && vector3_dot(turns[end], sense) >= 0)
+        end++;
+    *from = begin + span * first;
+    *to = begin + span * end;
+}
+
 void turning_find(turning *out, const way *w, double from, double to, double now)
 {
     way whole = *w, parent = *w;
@@ -66,6 +98,8 @@ void turning_find(turning *out, const way *w, double from, double to, double now
     if (whole.count == 0)
         return;
     parent.count = whole.count - 1;
+    if (to > from)
+        narrow_to_one_sense(&parent, &whole, &from, &to, now);
     const double settled = fmin(fmax(now, from), to);
     double       all[3], past[3];
     sum_turns(&parent, &whole, from, settled, past);

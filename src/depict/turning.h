@@ -10,7 +10,8 @@ typedef struct turning {
     double until;             /* the part of it up to `now` */
 } turning;
 
-/* What the last rotation on a way does between two times; angle 0: nothing turns it. */
+/* What the last rotation on a way does between two times, as far as it does not turn back around `now`; angle 0:
+ * nothing turns it. */
 void turning_find(turning *out, const way *w, double from, double to, double now);
 
 #endif
