@@ -89,11 +89,15 @@ colour depict_tint(glyph_tense when, colour wanted)
 /* --- the way of a thing ------------------------------------------------------------------------------------------- */
 
 typedef struct path_values {
-    float  width, head, tail, dash, gap, offset, short_of;
-    colour colour;
+    int32_t pieces;
+    float   width, head, tail, dash, gap, offset, short_of;
+    colour  colour;
 } path_values;
 
 static const param path_params[] = {
+    PARAM_INT_ROW(
+        path_values, pieces, .def = 1, .min = 1, .max = 64, .soft_max = 12, .unit = UNIT_COUNT,
+        .doc = "Arrows one behind the other, each for the same time, so that they are longer where it is faster."),
     PARAM_FLOAT_ROW(path_values, width, .def = 0.25, .min = 0.001, .max = 10, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "Breadth of the arrow, fraction of its target's radius."),
     PARAM_FLOAT_ROW(path_values, head, .def = 3, .min = 0, .max = 20, .soft_max = 8,
@@ -133,7 +137,7 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
                                    (double)v->gap * width,
                                    when == GLYPH_FUTURE ? 1 : (double)v->tail,
                                    has_head ? (double)v->head : 0,
-                                   has_head ? (double)v->short_of * t->radius : 0};
+                                   has_head && v->pieces == 1 ? (double)v->short_of * t->radius : 0};
         glyph_put_arrow(&m, j, (const double(*)[3])points, way.count, &style);
         status = glyph_put(j, &m, &(glyph_label){"arrow", e->target, when, depict_tint(when, v->colour)}, error);
     }
@@ -143,15 +147,31 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     return status;
 }
 
+/* Split, each piece is an arrow of its own. Nienhaus 2005, section 7.10, figure 7-11. */
+static lmn_status put_pieces(depict_job *j, const expression *e, const depict_target *t, double from, double to,
+                             glyph_tense when, bool is_last, lmn_error *error)
+{
+    const path_values *v = e->values;
+    const double       whole = (e->to - e->from) / v->pieces;
+    lmn_status         status = LMN_OK;
+    for (int i = 0; i < v->pieces && status == LMN_OK; i++) {
+        double begin = fmax(from, e->from + i * whole),
+               end = fmin(to, i + 1 == v->pieces ? e->to : e->from + (i + 1) * whole);
+        if (end - begin > 1e-9 * (e->to - e->from))
+            status = put_way(j, e, t, begin, end, when, v->pieces > 1 || is_last, error);
+    }
+    return status;
+}
+
 static lmn_status path_depict(depict_job *j, const expression *e, lmn_error *error)
 {
     depict_target t;
     lmn_status    status = target_open(&t, j, e->target, error);
     bool          has_future = e->to > e->now;
     if (status == LMN_OK && e->now > e->from)
-        status = put_way(j, e, &t, e->from, fmin(e->now, e->to), GLYPH_PAST, !has_future, error);
+        status = put_pieces(j, e, &t, e->from, fmin(e->now, e->to), GLYPH_PAST, !has_future, error);
     if (status == LMN_OK && has_future)
-        status = put_way(j, e, &t, fmax(e->now, e->from), e->to, GLYPH_FUTURE, true, error);
+        status = put_pieces(j, e, &t, fmax(e->now, e->from), e->to, GLYPH_FUTURE, true, error);
     target_release(&t);
     return status;
 }

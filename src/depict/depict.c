@@ -206,8 +206,9 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
                   lmn_error *error)
 {
     depict_poses poses = {.count = 0};
-    depict_job   j = {.scene = scene, .poses = &poses, .seed = desc->seed, .warnings = warnings};
-    lmn_status   status = depict_clear(scene, error);
+    depict_job   j = {
+          .scene = scene, .poses = &poses, .seed = desc->seed, .warnings = warnings, .expressions = expressions};
+    lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
         status = time_moment(&j.when, scene, desc, warnings, error);
     if (status == LMN_OK)

@@ -21,16 +21,17 @@ typedef struct depict_poses {
 } depict_poses;
 
 typedef struct depict_job {
-    const lmn_scene *scene; /* without glyphs */
-    moment           when;
-    view_camera      camera;
-    double           size; /* of the scene: the diagonal of its box */
-    box3             box;  /* of all that it has, wherever it goes */
-    uint32_t         seed;
-    warnings        *warnings;
-    depict_poses    *poses;  /* kept; lent */
-    struct glyph    *glyphs; /* made so far; owned */
-    size_t           glyph_count, glyph_capacity;
+    const lmn_scene       *scene; /* without glyphs */
+    moment                 when;
+    view_camera            camera;
+    double                 size; /* of the scene: the diagonal of its box */
+    box3                   box;  /* of all that it has, wherever it goes */
+    uint32_t               seed;
+    warnings              *warnings;
+    depict_poses          *poses;       /* kept; lent */
+    const expression_list *expressions; /* all that are told; lent, NULL: none */
+    struct glyph          *glyphs;      /* made so far; owned */
+    size_t                 glyph_count, glyph_capacity;
 } depict_job;
 
 /* Direction from a position to the viewer, unit. */

@@ -100,8 +100,33 @@ static void put_lines(glyph_mesh *m, const depict_job *j, const expression *e, c
         }
 }
 
-static lmn_status motion_depict(depict_job *j, const expression *e, lmn_error *error)
+/* Joined with what tells of an impact of the same target, lines end where the last impact was: the star stands there.
+ * Nienhaus 2005, section 7.10. */
+static lmn_status find_begin(double *out, const depict_job *j, const expression *e, const depict_target *t,
+                             lmn_error *error)
 {
+    enum { IMPACTS = 16 };
+    depict_impact impacts[IMPACTS];
+    size_t        count = 0;
+    lmn_status    status = LMN_OK;
+    *out = e->from;
+    for (size_t i = 0; j->expressions && i < j->expressions->count && status == LMN_OK; i++) {
+        const expression *other = &j->expressions->items[i];
+        const double      from = fmax(other->from, e->from), to = fmin(other->to, e->to);
+        if (strcmp(other->row->characteristic, "collision") != 0 || other->target != e->target || !(to > from))
+            continue;
+        status = target_impacts(impacts, IMPACTS, &count, t, from, to, error);
+        for (size_t k = 0; k < count && status == LMN_OK; k++)
+            if (impacts[k].time < e->now)
+                *out = fmax(*out, impacts[k].time);
+    }
+    return status;
+}
+
+static lmn_status motion_depict(depict_job *j, const expression *wanted, lmn_error *error)
+{
+    expression                joined = *wanted;
+    const expression         *e = &joined;
     const motion_line_values *v = e->values;
     depict_target             t;
     glyph_mesh                m = {0};
@@ -112,6 +137,8 @@ static lmn_status motion_depict(depict_job *j, const expression *e, lmn_error *e
     lmn_status status = target_open(&t, j, e->target, error);
     if (status == LMN_OK && !rear)
         status = error_memory(error);
+    if (status == LMN_OK)
+        status = find_begin(&joined.from, j, wanted, &t, error);
     if (status == LMN_OK)
         status = target_vertices(&vertices, &count, j, &t, e->now, error);
     if (status == LMN_OK && count > 0) {

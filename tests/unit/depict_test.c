@@ -358,6 +358,64 @@ static void ghosts_are_where_they_were(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* Split at equal times: of what falls from rest the pieces grow by odd numbers. */
+static void split_ways_grow_with_speed(void **state)
+{
+    (void)state;
+    enum { PIECES = 4 };
+    lmn_scene *scene = ball_scene("split.glb", true);
+    char       text[256];
+    double     last = 0;
+    snprintf(text, sizeof text,
+             "[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 0, \"to\": %.9f, \"now\": 2, \"pieces\": %d}]",
+             contact_time(), PIECES);
+    tell_or_fail(scene, text, 2, NULL);
+    for (size_t i = 0; i < PIECES; i++) {
+        const primitive *p = glyph_at(scene, "arrow", "past", i);
+        double           low = INFINITY, high = -INFINITY, v[3], from[3], to[3];
+        assert_non_null(p);
+        for (uint32_t k = 0; k < p->vertex_count; k++) {
+            position(p, k, v);
+            low = fmin(low, v[1]);
+            high = fmax(high, v[1]);
+        }
+        ball_at(contact_time() * (double)i / PIECES, from);
+        ball_at(contact_time() * (double)(i + 1) / PIECES, to);
+        assert_near(low, to[1], 0.25 * radius);
+        assert_near(high, from[1], 0.25 * radius);
+        assert_true(high - low > last);
+        last = high - low;
+    }
+    assert_null(glyph_at(scene, "arrow", "past", PIECES));
+    lmn_scene_destroy(&scene);
+}
+
+/* Joined with the star where it hit the ground, lines begin there. */
+static void lines_end_at_the_impact_that_is_told(void **state)
+{
+    (void)state;
+    lmn_scene   *scene = ball_scene("joined.glb", true);
+    const double now = contact_time() + 0.15;
+    double       low[2] = {INFINITY, INFINITY}, p[3];
+    for (int joined = 0; joined < 2; joined++) {
+        tell_or_fail(scene,
+                     joined ? "[{\"target\": \"ball\", \"depict\": \"motion\", \"seconds\": 0.6}, {\"target\": "
+                              "\"ball\", \"depict\": \"collision\"}]"
+                            : "[{\"target\": \"ball\", \"depict\": \"motion\", \"seconds\": 0.6}]",
+                     now, NULL);
+        const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
+        assert_non_null(lines);
+        for (uint32_t i = 0; i < lines->vertex_count; i++) {
+            position(lines, i, p);
+            low[joined] = fmin(low[joined], p[0]);
+        }
+    }
+    /* Of the fall nothing is left: its middle came from farther back. */
+    assert_true(low[0] < forward * (now - 0.4));
+    assert_true(low[1] > forward * contact_time() - 1.5 * radius);
+    lmn_scene_destroy(&scene);
+}
+
 static void lines_trail_behind(void **state)
 {
     (void)state;
@@ -554,6 +612,8 @@ int main(void)
         cmocka_unit_test(impacts_are_found_where_they_are),
         cmocka_unit_test(arrows_follow_the_way),
         cmocka_unit_test(ghosts_are_where_they_were),
+        cmocka_unit_test(split_ways_grow_with_speed),
+        cmocka_unit_test(lines_end_at_the_impact_that_is_told),
         cmocka_unit_test(lines_trail_behind),
         cmocka_unit_test(targets_are_hidden_for_their_ghosts),
         cmocka_unit_test(every_option_changes_the_glyphs),
