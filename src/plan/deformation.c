@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "motion/motion.h"
+#include "plan/time.h"
 
 static part_deformation values_of(const rule *r)
 {
@@ -22,15 +23,6 @@ static part_deformation values_of(const rule *r)
                               .lag = (double)v->lag,
                               .comb = (double)v->comb,
                               .teeth = v->comb_teeth};
-}
-
-/* The last rule that selects a part, as a plan shares them. */
-static const rule *rule_of(const lmn_look *look, const lmn_scene *scene, size_t part)
-{
-    for (size_t r = look->rule_count; r-- > 0;)
-        if (!look->rules[r].selector || selector_matches(look->rules[r].selector, scene, part))
-            return &look->rules[r];
-    return NULL;
 }
 
 static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
@@ -97,7 +89,7 @@ lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scen
     if (!made.parts)
         return error_memory(error);
     for (size_t i = 0; i < made.part_count; i++)
-        made.parts[i] = values_of(rule_of(look, scene, i));
+        made.parts[i] = values_of(time_rule(look, scene, i));
     made.hash = hash_of(&made);
     if (kept->parts && kept->hash == made.hash && kept->part_count == made.part_count) {
         pose_deformation_release(&made);
