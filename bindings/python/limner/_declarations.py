@@ -188,6 +188,25 @@ class lmn_node_desc(Structure):
     ]
 
 
+class lmn_depict_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("expressions", c_char_p),
+        ("interval_given", c_bool),
+        ("from_s", c_double),
+        ("to_s", c_double),
+    ]
+
+
+class lmn_depiction_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("semantics", c_char_p),
+        ("doc", c_char_p),
+        ("param_count", c_size_t),
+    ]
+
+
 class lmn_renderer_desc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -353,6 +372,15 @@ class lmn_param_info(Structure):
         ("is_file", c_bool),
         ("is_selector", c_bool),
         ("compiles", c_bool),
+    ]
+
+
+class lmn_motion_way_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("technique", c_char_p),
+        ("poses", c_bool),
     ]
 
 
@@ -619,6 +647,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_camera_desc: lambda: lmn_camera_desc(sizeof(lmn_camera_desc), None, False, 30, 1),
     lmn_light_desc: lambda: lmn_light_desc(sizeof(lmn_light_desc), None, LMN_LIGHT_DIRECTIONAL, (1, 1, 1,), 1, 0, 45),
     lmn_node_desc: lambda: lmn_node_desc(sizeof(lmn_node_desc), None, 0, 0, 0, 0, 0, ( 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 ,)),
+    lmn_depict_desc: lambda: lmn_depict_desc(sizeof(lmn_depict_desc), None, False, 0, 0),
     lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
     lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), (0,), False, False, False),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
@@ -654,6 +683,10 @@ FUNCTIONS = {
     "lmn_scene_set_up": (c_int, [c_void_p, c_int, POINTER(lmn_error)]),
     "lmn_scene_begin_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_scene_end_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
+    "lmn_depict": (c_int, [c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_depict_desc), POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_depict_clear": (c_int, [c_void_p, POINTER(lmn_error)]),
+    "lmn_depiction_at": (c_bool, [c_size_t, POINTER(lmn_depiction_info)]),
+    "lmn_depiction_reference": (c_void_p, []),
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
     "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),
     "lmn_renderer_json": (c_void_p, [c_void_p]),
@@ -710,6 +743,9 @@ FUNCTIONS = {
     "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
     "lmn_param_at": (c_bool, [c_char_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
     "lmn_param_find": (c_int, [c_char_p, c_char_p, c_char_p, POINTER(lmn_param_info), POINTER(lmn_error)]),
+    "lmn_motion_way_at": (c_bool, [c_size_t, POINTER(lmn_motion_way_info)]),
+    "lmn_look_set_motion_way": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_motion_way": (c_char_p, [c_void_p]),
     "lmn_look_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_look_copy": (c_int, [POINTER(c_void_p), c_void_p, POINTER(lmn_error)]),
     "lmn_look_set_name": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
