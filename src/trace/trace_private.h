@@ -22,8 +22,10 @@ bool page_mask_open(page_mask *m, const stroke_camera *c); /* false: out of memo
 void page_mask_close(page_mask *m);
 void page_mask_add(page_mask *m, const double *a, const double *b, const double *c);
 bool page_mask_has(const page_mask *m, double x, double y);
-/* All that parts show in a pose, the whole of each triangle before the near plane. False: out of memory. */
-bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera);
+/* All that parts show in a pose, the whole of each triangle before the near plane; with `before` (may be NULL), also on
+ * their straight ways from that. False: out of memory. */
+bool page_mask_add_parts(page_mask *m, const pose *p, const pose *before, const bool *parts,
+                         const stroke_camera *camera);
 
 /* --- bodies.c: what moves ----------------------------------------------------------------------------------- */
 
