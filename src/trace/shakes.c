@@ -103,9 +103,7 @@ static void measure(const trace_job *j, const trace_body *b, const mat4 *moved, 
         s->half[k] = (high[k] - low[k]) / 2;
 }
 
-/* How what moves stood at a fraction of the exposure ago, from how it stands now. Of what moves by its joints nothing
- * is known, and all of it swings alike. */
-static lmn_status moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error)
+lmn_status body_moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error)
 {
     pose earlier = {.scene = NULL};
     *out = mat4_identity();
@@ -233,7 +231,7 @@ static lmn_status shake_body(trace_job *j, size_t number, lmn_error *error)
     ways_release(&w);
     if (!shakes)
         return LMN_OK;
-    status = moved_since(&moved, j, b, ago, error);
+    status = body_moved_since(&moved, j, b, ago, error);
     if (status != LMN_OK)
         return status;
     measure(j, b, &moved, &s);

@@ -198,6 +198,9 @@ lmn_status heights_find(trace_heights *out, trace_job *j, lmn_error *error);
 void       heights_release(trace_heights *h);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 lmn_status shakes_put(trace_job *j, lmn_error *error);
+/* How what moves stood at a fraction of the exposure ago, from how it stands now: in the world. Of what moves by its
+ * joints nothing is known, and it is the identity. Errors: LMN_MEMORY, LMN_FORMAT. */
+lmn_status body_moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error);
 /* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
 lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, lmn_error *error);
 /* The outline of all that is covered during the exposure, line by line. */

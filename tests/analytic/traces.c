@@ -336,6 +336,58 @@ static void flow_lines(void)
     close_scene(&t);
 }
 
+/* Of what turns they are arcs around its centre that run ahead of it, or spirals to one point ahead. */
+static void flow_lines_turn(void)
+{
+    moving_scene m;
+    const double half[3] = {0.7, 0.25, 0.1}, turn = 1.0;
+    traced       t;
+    moving_scene_begin(&m);
+    int hinge = moving_scene_joint(&m, 0, 0, 0);
+    moving_scene_put_in(&m, moving_scene_box(&m, 2.2, 0, 0, half, grey), hinge);
+    moving_scene_keys(&m, hinge, "rotation", 2, (double[]){0, 1},
+                      (double[]){0, 0, -sin(turn / 2), cos(turn / 2), 0, 0, 0, 1});
+    const char *path = check_path("flow-turns.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true)) {
+        t.values.flow = 30;
+        t.values.flow_length = 0.4f;
+        for (int way = TRACES_PARALLEL; way <= TRACES_CONVERGING; way++) {
+            double off = 0, apart[2] = {0, 0};
+            size_t lines = 0, ahead = 0;
+            t.values.flow_way = way;
+            check_that("77m", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon *r = &t.ribbons.ribbons[i];
+                double        radius[2] = {INFINITY, 0}, angle = 0, ends[2] = {0, 0};
+                if (!((uint32_t)r->id & 0x80000000u))
+                    continue;
+                for (uint32_t k = 0; k < r->count; k++) {
+                    const ribbon_point *p = &t.ribbons.points[r->first + k];
+                    double              x = (double)p->x - PAGE / 2.0, y = PAGE / 2.0 - (double)p->y, now = hypot(x, y);
+                    radius[0] = fmin(radius[0], now);
+                    radius[1] = fmax(radius[1], now);
+                    ends[k == 0 ? 0 : 1] = now / UNIT - 2.2;
+                    angle = atan2(y, x);
+                }
+                lines++;
+                ahead += angle > 0.3;
+                off = fmax(off, radius[1] - radius[0]);
+                for (int k = 0; k < 2 && angle > 0.3; k++)
+                    apart[k] = fmax(apart[k], fabs(ends[k]));
+            }
+            check_at_least("77m", (double)lines, 30, "lines around, those that the box parts counted twice");
+            check_at_least("77m", (double)ahead, 12, "lines that end ahead of it");
+            if (way == TRACES_PARALLEL)
+                check_at_most("77m", off, 0.1, "units by which they leave their circles");
+            else
+                check_at_most("77m", apart[1] / apart[0], 0.45,
+                              "of their distance from one circle is left where they end");
+        }
+    }
+    close_scene(&t);
+}
+
 /* Row 20: rays around what comes nearer begin on a circle, at equal angles. */
 static void lines_on_circles(void)
 {
@@ -962,6 +1014,7 @@ int main(int argc, char **argv)
         {"arcs", rods_leave_arcs},
         {"contours", contours_of_the_past},
         {"flow", flow_lines},
+        {"flow turns", flow_lines_turn},
         {"circle", lines_on_circles},
         {"pattern", contours_have_patterns},
         {"turn", lines_end_where_it_turns},
