@@ -50,6 +50,15 @@ double time_exposure(const lmn_look *look)
     return kind_motion.common[0].def;
 }
 
+void time_warn_of_rest(const lmn_look *look, const pose *p, warnings *warnings)
+{
+    bool tells = false;
+    for (size_t i = 0; i < look->rule_count; i++)
+        tells = tells || look->rules[i].use_counts[KIND_MOTION];
+    if (tells && !p->at_rest)
+        warnings_add(warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
+}
+
 const rule *time_rule(const lmn_look *look, const lmn_scene *scene, size_t part)
 {
     for (size_t r = look->rule_count; r-- > 0;)

@@ -19,6 +19,9 @@ double time_exposure(const lmn_look *look);
 /* The last rule that selects a part, as a plan shares them; NULL: none does. */
 const rule *time_rule(const lmn_look *look, const lmn_scene *scene, size_t part);
 
+/* Says that rules tell of motion where there is none: once, however many they are. */
+void time_warn_of_rest(const lmn_look *look, const pose *p, warnings *warnings);
+
 /* Boxes of parts over the whole of their clips, kept from drawing to drawing. Zero-initialise. */
 typedef struct swept_boxes {
     uint64_t revision; /* of the scene */

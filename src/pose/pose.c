@@ -125,7 +125,7 @@ static bool set_boxes(pose *p, const animated_state *moved)
 static bool part_is_late(const pose *p, size_t part_index)
 {
     const part_deformation *how = &p->when.deformation->parts[part_index];
-    return p->scene->nodes[p->scene->parts[part_index].node].mesh != NONE && how->lag + how->comb > 0;
+    return p->scene->nodes[p->scene->parts[part_index].node].mesh != NONE && part_deformation_bends(how);
 }
 
 /* Deforms what has been posed by how it moves. */
@@ -363,10 +363,11 @@ void pose_vertices(const part_pose *pose, const primitive *p, const vec3 *normal
 void pose_warn_of_rigid(const pose *p, warnings *warnings)
 {
     if (p->when.deformation && p->when.clip_count && !p->deformed_count)
-        warnings_add(warnings, WARNING_UNUSED,
-                     "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag and "
-                     "comb are set for moves from its place",
-                     p->when.seconds);
+        warnings_add(
+            warnings, WARNING_UNUSED,
+            "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag, drag and "
+            "comb are set for moves from its place",
+            p->when.seconds);
     if (p->coarse_count)
         warnings_add(
             warnings, WARNING_REDUCED,
