@@ -53,14 +53,7 @@ static const option options[] = {
     {"look", 'l', OPTION_TEXT, AT(look), "NAME|FILE", "Look: one of `limner looks`, or a file. Default: edges."},
     {"set", 's', OPTION_LIST, AT(sets), "KIND.PARAM=VALUE",
      "Set a parameter of the look, for all rules or with RULE:KIND.PARAM for one. May be repeated."},
-    {"motion", 0, OPTION_TEXT, AT(motion), "WAY",
-     "Tell that the model moves, in any look: speed-lines, ghosts (contours where it has been), echoes (their trailing "
-     "side), comic (lines and contours), manga (lines, also ahead to one point), plate and chrono (the model at "
-     "several "
-     "times on one plate), vibration (arcs beside what shakes), squash (stretched along its way and flattened where it "
-     "is stopped), slit (as by a slit shutter), lean (forward by its speed, back by its acceleration), or a technique "
-     "of "
-     "`limner looks`, such as blur or streaks. Needs a time."},
+    {"motion", 0, OPTION_TEXT, AT(motion), "WAY", .write_doc = write_motion_doc},
     {"poses", 0, OPTION_TEXT, AT(poses), "N|auto",
      "Several poses in one picture, at the moments that tell most of the motion up to --time (default: the end of the "
      "clip): where things turn back, rebound or stop. auto: as many as tell something. Laid over each other as on one "

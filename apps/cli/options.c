@@ -345,7 +345,7 @@ static void print_option(const option *o)
         printf("%s\n%*s", left, COLUMN, "");
     else
         printf("%-*s", COLUMN, left);
-    char written[256];
+    char written[2048];
     if (o->write_doc)
         o->write_doc(written, sizeof written);
     print_doc(o->write_doc ? written : o->doc);

@@ -7,32 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ways to tell of motion that have a name of their own: what they set, before --set. */
-typedef struct motion_way {
-    const char *name;
-    const char *sets[6];
-} motion_way;
-static const motion_way motion_ways[] = {
-    {"speed-lines", {"motion.technique=traces", "motion.exposure=0.3"}},
-    {"ghosts", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=5"}},
-    {"echoes",
-     {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.contours=8", "motion.trailing=true"}},
-    {"plate",
-     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=6", "motion.weights=plate",
-      "motion.decay=0.8"}},
-    {"comic", {"motion.technique=traces", "motion.exposure=0.3", "motion.contours=2", "motion.ends=wedges"}},
-    {"manga",
-     {"motion.technique=traces", "motion.exposure=0.3", "motion.lines=48", "motion.ends=wedges", "motion.flow=70",
-      "motion.flow_way=converging"}},
-    {"chrono",
-     {"motion.technique=accumulate", "motion.exposure=1", "motion.times=8", "motion.weights=plate",
-      "motion.decay=0.85"}},
-    {"vibration", {"motion.technique=traces", "motion.exposure=0.5", "motion.lines=0", "motion.vibration=3"}},
-    {"squash", {"motion.technique=deform", "motion.stretch=0.5", "motion.squash=0.5"}},
-    {"slit", {"motion.technique=deform", "motion.slit=0.1", "motion.pan=0.5"}},
-    {"lean", {"motion.technique=deform", "motion.lean=25", "motion.inertia=20"}},
-};
-
 static int set_one(lmn_look *look, const char *assignment)
 {
     lmn_error   error = {0};
@@ -90,28 +64,13 @@ int set_all(lmn_look *look, const word_list *sets, bool has_cut)
     return status;
 }
 
-/* Of a way without a name of its own, the technique. */
-static int set_way(lmn_look *look, const char *name)
+/* The way of this name; false: it is a technique, or nothing. */
+static bool find_way(const char *name, lmn_motion_way_info *out)
 {
-    char assignment[256];
-    for (size_t i = 0; i < sizeof motion_ways / sizeof *motion_ways; i++) {
-        int status = EXIT_DONE;
-        if (strcmp(motion_ways[i].name, name) != 0)
-            continue;
-        for (size_t k = 0; k < 6 && motion_ways[i].sets[k] && status == EXIT_DONE; k++)
-            status = set_one(look, motion_ways[i].sets[k]);
-        return status;
-    }
-    snprintf(assignment, sizeof assignment, "motion.technique=%.200s", name);
-    return set_one(look, assignment);
-}
-
-static bool draws_traces(const char *way)
-{
-    for (size_t i = 0; i < sizeof motion_ways / sizeof *motion_ways; i++)
-        if (strcmp(motion_ways[i].name, way) == 0)
-            return strcmp(motion_ways[i].sets[0], "motion.technique=traces") == 0;
-    return strcmp(way, "traces") == 0;
+    for (size_t i = 0; lmn_motion_way_at(i, out); i++)
+        if (strcmp(out->name, name) == 0)
+            return true;
+    return false;
 }
 
 /* Of the whole motion up to the time that is drawn. */
@@ -140,12 +99,26 @@ static int set_poses(lmn_look *look, const char *poses, bool traces)
 
 int set_motion(lmn_look *look, const char *way, const char *poses)
 {
-    bool traces = way && draws_traces(way);
-    int  status = way ? set_way(look, way) : EXIT_DONE;
-    if (poses && way && !traces && strcmp(way, "plate") != 0 && strcmp(way, "chrono") != 0)
+    lmn_error           error = {0};
+    lmn_motion_way_info known;
+    bool                found = way && find_way(way, &known);
+    if (way && lmn_look_set_motion_way(look, way, &error) != LMN_OK)
+        return message_error(&error);
+    bool traces = way && strcmp(found ? known.technique : way, "traces") == 0;
+    if (poses && way && !traces && !(found && known.poses))
         return message_usage(
             NULL, "--poses goes with --motion plate, ghosts, echoes, comic and speed-lines, not with %.60s", way);
-    return status == EXIT_DONE && poses ? set_poses(look, poses, traces) : status;
+    return poses ? set_poses(look, poses, traces) : EXIT_DONE;
+}
+
+void write_motion_doc(char *out, size_t size)
+{
+    lmn_motion_way_info way;
+    size_t              used = (size_t)snprintf(out, size, "Tell that the model moves, in any look: ");
+    for (size_t i = 0; lmn_motion_way_at(i, &way) && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s (%s)", i ? ", " : "", way.name, way.doc);
+    if (used < size)
+        snprintf(out + used, size - used, "; or a technique of `limner looks`, such as blur or streaks. Needs a time.");
 }
 
 /* --- clips ---------------------------------------------------------------------------------------------------- */

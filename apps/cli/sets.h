@@ -11,6 +11,8 @@
 int set_all(lmn_look *look, const word_list *sets, bool has_cut);
 /* The way to tell of motion, or the technique, of --motion (NULL: none), and of --poses (NULL: none). */
 int set_motion(lmn_look *look, const char *way, const char *poses);
+/* What --motion takes. */
+void write_motion_doc(char *out, size_t size);
 /* When the clips of --clip (NULL: the first one) end, seconds; 0: there are none. */
 double clip_end(const lmn_scene *scene, const char *clips);
 

@@ -115,30 +115,51 @@ static void clip_chosen(GObject *clips, GParamSpec *pspec, gpointer user)
 
 /* --- motion ---------------------------------------------------------------------------------------------- */
 
-/* Changes the look of the whole; what it refuses stays as it was. */
-static void set_motion(timeline *t, const char *key, const char *value, const char *what)
+/* Puts a look that has been changed; what was refused stays as it was. */
+static void put_motion(timeline *t, lmn_look *look, lmn_status status, const lmn_error *error, const char *what)
 {
-    lmn_error error = {0};
-    lmn_look *look = document_copy_look(t->document, &error);
-    if (look && lmn_look_set(look, key, value, &error) == LMN_OK) {
+    if (look && status == LMN_OK) {
         document_put_look(t->document, look, what);
     } else {
-        trace_event("refused %s", error.message);
+        trace_event("refused %s", error->message);
         lmn_look_destroy(&look);
     }
+}
+
+/* Names in the order of the list behind "no motion": ways, then techniques. NULL: there are no more. */
+static const char *motion_name(guint index)
+{
+    lmn_motion_way_info way;
+    lmn_technique_info  technique;
+    guint               ways = 0;
+    while (lmn_motion_way_at(ways, &way))
+        if (ways++ == index)
+            return way.name;
+    return lmn_technique_at("motion", index - ways, &technique) ? technique.name : NULL;
+}
+
+/* What only deforms tells no more when another way is chosen. */
+static lmn_status exchange_motion(lmn_look *look, const char *name, lmn_error *error)
+{
+    const char *now = lmn_look_technique_count(look, 0, "motion") ? lmn_look_technique(look, 0, "motion", 0) : "";
+    lmn_status  status = LMN_OK;
+    if (strcmp(now, "deform") == 0)
+        status = lmn_look_set_motion_way(look, "none", error);
+    return status == LMN_OK ? lmn_look_set_motion_way(look, name, error) : status;
 }
 
 static void motion_chosen(GObject *motion, GParamSpec *pspec, gpointer user)
 {
     (void)pspec;
-    timeline          *t = user;
-    lmn_technique_info technique;
-    guint              chosen = gtk_drop_down_get_selected(GTK_DROP_DOWN(motion));
+    timeline   *t = user;
+    lmn_error   error = {0};
+    guint       chosen = gtk_drop_down_get_selected(GTK_DROP_DOWN(motion));
+    const char *name = chosen > 0 && chosen != GTK_INVALID_LIST_POSITION ? motion_name(chosen - 1) : NULL;
     if (t->follows || chosen == GTK_INVALID_LIST_POSITION)
         return;
-    bool known = chosen > 0 && lmn_technique_at("motion", chosen - 1, &technique);
     document_end_step(t->document);
-    set_motion(t, "motion.technique", known ? technique.name : "none", _("Motion"));
+    lmn_look *look = document_copy_look(t->document, &error);
+    put_motion(t, look, look ? exchange_motion(look, name ? name : "none", &error) : LMN_MEMORY, &error, _("Motion"));
 }
 
 static void exposure_changed(GtkSpinButton *exposure, gpointer user)
@@ -148,20 +169,22 @@ static void exposure_changed(GtkSpinButton *exposure, gpointer user)
     if (t->follows)
         return;
     g_ascii_formatd(text, sizeof text, "%.3f", gtk_spin_button_get_value(exposure));
-    set_motion(t, "motion.exposure", text, _("Exposure"));
+    lmn_error error = {0};
+    lmn_look *look = document_copy_look(t->document, &error);
+    put_motion(t, look, look ? lmn_look_set(look, "motion.exposure", text, &error) : LMN_MEMORY, &error, _("Exposure"));
 }
 
 /* What the first rule has; rules of a look have one exposure. */
 static void follow_motion(timeline *t)
 {
-    const lmn_look    *look = document_state(t->document)->look->look;
-    char               value[LMN_VALUE_TEXT_MAX] = "";
-    lmn_error          error = {0};
-    lmn_technique_info technique;
-    guint              chosen = 0;
-    const char *now = lmn_look_technique_count(look, 0, "motion") ? lmn_look_technique(look, 0, "motion", 0) : NULL;
-    for (guint i = 0; now && lmn_technique_at("motion", i, &technique) && !chosen; i++)
-        chosen = strcmp(technique.name, now) == 0 ? i + 1 : 0;
+    const lmn_look *look = document_state(t->document)->look->look;
+    char            value[LMN_VALUE_TEXT_MAX] = "";
+    lmn_error       error = {0};
+    guint           chosen = 0;
+    const char     *way = lmn_look_motion_way(look);
+    const char     *now = lmn_look_technique_count(look, 0, "motion") ? lmn_look_technique(look, 0, "motion", 0) : NULL;
+    for (guint i = 0; now && motion_name(i) && !chosen; i++)
+        chosen = strcmp(motion_name(i), way ? way : now) == 0 ? i + 1 : 0;
     bool has = now && lmn_look_get_text(look, 0, "motion", 0, "exposure", value, sizeof value, &error) == LMN_OK;
     t->follows = true;
     gtk_drop_down_set_selected(GTK_DROP_DOWN(t->motion), chosen);
@@ -173,11 +196,10 @@ static void follow_motion(timeline *t)
 
 static void add_motion(timeline *t)
 {
-    GtkStringList     *names = gtk_string_list_new(NULL);
-    lmn_technique_info technique;
+    GtkStringList *names = gtk_string_list_new(NULL);
     gtk_string_list_append(names, _("no motion"));
-    for (size_t i = 0; lmn_technique_at("motion", i, &technique); i++)
-        gtk_string_list_append(names, technique.name);
+    for (guint i = 0; motion_name(i); i++)
+        gtk_string_list_append(names, motion_name(i));
     t->motion = gtk_drop_down_new(G_LIST_MODEL(names), NULL);
     gtk_widget_set_tooltip_text(t->motion, _("How motion is drawn"));
     gtk_accessible_update_property(GTK_ACCESSIBLE(t->motion), GTK_ACCESSIBLE_PROPERTY_LABEL, _("Motion"), -1);

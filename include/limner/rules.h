@@ -104,6 +104,25 @@ LMN_API bool lmn_param_at(const char *kind, const char *technique, size_t index,
 LMN_API lmn_status lmn_param_find(const char *kind, const char *technique, const char *key, lmn_param_info *out,
                                   lmn_error *error);
 
+/* --- ways to tell of motion ------------------------------------------------------------------------------ */
+
+/* A way that has a name: a technique of the kind "motion" with values. All text is static. */
+typedef struct lmn_motion_way_info {
+    const char *name, *doc, *technique;
+    bool        poses; /* poses of telling moments can be drawn so: "motion.moments" */
+} lmn_motion_way_info;
+
+/* One of the ways; false when out of range. */
+LMN_API bool lmn_motion_way_at(size_t index, lmn_motion_way_info *out);
+
+/* Gives the rules that tell of motion, or all where none does, a way, or the technique of this name; "none" takes
+ * motion away. What other ways with the same technique set gets its default, all else (colours, widths, stretching …)
+ * stays. */
+LMN_API lmn_status lmn_look_set_motion_way(lmn_look *look, const char *name, lmn_error *error);
+
+/* The way that the first rule with motion has, whatever its exposure; NULL: none. Static. */
+LMN_API const char *lmn_look_motion_way(const lmn_look *look);
+
 /* --- looks ---------------------------------------------------------------------------------------------- */
 
 /* Makes a look of one rule for all parts, "*", with the standard techniques and nothing else. End it with

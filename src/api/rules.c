@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "look/look_change.h"
 #include "look/look_edit.h"
+#include "look/motion_way.h"
 #include "look/typed.h"
 
 /* The first of these that is NULL. */
@@ -74,6 +75,23 @@ lmn_status lmn_param_find(const char *kind_name, const char *technique_name, con
         return kind_missing_param(k, t, key, error);
     typed_info(out, k, t, p);
     return LMN_OK;
+}
+
+bool lmn_motion_way_at(size_t index, lmn_motion_way_info *out)
+{
+    return motion_way_at(index, out);
+}
+
+lmn_status lmn_look_set_motion_way(lmn_look *look, const char *name, lmn_error *error)
+{
+    CHECK(look);
+    CHECK(name);
+    return look_set_motion_way(look, name, error);
+}
+
+const char *lmn_look_motion_way(const lmn_look *look)
+{
+    return look ? look_motion_way(look) : NULL;
 }
 
 /* --- looks ---------------------------------------------------------------------------------------------- */

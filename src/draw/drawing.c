@@ -188,9 +188,7 @@ static void keep_warnings(lmn_drawing *d, const lmn_renderer *r, const lmn_scene
     warn_of_lines(s, scene, &d->warnings);
     warn_of_movers(s, &d->warnings);
     warn_of_shadows(s, v, &d->warnings);
-    for (size_t i = 0; i < look->rule_count && !r->pose.at_rest; i++)
-        if (rule_use(&look->rules[i], KIND_MOTION))
-            warnings_add(&d->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
+    time_warn_of_rest(look, &r->pose, &d->warnings);
     for (size_t i = 0; i < up->item_count && !cut_out; i++) {
         const draw_item *item = &up->items[i];
         bool             blended = item->material >= 0 && scene->materials[item->material].alpha == ALPHA_BLEND;

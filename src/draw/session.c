@@ -70,6 +70,7 @@ void renderer_destroy(lmn_renderer **renderer)
     pose_release(&r->pose);
     pose_deformation_release(&r->deformation);
     swept_boxes_release(&r->swept);
+    swept_boxes_release(&r->plate);
     made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
     mem_free(r);
@@ -104,8 +105,14 @@ static lmn_status bring_pose(lmn_renderer *r, const lmn_scene *scene, const lmn_
         pose_warn_of_flat(&r->pose, warnings);
         pose_warn_of_rigid(&r->pose, warnings);
     }
+    if (!options->held)
+        swept_boxes_release(&r->plate);
     if (status == LMN_OK && desc->fit_time)
         status = swept_boxes_fit(&r->swept, &r->pose, error);
+    else if (status == LMN_OK && options->held && r->plate.boxes)
+        r->pose.fit_boxes = r->plate.boxes; /* all times of a plate, as its first drawing */
+    else if (status == LMN_OK && !options->surfaces_only)
+        status = plate_boxes_fit(&r->plate, &r->pose, look, error);
     if (status != LMN_OK)
         pose_release(&r->pose);
     return status;

@@ -24,6 +24,7 @@ struct lmn_renderer {
     pose             pose;        /* of the last scene that was drawn */
     pose_deformation deformation; /* that its moment asks for */
     swept_boxes      swept;       /* of its clips */
+    swept_boxes      plate;       /* of the times of its plate */
     upload           up;
     const lmn_scene *scene; /* that `up` belongs to; compared, never followed after a draw */
     bool             up_valid;

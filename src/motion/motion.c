@@ -46,6 +46,9 @@ static const param common[] = {
     SHAPE(lag, .def = 0, .min = 0, .max = 10, .soft_max = 0.5,
           .doc = "How late the rear of what moves is, seconds; of what turns about a hinge, or moves on "
                  "the spot, what is far from its middle."),
+    SHAPE(drag, .def = 0, .min = 0, .max = 10, .soft_max = 0.5,
+          .doc = "How long the trailing side keeps its speed while the rest gets another one, seconds, as cloth in the "
+                 "wind: it is pushed against the acceleration, outwards in curves."),
     SHAPE(comb, .def = 0, .min = 0, .max = 10, .soft_max = 0.5,
           .doc =
               "How late the tips of teeth are, seconds, into which the trailing side of what moves is drawn out. They "

@@ -12,7 +12,7 @@ extern const technique motion_streaks, motion_traces, motion_deform;
 /* What all techniques of the kind have first. */
 typedef struct motion_common {
     float exposure; /* seconds */
-    float stretch, squash, lean, inertia, full_speed, full_acceleration, response, slit, pan, lag,
+    float stretch, squash, lean, inertia, full_speed, full_acceleration, response, slit, pan, lag, drag,
         comb; /* pose/deform.h */
     int32_t comb_teeth;
 } motion_common;

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "motion/motion.h"
+#include "plan/time.h"
 
 static part_deformation values_of(const rule *r)
 {
@@ -20,17 +21,9 @@ static part_deformation values_of(const rule *r)
                               .slit = (double)v->slit,
                               .pan = (double)v->pan,
                               .lag = (double)v->lag,
+                              .drag = (double)v->drag,
                               .comb = (double)v->comb,
                               .teeth = v->comb_teeth};
-}
-
-/* The last rule that selects a part, as a plan shares them. */
-static const rule *rule_of(const lmn_look *look, const lmn_scene *scene, size_t part)
-{
-    for (size_t r = look->rule_count; r-- > 0;)
-        if (!look->rules[r].selector || selector_matches(look->rules[r].selector, scene, part))
-            return &look->rules[r];
-    return NULL;
 }
 
 static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
@@ -47,7 +40,7 @@ static uint64_t hash_of(const pose_deformation *d)
     for (size_t i = 0; i < d->part_count; i++) {
         const part_deformation *p = &d->parts[i];
         const double values[] = {p->stretch, p->squash, p->lean, p->inertia, p->full_speed, p->full_acceleration,
-                                 p->slit,    p->pan,    p->lag,  p->comb,    p->teeth};
+                                 p->slit,    p->pan,    p->lag,  p->drag,    p->comb,       p->teeth};
         hash = hash_bytes(hash, values, sizeof values);
     }
     return hash;
@@ -71,16 +64,19 @@ static double response_of(const lmn_look *look)
     return 0;
 }
 
+/* Said once, however many rules there are. */
 static void warn_of_idle(const lmn_look *look, warnings *warnings)
 {
+    bool idle = false;
     for (size_t i = 0; i < look->rule_count; i++) {
         const rule      *r = &look->rules[i];
         part_deformation own = values_of(r);
-        if (r->use_counts[KIND_MOTION] && r->uses[KIND_MOTION][0].technique == &motion_deform &&
-            part_deformation_is_none(&own))
-            warnings_add(warnings, WARNING_UNUSED,
-                         "motion 'deform' changes nothing: set motion.stretch, squash, lean, inertia, lag or comb");
+        idle = idle || (r->use_counts[KIND_MOTION] && r->uses[KIND_MOTION][0].technique == &motion_deform &&
+                        part_deformation_is_none(&own));
     }
+    if (idle)
+        warnings_add(warnings, WARNING_UNUSED,
+                     "motion 'deform' changes nothing: set motion.stretch, squash, lean, inertia, lag, drag or comb");
 }
 
 lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scene *scene, const lmn_look *look,
@@ -97,7 +93,7 @@ lmn_status deformation_find(pose_deformation *kept, moment *when, const lmn_scen
     if (!made.parts)
         return error_memory(error);
     for (size_t i = 0; i < made.part_count; i++)
-        made.parts[i] = values_of(rule_of(look, scene, i));
+        made.parts[i] = values_of(time_rule(look, scene, i));
     made.hash = hash_of(&made);
     if (kept->parts && kept->hash == made.hash && kept->part_count == made.part_count) {
         pose_deformation_release(&made);

@@ -59,18 +59,32 @@ static bool find_step(const part_bend *b, const double point[3], int *before, do
     return true;
 }
 
+/* What a point is dragged by moves where it has come to. False: it stays there. */
+static bool push_point(const part_bend *b, const double point[3], double out[3])
+{
+    double rear = rear_of(b, point), part = rear * rear;
+    bool   pushed = false;
+    for (int k = 0; k < 3; k++) {
+        out[k] += part * b->push[k];
+        pushed = pushed || part * b->push[k] != 0;
+    }
+    return pushed;
+}
+
 /* Where a point of the world comes to. False: it stays. */
 static bool bend_point(const part_bend *b, const double point[3], double out[3])
 {
     double part, from[3], to[3];
     int    before;
-    if (!find_step(b, point, &before, &part))
-        return false;
-    transform(&b->earlier[before], point, from);
-    transform(&b->earlier[before + 1], point, to);
-    for (int k = 0; k < 3; k++)
-        out[k] = from[k] + part * (to[k] - from[k]);
-    return true;
+    bool   late = find_step(b, point, &before, &part);
+    memcpy(out, point, 3 * sizeof *out);
+    if (late) {
+        transform(&b->earlier[before], point, from);
+        transform(&b->earlier[before + 1], point, to);
+        for (int k = 0; k < 3; k++)
+            out[k] = from[k] + part * (to[k] - from[k]);
+    }
+    return push_point(b, point, out) || late;
 }
 
 /* Normals follow the cofactors of how the surroundings of a point are bent, by differences over a thousandth of the
@@ -140,6 +154,22 @@ typedef struct skin_job {
     vec3            *positions, *out_normals;
 } skin_job;
 
+/* Where a vertex was between two steps, in the world, and its normal. */
+static void late_vertex(const skin_job *j, size_t i, int before, double part, double world[3], double normal[3])
+{
+    const part_bend *b = j->b;
+    uint32_t         vertex = j->source ? j->source[i] : (uint32_t)i;
+    vec3             was[2], facing[2] = {{0, 0, 0}, {0, 0, 0}};
+    for (int k = 0; k < 2; k++)
+        mesh_pose(j->p, j->weights, j->weight_count, b->joints + (size_t)(before + k) * b->joint_count, b->joint_count,
+                  j->normals ? &j->normals[i] : NULL, &vertex, 1, &was[k], j->normals ? &facing[k] : NULL);
+    for (int k = 0; k < 3; k++) {
+        double from = (double)(&was[0].x)[k], to = (double)(&was[1].x)[k];
+        world[k] = from + part * (to - from);
+        normal[k] = (double)(&facing[0].x)[k] * (1 - part) + (double)(&facing[1].x)[k] * part;
+    }
+}
+
 static void skin_some(size_t begin, size_t end, void *user)
 {
     const skin_job  *j = user;
@@ -147,33 +177,27 @@ static void skin_some(size_t begin, size_t end, void *user)
     double           turn[9], sign = mat4_cofactors(&b->to_mesh, turn) < 0 ? -1 : 1;
     for (size_t i = begin; i < end; i++) {
         const double at[3] = {(double)j->positions[i].x, (double)j->positions[i].y, (double)j->positions[i].z};
-        uint32_t     vertex = j->source ? j->source[i] : (uint32_t)i;
-        double       point[3], part, n[3], length = 0, world[3], back[3];
-        vec3         was[2], facing[2];
+        double       point[3], part, n[3], length = 0, world[3], back[3], facing[3];
         int          before;
         transform(&b->to_world, at, point);
-        if (!find_step(b, point, &before, &part))
+        bool late = find_step(b, point, &before, &part);
+        memcpy(world, point, sizeof world);
+        if (late)
+            late_vertex(j, i, before, part, world, n);
+        if (!push_point(b, point, world) && !late)
             continue;
-        for (int k = 0; k < 2; k++)
-            mesh_pose(j->p, j->weights, j->weight_count, b->joints + (size_t)(before + k) * b->joint_count,
-                      b->joint_count, j->normals ? &j->normals[i] : NULL, &vertex, 1, &was[k],
-                      j->normals ? &facing[k] : NULL);
-        for (int k = 0; k < 3; k++) {
-            double from = (double)(&was[0].x)[k], to = (double)(&was[1].x)[k];
-            world[k] = from + part * (to - from);
-        }
         transform(&b->to_mesh, world, back);
         j->positions[i] = (vec3){(float)back[0], (float)back[1], (float)back[2]};
-        for (int k = 0; k < 3 && j->normals; k++) {
-            n[k] = 0;
-            for (int c = 0; c < 3; c++)
-                n[k] += sign * turn[3 * c + k] *
-                        ((double)(&facing[0].x)[c] * (1 - part) + (double)(&facing[1].x)[c] * part);
-            length += n[k] * n[k];
+        if (!late || !j->normals)
+            continue;
+        for (int r = 0; r < 3; r++) {
+            facing[r] = sign * (turn[r] * n[0] + turn[3 + r] * n[1] + turn[6 + r] * n[2]);
+            length += facing[r] * facing[r];
         }
         length = sqrt(length);
-        if (j->normals && length > 0)
-            j->out_normals[i] = (vec3){(float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length)};
+        if (length > 0)
+            j->out_normals[i] =
+                (vec3){(float)(facing[0] / length), (float)(facing[1] / length), (float)(facing[2] / length)};
     }
 }
 

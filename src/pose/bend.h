@@ -19,6 +19,7 @@ typedef struct part_bend {
     double way[3], front, length; /* along the motion: where what moves begins, and how far it reaches back */
     bool   around; /* what is `length` off the middle is the rear: of what turns about it, or moves on the spot */
     double middle[3];
+    double push[3];               /* of the rear, by what it is dragged; in front of it by the square of the distance */
     double across[3], low, width; /* teeth stand side by side along this */
     double teeth;
 } part_bend;

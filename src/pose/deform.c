@@ -28,7 +28,8 @@ typedef struct body {
     bool             bends;
     double           front, rear, middle[3], across[3], low, high, farthest;
     double           late; /* the most of its parts */
-    part_deformation how;  /* of nodes without geometry */
+    bool             dragged;
+    part_deformation how; /* of nodes without geometry */
 } body;
 
 typedef struct finder {
@@ -47,7 +48,12 @@ typedef struct finder {
 bool part_deformation_is_none(const part_deformation *d)
 {
     return d->stretch == 0 && d->squash == 0 && d->lean == 0 && d->inertia == 0 && d->slit == 0 && d->lag == 0 &&
-           d->comb == 0;
+           d->comb == 0 && d->drag == 0;
+}
+
+bool part_deformation_bends(const part_deformation *d)
+{
+    return d->lag + d->comb + d->drag > 0;
 }
 
 void pose_deformation_release(pose_deformation *d)
@@ -179,6 +185,7 @@ static bool find_bodies(finder *f)
             b->how = *how; /* its joints are nodes without geometry */
         b->skinned = b->skinned || skin_of(p->scene, n);
         b->late = fmax(b->late, how->lag + how->comb);
+        b->dragged = b->dragged || how->drag > 0;
         f->body_of_part[i] = f->body_of_node[root];
     }
     return true;
@@ -436,7 +443,7 @@ static bool find_reaches(const finder *f, size_t number)
         b->stop = r.low;
     }
     b->on_spot = b->still || (b->skinned && !node_moves(f, b->root));
-    b->bends = b->late > 0 && (to_unit(way) > 0 || b->on_spot);
+    b->bends = (b->late > 0 || b->dragged) && (to_unit(way) > 0 || b->on_spot);
     memcpy(b->middle, b->hinged && !b->on_spot ? b->origin : b->centre[NOW], sizeof b->middle);
     if (b->bends && good) {
         reach along = {.along = way}, off = {.from = b->middle};
@@ -604,6 +611,20 @@ static void change_nodes(finder *f)
 
 /* --- what is late ----------------------------------------------------------------------------------------- */
 
+/* How far the rear is pushed that has kept its velocity for `drag` seconds while the rest was accelerated: a·drag²/2
+ * against the acceleration, at most half of its length. What turns back within that time is about to have its rear on
+ * the other side, and is pushed less. */
+static void find_push(const finder *f, const body *b, double drag, bool around, double length, double out[3])
+{
+    double gain[3], span = 0.5 * (f->seconds[AFTER] - f->seconds[BEFORE]);
+    for (int k = 0; k < 3; k++)
+        gain[k] = span > 0 ? b->change[k] / span : 0;
+    double size = to_unit(gain), far = fmin(0.5 * size * drag * drag, 0.5 * length),
+           steady = around || size * drag <= b->speed ? 1 : b->speed / (size * drag);
+    for (int k = 0; k < 3; k++)
+        out[k] = -far * steady * gain[k];
+}
+
 static void bend_part(finder *f, size_t part, const body *b, const mat4 *earlier)
 {
     bool                    around = b->hinged || b->on_spot;
@@ -625,6 +646,7 @@ static void bend_part(finder *f, size_t part, const body *b, const mat4 *earlier
                        .width = b->high - b->low};
     memcpy(out->way, b->velocity, sizeof out->way);
     to_unit(out->way);
+    find_push(f, b, how->drag, around, out->length, out->push);
     memcpy(out->middle, b->middle, sizeof out->middle);
     memcpy(out->across, b->across, sizeof out->across);
     memcpy(out->earlier, earlier, sizeof out->earlier);
@@ -670,7 +692,7 @@ static lmn_status bend_body(finder *f, size_t number, lmn_error *error)
 {
     const body      *b = &f->bodies[number];
     mat4             earlier[BEND_STEPS + 1], back = mat4_inverse(&f->p->worlds[b->root]);
-    bool             moves = b->skinned;
+    bool             moves = b->skinned || b->dragged;
     const part_bend *combed = NULL;
     earlier[0] = mat4_identity();
     put_joints(f, number, 0, f->p->worlds);
@@ -692,7 +714,7 @@ static lmn_status bend_body(finder *f, size_t number, lmn_error *error)
         const part_deformation *how = &f->wanted->parts[i];
         /* Instances share one shape. */
         if (f->body_of_part[i] != (int32_t)number || n->mesh == NONE || n->instance_count ||
-            !(how->lag + how->comb > 0))
+            !part_deformation_bends(how))
             continue;
         bend_part(f, i, b, earlier);
         combed = how->comb > 0 ? &f->out->bends[i] : combed;
@@ -703,7 +725,7 @@ static lmn_status bend_body(finder *f, size_t number, lmn_error *error)
 static bool wants_bends(const pose_deformation *d)
 {
     for (size_t i = 0; i < d->part_count; i++)
-        if (d->parts[i].lag + d->parts[i].comb > 0)
+        if (part_deformation_bends(&d->parts[i]))
             return true;
     return false;
 }
@@ -721,7 +743,7 @@ static bool open_joints(finder *f)
             return false;
         for (size_t i = 0; i < f->p->part_count; i++) {
             const skin *k = skin_of(s, &s->nodes[s->parts[i].node]);
-            if (!k || !(f->wanted->parts[i].lag + f->wanted->parts[i].comb > 0))
+            if (!k || !part_deformation_bends(&f->wanted->parts[i]))
                 continue;
             f->out->bends[i].joints = round ? at : NULL;
             f->out->bends[i].joint_count = k->joint_count;

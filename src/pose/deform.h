@@ -16,6 +16,7 @@ typedef struct part_deformation {
     double  lag, comb;                     /* seconds that the rear, that the tips of the teeth are late */
     int32_t teeth;
     double slit, pan; /* seconds that the top is exposed after the bottom; how far the fastest one is followed, 0 … 1 */
+    double drag;      /* seconds that the rear keeps its velocity */
 } part_deformation;
 
 /* Of all parts, whose ghosts have the same; who draws makes it of a look. */
@@ -27,6 +28,8 @@ typedef struct pose_deformation {
 } pose_deformation;
 
 bool part_deformation_is_none(const part_deformation *d);
+/* Is a part not as a whole where it would be: late or dragged? */
+bool part_deformation_bends(const part_deformation *d);
 void pose_deformation_release(pose_deformation *d);
 
 /* What becomes of a pose. */

@@ -125,7 +125,7 @@ static bool set_boxes(pose *p, const animated_state *moved)
 static bool part_is_late(const pose *p, size_t part_index)
 {
     const part_deformation *how = &p->when.deformation->parts[part_index];
-    return p->scene->nodes[p->scene->parts[part_index].node].mesh != NONE && how->lag + how->comb > 0;
+    return p->scene->nodes[p->scene->parts[part_index].node].mesh != NONE && part_deformation_bends(how);
 }
 
 /* Deforms what has been posed by how it moves. */
@@ -363,10 +363,11 @@ void pose_vertices(const part_pose *pose, const primitive *p, const vec3 *normal
 void pose_warn_of_rigid(const pose *p, warnings *warnings)
 {
     if (p->when.deformation && p->when.clip_count && !p->deformed_count)
-        warnings_add(warnings, WARNING_UNUSED,
-                     "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag and "
-                     "comb are set for moves from its place",
-                     p->when.seconds);
+        warnings_add(
+            warnings, WARNING_UNUSED,
+            "motion: nothing is deformed: at %g s nothing that motion.stretch, squash, lean, inertia, lag, drag and "
+            "comb are set for moves from its place",
+            p->when.seconds);
     if (p->coarse_count)
         warnings_add(
             warnings, WARNING_REDUCED,
@@ -490,18 +491,18 @@ static float *times_of(const lmn_scene *scene, const moment *when, size_t *out_c
     return times;
 }
 
-lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error)
+lmn_status pose_boxes_at(box3 **out, const lmn_scene *scene, const moment *when, const double *times, size_t time_count,
+                         lmn_error *error)
 {
-    size_t     count = scene->part_count + scene->ghost_count, time_count = 0;
+    size_t     count = scene->part_count + scene->ghost_count;
     box3      *boxes = mem_alloc(count * sizeof *boxes);
-    float     *times = times_of(scene, when, &time_count);
-    lmn_status status = boxes && times ? LMN_OK : error_memory(error);
+    lmn_status status = boxes ? LMN_OK : error_memory(error);
     for (size_t i = 0; boxes && i < count; i++)
         boxes[i] = box3_empty();
     for (size_t k = 0; k < time_count && status == LMN_OK; k++) {
         moment at = *when;
         pose   p;
-        at.seconds = (double)times[k] > 0 ? (double)times[k] : 0;
+        at.seconds = times[k];
         status = create(&p, scene, &at, false, NULL, error);
         for (size_t i = 0; i < count && status == LMN_OK; i++)
             boxes[i] = box3_union(boxes[i], p.part_boxes[i]);
@@ -509,9 +510,24 @@ lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *wh
         if (status == LMN_OK)
             status = work_check(error);
     }
-    mem_free(times);
     if (status != LMN_OK)
         mem_free(boxes);
     *out = status == LMN_OK ? boxes : NULL;
+    return status;
+}
+
+lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error)
+{
+    size_t     count = 0;
+    float     *keys = times_of(scene, when, &count);
+    double    *times = keys ? mem_alloc(count * sizeof *times) : NULL;
+    lmn_status status = times ? LMN_OK : error_memory(error);
+    *out = NULL;
+    for (size_t k = 0; k < count && times; k++)
+        times[k] = (double)keys[k] > 0 ? (double)keys[k] : 0;
+    if (status == LMN_OK)
+        status = pose_boxes_at(out, scene, when, times, count, error);
+    mem_free(keys);
+    mem_free(times);
     return status;
 }

@@ -97,5 +97,8 @@ mat4 pose_instance(const pose *p, size_t part_index, size_t instance);
 /* The boxes of parts and ghosts over the whole of a moment's clips, sampled: they hold what pictures of any time show.
  * Free with mem_free. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status pose_swept_boxes(box3 **out, const lmn_scene *scene, const moment *when, lmn_error *error);
+/* The same over these times alone, seconds ≥ 0. */
+lmn_status pose_boxes_at(box3 **out, const lmn_scene *scene, const moment *when, const double *times, size_t count,
+                         lmn_error *error);
 
 #endif

@@ -91,24 +91,69 @@ bool page_mask_has(const page_mask *m, double x, double y)
            m->covered[(size_t)row * (size_t)m->columns + (size_t)column];
 }
 
-static bool add_mesh(page_mask *m, const pose *p, const trace_mesh *mesh, const stroke_camera *camera)
+static bool project_corners(const stroke_camera *camera, const vec3 *world, const primitive *p, size_t first,
+                            double out[3][3])
 {
-    vec3 *world = trace_positions(p, mesh);
-    for (size_t i = 0; world && i + 2 < mesh->primitive->index_count; i += 3) {
-        double corners[3][3];
-        bool   seen = true;
-        for (int k = 0; k < 3 && seen; k++) {
-            uint32_t vertex = mesh->primitive->indices[i + (size_t)k];
-            seen = vertex < mesh->primitive->vertex_count && page_project(camera, world[vertex], corners[k]);
-        }
-        if (seen)
-            page_mask_add(m, corners[0], corners[1], corners[2]);
+    for (int k = 0; k < 3; k++) {
+        uint32_t vertex = p->indices[first + (size_t)k];
+        if (vertex >= p->vertex_count || !page_project(camera, world[vertex], out[k]))
+            return false;
     }
-    mem_free(world);
-    return world != NULL;
+    return true;
 }
 
-bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera)
+/* Where segments from a to b and from c to d cross. */
+static bool find_crossing(const double *a, const double *b, const double *c, const double *d, double out[2])
+{
+    double ux = b[0] - a[0], uy = b[1] - a[1], vx = d[0] - c[0], vy = d[1] - c[1], area = ux * vy - uy * vx;
+    if (area == 0)
+        return false;
+    double s = ((c[0] - a[0]) * vy - (c[1] - a[1]) * vx) / area, t = ((c[0] - a[0]) * uy - (c[1] - a[1]) * ux) / area;
+    out[0] = a[0] + s * ux;
+    out[1] = a[1] + s * uy;
+    return s > 0 && s < 1 && t > 0 && t < 1;
+}
+
+/* What an edge covers that goes from a, b to c, d: between both places, or what turns about a position of its own, two
+ * triangles that meet there. */
+static void sweep_edge(page_mask *m, const double *a, const double *b, const double *c, const double *d)
+{
+    double crossing[2];
+    bool   turns = find_crossing(a, b, c, d, crossing);
+    page_mask_add(m, a, turns ? crossing : b, turns ? c : d);
+    page_mask_add(m, turns ? b : a, turns ? crossing : d, turns ? d : c);
+}
+
+/* All that a triangle covers on its straight way from `from`. */
+static void sweep_triangle(page_mask *m, const double from[3][3], const double to[3][3])
+{
+    double farthest = 0;
+    for (int k = 0; k < 3; k++)
+        farthest = fmax(farthest, hypot(to[k][0] - from[k][0], to[k][1] - from[k][1]));
+    for (int k = 0; k < 3 && farthest * SAMPLES_A_UNIT > 0.25; k++)
+        sweep_edge(m, from[k], from[(k + 1) % 3], to[k], to[(k + 1) % 3]);
+}
+
+static bool add_mesh(page_mask *m, const pose *p, const pose *before, const trace_mesh *mesh,
+                     const stroke_camera *camera)
+{
+    vec3 *world = trace_positions(p, mesh), *earlier = before ? trace_positions(before, mesh) : NULL;
+    bool  good = world && (earlier || !before);
+    for (size_t i = 0; good && i + 2 < mesh->primitive->index_count; i += 3) {
+        double corners[3][3], were[3][3];
+        if (!project_corners(camera, world, mesh->primitive, i, corners))
+            continue;
+        page_mask_add(m, corners[0], corners[1], corners[2]);
+        if (earlier && project_corners(camera, earlier, mesh->primitive, i, were))
+            sweep_triangle(m, (const double(*)[3])were, (const double(*)[3])corners);
+    }
+    mem_free(world);
+    mem_free(earlier);
+    return good;
+}
+
+bool page_mask_add_parts(page_mask *m, const pose *p, const pose *before, const bool *parts,
+                         const stroke_camera *camera)
 {
     const lmn_scene *s = p->scene;
     for (size_t part = 0; part < p->part_count; part++) {
@@ -116,9 +161,11 @@ bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const s
         if (!parts[part] || n->mesh == NONE)
             continue;
         for (uint32_t i = 0; i < node_draw_count(n); i++)
-            for (size_t k = 0; k < s->meshes[n->mesh].primitive_count; k++)
-                if (!add_mesh(m, p, &(trace_mesh){(uint32_t)part, i, 0, &s->meshes[n->mesh].primitives[k]}, camera))
+            for (size_t k = 0; k < s->meshes[n->mesh].primitive_count; k++) {
+                const trace_mesh mesh = {(uint32_t)part, i, 0, &s->meshes[n->mesh].primitives[k]};
+                if (!add_mesh(m, p, before, &mesh, camera))
                     return false;
+            }
     }
     return true;
 }

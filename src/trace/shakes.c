@@ -16,7 +16,7 @@
 #define SHORTER 0.15
 /* What swings less than this fraction of the farthest has no arcs. */
 #define SWINGS 0.5
-/* How often what swings turns round within the exposure at least. */
+/* How often what swings turns round within the exposure at least; or once, where it is back as near as BACK. */
 enum { TURNS = 2 };
 
 /* What shakes: how it lies on the page, measured from its middle along and across its swing. */
@@ -43,8 +43,8 @@ static void find_axis(const double (*at)[3], uint32_t count, double out[2])
     out[1] = sin(angle);
 }
 
-/* How often a way turns round along an axis. */
-static int count_turns(const double (*at)[3], uint32_t count, const double axis[2])
+/* Does a way swing along an axis: to and fro, or once there and back? */
+static bool swings(const double (*at)[3], uint32_t count, const double axis[2])
 {
     double low = INFINITY, high = -INFINITY, farthest = 0;
     int    turns = 0, sense = 0;
@@ -66,7 +66,8 @@ static int count_turns(const double (*at)[3], uint32_t count, const double axis[
             turns++;
         }
     }
-    return turns;
+    double net = (at[count - 1][0] - at[0][0]) * axis[0] + (at[count - 1][1] - at[0][1]) * axis[1];
+    return turns >= TURNS || (turns == 1 && fabs(net) <= BACK * (high - low));
 }
 
 /* How far a position of the page swings. */
@@ -102,9 +103,7 @@ static void measure(const trace_job *j, const trace_body *b, const mat4 *moved, 
         s->half[k] = (high[k] - low[k]) / 2;
 }
 
-/* How what moves stood at a fraction of the exposure ago, from how it stands now. Of what moves by its joints nothing
- * is known, and all of it swings alike. */
-static lmn_status moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error)
+lmn_status body_moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error)
 {
     pose earlier = {.scene = NULL};
     *out = mat4_identity();
@@ -226,13 +225,13 @@ static lmn_status shake_body(trace_job *j, size_t number, lmn_error *error)
         return status;
     find_axis((const double(*)[3])w.at, w.steps + 1, s.axis);
     s.depth = w.at[0][2];
-    bool   shakes = count_turns((const double(*)[3])w.at, w.steps + 1, s.axis) >= TURNS;
+    bool   shakes = swings((const double(*)[3])w.at, w.steps + 1, s.axis);
     double ago = farthest_ago(&w, s.axis);
     mat4   moved;
     ways_release(&w);
     if (!shakes)
         return LMN_OK;
-    status = moved_since(&moved, j, b, ago, error);
+    status = body_moved_since(&moved, j, b, ago, error);
     if (status != LMN_OK)
         return status;
     measure(j, b, &moved, &s);

@@ -1,5 +1,5 @@
 /* One form of all that something covers on its way, as the sculptors of motion made it (Boccioni): what it covers at
- * times that are so close that it comes on by little from one to the next, and the smoothed outline of that. Großmann
+ * times that are close to each other and on the straight ways in between, and the smoothed outline of that. Großmann
  * 2011, section 2.1.5; row 77g. */
 #include "trace/trace_private.h"
 
@@ -10,12 +10,9 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-/* From one time to the next the fastest comes on by so many units. */
-#define STEP 3.0
-enum { STEPS_LEAST = 8, STEPS_MOST = 240 };
-/* Gaps between two times are closed where they are no wider than so many steps, and than so many units. */
-#define GAP_STEPS 3.0
-#define GAP_MOST  12.0
+/* From one time to the next the fastest comes on by so many units; between them its way is straight. */
+#define STEP 4.0
+enum { STEPS_LEAST = 16, STEPS_MOST = 240 };
 /* Positions so far apart along the outline, samples, become one; each is the mean of those so far beside it. */
 enum { TAKEN = 4, BESIDE = 6 };
 /* Shorter outlines are left out, samples. */
@@ -103,39 +100,6 @@ static bool put_outlines(trace_job *j, const page_mask *m, double depth, past_li
     return good;
 }
 
-/* Along one line of samples that are `apart` from each other: covers, or uncovers, all within a distance of what is
- * covered or not. */
-static void spread(uint8_t *line, size_t count, size_t apart, int distance, uint8_t what, uint8_t *before)
-{
-    int last = -2 * distance;
-    for (size_t i = 0; i < count; i++)
-        before[i] = line[i * apart];
-    for (size_t i = 0; i < count; i++) {
-        last = before[i] == what ? (int)i : last;
-        line[i * apart] = (int)i - last <= distance ? what : before[i];
-    }
-    last = (int)count + 2 * distance;
-    for (size_t i = count; i-- > 0;) {
-        last = before[i] == what ? (int)i : last;
-        line[i * apart] = last - (int)i <= distance ? what : line[i * apart];
-    }
-}
-
-/* Closes gaps: what is covered grows, and then shrinks by as much. */
-static bool close_gaps(page_mask *m, int distance)
-{
-    size_t   columns = (size_t)m->columns, rows = (size_t)m->rows;
-    uint8_t *before = mem_alloc(columns + rows + 1);
-    for (int what = 1; before && what >= 0; what--) {
-        for (size_t y = 0; y < rows; y++)
-            spread(m->covered + y * columns, columns, 1, distance, (uint8_t)what, before);
-        for (size_t x = 0; x < columns; x++)
-            spread(m->covered + x, rows, columns, distance, (uint8_t)what, before);
-    }
-    mem_free(before);
-    return before != NULL;
-}
-
 /* The mean depth of what moves now. */
 static double depth_of(const trace_bodies *b)
 {
@@ -154,16 +118,16 @@ lmn_status swept_put(trace_job *j, past_line_fn put, void *user, lmn_error *erro
         fastest = fmax(fastest, j->bodies.bodies[i].speed);
     int        steps = (int)fmin(fmax(ceil(fastest / STEP), STEPS_LEAST), STEPS_MOST);
     lmn_status status = page_mask_open(&all, &o->camera) ? LMN_OK : error_memory(error);
+    pose       earlier = {.scene = NULL};
     for (int k = 0; k <= steps && status == LMN_OK; k++) {
         pose then = {.scene = NULL};
         status = work_stopped() ? error_memory(error) : pose_ago(&then, o, (double)k / steps, error);
-        if (status == LMN_OK && !page_mask_add_parts(&all, &then, j->moves, &o->camera))
+        if (status == LMN_OK && !page_mask_add_parts(&all, &then, k ? &earlier : NULL, j->moves, &o->camera))
             status = error_memory(error);
-        pose_release(&then);
+        pose_release(&earlier);
+        earlier = then;
     }
-    double gap = fmin(GAP_STEPS * fastest / steps, GAP_MOST) * all.columns / o->camera.width;
-    if (status == LMN_OK && !close_gaps(&all, (int)ceil(gap / 2)))
-        status = error_memory(error);
+    pose_release(&earlier);
     if (status == LMN_OK && !put_outlines(j, &all, depth_of(&j->bodies), put, user))
         status = error_memory(error);
     page_mask_close(&all);

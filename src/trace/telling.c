@@ -33,7 +33,8 @@ static lmn_status draw_figure(page_mask *out, const choice *c, double ago, lmn_e
 {
     pose       p = {.scene = NULL};
     lmn_status status = pose_before(&p, c->o->pose, ago, error);
-    if (status == LMN_OK && !(page_mask_open(out, &c->small) && page_mask_add_parts(out, &p, c->moves, &c->small)))
+    if (status == LMN_OK &&
+        !(page_mask_open(out, &c->small) && page_mask_add_parts(out, &p, NULL, c->moves, &c->small)))
         status = error_memory(error);
     pose_release(&p);
     return status;

@@ -22,8 +22,10 @@ bool page_mask_open(page_mask *m, const stroke_camera *c); /* false: out of memo
 void page_mask_close(page_mask *m);
 void page_mask_add(page_mask *m, const double *a, const double *b, const double *c);
 bool page_mask_has(const page_mask *m, double x, double y);
-/* All that parts show in a pose, the whole of each triangle before the near plane. False: out of memory. */
-bool page_mask_add_parts(page_mask *m, const pose *p, const bool *parts, const stroke_camera *camera);
+/* All that parts show in a pose, the whole of each triangle before the near plane; with `before` (may be NULL), also on
+ * their straight ways from that. False: out of memory. */
+bool page_mask_add_parts(page_mask *m, const pose *p, const pose *before, const bool *parts,
+                         const stroke_camera *camera);
 
 /* --- bodies.c: what moves ----------------------------------------------------------------------------------- */
 
@@ -196,6 +198,9 @@ lmn_status heights_find(trace_heights *out, trace_job *j, lmn_error *error);
 void       heights_release(trace_heights *h);
 lmn_status past_contours_put(trace_job *j, lmn_error *error);
 lmn_status shakes_put(trace_job *j, lmn_error *error);
+/* How what moves stood at a fraction of the exposure ago, from how it stands now: in the world. Of what moves by its
+ * joints nothing is known, and it is the identity. Errors: LMN_MEMORY, LMN_FORMAT. */
+lmn_status body_moved_since(mat4 *out, const trace_job *j, const trace_body *b, double fraction, lmn_error *error);
 /* What is drawn of bones in a pose, as lines. Errors: LMN_MEMORY. */
 lmn_status figures_find(stroke_set *out, const trace_job *j, const pose *then, lmn_error *error);
 /* The outline of all that is covered during the exposure, line by line. */

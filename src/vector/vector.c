@@ -125,9 +125,7 @@ static bool is_seen_in_pictures_alone(const technique_use *motion)
 static lmn_status refuse_motion(const vector_job *j, lmn_error *error)
 {
     refusal r = refusal_of(j, error);
-    for (size_t i = 0; !j->pose.at_rest && i < j->look->rule_count; i++)
-        if (rule_use(&j->look->rules[i], KIND_MOTION))
-            warnings_add(&j->out->warnings, WARNING_UNUSED, "motion: nothing moves without a time of an animation");
+    time_warn_of_rest(j->look, &j->pose, &j->out->warnings);
     for (size_t i = 0; j->pose.at_rest && i < j->look->rule_count; i++)
         if (is_seen_in_pictures_alone(rule_use(&j->look->rules[i], KIND_MOTION)))
             return refuse(&r, LMN_USAGE, WARNING_UNUSED, "draw a picture (.png), or set motion.technique=none",

@@ -336,6 +336,58 @@ static void flow_lines(void)
     close_scene(&t);
 }
 
+/* Of what turns they are arcs around its centre that run ahead of it, or spirals to one point ahead. */
+static void flow_lines_turn(void)
+{
+    moving_scene m;
+    const double half[3] = {0.7, 0.25, 0.1}, turn = 1.0;
+    traced       t;
+    moving_scene_begin(&m);
+    int hinge = moving_scene_joint(&m, 0, 0, 0);
+    moving_scene_put_in(&m, moving_scene_box(&m, 2.2, 0, 0, half, grey), hinge);
+    moving_scene_keys(&m, hinge, "rotation", 2, (double[]){0, 1},
+                      (double[]){0, 0, -sin(turn / 2), cos(turn / 2), 0, 0, 0, 1});
+    const char *path = check_path("flow-turns.glb");
+    moving_scene_write(&m, path);
+    if (open_scene(&t, path, 1, true)) {
+        t.values.flow = 30;
+        t.values.flow_length = 0.4f;
+        for (int way = TRACES_PARALLEL; way <= TRACES_CONVERGING; way++) {
+            double off = 0, apart[2] = {0, 0};
+            size_t lines = 0, ahead = 0;
+            t.values.flow_way = way;
+            check_that("77m", trace(&t) == LMN_OK, "traced");
+            for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+                const ribbon *r = &t.ribbons.ribbons[i];
+                double        radius[2] = {INFINITY, 0}, angle = 0, ends[2] = {0, 0};
+                if (!((uint32_t)r->id & 0x80000000u))
+                    continue;
+                for (uint32_t k = 0; k < r->count; k++) {
+                    const ribbon_point *p = &t.ribbons.points[r->first + k];
+                    double              x = (double)p->x - PAGE / 2.0, y = PAGE / 2.0 - (double)p->y, now = hypot(x, y);
+                    radius[0] = fmin(radius[0], now);
+                    radius[1] = fmax(radius[1], now);
+                    ends[k == 0 ? 0 : 1] = now / UNIT - 2.2;
+                    angle = atan2(y, x);
+                }
+                lines++;
+                ahead += angle > 0.3;
+                off = fmax(off, radius[1] - radius[0]);
+                for (int k = 0; k < 2 && angle > 0.3; k++)
+                    apart[k] = fmax(apart[k], fabs(ends[k]));
+            }
+            check_at_least("77m", (double)lines, 30, "lines around, those that the box parts counted twice");
+            check_at_least("77m", (double)ahead, 12, "lines that end ahead of it");
+            if (way == TRACES_PARALLEL)
+                check_at_most("77m", off, 0.1, "units by which they leave their circles");
+            else
+                check_at_most("77m", apart[1] / apart[0], 0.45,
+                              "of their distance from one circle is left where they end");
+        }
+    }
+    close_scene(&t);
+}
+
 /* Row 20: rays around what comes nearer begin on a circle, at equal angles. */
 static void lines_on_circles(void)
 {
@@ -467,6 +519,60 @@ static void swept_forms(void)
         check_near("77g", length / (12 * UNIT + 2 * pi * UNIT), 1, 0.02, "it is smooth: as long as the true form");
     }
     close_scene(&t);
+}
+
+/* A rod half a unit wide that turns quickly about one end: the outline is that of a sector, without teeth; only its
+ * three corners are rounded. Another one passes broadside. */
+static void swept_rods(void)
+{
+    enum { KEYS = 65 };
+    const double end = 2.6, half[3] = {0.5, 0.0025, 0.0025};
+    for (int turns = 0; turns < 2; turns++) {
+        moving_scene m;
+        double       times[KEYS], keys[4 * KEYS], off = 0, corners = 0, angle = 0;
+        size_t       looked = 0;
+        traced       t;
+        moving_scene_begin(&m);
+        int hinge = moving_scene_joint(&m, turns ? -1 : 0, 0, 0);
+        for (int i = 0; i < KEYS; i++) {
+            times[i] = (double)i / (KEYS - 1);
+            angle = 1.3 * times[i];
+            memcpy(keys + 4 * i, (double[]){0, 0, sin(angle / 2), cos(angle / 2)}, sizeof(double[4]));
+            if (!turns)
+                memcpy(keys + 3 * i, (double[]){0, 5 * times[i] - 2.5, 0}, sizeof(double[3]));
+        }
+        moving_scene_put_in(
+            &m,
+            moving_scene_box(&m, turns ? end / 2 : 0, 0, 0, turns ? (double[]){end / 2, half[1], half[2]} : half, grey),
+            hinge);
+        moving_scene_keys(&m, hinge, turns ? "rotation" : "translation", KEYS, times, keys);
+        const char *path = check_path("swept-rod.glb");
+        moving_scene_write(&m, path);
+        if (open_scene(&t, path, 1, true)) {
+            t.values.lines = 0;
+            t.values.contours = 1;
+            t.values.in_front = true;
+            t.values.figures = TRACES_SWEPT;
+            check_that("77g", trace(&t) == LMN_OK, "swept");
+            check_that("77g", t.ribbons.ribbon_count == 1, "%zu outlines", t.ribbons.ribbon_count);
+            for (size_t i = 0; i < t.ribbons.point_count; i++) {
+                double x = ((double)t.ribbons.points[i].x - PAGE / 2.0) + (turns ? UNIT : 0),
+                       y = PAGE / 2.0 - (double)t.ribbons.points[i].y, reach = end * UNIT, a = atan2(y, x),
+                       r = hypot(x, y), aside = fmin(fabs(y), fabs(y * cos(1.3) - x * sin(1.3)));
+                double to =
+                    turns ? fmin(aside, fabs(r - reach)) : fmin(fabs(fabs(x) - 0.5 * UNIT), fabs(fabs(y) - 2.5 * UNIT));
+                bool corner = turns ? r < 10 || (fabs(r - reach) < 6 && aside < 6)
+                                    : fabs(fabs(x) - 0.5 * UNIT) < 6 && fabs(fabs(y) - 2.5 * UNIT) < 6;
+                looked += !corner;
+                *(corner ? &corners : &off) = fmax(corner ? corners : off, to);
+                check_that("77g", !turns || (a > -0.2 && a < 1.5), "within the sector");
+            }
+            check_at_least("77g", (double)looked, 200, "positions away from corners");
+            check_at_most("77g", off, 0.5, turns ? "a rod turns: off by, units" : "a rod passes: off by, units");
+            check_at_most("77g", corners, 1.5, "at corners, units");
+        }
+        close_scene(&t);
+    }
 }
 
 /* Row 17: patterns are on contours alone, and leave as much of them as they say. */
@@ -611,7 +717,7 @@ static void chances(void)
 /* A ball that shakes along a slope has arcs beside both of its ends, each as far beside the last as is asked for, and
  * none of them is on it; one that passes has none. */
 /* `beside`: something passes so fast that a ball that turns round counts as resting beside it. */
-static void shake(double swings, bool beside)
+static void shake(double swings, bool beside, bool shakes)
 {
     enum { KEYS = 129, ARCS = 3 };
     moving_scene m;
@@ -639,9 +745,9 @@ static void shake(double swings, bool beside)
         t.values.vibration = ARCS;
         t.values.vibration_apart = 9;
         check_that("2.2.3", trace(&t) == LMN_OK, "traced");
-        check_that("2.2.3", t.facts.shaking == 1 && t.ribbons.ribbon_count == 2 * ARCS, "%zu shake, %zu arcs",
-                   t.facts.shaking, t.ribbons.ribbon_count);
-        for (size_t i = 0; i < t.ribbons.ribbon_count; i++) {
+        check_that("2.2.3", t.facts.shaking == shakes && t.ribbons.ribbon_count == 2 * ARCS * shakes,
+                   "%g swings: %zu shake, %zu arcs", swings, t.facts.shaking, t.ribbons.ribbon_count);
+        for (size_t i = 0; i < t.ribbons.ribbon_count && shakes; i++) {
             const ribbon *r = &t.ribbons.ribbons[i];
             double        asked = UNIT + (double)t.values.begin + 9.0 * (double)(i % ARCS);
             for (uint32_t k = r->first; k < r->first + r->count; k++) {
@@ -663,8 +769,11 @@ static void shaking_has_arcs(void)
 {
     enum { ARCS = 3 };
     traced t;
-    shake(2.3, false);
-    shake(2.25, true); /* it turns round just now */
+    shake(2.3, false, true);
+    shake(2.25, true, true);  /* it turns round just now */
+    shake(0.5, false, true);  /* once there and back */
+    shake(0.6, false, false); /* and on beyond where it began */
+    shake(0.4, false, false);
     if (open_scene(&t, write_ball("passes", 3, false), 1, true)) {
         t.values.lines = 0;
         t.values.vibration = ARCS;
@@ -905,11 +1014,13 @@ int main(int argc, char **argv)
         {"arcs", rods_leave_arcs},
         {"contours", contours_of_the_past},
         {"flow", flow_lines},
+        {"flow turns", flow_lines_turn},
         {"circle", lines_on_circles},
         {"pattern", contours_have_patterns},
         {"turn", lines_end_where_it_turns},
         {"figures", figures_of_the_past},
         {"swept", swept_forms},
+        {"rods", swept_rods},
         {"walls", walls_hide},
         {"odd", odd_motions},
         {"chances", chances},

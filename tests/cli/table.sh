@@ -272,6 +272,8 @@ group_draw() {
     grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
     tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
     row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
+    # A look with several rules says so once.
+    row 0 'nothing moves without a time of an animation$' 'x.png' draw "$examples/house.glb" $small --look chrono -o x.png
     for way in echoes comic manga plate chrono squash slit lean; do
         row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion $way -o x.png
         cmp -s x.png in-rest.png && complain "$way changes nothing"

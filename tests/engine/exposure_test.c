@@ -189,6 +189,46 @@ static void the_newest_lies_in_front(void **state)
     assert_true(worst <= 1 && shown > 50 && behind > 200);
 }
 
+/* Without --fit-time, too, all figures of a plate are in the picture, and none is far from its border. Parts of other
+ * rules count where they are. */
+static void a_plate_fits_its_figures(void **state)
+{
+    static const struct {
+        const char *model, *clip;
+        double      at, exposure;
+        const char *moments;
+    } plates[] = {{"buggy.glb", NULL, 1.6, 1.5, "equal"},
+                  {"arm.glb", NULL, 1.5, 1.4, "equal"},
+                  {"box-animated.glb", NULL, 1.9, 1.8, "equal"},
+                  {"fox.glb", "Run", 0.5, 0.4, "equal"},
+                  {"buggy.glb", NULL, 1.6, 3600, "telling"}};
+    const fixture *f = *state;
+    static uint8_t pixels[4 * PIXELS];
+    for (size_t i = 0; i < sizeof plates / sizeof *plates; i++) {
+        char          path[512], rules[512];
+        int           margin = SIDE;
+        lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+        snprintf(path, sizeof path, EXAMPLES "/%s", plates[i].model);
+        snprintf(rules, sizeof rules,
+                 "{" PLAIN ", \"motion\": {\"technique\": \"accumulate\", \"times\": 6, \"weights\": \"plate\", "
+                 "\"moments\": \"%s\", \"decay\": 1, \"exposure\": %g}}",
+                 plates[i].moments, plates[i].exposure);
+        lmn_scene *s = load(path);
+        desc.clip = plates[i].clip;
+        desc.time_given = true;
+        desc.time_s = plates[i].at;
+        draw(f, s, rules, &desc, pixels);
+        for (int n = 0; n < PIXELS; n++) {
+            int x = n % SIDE, y = n / SIDE, sides[] = {x, y, SIDE - 1 - x, SIDE - 1 - y};
+            for (int k = 0; k < 4 && pixels[4 * n + 1] < 250; k++)
+                margin = sides[k] < margin ? sides[k] : margin;
+        }
+        lmn_scene_destroy(&s);
+        printf("a plate of %s leaves %d of %d pixels beside it\n", plates[i].model, margin, SIDE);
+        assert_in_range(margin, 1, SIDE / 6);
+    }
+}
+
 static void what_rests_keeps_every_bit(void **state)
 {
     const fixture *f = *state;
@@ -256,6 +296,7 @@ int main(void)
         cmocka_unit_test(it_is_the_mean),           cmocka_unit_test(a_plate_has_all_of_them),
         cmocka_unit_test(the_newest_lies_in_front), cmocka_unit_test(what_rests_keeps_every_bit),
         cmocka_unit_test(one_exposure_a_picture),   cmocka_unit_test(it_can_be_cancelled),
+        cmocka_unit_test(a_plate_fits_its_figures),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -791,6 +791,117 @@ static void strokes_throw_shadows(void **state)
     assert_int_equal(same, PIXELS);
 }
 
+/* How far gradients lie across a direction, 0 … 1, of what is outside of the middle; a half: they lie anyhow. */
+static double across(const uint8_t (*picture)[4], double direction)
+{
+    double sums[2] = {0, 0};
+    for (int y = 20; y < SIDE - 20; y++)
+        for (int x = 20; x < SIDE - 20; x++) {
+            const uint8_t(*p)[4] = picture + y * SIDE + x;
+            double g[2] = {p[1][1] - p[-1][1], p[SIDE][1] - p[-SIDE][1]},
+                   along = g[0] * cos(direction) + g[1] * sin(direction);
+            if (abs(x - SIDE / 2) < 80 && abs(y - SIDE / 2) < 80)
+                continue;
+            sums[0] += along * along;
+            sums[1] += g[0] * g[0] + g[1] * g[1];
+        }
+    return 1 - sums[0] / sums[1];
+}
+
+/* A camera goes with its subject, which stays as it is, and what is behind it dissolves into strokes along the way;
+ * row 77l. */
+static void a_tracked_subject_stays(void **state)
+{
+    static uint8_t    with[PIXELS][4], without[PIXELS][4];
+    const double      small[3] = {0.04, 0.04, 0.04}, half[3] = {0.3, 0.3, 0.05};
+    const char *const motions[] = {
+        "{\"technique\": \"streaks\", \"exposure\": 0.6, \"fade_full\": 40, \"front\": 0, \"fade\": 1}",
+        "{\"technique\": \"blur\", \"exposure\": 0.6}"};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        moving_scene m;
+        char         rules[400];
+        uint32_t     random = 12345;
+        int          changed = 0;
+        double       direction = k / 2 ? 0.6 : 0, way[2] = {cos(direction), sin(direction)};
+        moving_scene_begin(&m);
+        for (int i = 0; i < 500; i++) {
+            double at[2];
+            for (int c = 0; c < 2; c++) {
+                random = random * 1664525u + 1013904223u;
+                at[c] = ((random >> 8) / 16777216. - 0.5) * 4.4;
+            }
+            moving_scene_box(&m, at[0], at[1], -2, small, i % 2 ? green : blue);
+        }
+        int subject = moving_scene_box(&m, 0, 0, 0, half, red), eye = moving_scene_camera(&m, 0, 0, 10, true, 1);
+        moving_scene_keys(&m, subject, "translation", 2, (double[]){0, 2},
+                          (double[]){-way[0], -way[1], 0, way[0], way[1], 0});
+        moving_scene_keys(&m, eye, "translation", 2, (double[]){0, 2},
+                          (double[]){-way[0], -way[1], 10, way[0], way[1], 10});
+        moving_scene_write(&m, path_of("tracked"));
+        snprintf(rules, sizeof rules, "{\"surface\": \"lit\", \"motion\": %s}", motions[k % 2]);
+        draw_rules(path_of("tracked"), rules, 1, with);
+        draw_rules(path_of("tracked"), "{\"surface\": \"lit\"}", 1, without);
+        for (int y = -58; y <= 58; y++)
+            changed += memcmp(with[(SIDE / 2 + y) * SIDE + SIDE / 2 - 58],
+                              without[(SIDE / 2 + y) * SIDE + SIDE / 2 - 58], 4 * 117) != 0;
+        double before = across((const uint8_t(*)[4])without, direction),
+               after = across((const uint8_t(*)[4])with, direction);
+        printf("gradients across the way of the camera, %.2f rad: %.2f, in a still %.2f\n", direction, after, before);
+        assert_int_equal(changed, 0);
+        assert_true(after > 0.8 && before < 0.6);
+    }
+}
+
+/* How far a mover dissolves follows how fast each of its pixels is: a weapon more than who swings it, its tip more than
+ * its hilt. */
+static void what_is_faster_dissolves_more(void **state)
+{
+    static uint8_t picture[PIXELS][4];
+    enum { BEGIN = 10, FULL = 160 };
+    moving_scene m;
+    const double black[3] = {0, 0, 0}, half[3] = {0.15, 0.2, 0.05}, rod[3] = {0.35, 0.03, 0.02}, gone = 0.2, turn = 0.9;
+    double       worst = 0, least[2] = {1, 1}, most[2] = {0, 0};
+    int          looked[2] = {0, 0};
+    (void)state;
+    moving_scene_begin(&m);
+    int body = moving_scene_box(&m, 0, 0, 0, half, black), shoulder = moving_scene_joint(&m, 0, 0, 0),
+        weapon = moving_scene_box(&m, 0.5, 0, 0, rod, black);
+    moving_scene_put_in(&m, weapon, shoulder);
+    moving_scene_put_in(&m, shoulder, body);
+    moving_scene_keys(&m, body, "translation", 2, (double[]){0, 1}, (double[]){-gone, 0, 0, 0, 0, 0});
+    moving_scene_keys(&m, shoulder, "rotation", 2, (double[]){0, 1},
+                      (double[]){0, 0, sin(turn / 2), cos(turn / 2), 0, 0, 0, 1});
+    moving_scene_camera(&m, 0, 0, 10, true, 1);
+    moving_scene_write(&m, path_of("weapon"));
+    draw(path_of("weapon"),
+         "\"exposure\": 1, \"opacity\": 0, \"fade\": 1, \"fade_begin\": 10, \"fade_full\": 160, \"front\": 0, "
+         "\"path\": \"straight\"",
+         1, picture);
+    for (int i = 0; i < PIXELS; i++) {
+        double x = (i % SIDE + 0.5 - SIDE / 2.) / (SIDE / 2.), y = (i / SIDE + 0.5 - SIDE / 2.) / (SIDE / 2.);
+        bool   in_body = fabs(x) < 0.14 && fabs(y) < 0.19, in_weapon = fabs(x - 0.5) < 0.34 && fabs(y) < 0.022;
+        if (!in_body && (!in_weapon || x < 0.18))
+            continue;
+        double was[2] = {x, y}, light = picture[i][0] / 255.;
+        if (!in_body) {
+            was[0] = cos(turn) * x - sin(turn) * y;
+            was[1] = sin(turn) * x + cos(turn) * y;
+        }
+        double far = hypot(x - was[0] + gone, y - was[1]) * (SIDE / 2.),
+               told = fmin(fmax((far - BEGIN) / (FULL - BEGIN), 0), 1);
+        worst = fmax(worst, fabs(light - told));
+        least[in_weapon] = fmin(least[in_weapon], light);
+        most[in_weapon] = fmax(most[in_weapon], light);
+        looked[in_weapon]++;
+    }
+    printf("dissolved: who swings %.2f to %.2f, the weapon %.2f to %.2f; off by %.3f\n", least[0], most[0], least[1],
+           most[1], worst);
+    assert_true(looked[0] > 1000 && looked[1] > 400);
+    assert_true(worst < 0.03);
+    assert_true(most[0] < least[1] && most[1] > least[1] + 0.3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(at_rest_nothing_changes),
@@ -809,6 +920,8 @@ int main(void)
                                        cmocka_unit_test(rules_have_their_own),
                                        cmocka_unit_test(a_zoom_leaves_no_band),
                                        cmocka_unit_test(strokes_begin_where_they_may),
+                                       cmocka_unit_test(a_tracked_subject_stays),
+                                       cmocka_unit_test(what_is_faster_dissolves_more),
                                        cmocka_unit_test(strokes_throw_shadows)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

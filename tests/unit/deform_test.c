@@ -360,6 +360,51 @@ static void rears_are_late(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* What is dragged: its rear keeps its velocity for so long while the rest is accelerated, so that it falls behind by
+ * a·drag²/2, and all before it by the square of its distance; behind along the way, ahead when it brakes, and outwards
+ * in a curve. */
+static void rears_are_dragged(void **state)
+{
+    enum { KEYS = 257 };
+    const double t = 1.5, drag = 0.2, round = 3, speed = 2;
+    lmn_scene   *scene = comet();
+    setting      s;
+    shape        now, plain;
+    double       times[KEYS], places[3 * KEYS], outwards = 0;
+    moving_scene m;
+    (void)state;
+    set_all(&s, scene, &(part_deformation){.drag = drag, .full_speed = 6, .full_acceleration = 12});
+    shape_at(&now, scene, &s, t, 0);
+    shape_at(&plain, scene, NULL, t, 0);
+    for (size_t i = 0; i < now.count; i++) {
+        double rear = (plain.high[0] - plain.points[i][0]) / (2 * radius);
+        assert_near(now.points[i][0] - plain.points[i][0], -0.5 * 4 * pow(drag * rear, 2), 2e-3); /* x = 2t² */
+        assert_near(now.points[i][1], plain.points[i][1], 1e-6);
+    }
+    lmn_scene_destroy(&scene);
+    for (int i = 0; i < KEYS; i++) {
+        double angle = speed * (times[i] = 2.0 * i / (KEYS - 1));
+        memcpy(places + 3 * i, (double[]){round * cos(angle), 0, round * sin(angle)}, 3 * sizeof *places);
+    }
+    moving_scene_begin(&m);
+    moving_scene_keys(&m, moving_scene_sphere(&m, 0, 0, 0, radius, grey), "translation", KEYS, times, places);
+    scene = scene_of(&m, "round.glb");
+    set_all(&s, scene, &(part_deformation){.drag = drag, .full_speed = 6, .full_acceleration = 12});
+    shape_at(&now, scene, &s, 1, 0);
+    shape_at(&plain, scene, NULL, 1, 0);
+    const double out[2] = {cos(speed), sin(speed)}, way[2] = {-sin(speed), cos(speed)},
+                 middle[2] = {round * cos(speed), round * sin(speed)};
+    for (size_t i = 0; i < now.count; i++) {
+        double ahead = (plain.points[i][0] - middle[0]) * way[0] + (plain.points[i][2] - middle[1]) * way[1],
+               rear = (radius - ahead) / (2 * radius), far = 0.5 * speed * speed * round * pow(drag * rear, 2);
+        assert_near(now.points[i][0] - plain.points[i][0], far * out[0], 5e-3);
+        assert_near(now.points[i][2] - plain.points[i][2], far * out[1], 5e-3);
+        outwards = fmax(outwards, far);
+    }
+    assert_near(outwards, 0.24, 0.01);
+    lmn_scene_destroy(&scene);
+}
+
 /* A rod that turns about its end bends: each point is where it was so much earlier as it is far from the hinge. */
 static void rods_bend(void **state)
 {
@@ -712,21 +757,14 @@ static void slits_shear_opposite_ways(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(balls_stretch_as_they_fall),
-        cmocka_unit_test(balls_are_squashed_on_the_floor),
-        cmocka_unit_test(the_past_has_its_own_shape),
-        cmocka_unit_test(rest_is_left_alone),
-        cmocka_unit_test(what_is_fast_leans),
-        cmocka_unit_test(rears_are_late),
-        cmocka_unit_test(rods_bend),
-        cmocka_unit_test(wheels_keep_their_shape),
-        cmocka_unit_test(rounding_is_no_motion),
-        cmocka_unit_test(trailing_sides_have_teeth),
-        cmocka_unit_test(limbs_are_late),
-        cmocka_unit_test(slits_shear_opposite_ways),
-        cmocka_unit_test(coarse_meshes_have_no_teeth),
-        cmocka_unit_test(rules_deform_their_parts),
-        cmocka_unit_test(what_is_held_keeps_its_shape),
+        cmocka_unit_test(balls_stretch_as_they_fall), cmocka_unit_test(balls_are_squashed_on_the_floor),
+        cmocka_unit_test(the_past_has_its_own_shape), cmocka_unit_test(rest_is_left_alone),
+        cmocka_unit_test(what_is_fast_leans),         cmocka_unit_test(rears_are_late),
+        cmocka_unit_test(rears_are_dragged),          cmocka_unit_test(rods_bend),
+        cmocka_unit_test(wheels_keep_their_shape),    cmocka_unit_test(rounding_is_no_motion),
+        cmocka_unit_test(trailing_sides_have_teeth),  cmocka_unit_test(limbs_are_late),
+        cmocka_unit_test(slits_shear_opposite_ways),  cmocka_unit_test(coarse_meshes_have_no_teeth),
+        cmocka_unit_test(rules_deform_their_parts),   cmocka_unit_test(what_is_held_keeps_its_shape),
         cmocka_unit_test(missing_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

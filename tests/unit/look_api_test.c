@@ -667,6 +667,51 @@ static void test_all_or_nothing(void **state)
     lmn_look_destroy(&look);
 }
 
+/* Each way is told again by the look that has it, also after each other one and with another exposure; what it does not
+ * set stays, and what is refused changes nothing. */
+static void test_motion_ways(void **state)
+{
+    (void)state;
+    static const char json[] =
+        "{\"version\": 2, \"rules\": [{\"motion\": {\"technique\": \"traces\", "
+        "\"colour\": \"#ff0000\", \"stretch\": 0.25}}, {\"select\": \"a\", \"motion\": \"blur\"}]}";
+    lmn_motion_way_info way, other;
+    lmn_look           *look = parse(json), *same;
+    char                text[LMN_VALUE_TEXT_MAX];
+    size_t              count = 0;
+    for (; lmn_motion_way_at(count, &way); count++)
+        for (size_t i = 0; lmn_motion_way_at(i, &other); i++) {
+            assert_int_equal(lmn_look_set_motion_way(look, other.name, &error), LMN_OK);
+            assert_string_equal(lmn_look_motion_way(look), other.name);
+            assert_int_equal(lmn_look_set_motion_way(look, way.name, &error), LMN_OK);
+            assert_int_equal(lmn_look_set(look, "motion.exposure", "0.125", &error), LMN_OK);
+            assert_string_equal(lmn_look_motion_way(look), way.name);
+            assert_string_equal(lmn_look_technique(look, 1, "motion", 0), way.technique);
+        }
+    assert_int_equal(count, 11);
+    assert_false(lmn_motion_way_at(count, &way));
+    lmn_look_destroy(&look);
+    look = parse(json);
+    assert_int_equal(lmn_look_set_motion_way(look, "ghosts", &error), LMN_OK);
+    assert_int_equal(lmn_look_get_text(look, 0, "motion", 0, "colour", text, sizeof text, &error), LMN_OK);
+    assert_string_equal(text, "#ff0000");
+    assert_int_equal(lmn_look_get_text(look, 0, "motion", 0, "stretch", text, sizeof text, &error), LMN_OK);
+    assert_string_equal(text, "0.25");
+    assert_int_equal(lmn_look_set_motion_way(look, "speed-lines", &error), LMN_OK);
+    assert_int_equal(lmn_look_get_text(look, 0, "motion", 0, "lines", text, sizeof text, &error), LMN_OK);
+    assert_string_equal(text, "24"); /* not the ghosts' 0 */
+    assert_int_equal(lmn_look_copy(&same, look, &error), LMN_OK);
+    refused(lmn_look_set_motion_way(look, "gosts", &error), "there is no motion technique 'gosts'", "");
+    assert_alike(look, same);
+    assert_int_equal(lmn_look_set_motion_way(look, "streaks", &error), LMN_OK);
+    assert_string_equal(lmn_look_technique(look, 0, "motion", 0), "streaks");
+    assert_null(lmn_look_motion_way(look));
+    assert_int_equal(lmn_look_set_motion_way(look, "none", &error), LMN_OK);
+    assert_int_equal(lmn_look_technique_count(look, 0, "motion"), 0);
+    lmn_look_destroy(&same);
+    lmn_look_destroy(&look);
+}
+
 static void test_missing_arguments(void **state)
 {
     (void)state;
@@ -855,6 +900,7 @@ int main(void)
         cmocka_unit_test(test_copies),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_all_or_nothing),
+        cmocka_unit_test(test_motion_ways),
         cmocka_unit_test(test_missing_arguments),
         cmocka_unit_test(test_time),
     };

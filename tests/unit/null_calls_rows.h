@@ -30,6 +30,7 @@ ROW(lmn_scene_add_mesh, 4, C | D, STATUS, {DESC(mesh_desc)}), ROW(lmn_scene_set_
     ROW(lmn_techniques_add, 3, C, STATUS, {DESC(technique_desc)}), ROW(lmn_techniques_at, 2, 0, VALUE),
     ROW(lmn_techniques_param_at, 3, 0, VALUE), ROW(lmn_look_open, 3, C, STATUS, {DESC(look_desc)}),
     ROW(lmn_kind_count, 0, 0, VALUE), ROW(lmn_kind_at, 1, 0, VALUE), ROW(lmn_technique_at, 2, 0, VALUE),
+    ROW(lmn_motion_way_at, 1, 0, VALUE), ROW(lmn_look_set_motion_way, 3, C), ROW(lmn_look_motion_way, 1, 0, VALUE),
     ROW(lmn_param_at, 3, 0, VALUE), ROW(lmn_param_find, 5, E), ROW(lmn_look_create, 2, B), ROW(lmn_look_copy, 3, C),
     ROW(lmn_look_set_name, 3, C), ROW(lmn_look_doc, 1, 0, VALUE), ROW(lmn_look_set_doc, 3, B | C),
     ROW(lmn_look_revision, 1, 0, VALUE), ROW(lmn_look_changes, 1, 0, VALUE), ROW(lmn_look_rule_count, 1, 0, VALUE),

@@ -13,6 +13,28 @@ CALL(lmn_technique_at)
     lmn_technique_info info;
     return neutral(!(lmn_technique_at(P(0, "lines"), 0, P(1, &info))));
 }
+CALL(lmn_motion_way_at)
+{
+    lmn_motion_way_info info;
+    return neutral(!(lmn_motion_way_at(0, P(0, &info))));
+}
+CALL(lmn_look_set_motion_way)
+{
+    lmn_look *look = NULL;
+    lmn_look_copy(&look, w->look, NULL);
+    lmn_status status = lmn_look_set_motion_way(P(0, look), P(1, "ghosts"), P(2, &w->error));
+    lmn_look_destroy(&look);
+    return status;
+}
+CALL(lmn_look_motion_way)
+{
+    lmn_look *look = NULL;
+    lmn_look_copy(&look, w->look, NULL);
+    lmn_look_set_motion_way(look, "ghosts", NULL);
+    const char *way = lmn_look_motion_way(P(0, look));
+    lmn_look_destroy(&look);
+    return neutral(!way);
+}
 CALL(lmn_param_at)
 {
     lmn_param_info info;

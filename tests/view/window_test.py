@@ -149,6 +149,7 @@ def motion_drawn(v):
     exposure.set_current_value(0.25)
     v.rests(before)
     check("motion and its exposure are chosen beside the time", abs(exposure.get_current_value() - 0.25) < 1e-6)
+    check("ways to tell of motion are offered by name", v.find("speed-lines") is not None)
     for _ in range(3):
         before = v.mark()
         v.click("Undo")

@@ -375,6 +375,15 @@ class lmn_param_info(Structure):
     ]
 
 
+class lmn_motion_way_info(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("doc", c_char_p),
+        ("technique", c_char_p),
+        ("poses", c_bool),
+    ]
+
+
 class lmn_param_state(Structure):
     _fields_ = [
         ("is_default", c_bool),
@@ -734,6 +743,9 @@ FUNCTIONS = {
     "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),
     "lmn_param_at": (c_bool, [c_char_p, c_char_p, c_size_t, POINTER(lmn_param_info)]),
     "lmn_param_find": (c_int, [c_char_p, c_char_p, c_char_p, POINTER(lmn_param_info), POINTER(lmn_error)]),
+    "lmn_motion_way_at": (c_bool, [c_size_t, POINTER(lmn_motion_way_info)]),
+    "lmn_look_set_motion_way": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
+    "lmn_look_motion_way": (c_char_p, [c_void_p]),
     "lmn_look_create": (c_int, [POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_look_copy": (c_int, [POINTER(c_void_p), c_void_p, POINTER(lmn_error)]),
     "lmn_look_set_name": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
