@@ -38,7 +38,9 @@ enum { FLOW_SPACES = 4, FLOW_POINTS_MAX = 8000000 };
 /* An end of a piece of a line that flows. */
 typedef struct flow_end {
     vec3  normal;
-    float to_end;              /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
+    float drawn;  /* fraction of a grouped stroke that was drawn up to here; one half without groups */
+    float shift;  /* how far the hand is off the line, in its largest errors: −1 … 1, to the left of a to b */
+    float to_end; /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
     float spaces[FLOW_SPACES]; /* how wide its strip is once its level, and the ones after it, are whole: fractions of
                                   what it would be if all were even; later ones are about 1 */
 } flow_end;
@@ -59,6 +61,8 @@ typedef struct mark_line {
     uint32_t triangle, stroke;
     flow_end ends[2]; /* of lines that flow: these decide about themselves all along */
     float    rank;    /* the level at which it comes, 0 … */
+    float    room;    /* how broad its face is, model units */
+    float    group;   /* −1 … 1: how dark its group is among others */
     uint8_t  level, set;
 } mark_line;
 
@@ -153,14 +157,16 @@ lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *o
 /* --- strokes along the form (streamlines_*.c) ----------------------------------------------------------- */
 
 typedef struct flow_options {
-    double apart;  /* of lines where all are there, model units */
-    int    levels; /* of lines, each with half the distance of the one before; that of the first is all this doubled */
-    double length; /* mean length of strokes that lines are cut into, model units; 0: whole lines */
-    float  uneven; /* how much lengths differ, 0 … 1 */
-    int    series; /* 1 … 4: sets of lines that cross */
-    float  turn;   /* angle between one set and the next, radians */
-    double sag;    /* how far pieces may leave the surface, model units */
-    bool   whole;  /* strokes are drawn whole, by their middle (marks_law.c), instead of flowing (marks_flow.c) */
+    double apart;   /* of lines where all are there, model units */
+    int    levels;  /* of lines, each with half the distance of the one before; that of the first is all this doubled */
+    double length;  /* mean length of strokes that lines are cut into, model units; 0: whole lines */
+    float  uneven;  /* how much lengths differ, 0 … 1 */
+    double groups;  /* breadth of groups in which strokes begin and end together, in their lengths; 0: none */
+    double overlap; /* how far they run on into the next group, at most, in their lengths */
+    int    series;  /* 1 … 4: sets of lines that cross */
+    float  turn;    /* angle between one set and the next, radians */
+    double sag;     /* how far pieces may leave the surface, model units */
+    bool   whole;   /* strokes are drawn whole, by their middle (marks_law.c), instead of flowing (marks_flow.c) */
     uint32_t seed;
 } flow_options;
 
@@ -259,6 +265,11 @@ double mark_cover_of_set(double darkness, double crossed, int set, int series);
  * `apart`: distance of level 0. */
 /* A line's own width, 1 ± uneven / 2. */
 double mark_flow_swell(const mark_line *line, double uneven);
+/* What a hand makes of it: firm where strokes of a group begin, `pressure` (0 … 1) less where they end, and some groups
+ * darker than others, by `patchy` (0 … 1). The mean is 1. */
+double mark_flow_hand(const mark_line *line, const flow_end *end, double pressure, double patchy);
+/* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
+double mark_flow_room(double distances, double room);
 double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], double apart, int levels, double level,
                        double cover);
 
@@ -277,6 +288,8 @@ typedef struct mark_style {
     float   crossed, least, widest, tip, swell; /* lines that flow: darkness from which sets cross; cover below which
                                                    lines run out; most width, in distances; how pointed ends are;
                                                    unevenness of widths. `taper` is in distances of lines */
+    float pressure, patchy, stray, room;        /* mark_flow_hand; how far strokes leave their lines, in distances;
+                                                   mark_flow_room */
     int32_t series;
     float   shadow, light, contrast,
         texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */

@@ -43,6 +43,17 @@ double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], d
     return cover * ldexp(apart, -whole) * (now + coming * (next - now));
 }
 
+double mark_flow_hand(const mark_line *line, const flow_end *end, double pressure, double patchy)
+{
+    return (1 + pressure * (1 - 2 * (double)end->drawn)) * (1 + patchy * (double)line->group);
+}
+
+double mark_flow_room(double distances, double room)
+{
+    double t = room > 0 ? clamped(2 * distances / room - 1) : 1;
+    return t * t * (3 - 2 * t);
+}
+
 double mark_flow_swell(const mark_line *line, double uneven)
 {
     double whole = (double)line->rank * 97 + line->level * 0.37;

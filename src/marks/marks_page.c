@@ -244,6 +244,35 @@ static float stroke_ink(const pager *g, const mark_line *l)
     return mark_line_ink(l, (float)fmin(ink, 1), (float)fraction, g->style->fade);
 }
 
+/* Pixels to a unit across a line that flows, at an end of a piece. `along`: the piece's direction in eye axes. */
+static double across_at(const pager *g, const mark_line *l, const position_on_page *p, double along[3])
+{
+    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, along);
+    double length = fmax(sqrt(dot(along, along)), 1e-300);
+    for (int k = 0; k < 3; k++)
+        along[k] /= length;
+    return mark_fraction(MARK_LAW_LINE, p->eye, p->normal, along, g->focal, g->view->orthographic);
+}
+
+/* Where the hand puts an end: beside the line, on the page by so many distances as in surface/marks_lines.vert. */
+static vec3 strayed(const pager *g, const mark_line *l, int end)
+{
+    const flow_end *e = &l->ends[end];
+    vec3            at = end ? l->b : l->a;
+    double          stretch, along[3], by = (double)g->style->stray * (double)e->shift * (double)g->style->scale;
+    if (by == 0)
+        return at;
+    position_on_page p = find_position(g, at, e->normal, &stretch);
+    /* At a grazing angle less than distances on the page. */
+    double across =
+        fmax(across_at(g, l, &p, along), 0.5 * g->focal / (g->view->orthographic ? 1 : fmax(-p.eye[2], 1e-20)));
+    double d[3] = {(double)l->b.x - (double)l->a.x, (double)l->b.y - (double)l->a.y, (double)l->b.z - (double)l->a.z};
+    double n[3] = {(double)e->normal.x, (double)e->normal.y, (double)e->normal.z};
+    double aside[3] = {n[1] * d[2] - n[2] * d[1], n[2] * d[0] - n[0] * d[2], n[0] * d[1] - n[1] * d[0]};
+    by /= fmax(across, 1e-20) * fmax(sqrt(dot(aside, aside)), 1e-300);
+    return (vec3){at.x + (float)(by * aside[0]), at.y + (float)(by * aside[1]), at.z + (float)(by * aside[2])};
+}
+
 /* How wide a line that flows is at an end of a piece, pixels: surface/marks_lines.vert in doubles. */
 static float flow_width(const pager *g, const marks *m, const mark_line *l, int end)
 {
@@ -252,19 +281,18 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     position_on_page p = find_position(g, end ? l->b : l->a, e->normal, &stretch);
     if (!p.inside || (p.facing <= 0 && !g->backs))
         return 0;
-    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, direction);
-    double length = fmax(sqrt(dot(direction, direction)), 1e-300), least = (double)g->style->least;
-    for (int k = 0; k < 3; k++)
-        direction[k] /= length;
-    double across = mark_fraction(MARK_LAW_LINE, p.eye, p.normal, direction, g->focal, g->view->orthographic),
-           scale = (double)g->style->scale, level = log2(fmax(m->apart * across / scale, 1e-6));
+    double least = (double)g->style->least;
+    double across = across_at(g, l, &p, direction), scale = (double)g->style->scale,
+           level = log2(fmax(m->apart * across / scale, 1e-6));
     double cover =
         mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set, g->style->series) *
-        mark_flow_swell(l, (double)g->style->swell);
+        mark_flow_swell(l, (double)g->style->swell) *
+        mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
+        mark_flow_room((double)l->room * across / scale, (double)g->style->room);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
-           left = fmin(fmax((double)l->ends[end].to_end / fmax(taper, 1e-20), 0), 1);
+           left = fmin(fmax((double)e->to_end / fmax(taper, 1e-20), 0), 1);
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
@@ -339,19 +367,44 @@ static void find_lift(const pager *g, const marks *m, const mark_line *l, double
     out[2] = lift * (double)l->normal.z;
 }
 
+enum { SAMPLES_MAX = 64 };
+
+/* Where a hand strays over an edge there is no surface: none a little below, as on the GPU none is seen in that depth.
+ * `positions`: lifted. */
+static void leave_out_strayed(const stretch_walk *w, const double (*positions)[3], const double lift[3], size_t count,
+                              uint32_t *behind)
+{
+    const double BELOW = 2; /* pixels */
+    double       below[SAMPLES_MAX + 1][3];
+    uint32_t     front[SAMPLES_MAX + 1] = {0};
+    double       length = fmax(sqrt(dot(lift, lift)), 1e-300);
+    for (size_t i = 0; i < count; i++) {
+        double eye[3];
+        move_point(&w->g->view->model_view,
+                   (vec3){(float)positions[i][0], (float)positions[i][1], (float)positions[i][2]}, eye);
+        double down = BELOW * (w->g->view->orthographic ? 1 : fmax(-eye[2], 0)) / w->g->focal;
+        for (int k = 0; k < 3; k++)
+            below[i][k] = positions[i][k] - (1 + down / length) * lift[k];
+    }
+    w->hidden(w->user, (const double(*)[3])below, count, front);
+    for (size_t i = 0; i < count; i++)
+        if (front[i] == 0 && behind[i] == 0)
+            behind[i] = 1;
+}
+
 /* One piece, in samples of about two pixels: those that something hides interrupt the line. `widths`: at both ends. */
 static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2])
 {
-    enum { SAMPLES_MAX = 64 };
     double   positions[SAMPLES_MAX + 1][3], eye[3], lift[3];
     float    at[SAMPLES_MAX + 1][2];
     uint32_t behind[SAMPLES_MAX + 1] = {0};
     bool     there[SAMPLES_MAX + 1], hides = w->hidden != NULL;
     float    ends[2][2] = {{0, 0}, {0, 0}};
     find_lift(w->g, w->marks, l, lift);
-    move_point(&w->g->view->model_view, l->a, eye);
+    vec3 a = w->marks->flow ? strayed(w->g, l, 0) : l->a, b = w->marks->flow ? strayed(w->g, l, 1) : l->b;
+    move_point(&w->g->view->model_view, a, eye);
     bool seen = on_page(w->g, eye, &ends[0][0], &ends[0][1]);
-    move_point(&w->g->view->model_view, l->b, eye);
+    move_point(&w->g->view->model_view, b, eye);
     seen = on_page(w->g, eye, &ends[1][0], &ends[1][1]) && seen;
     double apart =
         seen ? hypot((double)ends[1][0] - (double)ends[0][0], (double)ends[1][1] - (double)ends[0][1]) : SAMPLES_MAX;
@@ -359,7 +412,7 @@ static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2]
     int  count = hides || tapers || !seen ? (int)fmin(fmax(ceil(apart / 2), 1), SAMPLES_MAX) : 1;
     for (int i = 0; i <= count; i++) {
         float s = (float)i / (float)count;
-        vec3  p = {l->a.x + s * (l->b.x - l->a.x), l->a.y + s * (l->b.y - l->a.y), l->a.z + s * (l->b.z - l->a.z)};
+        vec3  p = {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)};
         positions[i][0] = (double)p.x + lift[0];
         positions[i][1] = (double)p.y + lift[1];
         positions[i][2] = (double)p.z + lift[2];
@@ -368,6 +421,8 @@ static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2]
     }
     if (hides)
         w->hidden(w->user, (const double(*)[3])positions, (size_t)count + 1, behind);
+    if (hides && w->marks->flow && w->g->style->stray > 0)
+        leave_out_strayed(w, (const double(*)[3])positions, lift, (size_t)count + 1, behind);
     for (int i = w->open ? 1 : 0; i <= count; i++) {
         float part = (float)i / (float)count, along = l->from + part * (l->to - l->from),
               width = widths[0] + part * (widths[1] - widths[0]);

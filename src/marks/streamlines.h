@@ -30,12 +30,15 @@ typedef struct flow_surface {
     primitive           mesh;   /* the surface, for who knows only these */
     uint32_t           *across; /* mesh_adjacency */
     uint32_t           *bodies; /* per triangle: the first one of those that it hangs together with */
+    float              *rooms;  /* per triangle: how broad its face is, between creases (streamlines_rooms.c) */
     direction_field     field;
 } flow_surface;
 
 /* Errors: LMN_MEMORY. Release also after one. */
 lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error *error);
 void       flow_surface_release(flow_surface *f);
+/* False when memory is gone. */
+bool flow_rooms_make(flow_surface *f);
 
 /* A position on a triangle, and which way a walk goes there (unit, in the triangle's plane). */
 typedef struct flow_position {
@@ -91,6 +94,17 @@ void flow_lines_release(flow_lines *l);
 /* Lines of a set: of as many levels as are asked for, each half as far from each other as those of the level before,
  * among which they lie. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error);
+
+/* --- groups of strokes (streamlines_groups.c) ------------------------------------------------------------ */
+
+typedef struct flow_group {
+    uint64_t number;
+    double   tone, tilt; /* 0 … 1, −1 … 1: how dark it is among others, how much it is turned */
+    d3       toward;     /* which way its strokes are drawn */
+} flow_group;
+
+/* The group that a position on a line belongs to; `direction`: the line's, unit. */
+void flow_group_find(flow_group *out, d3 at, d3 direction, double length, double breadth, uint32_t seed);
 
 /* --- who is near (streamlines_grid.c) ------------------------------------------------------------------- */
 

@@ -13,14 +13,28 @@ enum { POINTS = 256 /* of a piece at most */ };
 
 static const double BENT = 0.966; /* cosine of 15 degrees: normals of a piece differ by no more */
 static const double PIECE = 5;    /* distances of the finest lines that a piece is long at most */
+/* Of groups, in lengths of strokes. */
+static const double ASKED = 0.03;    /* how often along a line its group is asked for */
+static const double SHORTEST = 0.35; /* of what a border cuts off */
+static const double RAGGED = 0.06;   /* how far beginnings are from their common border */
+static const double FIRM = 5;        /* so many times as fast as it ends, a stroke begins */
 
 typedef struct flow_cutter {
     marks              *out;
     const flow_lines   *lines;
     const flow_options *options;
+    const flow_surface *surface;
     int                 set;
     random_source       random;
 } flow_cutter;
+
+/* What a group makes of one of its strokes. */
+typedef struct grouped_stroke {
+    bool   grouped, forward; /* drawn the way the line goes */
+    float  tone;
+    double shifts[2]; /* off the line where it begins and ends, −1 … 1 */
+    double share;     /* of the ink of its strip, as strokes overlap */
+} grouped_stroke;
 
 static double product(vec3 a, vec3 b)
 {
@@ -56,25 +70,38 @@ static uint32_t end_of_piece(const flow_cutter *c, const flow_point *p, uint32_t
 
 static flow_end end_at(const flow_cutter *c, const flow_line *line, const flow_point *p, double to_end)
 {
-    flow_end e = {.normal = p->normal, .to_end = (float)to_end};
+    flow_end e = {.normal = p->normal, .to_end = (float)to_end, .drawn = 0.5f};
     for (int k = 0; k < FLOW_SPACES; k++)
         e.spaces[k] = (float)((double)p->spaces[k] / ldexp(c->lines->apart, -line->level - k));
     return e;
 }
 
-/* How far a point of a stroke is from its nearer end that runs out. */
-static double to_end_of(const flow_line *line, double arc, double from, double to, const bool cut[2])
+/* `part`: of the stroke, along the line. */
+static void draw_in_group(flow_end *e, const grouped_stroke *g, double part)
 {
-    double away = (double)FLOW_ENDLESS;
+    double along = fmin(fmax(part, 0), 1), drawn = g->forward ? along : 1 - along;
+    e->drawn = (float)drawn;
+    e->shift = (float)(g->shifts[0] + drawn * (g->shifts[1] - g->shifts[0]));
+    for (int k = 0; k < FLOW_SPACES; k++)
+        e->spaces[k] *= (float)g->share;
+}
+
+/* How far a point of a stroke is from its nearer end that runs out. */
+static double to_end_of(const flow_line *line, double arc, double from, double to, const bool cut[2],
+                        const grouped_stroke *g)
+{
+    double away = (double)FLOW_ENDLESS, first = g->grouped && g->forward ? FIRM : 1,
+           second = g->grouped && !g->forward ? FIRM : 1;
     if (cut[0] || !(line->closed || line->bounded[0]))
-        away = fmin(away, arc - from);
+        away = fmin(away, first * (arc - from));
     if (cut[1] || !(line->closed || line->bounded[1]))
-        away = fmin(away, to - arc);
+        away = fmin(away, second * (to - arc));
     return away;
 }
 
 /* A stroke: the points first … last of a line. */
-static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last, const bool cut[2])
+static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last, const bool cut[2],
+                       const grouped_stroke *g)
 {
     marks            *m = c->out;
     const flow_point *p = &c->lines->points[line->first];
@@ -95,6 +122,8 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
                    .density = (float)(1 / c->options->apart),
                    .bright = 1,
                    .rank = (float)rank,
+                   .room = c->surface->rooms[p[middle].triangle],
+                   .group = g->tone,
                    .level = line->level,
                    .set = (uint8_t)c->set,
                    .stroke = (uint32_t)m->stroke_count++};
@@ -110,8 +139,10 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
         l.normal = p[(i + end + 1) / 2].normal;
         l.from = p[i].arc - (float)from;
         l.to = p[end].arc - (float)from;
-        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, (double)p[i].arc, from, to, cut));
-        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, (double)p[end].arc, from, to, cut));
+        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, (double)p[i].arc, from, to, cut, g));
+        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, (double)p[end].arc, from, to, cut, g));
+        for (int k = 0; k < 2 && g->grouped; k++)
+            draw_in_group(&l.ends[k], g, (double)(k ? l.to : l.from) / (to - from));
         m->lines[m->line_count++] = l;
         m->line_length += (double)l.to - (double)l.from;
     }
@@ -121,11 +152,12 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
 /* Cuts a line into strokes, whose ends lie anywhere. */
 static bool cut_line(flow_cutter *c, const flow_line *line)
 {
-    const flow_point *p = &c->lines->points[line->first];
-    double            length = c->options->length, uneven = (double)c->options->uneven;
-    bool              cut[2] = {false, false};
+    const flow_point    *p = &c->lines->points[line->first];
+    double               length = c->options->length, uneven = (double)c->options->uneven;
+    const grouped_stroke alone = {.grouped = false};
+    bool                 cut[2] = {false, false};
     if (!(length > 0))
-        return add_stroke(c, line, 0, line->count - 1, cut);
+        return add_stroke(c, line, 0, line->count - 1, cut, &alone);
     double next = length * random_unit(&c->random);
     for (uint32_t first = 0, i = 1; i < line->count; i++) {
         bool last = i + 1 == line->count;
@@ -133,13 +165,91 @@ static bool cut_line(flow_cutter *c, const flow_line *line)
             continue;
         cut[0] = first > 0 || line->closed;
         cut[1] = !last || line->closed;
-        if (!add_stroke(c, line, first, i, cut))
+        if (!add_stroke(c, line, first, i, cut, &alone))
             return false;
         first = i;
         next = (double)p[i].arc + length * (1 + 0.6 * uneven * random_signed(&c->random));
     }
     return true;
 }
+
+/* --- groups --------------------------------------------------------------------------------------------- */
+
+static d3 direction_on(const flow_line *line, const flow_point *p, uint32_t i)
+{
+    return d3_unit(minus(of(p[i + 1 < line->count ? i + 1 : i].at), of(p[i > 0 ? i - 1 : 0].at)));
+}
+
+static void group_at(const flow_cutter *c, const flow_line *line, uint32_t i, flow_group *out)
+{
+    const flow_point *p = &c->lines->points[line->first];
+    flow_group_find(out, of(p[i].at), direction_on(line, p, i), c->options->length,
+                    c->options->length * c->options->groups, c->options->seed * 4 + (uint32_t)c->set);
+}
+
+/* The point that is nearest to an arc. */
+static uint32_t point_at(const flow_line *line, const flow_point *p, uint32_t from, double arc)
+{
+    uint32_t i = from;
+    while (i + 1 < line->count && (double)p[i].arc < arc)
+        i++;
+    while (i > 0 && (double)p[i - 1].arc >= arc)
+        i--;
+    return i;
+}
+
+/* A stroke of a group, on points first … last but for what a hand makes of its ends: it begins nearly where the others
+ * do, and runs on more or less far. */
+static bool add_grouped(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last)
+{
+    const flow_point *p = &c->lines->points[line->first];
+    double            length = c->options->length, from = (double)p[first].arc, to = (double)p[last].arc;
+    grouped_stroke    g = {.grouped = true};
+    flow_group        group = {.number = 0};
+    uint32_t          middle = point_at(line, p, first, 0.5 * (from + to));
+    group_at(c, line, middle, &group);
+    g.forward = dot(direction_on(line, p, middle), group.toward) >= 0;
+    g.tone = (float)(2 * group.tone - 1);
+    double tilt = (g.forward ? 0.8 : -0.8) * group.tilt, own = 0.15 * random_signed(&c->random);
+    g.shifts[0] = own - tilt;
+    g.shifts[1] = own + tilt + 0.1 * random_signed(&c->random);
+    double begins = RAGGED * (double)c->options->uneven * length * random_signed(&c->random),
+           ends = fmin(c->options->overlap * length, to - from) *
+                  (1 - (double)c->options->uneven * random_unit(&c->random));
+    double   low = from - (g.forward ? begins : ends), high = to + (g.forward ? ends : begins);
+    uint32_t start = point_at(line, p, first, low), stop = point_at(line, p, last, high);
+    double   drawn = (double)p[stop].arc - (double)p[start].arc;
+    g.share = drawn > 0 ? fmin((to - from) / drawn, 1) : 1;
+    const bool cut[2] = {start > 0 || line->closed, stop + 1 < line->count || line->closed};
+    return add_stroke(c, line, start, stop, cut, &g);
+}
+
+/* Cuts a line where groups end. */
+static bool cut_in_groups(flow_cutter *c, const flow_line *line)
+{
+    const flow_point *p = &c->lines->points[line->first];
+    double            length = c->options->length, asked = 0;
+    flow_group        own, here;
+    uint32_t          first = 0, end = line->count - 1;
+    group_at(c, line, 0, &own);
+    for (uint32_t i = 1; i < end; i++) {
+        if ((double)p[i].arc < asked)
+            continue;
+        asked = (double)p[i].arc + ASKED * length;
+        group_at(c, line, i, &here);
+        bool long_enough = (double)p[i].arc - (double)p[first].arc > SHORTEST * length &&
+                           (double)p[end].arc - (double)p[i].arc > SHORTEST * length;
+        if (here.number == own.number || !long_enough)
+            continue;
+        if (!add_grouped(c, line, first, i))
+            return false;
+        first = i;
+        own = here;
+    }
+    return add_grouped(c, line, first, end);
+}
+
+/* --- ranks ---------------------------------------------------------------------------------------------- */
 
 typedef struct ranked_stroke {
     float  rank;
@@ -182,12 +292,13 @@ static bool share_priorities(marks *m, size_t first)
 static lmn_status add_set(marks *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error)
 {
     flow_lines  lines;
-    flow_cutter c = {.out = out, .lines = &lines, .options = w, .set = set};
+    flow_cutter c = {.out = out, .lines = &lines, .options = w, .surface = f, .set = set};
     size_t      first = out->line_count;
     c.random = random_start(w->seed, (uint32_t)set + 0xC07);
     lmn_status status = flow_lines_make(&lines, f, w, set, error);
     for (size_t i = 0; i < lines.line_count && status == LMN_OK; i++) {
-        if (!cut_line(&c, &lines.lines[i]))
+        bool grouped = w->length > 0 && w->groups > 0;
+        if (!(grouped ? cut_in_groups(&c, &lines.lines[i]) : cut_line(&c, &lines.lines[i])))
             status = error_memory(error);
         else if (out->line_count > LIMIT_MARKS)
             status = error_set(error, LMN_LIMIT, "the strokes on this surface have more than %d pieces", LIMIT_MARKS);

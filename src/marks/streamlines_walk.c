@@ -270,6 +270,8 @@ lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error
             group_join(out->bodies, h / 3, out->across[h] / 3);
     for (uint32_t t = 0; t < s->triangle_count; t++)
         out->bodies[t] = group_root(out->bodies, t);
+    if (!flow_rooms_make(out))
+        return error_memory(error);
     return direction_field_make(&out->field, &out->mesh, FEATURE, 0, error);
 }
 
@@ -278,5 +280,6 @@ void flow_surface_release(flow_surface *f)
     direction_field_release(&f->field);
     mem_free(f->across);
     mem_free(f->bodies);
+    mem_free(f->rooms);
     memset(f, 0, sizeof *f);
 }

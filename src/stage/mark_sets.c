@@ -9,7 +9,7 @@
 #include "stage/mark_ground.h"
 #include "surface/marks.h"
 
-enum { SETS_MAX = 8, DOT_VECTORS = 2, LINE_VECTORS = 5 };
+enum { SETS_MAX = 8, DOT_VECTORS = 2, LINE_VECTORS = 5, FLOW_VECTORS = 6 };
 
 struct mark_sets {
     mark_set sets[SETS_MAX];
@@ -97,24 +97,33 @@ static float packed_spaces(const flow_end *e)
     return (float)out;
 }
 
-static void write_flow(float (*r)[4], const mark_line *l, double apart)
+/* How dark a group is, in steps that floats have exactly: −31 … 31 as 0 … 62. */
+static float packed_group(const mark_line *l)
+{
+    return roundf(31 * fminf(fmaxf(l->group, -1), 1)) + 31;
+}
+
+static void write_flow(float (*r)[4], const mark_line *l)
 {
     const flow_end *a = &l->ends[0], *b = &l->ends[1];
     memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->rank}, sizeof *r);
-    memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, (float)(l->level + 32 * l->set)}, sizeof *r);
+    memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, (float)(l->level + 32 * l->set) + 128 * packed_group(l)}, sizeof *r);
     memcpy(r[2], (float[]){a->normal.x, a->normal.y, a->normal.z, packed_spaces(a)}, sizeof *r);
     memcpy(r[3], (float[]){b->normal.x, b->normal.y, b->normal.z, packed_spaces(b)}, sizeof *r);
-    memcpy(r[4], (float[]){a->to_end, b->to_end, l->bright, (float)apart}, sizeof *r);
+    memcpy(r[4], (float[]){a->to_end, b->to_end, l->bright, l->room}, sizeof *r);
+    memcpy(r[5], (float[]){a->drawn, b->drawn, a->shift, b->shift}, sizeof *r);
 }
 
 /* Those that stay longest with distance come first, so that from far away only the first need to be looked at. */
 static void upload_lines(gpu *g, const marks *m, mark_set *out)
 {
-    float(*records)[4] = mem_alloc(m->line_count * LINE_VECTORS * sizeof *records);
+    int vectors = m->flow ? FLOW_VECTORS : LINE_VECTORS;
+    float(*records)[4] = mem_alloc(m->line_count * (size_t)vectors * sizeof *records);
     const mark_line **order = mem_alloc(m->line_count * sizeof *order);
     out->ranks = mem_alloc(m->line_count * sizeof *out->ranks);
     out->lines = true;
     out->levels = m->levels;
+    out->apart = m->apart;
     out->density = INFINITY;
     if (records && order && out->ranks) {
         for (size_t i = 0; i < m->line_count; i++)
@@ -122,13 +131,13 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
         qsort(order, m->line_count, sizeof *order, by_perspective);
         for (size_t i = 0; i < m->line_count; i++) {
             if (m->flow)
-                write_flow(&records[LINE_VECTORS * i], order[i], m->apart);
+                write_flow(&records[(size_t)vectors * i], order[i]);
             else
-                write_line(&records[LINE_VECTORS * i], order[i]);
+                write_line(&records[(size_t)vectors * i], order[i]);
             out->ranks[i] = 1 - order[i]->perspective;
             out->density = fmin(out->density, (double)order[i]->density);
         }
-        out->marks = gpu_marks_create(g, LINE_VECTORS, records[0], m->line_count);
+        out->marks = gpu_marks_create(g, vectors, records[0], m->line_count);
     } else {
         gpu_fail(g, LMN_MEMORY, "out of memory");
     }

@@ -18,6 +18,7 @@ typedef struct mark_set {
     size_t              count;
     bool                lines;
     int                 levels; /* of lines that flow */
+    double              apart;  /* of those, where only the first level is there */
     moment              when;   /* of the pose that they are in */
     marks              *made;   /* as they are at rest, on `ground`, of scenes that move; NULL: it does not */
     struct mark_ground *ground;

@@ -15,12 +15,31 @@ static const param params[] = {
                     .doc = "Mean length of lines, fraction of the model's diagonal; 0 lets them run on."),
     PARAM_FLOAT_ROW(surface_lines_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "length>0", .doc = "How much lines differ in length."),
+    PARAM_FLOAT_ROW(surface_lines_values, groups, .toggles = true, .def = 0, .min = 0, .max = 4, .soft_max = 2,
+                    .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "Breadth of groups in which lines begin and end together, as a hand hatches patch by patch, "
+                           "in lengths of lines (where these run on, of 0.15); 0: each line by itself."),
+    PARAM_FLOAT_ROW(surface_lines_values, overlap, .def = 0.3, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .cpu_only = true, .only_if = "groups>0",
+                    .doc = "How far lines of a group run on into the next, at most, in lengths of lines."),
+    PARAM_FLOAT_ROW(surface_lines_values, pressure, .toggles = true, .def = 0.6, .min = 0, .max = 1,
+                    .unit = UNIT_FRACTION, .only_if = "groups>0",
+                    .doc = "How firm lines of groups begin and how much they fade to where they end."),
+    PARAM_FLOAT_ROW(surface_lines_values, patchy, .toggles = true, .def = 0.25, .min = 0, .max = 1,
+                    .unit = UNIT_FRACTION, .only_if = "groups>0", .doc = "How much groups differ in darkness."),
+    PARAM_FLOAT_ROW(surface_lines_values, stray, .toggles = true, .def = 0.6, .min = 0, .max = 4, .soft_max = 2,
+                    .only_if = "groups>0",
+                    .doc = "How far a group's lines leave the way of the form, all turned by some angle and each a "
+                           "little by itself, in distances of lines."),
     PARAM_INT_ROW(surface_lines_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .variant = true,
                   .doc = "Sets of lines that cross each other, later ones where it is darker."),
     PARAM_FLOAT_ROW(surface_lines_values, turn, .def = 50, .min = -180, .max = 180, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "series>1", .doc = "Angle between one set of lines and the next."),
     PARAM_FLOAT_ROW(surface_lines_values, crossed, .def = 0.55, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .only_if = "series>1", .doc = "Darkness from which sets cross."),
+    PARAM_FLOAT_ROW(surface_lines_values, room, .toggles = true, .def = 0, .min = 0, .max = 20, .soft_max = 6,
+                    .doc = "Faces that are narrower than this, in distances of lines, have fewer, and none below half "
+                           "of it; 0: however narrow they are."),
     PARAM_FLOAT_ROW(surface_lines_values, least, .def = 0.08, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
                     .doc = "Width, fraction of their distance, below which lines run out."),
     PARAM_FLOAT_ROW(surface_lines_values, widest, .def = 2, .min = 0.05, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
@@ -36,17 +55,20 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const surface_lines_values *v = values;
-    text_append(out, "lines %d %d %.9g %.9g %d %.9g", v->common.count, v->common.pattern_seed, (double)v->length,
-                (double)v->uneven, v->series, (double)v->turn);
+    text_append(out, "lines %d %d %.9g %.9g %.9g %.9g %d %.9g", v->common.count, v->common.pattern_seed,
+                (double)v->length, (double)v->uneven, (double)v->groups, (double)v->overlap, v->series,
+                (double)v->turn);
 }
 
 /* Levels from lines of which a few go over the whole to the closest; no more of these than a large surface has room
  * for. */
 static lmn_status make(marks *out, const mark_surface *surface, double extent, const void *values, lmn_error *error)
 {
+    const double GROUPED = 0.15; /* length of lines of groups where none is given */
     enum { LINES_MOST = 1000, LENGTH_MOST = 800 /* diagonals, of a set */, LEVELS_MOST = 12 };
     const surface_lines_values *v = values;
     double                      apart = extent / fmin(v->common.count, LINES_MOST), area = mark_surface_area(surface);
+    double                      length = extent * (v->groups > 0 && !(v->length > 0) ? GROUPED : (double)v->length);
     int                         levels = 1;
     apart = fmax(apart, area / fmax(extent * LENGTH_MOST, 1e-300));
     while (levels < LEVELS_MOST && ldexp(apart, levels) < extent / 5)
@@ -54,8 +76,10 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
     return marks_streamlines(out, surface,
                              &(flow_options){.apart = apart,
                                              .levels = levels,
-                                             .length = extent * (double)v->length,
+                                             .length = length,
                                              .uneven = v->uneven,
+                                             .groups = (double)v->groups,
+                                             .overlap = (double)v->overlap,
                                              .series = v->series,
                                              .turn = v->turn * (3.14159265f / 180),
                                              .sag = extent / 3000,

@@ -2,12 +2,13 @@
 #include "surface/marks.glsl"
 
 layout(location = 0) in vec4 a_from;        /* the level at which it comes */
-layout(location = 1) in vec4 a_to;          /* its own level + 32 times the number of its set */
+layout(location = 1) in vec4 a_to;          /* its own level + 32 times the number of its set + 128 times how dark its group is, 0 ... 62 */
 layout(location = 2) in vec4 a_from_normal; /* how wide its strip is at four levels, packed */
 layout(location = 3) in vec4 a_to_normal;
-layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model, distance of the first level */
+layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model, how broad its face is */
+layout(location = 5) in vec4 a_group;       /* fractions of the stroke drawn up to both ends, how far they are off the line */
 
-uniform float u_near_plane, u_levels;
+uniform float u_near_plane, u_levels, u_apart; /* u_apart: distance of the first level */
 
 flat out vec3 v_normal; /* of its surface, towards the viewer */
 flat out vec4 v_ends;    /* of the piece, pixels */
@@ -62,18 +63,36 @@ float across_on_page(mark_position m, vec3 direction)
 }
 
 /* Half the width of the line at an end, pixels. */
-float half_width_at(mark_position m, vec3 direction, float spaces, float to_end)
+float half_width_at(mark_position m, vec3 direction, float spaces, float to_end, float drawn)
 {
-    float set = floor(a_to.w / 32.0), own = a_to.w - 32.0 * set, across = across_on_page(m, direction), apart = a_along.w;
-    float level = log2(max(apart * across / u_scale, 1e-6));
+    float group = floor(a_to.w / 128.0), set = floor(a_to.w / 32.0) - 4.0 * group, own = a_to.w - 128.0 * group - 32.0 * set;
+    float across = across_on_page(m, direction), level = log2(max(u_apart * across / u_scale, 1e-6));
     if (own > level + 1.0 && own > 0.0)
         return 0.0;
-    float strip = strip_of(own, a_from.w, spaces_of(spaces), level) * apart * across;
+    float strip = strip_of(own, a_from.w, spaces_of(spaces), level) * u_apart * across;
     float swell = fract(a_from.w * 97.0 + own * 0.37) - 0.5;
     float cover = cover_of_set(darkness_at(m, a_along.z), set) * (1.0 + u_swell * swell);
+    cover *= (1.0 + u_pressure * (1.0 - 2.0 * drawn)) * (1.0 + u_patchy * (group / 31.0 - 1.0));
+#ifdef WITH_ROOM
+    cover *= smoothstep(0.5 * u_room, u_room, a_along.w * across / u_scale);
+#endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
     float taper = u_taper * u_scale / max(across, 1e-20), left = clamp(to_end / max(taper, 1e-20), 0.0, 1.0);
     return 0.5 * min(strip * cover, u_widest < 2.0 ? u_widest * u_scale : 1e9) * pow(left, u_tip);
+}
+
+/* Where the hand puts an end: beside the line, by so many distances; marks/marks_page.c. */
+vec3 strayed(vec3 eye, vec3 model_normal, vec3 along, float shift)
+{
+    mark_position m;
+    m.eye = eye;
+    m.normal = normalize(u_normal_matrix * model_normal);
+    m.facing = 1.0;
+    vec3 direction = normalize(along + vec3(1e-30));
+    float plain = u_perspective > 0.5 ? u_focal / max(-eye.z, 1e-20) : u_focal; /* at a grazing angle less than distances on the page */
+    float by = u_stray * shift * u_scale / max(max(across_on_page(m, direction), 0.5 * plain), 1e-20);
+    vec3 aside = cross(m.normal, direction);
+    return eye + aside * (by / max(length(aside), 1e-20));
 }
 
 bool clip_near(inout vec3 a, inout vec3 b)
@@ -98,7 +117,12 @@ bool is_back(mark_position m)
 
 void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
 {
-    float half_width = half_width_at(m, normalize(to - from + vec3(1e-30)), at_end ? a_to_normal.w : a_from_normal.w, at_end ? a_along.y : a_along.x);
+    float half_width = half_width_at(m, normalize(to - from + vec3(1e-30)), at_end ? a_to_normal.w : a_from_normal.w, at_end ? a_along.y : a_along.x, at_end ? a_group.y : a_group.x);
+#ifdef WITH_STRAY
+    vec3 before = from;
+    from = strayed(from, a_from_normal.xyz, to - before, a_group.z);
+    to = strayed(to, a_to_normal.xyz, to - before, a_group.w);
+#endif
     if (u_perspective > 0.5 && !clip_near(from, to))
         return;
     vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));

@@ -288,6 +288,10 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->widest = l->widest;
         out->tip = l->tip;
         out->swell = l->swell;
+        out->pressure = l->pressure;
+        out->patchy = l->patchy;
+        out->stray = l->stray;
+        out->room = l->room;
         out->series = l->series;
     } else {
         const surface_strokes_values *s = use->values;

@@ -99,9 +99,13 @@ static double fraction_near(const double *a, const double *b)
 static void same_as_pictures(void)
 {
     static const char *const models[] = {"spot.obj", "gearbox.stl", "house.glb"}, *const looks[] = {"stipple",
-                                                                                                    "strokes"};
+                                                                                                    "strokes", "lines"};
     static const char *const surfaces[] = {"\"technique\":\"stipple\",\"shadow\":0.16,\"texture\":0.3",
-                                           "\"technique\":\"strokes\""};
+                                           "\"technique\":\"strokes\"",
+                                           "\"technique\":\"lines\",\"length\":0.17,\"groups\":0.6,\"pressure\":0.9,"
+                                           "\"patchy\":0.6,\"stray\":1.2,\"room\":4"};
+    /* Lines that swell pass half a pixel of width, below which pictures and vectors round ink off differently. */
+    static const double drawn[] = {0.99, 0.99, 0.975}, found[] = {0.99, 0.99, 0.935};
     if (!run("command -v rsvg-convert >/dev/null 2>&1")) {
         check_note("rsvg-convert is not installed: vector drawings are not compared with pictures");
         return;
@@ -125,9 +129,9 @@ static void same_as_pictures(void)
                 check_at_most("EX-07", tone_off(own, other), 0.03,
                               "%s, %s: tone of %dx%d pixels off, mean of those with ink", models[m], looks[l], BLOCK,
                               BLOCK);
-                check_at_least("EX-07", fraction_near(other, own), 0.99,
+                check_at_least("EX-07", fraction_near(other, own), drawn[l],
                                "%s, %s: ink that the picture has within 1.5 px", models[m], looks[l]);
-                check_at_least("EX-07", fraction_near(own, other), 0.99,
+                check_at_least("EX-07", fraction_near(own, other), found[l],
                                "%s, %s: ink of the picture that vectors have within 1.5 px", models[m], looks[l]);
             }
             free(own);

@@ -289,6 +289,142 @@ static void width_keeps_the_tone(void **state)
         }
 }
 
+/* --- groups and rooms ----------------------------------------------------------------------------------- */
+
+enum { PLANE_LENGTH = 3 };
+
+static marks make_on_plane(const shape *s, double groups, float uneven)
+{
+    marks        m;
+    flow_options options = {.apart = 0.02,
+                            .levels = 1,
+                            .series = 1,
+                            .sag = 0.001,
+                            .seed = 3,
+                            .length = 0.5,
+                            .uneven = uneven,
+                            .groups = groups,
+                            .overlap = 0.3};
+    assert_int_equal(marks_streamlines(&m, &s->surface, &options, NULL), LMN_OK);
+    return m;
+}
+
+/* Where strokes begin, but for those that begin at the plane's border. */
+static size_t beginnings(const marks *m, bool grouped, vec3 *out)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < m->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const mark_line *l = &m->lines[i];
+            bool             begins = grouped ? l->ends[end].drawn == 0 : end == 0 && l->from == 0;
+            vec3             at = end ? l->b : l->a;
+            if (begins && at.x > 0.05f && at.x < PLANE_LENGTH - 0.05f && at.z > 0.05f && at.z < 0.95f)
+                out[count++] = at;
+        }
+    return count;
+}
+
+/* How far the beginnings of strokes on the next lines are from each, along them: the median of the nearest. */
+static double apart_along(const marks *m, bool grouped)
+{
+    vec3   *at = mem_alloc(2 * m->line_count * sizeof *at);
+    double *off = mem_alloc(2 * m->line_count * sizeof *off);
+    size_t  count = beginnings(m, grouped, at), kept = 0;
+    place3  way = from_to(m->lines[0].a, m->lines[0].b);
+    bool    along_x = fabs(way.x) > fabs(way.z);
+    for (size_t i = 0; i < count; i++) {
+        double best = INFINITY;
+        for (size_t k = 0; k < count; k++) {
+            double dx = fabs((double)at[i].x - (double)at[k].x), dz = fabs((double)at[i].z - (double)at[k].z);
+            double along = along_x ? dx : dz, across = along_x ? dz : dx;
+            if (across > 0.01 && across < 0.03)
+                best = fmin(best, along);
+        }
+        if (isfinite(best))
+            off[kept++] = best;
+    }
+    assert_true(kept > 60);
+    qsort(off, kept, sizeof *off, by_size);
+    double median = off[kept / 2];
+    mem_free(at);
+    mem_free(off);
+    return median;
+}
+
+static void groups_begin_together(void **state)
+{
+    (void)state;
+    shape  s = with_normals(grid_surface(plane_at, 60, 20, false, false, 0));
+    marks  alone = make_on_plane(&s, 0, 0), grouped = make_on_plane(&s, 0.6, 0);
+    double one = apart_along(&alone, false), many = apart_along(&grouped, true);
+    printf("plane: strokes beside each other begin %.3f from each other, in groups %.3f\n", one, many);
+    assert_true(one > 0.05 && many < 0.02);
+    surface_marks_release(&alone);
+    surface_marks_release(&grouped);
+    release_shape(&s);
+}
+
+/* Groups share out the ink: as much as without them, though they overlap, and begin firm and fade. */
+static void groups_keep_the_ink(void **state)
+{
+    (void)state;
+    shape  s = with_normals(grid_surface(plane_at, 60, 20, false, false, 0));
+    marks  made[2] = {make_on_plane(&s, 0, 0.8f), make_on_plane(&s, 0.6, 0.8f)};
+    double ink[2] = {0, 0}, firm = 0, faint = 0;
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < made[k].line_count; i++) {
+            const mark_line *l = &made[k].lines[i];
+            for (int end = 0; end < 2; end++) {
+                const flow_end *e = &l->ends[end];
+                double          hand = mark_flow_hand(l, e, 0.8, 0);
+                ink[k] += 0.5 * ((double)l->to - (double)l->from) * (double)e->spaces[0] * hand;
+                assert_true(e->drawn >= 0 && e->drawn <= 1 && fabsf(e->shift) <= 1.1f && fabsf(l->group) <= 1);
+                firm = fmax(firm, hand);
+                faint = fmin(faint, hand - 1);
+            }
+        }
+    printf("plane: %.2f of the ink in groups\n", ink[1] / ink[0]);
+    assert_true(made[1].line_length > 1.1 * made[0].line_length);
+    assert_true(fabs(ink[1] / ink[0] - 1) < 0.03 && fabs(firm - 1.8) < 1e-6 && fabs(faint + 0.8) < 1e-6);
+    for (int k = 0; k < 2; k++)
+        surface_marks_release(&made[k]);
+    release_shape(&s);
+}
+
+/* A box of 10 by 4 by 1, and a ring of radius 1 that is half as high. */
+static void rooms_are_as_broad_as_faces(void **state)
+{
+    (void)state;
+    static const double expected[6] = {4, 4, 1, 1, 1, 1};
+    size_t              seen[6] = {0};
+    primitive           cube = shared_cube();
+    for (uint32_t v = 0; v < cube.vertex_count; v++)
+        cube.positions[v] = (vec3){10 * cube.positions[v].x, 4 * cube.positions[v].y, cube.positions[v].z};
+    shape box = with_normals(cube);
+    marks m = make_lines(&box, 0.1, 1, 1);
+    for (size_t i = 0; i < m.line_count; i++) {
+        uint32_t face = m.lines[i].triangle / 2;
+        seen[face]++;
+        assert_true(fabs((double)m.lines[i].room - expected[face]) < 1e-4);
+    }
+    for (int face = 0; face < 6; face++)
+        assert_true(seen[face] > 5);
+    surface_marks_release(&m);
+    release_shape(&box);
+    primitive tube = grid_surface(cylinder_at, 64, 4, true, false, 0);
+    for (uint32_t v = 0; v < tube.vertex_count; v++)
+        tube.positions[v].z *= 0.1f;
+    shape ring = with_normals(tube);
+    m = make_lines(&ring, 0.05, 1, 1);
+    assert_true(m.line_count > 20);
+    for (size_t i = 0; i < m.line_count; i++)
+        assert_true(fabs((double)m.lines[i].room - 1) < 1e-3);
+    surface_marks_release(&m);
+    release_shape(&ring);
+    assert_true(mark_flow_room(1.9, 4) == 0 && mark_flow_room(4, 4) == 1 && mark_flow_room(0.1, 0) == 1);
+    assert_true(fabs(mark_flow_room(3, 4) - 0.5) < 1e-12);
+}
+
 /* --- what always holds ---------------------------------------------------------------------------------- */
 
 static void barely_meshes_have_lines(void **state)
@@ -301,10 +437,20 @@ static void barely_meshes_have_lines(void **state)
                                     kind > 1 ? (float)rint(2 * hashed(v + 200)) : 0};
         for (uint32_t i = 0; i < 300; i++)
             p.indices[i] = kind == 3 ? i % 3 : (uint32_t)(hashed(i + 1000) * 19.99);
-        shape s = with_normals(p);
-        marks m = make_lines(&s, 0.1, 3, 2);
+        shape        s = with_normals(p);
+        marks        m;
+        flow_options options = {.apart = 0.1,
+                                .levels = 3,
+                                .series = 2,
+                                .turn = 0.9f,
+                                .sag = 0.005,
+                                .length = kind * 0.2,
+                                .groups = 0.7,
+                                .overlap = 0.3};
+        assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
         for (size_t i = 0; i < m.line_count; i++)
-            assert_true(isfinite(m.lines[i].a.x + m.lines[i].b.y + m.lines[i].ends[0].spaces[0] + m.lines[i].rank));
+            assert_true(isfinite(m.lines[i].a.x + m.lines[i].b.y + m.lines[i].ends[0].spaces[0] + m.lines[i].rank +
+                                 m.lines[i].room + m.lines[i].ends[1].shift + m.lines[i].ends[0].drawn));
         surface_marks_release(&m);
         release_shape(&s);
     }
@@ -334,7 +480,14 @@ static void memory_may_run_out(void **state)
     for (; failed && n < 3000; n++) {
         marks        m;
         lmn_error    error;
-        flow_options options = {.apart = 0.2, .levels = 2, .series = 2, .turn = 1, .sag = 0.01, .length = 0.5};
+        flow_options options = {.apart = 0.2,
+                                .levels = 2,
+                                .series = 2,
+                                .turn = 1,
+                                .sag = 0.01,
+                                .length = 0.5,
+                                .groups = 0.5,
+                                .overlap = 0.3};
         mem_fail_at(n);
         lmn_status status = marks_streamlines(&m, &s.surface, &options, &error);
         mem_fail_at(0);
@@ -349,10 +502,12 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_keep_their_distance), cmocka_unit_test(lines_of_a_set_never_cross),
-        cmocka_unit_test(ends_do_not_line_up),       cmocka_unit_test(levels_leave_earlier_ones_alone),
-        cmocka_unit_test(width_keeps_the_tone),      cmocka_unit_test(barely_meshes_have_lines),
-        cmocka_unit_test(the_same_lines_twice),      cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(lines_keep_their_distance),   cmocka_unit_test(lines_of_a_set_never_cross),
+        cmocka_unit_test(ends_do_not_line_up),         cmocka_unit_test(levels_leave_earlier_ones_alone),
+        cmocka_unit_test(groups_begin_together),       cmocka_unit_test(groups_keep_the_ink),
+        cmocka_unit_test(rooms_are_as_broad_as_faces), cmocka_unit_test(width_keeps_the_tone),
+        cmocka_unit_test(barely_meshes_have_lines),    cmocka_unit_test(the_same_lines_twice),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
