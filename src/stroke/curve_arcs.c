@@ -16,7 +16,13 @@
 #define LONG_TO   4.0
 /* Arcs that make less of a turn than this fraction leave a corner there. */
 #define LEAST_SHARE 0.35
-enum { STEPS_LEAST = 3 };
+/* Part of the way that a smooth point goes aside in each round. */
+#define FAIRING 0.35
+/* Of what a line may leave the mesh by, points take no more than this. */
+#define MOVED_MOST 0.5
+/* Smooth points bend by up to so many times more, or less, than both their neighbours. */
+#define EXTREME 1.2
+enum { STEPS_LEAST = 3, FAIRING_ROUNDS = 8 };
 
 typedef struct polyline {
     arc_point *points;
@@ -116,6 +122,72 @@ static double bends(const polyline *p, size_t line)
     return fmin(fmax((LONG_TO - longer) / (LONG_TO - LONG_FROM), 0), 1);
 }
 
+/* Turn at a point by half the length of both lines: what bends a circle through it. */
+static double curvature_at(const polyline *p, size_t i)
+{
+    return 2 * p->points[i].turn / (p->points[line_before(p, i)].length + p->points[i].length);
+}
+
+/* How much the polyline should turn at a smooth point: so that it bends neither much less nor much more than both its
+ * neighbours. Next to a corner it should not bend the other way than the next one. */
+static double turn_around(const polyline *p, size_t i)
+{
+    size_t ends[2] = {line_before(p, i), (size_t)(end_of(p, i) - p->points)};
+    double low = INFINITY, high = -INFINITY, own = curvature_at(p, i);
+    if (own == 0 || (p->points[ends[0]].kind == ARC_POINT_CORNER && p->points[ends[1]].kind == ARC_POINT_CORNER))
+        return p->points[i].turn;
+    for (int k = 0; k < 2; k++) {
+        bool   corner = p->points[ends[k]].kind == ARC_POINT_CORNER;
+        double around = corner ? fabs(own) * (p->points[ends[1 - k]].turn < 0 ? -1 : 1) : curvature_at(p, ends[k]);
+        low = fmin(low, around);
+        high = fmax(high, around);
+    }
+    if (low * high > 0) { /* where it bends most, or least, is no mistake */
+        low *= low < 0 ? EXTREME : 1 / EXTREME;
+        high *= high < 0 ? 1 / EXTREME : EXTREME;
+    }
+    return p->points[i].turn * fmin(fmax(own, low), high) / own;
+}
+
+/* How far to its left a point goes in one round. */
+static double step_aside(const polyline *p, size_t i)
+{
+    double a = p->points[line_before(p, i)].length, b = p->points[i].length, wanted = turn_around(p, i);
+    double both = bends(p, line_before(p, i)) * bends(p, i);
+    return FAIRING * both * (p->points[i].turn - wanted) * a * b / (a + b);
+}
+
+static void move_aside(arc_point *q, double x, double y, double most)
+{
+    double away_x = q->x + x - q->home_x, away_y = q->y + y - q->home_y, away = hypot(away_x, away_y);
+    double part = away > most ? most / away : 1;
+    q->x = q->home_x + part * away_x;
+    q->y = q->home_y + part * away_y;
+}
+
+/* Outlines of a mesh run to and fro across the outline of the body that it samples, from edge to edge. Smooth points
+ * that bend less or more than both their neighbours move aside until they do not; points of circles stay. */
+static void make_fair(polyline *p, double most)
+{
+    for (size_t i = 0; i < p->count; i++) {
+        p->points[i].home_x = p->points[i].x;
+        p->points[i].home_y = p->points[i].y;
+    }
+    for (int round = 0; round < FAIRING_ROUNDS && most > 0; round++) {
+        for (size_t i = 0; i < p->count; i++)
+            p->points[i].aside = p->points[i].kind == ARC_POINT_SMOOTH ? step_aside(p, i) : 0;
+        for (size_t i = 0; i < p->count; i++) {
+            if (p->points[i].aside == 0)
+                continue;
+            const arc_point *a = &p->points[line_before(p, i)], *b = end_of(p, i);
+            double           x = b->x - a->x, y = b->y - a->y, length = hypot(x, y);
+            if (length > 0)
+                move_aside(&p->points[i], -y / length * p->points[i].aside, x / length * p->points[i].aside, most);
+        }
+        measure(p);
+    }
+}
+
 /* What a line's arc makes of the turn at either end, as if it were part of a circle. */
 static double half_turn(const polyline *p, size_t line)
 {
@@ -140,6 +212,11 @@ static void meet(arc *out, const polyline *p, size_t i)
     }
 }
 
+static double moved_by(const arc_point *q)
+{
+    return hypot(q->x - q->home_x, q->y - q->home_y);
+}
+
 /* Slopes instead of angles, and no more of them than `most` allows. */
 static void limit(arc *a, double length, double most)
 {
@@ -161,11 +238,12 @@ void curve_arcs(arc *out, arc_point *points, size_t count, bool closed, double m
         return;
     measure(&p);
     judge_steps(&p);
+    make_fair(&p, MOVED_MOST * most);
     for (size_t i = 0; i < p.lines; i++)
         out[i].begin = out[i].end = half_turn(&p, i);
     for (size_t i = 0; i < p.lines; i++)
         if (i > 0 || closed)
             meet(out, &p, i);
     for (size_t i = 0; i < p.lines; i++)
-        limit(&out[i], points[i].length, most);
+        limit(&out[i], points[i].length, most - fmax(moved_by(&points[i]), moved_by(end_of(&p, i))));
 }

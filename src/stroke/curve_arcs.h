@@ -14,10 +14,12 @@ typedef enum arc_point_kind {
 } arc_point_kind;
 
 typedef struct arc_point {
-    double x, y;
-    double turn;   /* made by curve_arcs: from the line before to the line behind, radians; 0 at corners */
-    double length; /* made by curve_arcs: of the line that begins here */
-    int    kind;   /* arc_point_kind; curve_arcs makes more of them corners */
+    double x, y;           /* smooth ones are moved by curve_arcs */
+    double home_x, home_y; /* made by curve_arcs: where it was */
+    double aside;          /* of curve_arcs alone */
+    double turn;           /* made by curve_arcs: from the line before to the line behind, radians; 0 at corners */
+    double length;         /* made by curve_arcs: of the line that begins here */
+    int    kind;           /* arc_point_kind; curve_arcs makes more of them corners */
 } arc_point;
 
 /* How an arc leaves its chord: slopes against it where it begins and where it ends. The arc is the graph
@@ -27,8 +29,8 @@ typedef struct arc {
 } arc;
 
 /* Arcs of all lines between `count` points, or of `count` lines when the polyline is closed. The first and the last
- * point of an open one are corners. No arc leaves its chord by more than `most`. Points at the same position are
- * corners. */
+ * point of an open one are corners. No arc leaves its chord, as it was, by more than `most`. Points at the same
+ * position are corners. */
 void curve_arcs(arc *out, arc_point *points, size_t count, bool closed, double most);
 
 /* How far an arc is from its chord at a fraction of it, in lengths of the chord. */

@@ -177,6 +177,8 @@ static bool make_arcs(curve_path *c, bool closed)
     }
     closed = closed && c->count > 2;
     curve_arcs(c->arcs, c->points, closed ? c->count : c->count + 1, closed, c->most);
+    if (closed)
+        c->points[c->count] = c->points[0];
     return true;
 }
 
@@ -215,9 +217,10 @@ double curve_path_stop(const curve_path *c, size_t i, size_t k)
 static void arc_at(const curve_path *c, size_t i, double fraction, double out[3])
 {
     const window_point *a = point_of(c, i), *b = position_of(c, c->path[i] ^ 1);
-    double              x = (double)b->x - a->x, y = (double)b->y - a->y, away = arc_height(c->arcs[i], fraction);
-    out[0] = a->x + fraction * x - away * y;
-    out[1] = a->y + fraction * y + away * x;
+    const arc_point    *p = &c->points[i], *q = p + 1;
+    double              x = q->x - p->x, y = q->y - p->y, away = arc_height(c->arcs[i], fraction);
+    out[0] = p->x + fraction * x - away * y;
+    out[1] = p->y + fraction * y + away * x;
     out[2] = a->z + fraction * (b->z - a->z);
 }
 

@@ -1,8 +1,7 @@
 /* Hidden lines are drawn whole or not at all (ISO 128): single dashes that float about say nothing. A *run* is what of
  * a chain is hidden without a visible stretch that could be seen; runs that end at one corner are one *figure*. A
- * figure of fewer than four dashes is left out. Where it ends at no other line it must be longer, by as much again for
- * each of at most two such ends. Lines of parts that are smooth, with hardly an edge, say little of what is behind:
- * there figures that end at nothing are left out. */
+ * figure of fewer than four dashes is left out, and so is a run that ends at no other line, as long as there are any.
+ */
 #include "stroke/ribbon_hidden.h"
 
 #include <math.h>
@@ -10,11 +9,12 @@
 
 #include "base/memory.h"
 
-enum { DASHES_LEAST = 4, ENDS_COUNTED = 2, ROUNDS_MOST = 4, NO_RUN = -1 };
+enum { DASHES_LEAST = 4, ROUNDS_MOST = 12 };
 static const float unseen_widths = 1.5f; /* visible stretches shorter than this many widths part no run */
-static const float same_place = 0.5f;    /* on paper: ends at one corner */
-static const float same_depth = 0.02f;   /* the same in depth, fraction of the depth of all lines */
-static const float sharp_least = 0.4f;   /* of the length of a part's lines, edges and rims: else it is smooth */
+static const float touching = 2;         /* on paper, beyond a line's ink: an end lies on it */
+static const float own_apart = 4;     /* of its own stroke an end lies on what is farther along than this, in reaches */
+static const float same_place = 0.5f; /* on paper: ends at one corner */
+static const float same_depth = 0.02f; /* the same in depth, fraction of the depth of all lines */
 
 /* --- runs ------------------------------------------------------------------------------------------------ */
 
@@ -70,30 +70,29 @@ span ribbon_hidden_run(const ribbon_job *job, size_t index)
 
 typedef struct hidden_figures {
     const ribbon_job *job;
+    const gap_list   *gaps;    /* sorted: what is left out for other reasons */
     bool             *kept;    /* per stroke: drawn so far */
     uint32_t         *figures; /* per stroke: another one of its figure, or itself */
+    uint32_t         *runs;    /* the same of its run */
     float            *shown;   /* per stroke: length without gaps */
     float            *lengths; /* of figures */
-    uint32_t         *loose;   /* of figures: ends at nothing */
-    bool             *soft;    /* of figures: of smooth parts alone */
-    bool             *smooth;  /* per part id */
-    uint32_t          part_count;
-    stroke_set        twin; /* all that is drawn as if it were visible: what meets what does not ask for that */
+    bool             *loose;   /* of runs: has an end at nothing */
+    stroke_set        twin;    /* all that is drawn as if it were visible: what meets what does not ask for that */
     ribbon_job        all;
     segment_grid      grid;
 } hidden_figures;
 
-static uint32_t figure_of(hidden_figures *f, uint32_t i)
+static uint32_t first_of(uint32_t *sets, uint32_t i)
 {
-    while (f->figures[i] != i)
-        i = f->figures[i] = f->figures[f->figures[i]];
+    while (sets[i] != i)
+        i = sets[i] = sets[sets[i]];
     return i;
 }
 
-static void unite(hidden_figures *f, uint32_t a, uint32_t b)
+static void unite(uint32_t *sets, uint32_t a, uint32_t b)
 {
-    uint32_t p = figure_of(f, a), q = figure_of(f, b);
-    f->figures[p > q ? p : q] = p > q ? q : p;
+    uint32_t p = first_of(sets, a), q = first_of(sets, b);
+    sets[p > q ? p : q] = p > q ? q : p;
 }
 
 static const stroke_point *end_of(const stroke_set *set, uint32_t index, bool at_end)
@@ -123,73 +122,131 @@ static void unite_at(hidden_figures *f, uint32_t own, bool at_end)
                 if (other != own && f->kept[other] && is_hidden(f->job, other) &&
                     (are_one_place(f, p, end_of(f->job->strokes, other, false)) ||
                      are_one_place(f, p, end_of(f->job->strokes, other, true))))
-                    unite(f, own, other);
+                    unite(f->figures, own, other);
             }
         }
 }
 
-static bool is_sharp(stroke_class kind)
-{
-    return kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_INTERSECTION || kind == STROKE_MATERIAL ||
-           kind == STROKE_DRAWN;
-}
-
-/* Which parts have hardly an edge. */
-static bool find_smooth(hidden_figures *f)
-{
-    const stroke_set *set = f->job->strokes;
-    for (size_t i = 0; i < set->stroke_count; i++)
-        f->part_count = set->strokes[i].part > f->part_count ? set->strokes[i].part : f->part_count;
-    float *sums = mem_calloc(2 * ((size_t)f->part_count + 1), sizeof *sums);
-    f->smooth = mem_calloc((size_t)f->part_count + 1, sizeof *f->smooth);
-    for (size_t i = 0; i < set->stroke_count && sums; i++)
-        sums[2 * set->strokes[i].part + is_sharp(set->strokes[i].kind)] += length_of(set, &set->strokes[i]);
-    for (size_t i = 0; i <= f->part_count && sums && f->smooth; i++)
-        f->smooth[i] = sums[2 * i + 1] < sharp_least * (sums[2 * i] + sums[2 * i + 1]);
-    bool good = sums && f->smooth;
-    mem_free(sums);
-    return good;
-}
-
-/* What strokes meet now. */
+/* What lies where now. */
 static bool look_again(hidden_figures *f)
 {
     segment_grid_release(&f->grid);
-    mem_free(f->all.meetings);
-    f->all.meetings = NULL;
-    return segment_grid_build(&f->grid, &f->all) && ribbon_find_meetings(&f->all, &f->grid);
+    return segment_grid_build(&f->grid, &f->all);
 }
 
-/* Does nothing else lie at this end? */
-static bool is_loose(const hidden_figures *f, uint32_t i, bool at_end)
+/* The first gap of a stroke; the sorted list's end if it has none. */
+static size_t first_gap(const gap_list *gaps, uint32_t index)
 {
-    return !f->job->strokes->strokes[i].closed && !f->all.meetings[2 * (size_t)i + at_end].meets;
+    size_t low = 0, high = gaps->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (gaps->items[middle].stroke < index)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static bool is_in_gap(const gap_list *gaps, uint32_t index, float arc)
+{
+    for (size_t i = first_gap(gaps, index); i < gaps->count && gaps->items[i].stroke == index; i++)
+        if (arc >= gaps->items[i].from && arc <= gaps->items[i].to)
+            return true;
+    return false;
+}
+
+/* Is a segment so near to a place of a stroke, and drawn there? */
+static bool is_near(const hidden_figures *f, ribbon_segment other, uint32_t own, const stroke_point *p, float reach)
+{
+    const stroke_set   *set = f->job->strokes;
+    const stroke_point *a = &set->points[other.point], *b = a + 1;
+    float               x = b->x - a->x, y = b->y - a->y, square = x * x + y * y;
+    float               fraction = square > 0 ? ((p->x - a->x) * x + (p->y - a->y) * y) / square : 0;
+    fraction = fminf(fmaxf(fraction, 0), 1);
+    float arc = a->arc + fraction * (b->arc - a->arc);
+    float away = hypotf(p->x - a->x - fraction * x, p->y - a->y - fraction * y);
+    if (!(away <= reach + ribbon_width(f->job, &set->strokes[other.stroke]) / 2))
+        return false;
+    return !(other.stroke == own && fabsf(arc - p->arc) < own_apart * reach) && !is_in_gap(f->gaps, other.stroke, arc);
+}
+
+/* Is there nothing else around a place of a stroke? */
+static bool is_alone(const hidden_figures *f, uint32_t own, const stroke_point *p, float reach)
+{
+    int cells[4];
+    if (!f->grid.items || !segment_grid_box(&f->grid, p, p, reach + f->job->style->width, cells))
+        return false;
+    for (int row = cells[1]; row <= cells[3]; row++)
+        for (int column = cells[0]; column <= cells[2]; column++) {
+            size_t cell = (size_t)row * (size_t)f->grid.columns + (size_t)column;
+            for (uint32_t i = f->grid.starts[cell]; i < f->grid.starts[cell + 1]; i++)
+                if (is_near(f, f->grid.items[i], own, p, reach))
+                    return false;
+        }
+    return true;
+}
+
+/* Where along a stroke is that arc, which lies within it? */
+static stroke_point point_at(const stroke_set *set, const stroke *s, float arc)
+{
+    uint32_t k = s->first;
+    while (k + 2 < s->first + s->count && set->points[k + 1].arc < arc)
+        k++;
+    const stroke_point *a = &set->points[k], *b = a + 1;
+    float               t = b->arc > a->arc ? (arc - a->arc) / (b->arc - a->arc) : 0;
+    return (stroke_point){.x = a->x + t * (b->x - a->x), .y = a->y + t * (b->y - a->y), .depth = a->depth, .arc = arc};
+}
+
+/* Does a stroke begin, end or break off where nothing else is? What is left out because other lines crowd breaks off
+ * next to those. */
+static bool is_loose(const hidden_figures *f, uint32_t own)
+{
+    const stroke_set *set = f->job->strokes;
+    const stroke     *s = &set->strokes[own];
+    float             crowd = fmaxf(f->job->style->hidden_crowd, touching);
+    for (int end = 0; end < 2; end++) {
+        const stroke_point *p = end_of(set, own, end);
+        if (s->closed && !is_in_gap(f->gaps, own, end_of(set, own, !end)->arc))
+            continue;
+        if (!is_in_gap(f->gaps, own, p->arc) && is_alone(f, own, p, touching))
+            return true;
+    }
+    for (size_t i = first_gap(f->gaps, own); i < f->gaps->count && f->gaps->items[i].stroke == own; i++)
+        for (int k = 0; k < 2; k++) {
+            float arc = k ? f->gaps->items[i].to : f->gaps->items[i].from;
+            if (!(arc > end_of(set, own, false)->arc && arc < end_of(set, own, true)->arc))
+                continue;
+            stroke_point p = point_at(set, s, arc);
+            if (is_alone(f, own, &p, crowd))
+                return true;
+        }
+    return false;
 }
 
 static void gather(hidden_figures *f)
 {
     const stroke_set *set = f->job->strokes;
     for (uint32_t i = 0; i < set->stroke_count; i++) {
-        f->figures[i] = i;
+        f->figures[i] = f->runs[i] = i;
         f->lengths[i] = 0;
-        f->loose[i] = 0;
-        f->soft[i] = true;
+        f->loose[i] = false;
     }
     for (uint32_t i = 0; i < set->stroke_count; i++)
         if (f->kept[i] && is_hidden(f->job, i)) {
             size_t next = neighbour(f->job, i, 1, i);
             unite_at(f, i, false);
             unite_at(f, i, true);
-            if (f->kept[next])
-                unite(f, i, (uint32_t)next);
+            if (f->kept[next]) {
+                unite(f->figures, i, (uint32_t)next);
+                unite(f->runs, i, (uint32_t)next);
+            }
         }
     for (uint32_t i = 0; i < set->stroke_count; i++)
         if (f->kept[i] && is_hidden(f->job, i)) {
-            const stroke *s = &set->strokes[i];
-            uint32_t      figure = figure_of(f, i);
-            f->lengths[figure] += f->shown[i];
-            f->loose[figure] += (uint32_t)is_loose(f, i, false) + (uint32_t)is_loose(f, i, true);
-            f->soft[figure] = f->soft[figure] && f->smooth[s->part];
+            f->lengths[first_of(f->figures, i)] += f->shown[i];
+            if (is_loose(f, i))
+                f->loose[first_of(f->runs, i)] = true;
         }
 }
 
@@ -201,11 +258,9 @@ static bool sift(hidden_figures *f)
     for (uint32_t i = 0; i < f->job->strokes->stroke_count; i++) {
         if (!f->kept[i] || !is_hidden(f->job, i))
             continue;
-        uint32_t figure = figure_of(f, i), ends = f->loose[figure];
-        float    dash = ribbon_dash_length(f->job, &f->job->strokes->strokes[i]);
-        float    least = DASHES_LEAST * dash + (DASHES_LEAST - 1) * style->hidden_gap;
-        least *= 1 + (float)(ends < ENDS_COUNTED ? ends : ENDS_COUNTED);
-        if (f->lengths[figure] < least * 0.9999f || (f->soft[figure] && ends > 0)) {
+        float dash = ribbon_dash_length(f->job, &f->job->strokes->strokes[i]);
+        float least = DASHES_LEAST * dash + (DASHES_LEAST - 1) * style->hidden_gap;
+        if (f->loose[first_of(f->runs, i)] || f->lengths[first_of(f->figures, i)] < least * 0.9999f) {
             f->kept[i] = false;
             some = true;
         }
@@ -222,15 +277,16 @@ static void measure(hidden_figures *f, const gap_list *gaps)
     for (size_t i = 0; i < gaps->count; i++) {
         const stroke_gap *gap = &gaps->items[i];
         const stroke     *s = &set->strokes[gap->stroke];
-        if (s->count > 1)
-            f->shown[gap->stroke] -= fmaxf(fminf(gap->to, set->points[s->first + s->count - 1].arc) -
-                                               fmaxf(gap->from, set->points[s->first].arc),
-                                           0);
+        if (s->count < 2)
+            continue;
+        float begin = set->points[s->first].arc, end = set->points[s->first + s->count - 1].arc;
+        f->shown[gap->stroke] -= fmaxf(fminf(gap->to, end) - fmaxf(gap->from, begin), 0);
     }
 }
 
 static bool open_figures(hidden_figures *f, const gap_list *gaps)
 {
+    f->gaps = gaps;
     const stroke_set *set = f->job->strokes;
     size_t            count = set->stroke_count + 1;
     f->kept = mem_calloc(count, sizeof *f->kept);
@@ -238,11 +294,10 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     f->shown = mem_calloc(count, sizeof *f->shown);
     f->lengths = mem_calloc(count, sizeof *f->lengths);
     f->loose = mem_calloc(count, sizeof *f->loose);
-    f->soft = mem_calloc(count, sizeof *f->soft);
+    f->runs = mem_calloc(count, sizeof *f->runs);
     f->twin = *set;
     f->twin.strokes = mem_calloc(count, sizeof *f->twin.strokes);
-    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->soft || !f->twin.strokes ||
-        !find_smooth(f))
+    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->twin.strokes)
         return false;
     memcpy(f->twin.strokes, set->strokes, set->stroke_count * sizeof *set->strokes);
     memcpy(f->kept, f->job->drawn, set->stroke_count * sizeof *f->kept);
@@ -262,15 +317,13 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
 static void close_figures(hidden_figures *f)
 {
     segment_grid_release(&f->grid);
-    mem_free(f->all.meetings);
     mem_free(f->twin.strokes);
     mem_free(f->kept);
     mem_free(f->figures);
     mem_free(f->shown);
     mem_free(f->lengths);
     mem_free(f->loose);
-    mem_free(f->soft);
-    mem_free(f->smooth);
+    mem_free(f->runs);
 }
 
 void ribbon_find_loose(gap_list *out, const ribbon_job *job)
@@ -278,6 +331,7 @@ void ribbon_find_loose(gap_list *out, const ribbon_job *job)
     hidden_figures f = {.job = job};
     if (job->style->hidden != HIDDEN_DASHED || !(job->style->hidden_dash > 0) || out->failed)
         return;
+    gap_list_sort(out);
     bool good = open_figures(&f, out), some = true;
     for (int round = 0; round < ROUNDS_MOST && good && some; round++) {
         good = look_again(&f);

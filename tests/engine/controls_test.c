@@ -148,7 +148,7 @@ static void as_by_parameters(void **state)
     DO(lmn_look_set_control(look, "weight", 0.75, &error));
     assert_true(lmn_look_changes(look, before) & LMN_CHANGE_VALUES);
     DO(lmn_look_set(look, "weight", "0", &error));
-    DO(lmn_look_set(look, "lines.width", "3.6", &error));
+    DO(lmn_look_set(look, "lines.width", "3.6", &error)); /* twice what it has */
     draw(*state, "edges", look, other);
     assert_memory_equal(one, other, sizeof one);
     lmn_look_destroy(&look);
