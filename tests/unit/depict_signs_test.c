@@ -66,8 +66,10 @@ static void name_and_keys(moving_scene *m, int node, const char *name, const dou
     moving_scene_keys(m, node, "translation", 2, (double[]){0, 2}, values);
 }
 
-/* Pieces in a crate: they stay for half a second, then fly to all sides; or all of them to one. */
-static lmn_scene *crate_scene(bool to_all_sides)
+typedef enum crate_way { ALL_SIDES, ONE_SIDE, FAN } crate_way;
+
+/* Pieces in a crate: they stay for half a second, then fly to all sides; or as one; or to one side, all apart. */
+static lmn_scene *crate_scene(crate_way how)
 {
     moving_scene m;
     moving_scene_begin(&m);
@@ -80,7 +82,7 @@ static lmn_scene *crate_scene(bool to_all_sides)
         double values[9];
         for (int k = 0; k < 3; k++) {
             values[k] = values[3 + k] = at[k];
-            values[6 + k] = to_all_sides ? far * at[k] : at[k] + (k == 0 ? 3 : 0);
+            values[6 + k] = how == ALL_SIDES ? far * at[k] : at[k] * (how == FAN ? 4 : 1) + (k == 0 ? 9 : 0);
         }
         moving_scene_keys(&m, piece, "translation", 3, (double[]){0, 0.5, 2}, values);
     }
@@ -371,7 +373,7 @@ static void helices_turn_as_often(void **state)
         last = angle;
     }
     assert_near(fabs(turned), 6 * pi, 1e-3);
-    assert_true(radius > 0.3 && radius < 2);
+    assert_near(radius, sqrt(0.25 + 0.01 + 1) / sqrt(3), 0.01); /* that of the box */
     lmn_scene_destroy(&scene);
 }
 
@@ -438,6 +440,33 @@ static void check_balloon(lmn_scene *scene, double x, double y, const char *text
             assert_true(at[k] > low[k] && at[k] < high[k]);
         assert_true(at[2] > middle[2]); /* before the balloon */
     }
+}
+
+static double words_height(lmn_scene *scene, const char *text)
+{
+    char   all[160];
+    double low = INFINITY, high = -INFINITY, at[3];
+    snprintf(all, sizeof all, "[{\"target\": \"somebody\", \"depict\": \"speech\", %s}]", text);
+    tell_at(scene, 0, all);
+    const primitive *words = sign_at(scene, "words", 0);
+    for (uint32_t i = 0; i < words->vertex_count; i++) {
+        position(words, i, at);
+        low = fmin(low, at[1]);
+        high = fmax(high, at[1]);
+    }
+    return high - low;
+}
+
+/* Lines are one and a half sizes apart, which is about a capital in most fonts. */
+static void words_stand_in_lines(void **state)
+{
+    (void)state;
+    lmn_scene   *scene = speaker_scene(true, true);
+    const double one = words_height(scene, "\"text\": \"H\"");
+    assert_near(words_height(scene, "\"text\": \"H|H|H\"") / one, 4, 0.06);
+    assert_near(words_height(scene, "\"text\": \"HHH HHH HHH\", \"letters\": 7") / one, 2.5, 0.03);
+    assert_near(words_height(scene, "\"text\": \"HHH HHH HHH\", \"letters\": 0") / one, 1, 0.01);
+    lmn_scene_destroy(&scene);
 }
 
 static void balloons_end_at_the_mouth(void **state)
@@ -530,7 +559,7 @@ static void frames_are_what_the_camera_sees(void **state)
 static void bursts_go_outward(void **state)
 {
     (void)state;
-    lmn_scene   *scene = crate_scene(true);
+    lmn_scene   *scene = crate_scene(ALL_SIDES);
     const double middle[3] = {1, 1, 0};
     double       at[3], a[3], b[3];
     tell_at(scene, 1.2, "[{\"target\": \"crate\", \"depict\": \"explode\"}]");
@@ -663,8 +692,9 @@ static void proposals_tell_patterns_apart(void **state)
 {
     (void)state;
     const double along[3] = {1, 0, 0}, across[3] = {0, 0, 1};
-    check_proposal(crate_scene(true), "explode", true, "all sides");
-    check_proposal(crate_scene(false), "explode", false, "one side");
+    check_proposal(crate_scene(ALL_SIDES), "explode", true, "all sides");
+    check_proposal(crate_scene(ONE_SIDE), "explode", false, "one side");
+    check_proposal(crate_scene(FAN), "explode", false, "fan");
     check_proposal(jets_scene(true), "explode", false, "jets");
     check_proposal(jets_scene(true), "split-path", true, "jets");
     check_proposal(jets_scene(false), "split-path", false, "jets in formation");
@@ -711,7 +741,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
         scene = drive_scene(false);
         target = "eye";
     } else if (strcmp(row, "explode") == 0) {
-        scene = crate_scene(true);
+        scene = crate_scene(ALL_SIDES);
         target = "crate";
     } else if (strcmp(row, "split-path") == 0) {
         scene = jets_scene(true);
@@ -833,6 +863,7 @@ int main(void)
         cmocka_unit_test(helices_turn_as_often),
         cmocka_unit_test(arrows_end_at_the_outline),
         cmocka_unit_test(balloons_end_at_the_mouth),
+        cmocka_unit_test(words_stand_in_lines),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
         cmocka_unit_test(bursts_go_outward),
