@@ -1,9 +1,12 @@
 /* Every technique draws with the extremes of each of its parameters, and every parameter changes the picture for some
- * value: a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES [briefly]
- * [KIND[.TECHNIQUE]…]
+ * value: a row that nothing reads is a promise that is not kept. Usage: every_parameter_test EXAMPLES
+ * [briefly|variants] [KIND[.TECHNIQUE]…]
  *
  * Only the kinds and techniques that are named are drawn; none: all. Of one technique alone, parameters of the whole
  * kind are drawn but need not mean anything.
+ *
+ * Variants: only what decides which shaders are built. For the other dialect of the shaders, whose uniforms are the
+ * same lines of text.
  *
  * Briefly: a number that is a mere uniform is drawn with one value that changes the picture, a usual one, not with both
  * of its extremes. What decides which shaders are built is still drawn with all. For the paths of drawing that share
@@ -44,7 +47,7 @@ typedef struct fixture {
     lmn_scene    *moving; /* for what tells of motion */
     lmn_renderer *renderer;
     const char   *examples;
-    bool          brief;
+    bool          brief, variants;
     char        **wanted; /* "KIND" or "KIND.TECHNIQUE"; none: all */
     int           wanted_count;
     int           mistakes, drawn;
@@ -258,6 +261,8 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
 /* Does the parameter change the picture? */
 static bool check_param(fixture *f, const kind *k, const technique *t, const param *p)
 {
+    if (f->variants && !p->variant && !p->toggles)
+        return true;
     char      json[2048], path[HOLD_KEY_SIZE], what[TEXT_SIZE * 3], values[VALUES_MAX][TEXT_SIZE];
     lmn_look *look = look_of(t, json, sizeof json);
     hold_key(path, k, p->key);
@@ -434,6 +439,8 @@ int main(int count, char **arguments)
     static fixture f;
     f.examples = count > 1 ? arguments[1] : "examples";
     f.brief = count > 2 && strcmp(arguments[2], "briefly") == 0;
+    f.variants = count > 2 && strcmp(arguments[2], "variants") == 0;
+    f.brief = f.brief || f.variants;
     f.wanted_count = count > 2 + f.brief ? count - 2 - f.brief : 0;
     f.wanted = arguments + count - f.wanted_count;
     const struct CMUnitTest tests[] = {
