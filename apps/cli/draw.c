@@ -857,7 +857,10 @@ static int run_depict(const word_list *inputs, const void *values)
     draw_values full = *(const draw_values *)values;
     depiction   d = {.look = NULL};
     bool        viewed = full.view >= 0 || full.camera || full.eye.given;
-    int         status = inputs->count == 1 ? depiction_read(&d, inputs->items[0]) : EXIT_DONE;
+    if (full.frames)
+        return message_usage("draw one with --time, or a film with `limner simulate`",
+                             "--frames does not go with depict, whose signs tell all times in one still");
+    int status = inputs->count == 1 ? depiction_read(&d, inputs->items[0]) : EXIT_DONE;
     full.look = full.look ? full.look : d.look;
     full.camera = viewed ? full.camera : d.camera;
     full.time = full.time.given ? full.time : d.time;
@@ -927,7 +930,7 @@ const command command_simulate = {
         "Draws the whole of it, 24 frames a second, into a film unless OUT has {frame}. Scripts: docs/SCRIPTS.md.\n"
         "Exit status: as `limner draw`.",
     .options = options,
-    .option_count = OPTION_COUNT(options),
+    .option_count = OPTION_COUNT(options) - DEPICT_OPTION_COUNT,
     .values_size = sizeof(draw_values),
     .inputs_min = 1,
     .inputs_max = 1,

@@ -63,4 +63,11 @@ static inline bool vector3_normalise(double a[3])
     return true;
 }
 
+/* The same where vectors are about 1 long: one shorter than 1e-12 is what rounding has left of parallel ones, and has
+ * no direction. */
+static inline bool vector3_normalise_sure(double a[3])
+{
+    return vector3_length(a) > 1e-12 && vector3_normalise(a);
+}
+
 #endif

@@ -2,12 +2,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector3.h"
 #include "behaviour/inspect.h"
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* The vertex of the node, and of all below it, that lies outermost against a normal, as meshes are at rest. */
 static void outermost(const schedule *s, int32_t root, double t, const double normal[3], double place[3])
@@ -26,8 +22,8 @@ static void outermost(const schedule *s, int32_t root, double t, const double no
                 double       q[3];
                 for (int c = 0; c < 3; c++)
                     q[c] = world.m[c] * p[0] + world.m[4 + c] * p[1] + world.m[8 + c] * p[2] + world.m[12 + c];
-                if (dot(q, normal) < least) {
-                    least = dot(q, normal);
+                if (vector3_dot(q, normal) < least) {
+                    least = vector3_dot(q, normal);
                     memcpy(place, q, sizeof q);
                 }
             }
@@ -37,7 +33,7 @@ static void outermost(const schedule *s, int32_t root, double t, const double no
 /* Two samples of one instant on either side of a corner; false when the place jumps, or hardly anything does. */
 static bool is_impact(const trajectory_sample *a, const trajectory_sample *b, double least, impact *out)
 {
-    double change[3], moved = 0, fast = sqrt(dot(a->velocity, a->velocity)) + sqrt(dot(b->velocity, b->velocity));
+    double change[3], moved = 0, fast = vector3_length(a->velocity) + vector3_length(b->velocity);
     if (a->seconds != b->seconds)
         return false;
     for (int k = 0; k < 3; k++) {
@@ -45,7 +41,7 @@ static bool is_impact(const trajectory_sample *a, const trajectory_sample *b, do
         moved = fmax(moved, fabs(b->position[k] - a->position[k]));
     }
     out->seconds = a->seconds;
-    out->speed = sqrt(dot(change, change));
+    out->speed = vector3_length(change);
     for (int k = 0; k < 3; k++)
         out->normal[k] = out->speed > 0 ? change[k] / out->speed : 0;
     memcpy(out->place, a->position, sizeof out->place);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector3.h"
 #include "scene/channel.h"
 
 static const double TURN = 6.283185307179586;
@@ -149,32 +150,18 @@ static void about_axis(const double axis[3], double angle, double out[4])
     out[3] = cos(angle / 2);
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static bool unit(double v[3])
-{
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int k = 0; k < 3; k++)
-        v[k] = length > 1e-12 ? v[k] / length : 0;
-    return length > 1e-12;
-}
-
 /* Columns: across, up and along; an orthonormal frame even where up and along are one. */
 static void frame_of(const double along[3], const double up[3], double out[3][3])
 {
     memcpy(out[2], along, sizeof out[2]);
-    if (!unit(out[2]))
+    if (!vector3_normalise_sure(out[2]))
         memcpy(out[2], (double[3]){0, 0, 1}, sizeof out[2]);
-    cross(up, out[2], out[0]);
-    if (!unit(out[0])) {
-        cross((double[3]){fabs(out[2][0]) < 0.9, fabs(out[2][0]) >= 0.9, 0}, out[2], out[0]);
-        unit(out[0]);
+    vector3_cross(out[0], up, out[2]);
+    if (!vector3_normalise_sure(out[0])) {
+        vector3_cross(out[0], (double[3]){fabs(out[2][0]) < 0.9, fabs(out[2][0]) >= 0.9, 0}, out[2]);
+        vector3_normalise_sure(out[0]);
     }
-    cross(out[2], out[0], out[1]);
+    vector3_cross(out[1], out[2], out[0]);
 }
 
 /* Shepperd's choice of the largest component keeps it accurate everywhere. */

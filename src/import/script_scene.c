@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/vector3.h"
 #include "import/access.h"
 #include "import/build.h"
 #include "import/script.h"
@@ -39,33 +40,19 @@ int32_t script_find_node(script_reader *r, const char *name)
 
 /* --- where it stands ------------------------------------------------------------------------------------- */
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static bool unit(double v[3])
-{
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int k = 0; k < 3; k++)
-        v[k] = length > 1e-12 ? v[k] / length : 0;
-    return length > 1e-12;
-}
-
 /* Turns −z to a direction and y as near to up as may be, as cameras look. */
 static void look_along(script_reader *r, const double direction[3], double out[4])
 {
     double up[3] = {0, r->scene->up == 'y', r->scene->up == 'z'}, m[3][3];
     for (int k = 0; k < 3; k++)
         m[2][k] = -direction[k];
-    if (!unit(m[2]))
+    if (!vector3_normalise_sure(m[2]))
         return;
-    cross(up, m[2], m[0]);
-    if (!unit(m[0])) {
+    vector3_cross(m[0], up, m[2]);
+    if (!vector3_normalise_sure(m[0])) {
         memcpy(m[0], (double[3]){1, 0, 0}, sizeof m[0]);
     }
-    cross(m[2], m[0], m[1]);
+    vector3_cross(m[1], m[2], m[0]);
     double four[4] = {1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2], 1 - m[0][0] - m[1][1] + m[2][2],
                       1 + m[0][0] + m[1][1] + m[2][2]};
     int    most = 0;
@@ -95,7 +82,7 @@ bool script_rotation(script_reader *r, json_t *value, double out[4])
     if (json_is_object(value)) {
         script_check_keys(r, value, "axis angle");
         bool there = script_vector(r, value, "axis", 3, 1, axis);
-        if (there && script_number(r, value, "angle", r->file->angle, &angle) && unit(axis)) {
+        if (there && script_number(r, value, "angle", r->file->angle, &angle) && vector3_normalise_sure(axis)) {
             for (int k = 0; k < 3; k++)
                 out[k] = axis[k] * sin(angle / 2);
             out[3] = cos(angle / 2);

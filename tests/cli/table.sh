@@ -909,6 +909,8 @@ group_depict() {
     echo '{"a": 1}' > in-path.json
     row 1 'no expressions' '' depict "$motion" --expressions in-path.json
     row 1 '--interval' '' draw "$motion" --interval 0:1
+    row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
+    row 1 '--explain' '' simulate "$motion" --explain
     # A script says what is told of it, and how it is seen.
     local script=$examples/scripts/bounce.json
     row 0 '' bounce.png depict "$script" $small --explain
