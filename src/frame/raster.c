@@ -258,8 +258,8 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, has_past, ready;
-    uint32_t            triangles; /* drawn so far: orders what coincides */
+    bool     has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_walls, has_rest, has_past, ready;
+    uint32_t triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
 /* What programs of the geometry pass get, wherever their surfaces come from. */
@@ -307,6 +307,14 @@ static bool uses_patches(const raster_job *job, const figure_state *s, const dra
            surface->technique->surface->needs(surface->values).patch > 0;
 }
 
+/* Does the surface lay out facades on the item's walls? */
+static bool uses_walls(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return job->at.shade >= 0 && !item->is_cut && surface && surface->technique->surface->needs &&
+           surface->technique->surface->needs(surface->values).walls && gpu_mesh_has_walls(item->mesh);
+}
+
 /* Is anything tied to where the item is when nothing has moved? */
 static bool uses_rest(const raster_job *job, const figure_state *s, const draw_item *item)
 {
@@ -329,10 +337,11 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
-    bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh);
+    bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh), walls = uses_walls(job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
-        field == last->has_field && patches == last->has_patches && rest == last->has_rest && past == last->has_past)
+        field == last->has_field && patches == last->has_patches && walls == last->has_walls &&
+        rest == last->has_rest && past == last->has_past)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -341,6 +350,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     declare_material(&prelude, s, item, m, t);
     text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "",
                 field && !patches ? "#define HAS_FIELD\n" : "");
+    if (walls)
+        text_append(&prelude, "#define HAS_WALLS\n");
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
     if (past)
@@ -361,6 +372,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                            .is_cut = item->is_cut,
                            .has_field = field,
                            .has_patches = patches,
+                           .has_walls = walls,
                            .has_rest = rest,
                            .has_past = past,
                            .ready = true,

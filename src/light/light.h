@@ -27,6 +27,7 @@ typedef struct scene_values {
     bool        ground_flat;
     colour      ground_colour;
     float       focus, focus_at, focus_depth;
+    float       depth_cue;
     param_words cut, cut_keep;
     float       cut_hatch, cut_angle, cut_width;
     colour      cut_colour, cut_fill;

@@ -69,6 +69,9 @@ static const param params[] = {
     PARAM_FLOAT_ROW(scene_values, focus_depth, .def = 0.8, .min = 0.01, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "focus",
                     .doc = "How far away from there the most ink is lost, fraction of the model's depth."),
+    PARAM_FLOAT_ROW(scene_values, depth_cue, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
+                    .doc = "Fraction of their colourfulness that filled surfaces lose at the farthest place, less in "
+                           "front of it; how light they are stays."),
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or "
                           "box=50%,0%,50%:100%,100%,100%; see draw.md."),

@@ -546,6 +546,7 @@ static mesh_needs needs_of(const lmn_look *look, const pose *pose)
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
         all.rest = all.rest || own.rest;
+        all.walls = all.walls || own.walls;
     }
     return all;
 }
