@@ -64,5 +64,7 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
         keep_box(f->maps, s);
     else if (!f->maps) /* maps are read back whole */
         camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
+    if (!f->maps)
+        window_figure(f, s);
     return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
 }
