@@ -33,6 +33,7 @@ typedef struct figure_state {
     float            *edges;       /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
     int               pixels[4];   /* where the figure and its lines can be: scissor */
     int               around[4];   /* what passes there can look at: cleared */
+    int               drawn[2][4]; /* both of the geometry, which windows may need more of */
     int               band[4];     /* layered: what is composed now, a part of `pixels` */
     int               layer;       /* layered: 0 = visible */
     int               index;       /* layered: of the figure among those that share their layers */

@@ -35,12 +35,25 @@ void window_clip(const frame *f, int margin, int box[4])
 static bool depends_on_page(const figure *fig)
 {
     return fig->mover || rule_traces_lines(fig->rule) || (fig->hidden && rule_traces_lines(fig->hidden)) ||
-           (fig->layered && (fig->layering.fraction > 0 || fig->focus));
+           (fig->layered && (fig->layering.fraction > 0 || fig->focus || figure_has_marks(fig)));
 }
 
 static int margin_of(const figure *fig)
 {
     return WINDOW_MARGIN + 2 * figure_reach(fig);
+}
+
+/* Edges of meshes are judged by how much of each is seen, however far it runs; so are marks. */
+static bool looks_along_edges(const figure *fig)
+{
+    const rule *r = fig->rule;
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const technique *t = r->uses[KIND_LINES][i].technique;
+        for (size_t k = 0; k < t->pass_count; k++)
+            if (t->passes[k].strokes || t->passes[k].records)
+                return true;
+    }
+    return figure_has_marks(fig);
 }
 
 void window_figure(const frame *f, figure_state *s)
@@ -49,6 +62,10 @@ void window_figure(const frame *f, figure_state *s)
         return;
     window_clip(f, margin_of(s->figure), s->pixels);
     window_clip(f, margin_of(s->figure) + figure_reach(s->figure) + 2, s->around);
+    if (looks_along_edges(s->figure))
+        return;
+    memcpy(s->drawn[0], s->pixels, sizeof s->drawn[0]);
+    memcpy(s->drawn[1], s->around, sizeof s->drawn[1]);
 }
 
 int window_margin(const frame *f)
