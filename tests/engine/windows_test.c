@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE = 1200 };
+enum { SIDE = 1000 };
 
 static lmn_renderer *renderer;
 static lmn_scene    *scene;
@@ -65,14 +65,113 @@ static size_t compare(const lmn_look *look, const lmn_draw_desc *desc, const int
     return wrong;
 }
 
-/* In the middle of the model, across its outline, in a corner of the page, one pixel. */
-static const int places[][4] = {{531, 575, 160, 120}, {0, 700, 203, 144}, {1072, 0, 128, 128}, {601, 600, 1, 1}};
+/* In the middle of the model, across its outline at the rim of the page, one pixel. */
+static const int places[][4] = {{431, 475, 100, 80}, {0, 600, 103, 84}, {501, 500, 1, 1}};
+
+/* Near by, edges run all through the page: what decides about one in the window lies far beside it. */
+static void edges_are_judged_whole(void **state)
+{
+    static const char *const looks[] = {"edges", "line", "ink"};
+    static const int         near[][4] = {{200, 300, 64, 64}, {900, 850, 64, 64}};
+    (void)state;
+    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
+        lmn_look     *look = NULL;
+        lmn_draw_desc desc = page_desc();
+        desc.fit = 4;
+        DO(lmn_look_load(&look, looks[i], &error));
+        assert_int_equal(compare(look, &desc, near, 2), 0);
+        lmn_look_destroy(&look);
+    }
+}
+
+/* Samples of pixels, an odd size, solids, and what moves. */
+static void others_have_windows(void **state)
+{
+    static const struct {
+        const char *file, *look, *set, *value;
+        int         samples;
+        double      time;
+    } rows[] = {
+        {"house.glb", "sketch", NULL, NULL, 4, 0},
+        {"csg/valve.csg", "xray", NULL, NULL, 1, 0},
+        {"house.glb", "plain", "scene.occlusion", "0.8", 1, 0},
+        {"house.glb", "technical", "lines.dash", "4", 1, 0},
+        {"box-animated.glb", "edges", "motion.technique", "blur", 1, 0.5},
+    };
+    static const int odd[][4] = {{333, 401, 97, 61}};
+    lmn_scene       *house = scene;
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmn_look     *look = NULL;
+        lmn_draw_desc desc = page_desc();
+        char          path[512];
+        snprintf(path, sizeof path, EXAMPLES "/%s", rows[i].file);
+        desc.samples = rows[i].samples;
+        desc.time_s = rows[i].time;
+        DO(lmn_scene_create(&scene, &error));
+        DO(lmn_scene_add_file(scene, path, NULL, &error));
+        DO(lmn_look_load(&look, rows[i].look, &error));
+        if (rows[i].set)
+            DO(lmn_look_set(look, rows[i].set, rows[i].value, &error));
+        size_t differences = compare(look, &desc, odd, 1);
+        if (differences)
+            fail_msg("%s, %s: %zu pixels differ", rows[i].file, rows[i].look, differences);
+        lmn_look_destroy(&look);
+        lmn_scene_destroy(&scene);
+    }
+    scene = house;
+}
+
+static void check_refused(const lmn_draw_desc *desc)
+{
+    lmn_look    *look = NULL;
+    lmn_drawing *drawing = NULL;
+    DO(lmn_look_load(&look, "plain", &error));
+    assert_int_equal(lmn_draw(&drawing, renderer, scene, look, desc, &error), LMN_USAGE);
+    assert_null(drawing);
+    assert_non_null(strstr(error.message, "window"));
+    lmn_look_destroy(&look);
+}
+
+static void wrong_windows_are_refused(void **state)
+{
+    static const int wrong[][4] = {{-1, 0, 5, 5},       {0, 0, 5, 0},        {0, 0, -5, 5},
+                                   {SIDE - 4, 0, 5, 5}, {0, SIDE - 4, 5, 5}, {2147483647, 0, 5, 5}};
+    lmn_draw_desc    desc = page_desc();
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        memcpy(desc.window, wrong[i], sizeof desc.window);
+        check_refused(&desc);
+    }
+    memcpy(desc.window, (int[]){0, 0, 5, 5}, sizeof desc.window);
+    desc.maps = true;
+    check_refused(&desc);
+}
+
+static void parts_are_written(void **state)
+{
+    const int     inside[4] = {40, 30, 20, 10}, outside[4] = {40, 30, SIDE, 10};
+    lmn_look     *look = NULL;
+    lmn_drawing  *drawing = NULL;
+    lmn_draw_desc desc = page_desc();
+    uint64_t      bytes = 0;
+    (void)state;
+    desc.width = desc.height = 100;
+    DO(lmn_look_load(&look, "plain", &error));
+    DO(lmn_draw(&drawing, renderer, scene, look, &desc, &error));
+    DO(lmn_drawing_write_part(drawing, inside, "windows-part.png", NULL, &bytes, &error));
+    assert_true(bytes > 0 && lmn_picture_is_whole("windows-part.png", 20, 10));
+    assert_int_equal(lmn_drawing_write_part(drawing, outside, "windows-part.png", NULL, NULL, &error), LMN_USAGE);
+    remove("windows-part.png");
+    lmn_drawing_destroy(&drawing);
+    lmn_look_destroy(&look);
+}
 
 static void looks_have_windows(void **state)
 {
     size_t       wrong = 0;
     const char **chosen = *state;
-    for (size_t i = 0; chosen ? chosen[i] != NULL : lmn_look_name_at(i) != NULL; i++) {
+    for (size_t i = 0; chosen ? chosen[i] != NULL : i < lmn_look_count(); i++) {
         lmn_look     *look = NULL;
         lmn_draw_desc desc = page_desc();
         const char   *name = chosen ? chosen[i] : lmn_look_name_at(i);
@@ -91,6 +190,10 @@ int main(int count, char **arguments)
     const char            **chosen = count > 1 ? (const char **)arguments + 1 : NULL;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(looks_have_windows, chosen),
+        cmocka_unit_test(edges_are_judged_whole),
+        cmocka_unit_test(others_have_windows),
+        cmocka_unit_test(wrong_windows_are_refused),
+        cmocka_unit_test(parts_are_written),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
