@@ -161,6 +161,8 @@ lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *va
         mem_free(r.values);
         return error_memory(error);
     }
+    out->name = values->datum.text;
+    out->other = values->datum_other;
     read_values(&r, scene, selected);
     if (r.known == 0)
         warnings_add(warnings, WARNING_NO_MATCH, "no part that is drawn has the attribute '%s' (scene.datum)",

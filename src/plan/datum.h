@@ -20,6 +20,8 @@ typedef struct datum_entry {
 
 typedef struct datum {
     colour     *colours; /* per part; alpha 0: its own. NULL: no datum is shown */
+    const char *name;    /* of the attribute; lent by the look */
+    colour      other;   /* of parts without a value; alpha 0: their own */
     bool        is_ramp;
     datum_entry entries[DATUM_ENTRIES_MAX];
     size_t      entry_count, other_count; /* parts without a value */
