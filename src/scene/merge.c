@@ -217,10 +217,22 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
         if (into->nodes[i].parent == NONE)
             scene_link_child(into, root, (int32_t)i);
     into->files[into->file_count++] = path;
+    city_merge(&into->city, &from->city);
     warnings_append(&into->warnings, &from->warnings);
     warnings_release(&from->warnings);
     into->load_ms += from->load_ms;
     into->revision = scene_next_revision();
+}
+
+/* Two files of one city have origins of their own. */
+static void put_in_place(mat4 *position, const lmn_scene *into, const lmn_scene *from)
+{
+    double offset[3];
+    if (!city_offset(&into->city, &from->city, offset))
+        return;
+    mat4 up = scene_up_rotation('z', scene_up_together(into, from));
+    for (int k = 0; k < 3; k++)
+        position->m[12 + k] += up.m[k] * offset[0] + up.m[4 + k] * offset[1] + up.m[8 + k] * offset[2];
 }
 
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
@@ -228,7 +240,8 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_capacity(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4      position = scene_up_rotation(from->up, scene_up_together(into, from));
+    mat4 position = scene_up_rotation(from->up, scene_up_together(into, from));
+    put_in_place(&position, into, from);
     char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part     *grown = NULL;

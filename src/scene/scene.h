@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/warnings.h"
 #include "limner/scene.h"
+#include "scene/city.h"
 
 enum { NONE = -1, UV_SETS = 2 };
 
@@ -222,6 +223,7 @@ struct lmn_scene {
     struct solid     *solids; /* scene/solid.h */
     size_t            solid_count, solid_capacity;
     struct behaviour *behaviour; /* scene/behaviour.h; NULL: none */
+    city_facts        city;      /* where it lies and what of city data it consists of; empty of other models */
     part             *parts;     /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
     size_t            part_count, ghost_count;
     char            **files; /* paths as they were given, one per merged file */
