@@ -53,6 +53,18 @@ bool cityjson_no_memory(cityjson_reader *r)
     return false;
 }
 
+cityjson_span cityjson_pack(const cityjson_reader *r, json_span span)
+{
+    const char *from = (const char *)r->job->file->data;
+    return span.at ? (cityjson_span){(uint32_t)(span.at - from), (uint32_t)span.size} : (cityjson_span){0, 0};
+}
+
+json_span cityjson_unpack(const cityjson_reader *r, cityjson_span span)
+{
+    const char *from = (const char *)r->job->file->data;
+    return span.at ? (json_span){from + span.at, span.size} : (json_span){NULL, 0};
+}
+
 /* --- a document ----------------------------------------------------------------------------------------- */
 
 static void scan_document(cityjson_reader *r, json_scan *s, cityjson_document *d)
@@ -201,7 +213,7 @@ static void tell_lods(cityjson_reader *r)
 {
     for (size_t i = 0; i < r->lod_count; i++) {
         char name[16];
-        snprintf(name, sizeof name, "%.3g", r->lods[i]);
+        snprintf(name, sizeof name, "%.3g", (double)r->lods[i]);
         for (char *c = name; *c; c++)
             *c = *c == ',' ? '.' : *c; /* the host's decimal point */
         city_add(&r->scene->city, CITY_LODS, r->lods[i] < 0 ? "none" : name, r->lod_counts[i]);
@@ -223,6 +235,13 @@ static void release(cityjson_reader *r)
     mem_free(r);
 }
 
+/* The API has checked that it is a number. */
+static float wish_of(const char *lod)
+{
+    double value;
+    return text_is_double(lod, &value) ? (float)value : INFINITY;
+}
+
 static lmn_status read_cityjson(const import_job *job, lmn_error *error)
 {
     cityjson_reader *r = mem_calloc(1, sizeof *r);
@@ -233,7 +252,7 @@ static lmn_status read_cityjson(const import_job *job, lmn_error *error)
     r->error = error;
     r->wish = INFINITY;
     if (job->desc && job->desc->lod)
-        text_is_double(job->desc->lod, &r->wish);
+        r->wish = wish_of(job->desc->lod);
     for (int k = 0; k < 3; k++)
         r->scale[k] = 1;
     r->status = city_builder_open(&r->builder, job, error);

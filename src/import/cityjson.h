@@ -16,20 +16,26 @@ typedef enum cityjson_kind {
     KIND_INSTANCE
 } cityjson_kind;
 
-/* One geometry of an object: where its members are. */
+/* Bytes of the file, in half the room of a json_span: there are many. Size 0: none. */
+typedef struct cityjson_span {
+    uint32_t at, size;
+} cityjson_span;
+
+/* One geometry of an object: where its members are. Instances have a template and a matrix in place of semantics and
+ * material. */
 typedef struct cityjson_geometry {
+    float         lod; /* −1: it has none */
     cityjson_kind kind;
-    double        lod; /* −1: it has none */
-    json_span     boundaries, semantics, material, texture, template_index, matrix;
+    cityjson_span boundaries, semantics, material, texture;
 } cityjson_geometry;
 
 typedef struct cityjson_object {
-    json_span id, type, attributes, parent, children;
-    size_t    first_geometry, geometry_count;
-    double    lod;       /* of the geometry that is drawn; −1: none */
-    double    below_lod; /* the highest of what is below it */
-    int32_t   parent_index, node;
-    bool      has_children, outside; /* its parent is elsewhere */
+    cityjson_span id, type, attributes, parent, children;
+    uint32_t      first_geometry, geometry_count;
+    float         lod;       /* of the geometry that is drawn; −1: none */
+    float         below_lod; /* the highest of what is below it */
+    int32_t       parent_index, node;
+    bool          has_children;
 } cityjson_object;
 
 /* Members of a document: the model, or a feature of a sequence. */
@@ -38,9 +44,9 @@ typedef struct cityjson_document {
 } cityjson_document;
 
 typedef struct cityjson_template {
-    json_span   geometry;
-    city_meshes meshes;
-    bool        made;
+    cityjson_span geometry;
+    city_meshes   meshes;
+    bool          made;
 } cityjson_template;
 
 typedef struct cityjson_reader {
@@ -52,7 +58,7 @@ typedef struct cityjson_reader {
     double            scale[3], translate[3];
     bool              placed; /* the origin is chosen */
     bool              latitude_first;
-    double            wish; /* the level of detail asked for; infinity: the highest */
+    float             wish; /* the level of detail asked for; infinity: the highest */
 
     vec3  *points; /* of the document */
     size_t point_count;
@@ -83,7 +89,7 @@ typedef struct cityjson_reader {
     size_t   shell_count, shell_capacity, solid_count, solid_capacity;
     uint8_t *words; /* of semantic surfaces */
     size_t   word_count, word_capacity;
-    double   lods[32];
+    float    lods[32];
     size_t   lod_counts[32], lod_count;
 } cityjson_reader;
 
@@ -92,6 +98,10 @@ lmn_status cityjson_fail(cityjson_reader *r, lmn_status status, const char *at, 
 /* Makes a scanner's error the reader's. */
 bool cityjson_good(cityjson_reader *r, const json_scan *s);
 bool cityjson_no_memory(cityjson_reader *r);
+
+cityjson_span cityjson_pack(const cityjson_reader *r, json_span span);
+/* at is NULL where there is none. */
+json_span cityjson_unpack(const cityjson_reader *r, cityjson_span span);
 
 /* cityjson_points.c: the vertices of a document or of its templates, as the scene has them. */
 void cityjson_read_points(cityjson_reader *r, json_span vertices, json_span metadata);

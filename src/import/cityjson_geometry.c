@@ -23,7 +23,7 @@ static cityjson_kind kind_of(json_span name)
 }
 
 /* "2.2", or a number in files of version 1.0. */
-static double read_lod(json_scan *s)
+static float read_lod(json_scan *s)
 {
     double value = -1;
     if (scan_peek(s) != '"') {
@@ -34,7 +34,7 @@ static double read_lod(json_scan *s)
         if (!text.at || !scan_number(&inside, &value))
             value = -1;
     }
-    return value >= 0 && value < 100 ? value : -1;
+    return value >= 0 && value < 100 ? (float)value : -1;
 }
 
 void cityjson_scan_geometry(cityjson_reader *r, json_scan *s, cityjson_geometry *out)
@@ -47,17 +47,17 @@ void cityjson_scan_geometry(cityjson_reader *r, json_scan *s, cityjson_geometry 
         else if (span_is(key, "lod"))
             out->lod = read_lod(s);
         else if (span_is(key, "boundaries"))
-            out->boundaries = scan_skip(s);
+            out->boundaries = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "semantics"))
-            out->semantics = scan_skip(s);
+            out->semantics = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "material"))
-            out->material = scan_skip(s);
+            out->material = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "texture"))
-            out->texture = scan_skip(s);
+            out->texture = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "template"))
-            out->template_index = scan_skip(s);
+            out->semantics = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "transformationMatrix"))
-            out->matrix = scan_skip(s);
+            out->material = cityjson_pack(r, scan_skip(s));
         else
             scan_skip(s);
     }
@@ -242,10 +242,11 @@ static void read_words(cityjson_reader *r, json_scan *s)
 static void read_semantics(cityjson_reader *r, const cityjson_geometry *g, size_t first_face)
 {
     json_span values = {0};
-    if (!g->semantics.at || g->semantics.at[0] != '{')
+    json_span semantics = cityjson_unpack(r, g->semantics);
+    if (!semantics.at || semantics.at[0] != '{')
         return;
     r->word_count = 0;
-    json_scan s = scan_of(g->semantics);
+    json_scan s = scan_of(semantics);
     for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
         json_span key = scan_key(&s);
         if (span_is(key, "surfaces") && scan_peek(&s) == '[')
@@ -280,7 +281,7 @@ static void read_material(cityjson_reader *r, const cityjson_geometry *g, size_t
 {
     json_span theme, values = {0};
     double    one = -1;
-    if (!cityjson_find_theme(g->material, r->material_theme, &theme))
+    if (!cityjson_find_theme(cityjson_unpack(r, g->material), r->material_theme, &theme))
         return;
     json_scan s = scan_of(theme);
     for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
@@ -345,7 +346,8 @@ static bool make_uvs(cityjson_reader *r)
 static void read_texture(cityjson_reader *r, const cityjson_geometry *g, size_t first_face)
 {
     json_span theme;
-    if (!r->texture_count || !cityjson_find_theme(g->texture, r->texture_theme, &theme) || !make_uvs(r))
+    if (!r->texture_count || !cityjson_find_theme(cityjson_unpack(r, g->texture), r->texture_theme, &theme) ||
+        !make_uvs(r))
         return;
     json_scan s = scan_of(theme);
     json_span values = {0};
@@ -377,7 +379,7 @@ bool cityjson_read_shape(cityjson_reader *r, const cityjson_geometry *g)
     size_t corners = r->shape.corner_count, rings = r->shape.ring_count, faces = r->shape.face_count;
     r->shell_count = r->solid_count = 0;
     r->shape.lines = g->kind == KIND_LINES;
-    if (!g->boundaries.at || !read_boundaries(r, g->boundaries, g->kind)) {
+    if (!g->boundaries.size || !read_boundaries(r, cityjson_unpack(r, g->boundaries), g->kind)) {
         r->builder.tally.bad_geometry += r->status == LMN_OK;
         return take_back(r, corners, rings, faces);
     }

@@ -11,7 +11,7 @@
 
 static bool is_extension(json_span type)
 {
-    return type.at && type.size && type.at[0] == '+';
+    return type.size && type.at[0] == '+';
 }
 
 static void scan_geometries(cityjson_reader *r, json_scan *s, cityjson_object *o)
@@ -53,26 +53,30 @@ static json_span first_text(json_scan *s)
 
 static void scan_object(cityjson_reader *r, json_scan *s, json_span id)
 {
-    cityjson_object o = {
-        .id = id, .first_geometry = r->geometry_count, .lod = -1, .below_lod = -1, .parent_index = NONE, .node = NONE};
+    cityjson_object o = {.id = cityjson_pack(r, id),
+                         .first_geometry = (uint32_t)r->geometry_count,
+                         .lod = -1,
+                         .below_lod = -1,
+                         .parent_index = NONE,
+                         .node = NONE};
     for (bool more = scan_open(s, '{'); more && r->status == LMN_OK; more = scan_next(s, '}')) {
         json_span key = scan_key(s);
         if (span_is(key, "type"))
-            o.type = scan_string(s);
+            o.type = cityjson_pack(r, scan_string(s));
         else if (span_is(key, "attributes"))
-            o.attributes = scan_skip(s);
+            o.attributes = cityjson_pack(r, scan_skip(s));
         else if (span_is(key, "geometry"))
             scan_geometries(r, s, &o);
         else if (span_is(key, "parents"))
-            o.parent = first_text(s);
+            o.parent = cityjson_pack(r, first_text(s));
         else if (span_is(key, "children"))
-            o.children = scan_skip(s);
+            o.children = cityjson_pack(r, scan_skip(s));
         else
             scan_skip(s);
     }
     if (!cityjson_good(r, s))
         return;
-    r->builder.tally.extensions += is_extension(o.type);
+    r->builder.tally.extensions += is_extension(cityjson_unpack(r, o.type));
     if (r->object_count == LIMIT_NODES)
         cityjson_fail(r, LMN_LIMIT, s->at, "more than %zu city objects", LIMIT_NODES);
     else if (!mem_grow((void **)&r->objects, &r->object_capacity, r->object_count + 1, sizeof o))
@@ -96,7 +100,7 @@ static uint32_t *find_slot(const cityjson_reader *r, json_span id)
 {
     size_t slot = hash_span(id) & (r->slot_count - 1);
     while (r->slots[slot] != UINT32_MAX) {
-        json_span there = r->objects[r->slots[slot]].id;
+        json_span there = cityjson_unpack(r, r->objects[r->slots[slot]].id);
         if (there.size == id.size && memcmp(there.at, id.at, id.size) == 0)
             break;
         slot = (slot + 1) & (r->slot_count - 1);
@@ -115,7 +119,7 @@ static bool fill_slots(cityjson_reader *r)
     r->slots = grown;
     memset(grown, 0xFF, r->slot_count * sizeof *grown);
     for (size_t i = 0; i < r->object_count; i++) {
-        uint32_t *slot = find_slot(r, r->objects[i].id);
+        uint32_t *slot = find_slot(r, cityjson_unpack(r, r->objects[i].id));
         if (*slot == UINT32_MAX)
             *slot = (uint32_t)i;
     }
@@ -130,10 +134,11 @@ static void set_parent(cityjson_reader *r, size_t child, uint32_t parent)
 
 static void adopt(cityjson_reader *r, size_t parent)
 {
-    cityjson_object *o = &r->objects[parent];
-    if (!o->children.at || o->children.at[0] != '[' || span_is(o->type, "CityObjectGroup"))
+    json_span children = cityjson_unpack(r, r->objects[parent].children);
+    if (!children.at || children.at[0] != '[' ||
+        span_is(cityjson_unpack(r, r->objects[parent].type), "CityObjectGroup"))
         return;
-    json_scan s = scan_of(o->children);
+    json_scan s = scan_of(children);
     for (bool more = scan_open(&s, '['); more; more = scan_next(&s, ']')) {
         json_span id = scan_string(&s);
         uint32_t  child = id.at ? *find_slot(r, id) : UINT32_MAX;
@@ -148,7 +153,7 @@ static void adopt(cityjson_reader *r, size_t parent)
 static void find_parents(cityjson_reader *r)
 {
     for (size_t i = 0; i < r->object_count; i++) {
-        json_span id = r->objects[i].parent;
+        json_span id = cityjson_unpack(r, r->objects[i].parent);
         uint32_t  parent = id.at ? *find_slot(r, id) : UINT32_MAX;
         if (parent != UINT32_MAX)
             set_parent(r, i, parent);
@@ -172,7 +177,7 @@ static void choose_lods(cityjson_reader *r)
         }
         int32_t above = o->parent_index;
         for (int n = 0; above != NONE && n < ANCESTORS_MAX; n++, above = r->objects[above].parent_index)
-            r->objects[above].below_lod = fmax(r->objects[above].below_lod, o->lod);
+            r->objects[above].below_lod = fmaxf(r->objects[above].below_lod, o->lod);
     }
 }
 
@@ -194,9 +199,10 @@ static bool put_attribute(cityjson_reader *r, int32_t node, json_span key, json_
 
 static void put_attributes(cityjson_reader *r, const cityjson_object *o)
 {
-    if (!o->attributes.at || o->attributes.at[0] != '{')
+    json_span attributes = cityjson_unpack(r, o->attributes);
+    if (!attributes.at || attributes.at[0] != '{')
         return;
-    json_scan s = scan_of(o->attributes);
+    json_scan s = scan_of(attributes);
     for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
         json_span key = scan_key(&s);
         if (s.wrong || !put_attribute(r, o->node, key, &s))
@@ -214,12 +220,13 @@ static bool is_building(json_span type)
 /* The matrix of an instance: the file's, row by row, moved to the one vertex that its boundaries name. */
 static bool read_matrix(cityjson_reader *r, const cityjson_geometry *g, mat4 *out)
 {
-    double number = -1;
-    int    k = 0;
+    double    number = -1;
+    int       k = 0;
+    json_span matrix = cityjson_unpack(r, g->material), boundaries = cityjson_unpack(r, g->boundaries);
     *out = mat4_identity();
-    if (!g->matrix.at || !g->boundaries.at || g->boundaries.at[0] != '[')
+    if (!matrix.at || !boundaries.at || boundaries.at[0] != '[')
         return false;
-    json_scan s = scan_of(g->matrix);
+    json_scan s = scan_of(matrix);
     for (bool more = scan_open(&s, '['); more; more = scan_next(&s, ']'), k++) {
         double value = 0;
         if (!scan_number(&s, &value) || !isfinite(value))
@@ -227,7 +234,7 @@ static bool read_matrix(cityjson_reader *r, const cityjson_geometry *g, mat4 *ou
         if (k < 16)
             out->m[(k % 4) * 4 + k / 4] = value;
     }
-    json_scan at = scan_of(g->boundaries);
+    json_scan at = scan_of(boundaries);
     if (k != 16 || s.wrong || !scan_open(&at, '[') || !scan_number(&at, &number) || !(number >= 0) ||
         !(number < (double)r->point_count))
         return false;
@@ -252,7 +259,7 @@ static void make_template(cityjson_reader *r, cityjson_template *t, uint8_t own)
 {
     cityjson_geometry g;
     t->made = true;
-    json_scan s = scan_of(t->geometry);
+    json_scan s = scan_of(cityjson_unpack(r, t->geometry));
     cityjson_scan_geometry(r, &s, &g);
     if (r->status != LMN_OK)
         return;
@@ -268,7 +275,7 @@ static void put_instance(cityjson_reader *r, const cityjson_object *o, const cit
 {
     size_t index;
     mat4   matrix;
-    if (!read_index(g->template_index, r->template_count, &index) || !read_matrix(r, g, &matrix)) {
+    if (!read_index(cityjson_unpack(r, g->semantics), r->template_count, &index) || !read_matrix(r, g, &matrix)) {
         r->builder.tally.broken_references++;
         return;
     }
@@ -279,10 +286,10 @@ static void put_instance(cityjson_reader *r, const cityjson_object *o, const cit
         r->status = city_attach(&r->builder, o->node, &t->meshes, &matrix, !o->has_children && o->geometry_count == 1);
 }
 
-static void count_lod(cityjson_reader *r, double lod)
+static void count_lod(cityjson_reader *r, float lod)
 {
     size_t i = 0;
-    while (i < r->lod_count && fabs(r->lods[i] - lod) > 1e-9)
+    while (i < r->lod_count && fabsf(r->lods[i] - lod) > 1e-4f)
         i++;
     if (i == sizeof r->lods / sizeof *r->lods)
         return;
@@ -295,7 +302,7 @@ static void put_shape(cityjson_reader *r, const cityjson_object *o, uint8_t own,
 {
     meshes->count = 0;
     if (r->status == LMN_OK && (r->shape.face_count || r->shape.lines))
-        r->status = city_make(&r->builder, &r->shape, own, is_building(o->type), meshes);
+        r->status = city_make(&r->builder, &r->shape, own, is_building(cityjson_unpack(r, o->type)), meshes);
     if (r->status == LMN_OK && meshes->count)
         r->status = city_attach(&r->builder, o->node, meshes, NULL, true);
     city_shape_clear(&r->shape);
@@ -327,8 +334,10 @@ static void put_geometry(cityjson_reader *r, const cityjson_object *o, uint8_t o
 
 static void put_object(cityjson_reader *r, cityjson_object *o, city_meshes *meshes)
 {
-    json_span type = o->type.at ? o->type : (json_span){"unknown", 7};
-    o->node = city_object(&r->builder, span_decode(o->id), type.at, type.size);
+    json_span type = cityjson_unpack(r, o->type);
+    if (!type.at)
+        type = (json_span){"unknown", 7};
+    o->node = city_object(&r->builder, span_decode(cityjson_unpack(r, o->id)), type.at, type.size);
     if (o->node == NONE) {
         r->status = LMN_MEMORY;
         return;
@@ -387,7 +396,7 @@ static void read_template_list(cityjson_reader *r, json_span list)
             cityjson_no_memory(r);
             return;
         }
-        r->templates[r->template_count++] = (cityjson_template){.geometry = span};
+        r->templates[r->template_count++] = (cityjson_template){.geometry = cityjson_pack(r, span)};
     }
     cityjson_good(r, &s);
 }

@@ -104,13 +104,16 @@ static lmn_status check_triangles(const import_job *job, lmn_error *error)
     return LMN_LIMIT;
 }
 
-static lmn_status read_into(const import_job *job, const import_format *format, lmn_up_axis up, lmn_error *error)
+static lmn_status fill(const import_job *job, const import_format *format, lmn_error *error)
 {
     lmn_status status = import_progress(job, 0, "reading", error);
-    if (status == LMN_OK)
-        status = format->read(job, error);
-    if (status == LMN_OK)
-        status = name_single_node(job->scene, job->path, error);
+    return status == LMN_OK ? format->read(job, error) : status;
+}
+
+/* What is the same for all formats. The file's bytes are no longer there: a model may be several times as large. */
+static lmn_status finish(const import_job *job, const import_format *format, lmn_up_axis up, lmn_error *error)
+{
+    lmn_status status = name_single_node(job->scene, job->path, error);
     if (status == LMN_OK)
         status = import_progress(job, 0.9, "checking", error);
     if (status == LMN_OK)
@@ -192,13 +195,17 @@ static lmn_status read_outside(const import_job *job, const lmn_importer *by, lm
 
 /* --- from a path to a scene ----------------------------------------------------------------------------- */
 
-static lmn_status read_ours(const import_job *job, lmn_error *error)
+static lmn_status read_ours(import_job *job, file_data *file, lmn_error *error)
 {
     const import_format *format = NULL;
     lmn_status           status = choose(&format, job->path, job->file, error);
     if (status == LMN_OK)
         status = check_options(format, job->path, job->desc, error);
-    return status == LMN_OK ? read_into(job, format, job->desc->up_axis, error) : status;
+    if (status == LMN_OK)
+        status = fill(job, format, error);
+    file_data_release(file);
+    job->file = NULL;
+    return status == LMN_OK ? finish(job, format, job->desc->up_axis, error) : status;
 }
 
 static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc,
@@ -218,7 +225,7 @@ static lmn_status load(lmn_scene **out, const import_job *by, const char *path, 
     if (!scene)
         status = error_memory(error);
     else
-        status = outside ? read_outside(&job, outside, error) : read_ours(&job, error);
+        status = outside ? read_outside(&job, outside, error) : read_ours(&job, &file, error);
     file_data_release(&file);
     if (status != LMN_OK) {
         /* Readers of parts of a file need not know its name. */

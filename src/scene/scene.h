@@ -282,7 +282,8 @@ mat4 scene_up_rotation(char from, char to);
 char scene_up_together(const lmn_scene *into, const lmn_scene *from);
 
 /* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to
- * `into`'s up axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
+ * `into`'s up axis; `from` is empty afterwards. On error `into` is unchanged, and `from` may have lost its list of
+ * parts. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
 
 /* A copy of `size` bytes as valid UTF-8 without control characters (bad bytes become U+FFFD), for names from files.
