@@ -104,7 +104,7 @@ static bool read_ring(cityjson_reader *r, json_scan *s)
         const char *digits = s->at;
         while (*s->at >= '0' && *s->at <= '9')
             number = number * 10 + (uint32_t)(*s->at++ - '0');
-        if (s->at == digits || s->at - digits > 9) {
+        if (s->at == digits || s->at - digits > 9 || *s->at == '.' || *s->at == 'e' || *s->at == 'E') {
             double value;
             s->at = digits;
             if (!scan_number(s, &value))
@@ -177,9 +177,9 @@ static void walk_faces(cityjson_reader *r, json_scan *s, int above, face_walk *w
 {
     for (bool more = scan_open(s, '['); more; more = scan_next(s, ']')) {
         if (above == 0) {
-            if (w->face >= r->shape.face_count || scan_null(s))
+            if (w->face >= r->shape.face_count)
                 scan_skip(s);
-            else
+            else if (!scan_null(s))
                 w->apply(r, s, w);
             w->face++;
             continue;
@@ -213,7 +213,7 @@ static void apply_word(cityjson_reader *r, json_scan *s, face_walk *w)
     double index = -1;
     if (!scan_number(s, &index))
         return;
-    if (index >= 0 && index < (double)r->word_count)
+    if (index >= 0 && index < (double)r->word_count && !(index > floor(index)))
         r->shape.faces[w->face].word = r->words[(size_t)index];
     else
         r->builder.tally.broken_references++;

@@ -164,7 +164,13 @@ static void find_parents(cityjson_reader *r)
         adopt(r, i);
 }
 
-/* The highest level of detail that is wanted, and for all above an object what is below them. */
+/* Is it a part of what is above it, and not something added to that, such as a chimney? */
+static bool is_part(json_span type)
+{
+    return type.size > 4 && memcmp(type.at + type.size - 4, "Part", 4) == 0;
+}
+
+/* The highest level of detail that is wanted, and for all above an object what their parts have. */
 static void choose_lods(cityjson_reader *r)
 {
     enum { ANCESTORS_MAX = 64 };
@@ -175,7 +181,7 @@ static void choose_lods(cityjson_reader *r)
             if (g->lod <= r->wish && g->lod > o->lod)
                 o->lod = g->lod;
         }
-        int32_t above = o->parent_index;
+        int32_t above = is_part(cityjson_unpack(r, o->type)) ? o->parent_index : NONE;
         for (int n = 0; above != NONE && n < ANCESTORS_MAX; n++, above = r->objects[above].parent_index)
             r->objects[above].below_lod = fmaxf(r->objects[above].below_lod, o->lod);
     }
@@ -263,12 +269,15 @@ static void make_template(cityjson_reader *r, cityjson_template *t, uint8_t own)
     cityjson_scan_geometry(r, &s, &g);
     if (r->status != LMN_OK)
         return;
-    city_shape_clear(&r->shape);
-    if (g.kind < KIND_LINES || g.kind > KIND_SOLIDS || !cityjson_read_shape(r, &g))
-        return;
-    city_builder_points(&r->builder, r->template_points, r->template_point_count);
-    r->status = city_make(&r->builder, &r->shape, own, false, &t->meshes);
-    city_builder_points(&r->builder, r->points, r->point_count);
+    city_shape kept = r->shape; /* of the object that asks */
+    memset(&r->shape, 0, sizeof r->shape);
+    if (g.kind >= KIND_LINES && g.kind <= KIND_SOLIDS && cityjson_read_shape(r, &g)) {
+        city_builder_points(&r->builder, r->template_points, r->template_point_count);
+        r->status = city_make(&r->builder, &r->shape, own, false, &t->meshes);
+        city_builder_points(&r->builder, r->points, r->point_count);
+    }
+    city_shape_release(&r->shape);
+    r->shape = kept;
 }
 
 static void put_instance(cityjson_reader *r, const cityjson_object *o, const cityjson_geometry *g, uint8_t own)
