@@ -82,6 +82,9 @@ lmn_status city_make(city_builder *b, city_shape *shape, uint8_t own, bool build
  * single mesh can be the node's own. */
 lmn_status city_attach(city_builder *b, int32_t node, const city_meshes *meshes, const mat4 *matrix, bool alone);
 
+/* Bounds of points, some of which may be NaN. Where they are farther apart than any city, a vertex or two lie at the
+ * other end of the world: then the middle of most of them is taken. */
+void city_extent(double (*points)[3], size_t count, double low[3], double high[3]);
 /* Where the origin is to be for points between these bounds: their middle on a round number. */
 void city_choose_origin(city_facts *facts, const double low[3], const double high[3]);
 

@@ -545,6 +545,46 @@ lmn_status city_builder_close(city_builder *b, lmn_status status)
     return status;
 }
 
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The middle of most of the points, by a sample. */
+static void find_middle(double (*points)[3], size_t count, double low[3], double high[3])
+{
+    enum { SAMPLES = 999 };
+    double sample[SAMPLES];
+    for (int k = 0; k < 3; k++) {
+        size_t taken = 0;
+        for (size_t i = 0; i < SAMPLES && i < count; i++) {
+            double v = points[count < SAMPLES ? i : i * count / SAMPLES][k];
+            if (isfinite(v))
+                sample[taken++] = v;
+        }
+        qsort(sample, taken, sizeof *sample, compare_doubles);
+        low[k] = high[k] = taken ? sample[taken / 2] : 0;
+    }
+}
+
+void city_extent(double (*points)[3], size_t count, double low[3], double high[3])
+{
+    static const double FAR = 1e6;
+    bool                near = true;
+    for (int k = 0; k < 3; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            low[k] = points[i][k] < low[k] ? points[i][k] : low[k];
+            high[k] = points[i][k] > high[k] ? points[i][k] : high[k];
+        }
+        near = near && high[k] - low[k] <= FAR;
+    }
+    if (!near)
+        find_middle(points, count, low, high);
+}
+
 void city_choose_origin(city_facts *facts, const double low[3], const double high[3])
 {
     facts->known = true;

@@ -1,6 +1,5 @@
 /* Vertices: a long list of three numbers each, and where the scene's origin is among them. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/limits.h"
@@ -97,52 +96,14 @@ static bool read_extent(json_span metadata, double low[3], double high[3])
     return found;
 }
 
-static void measure(const cityjson_reader *r, const point_list *list, double low[3], double high[3])
-{
-    for (int k = 0; k < 3; k++) {
-        low[k] = INFINITY;
-        high[k] = -INFINITY;
-        for (size_t i = 0; i < list->count; i++) {
-            double v = list->items[i][k] * r->scale[k] + r->translate[k];
-            low[k] = v < low[k] ? v : low[k];
-            high[k] = v > high[k] ? v : high[k];
-        }
-    }
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
-/* A file with a vertex or two at the other end of the world is drawn where most of it is. */
-static void find_middle(const cityjson_reader *r, const point_list *list, double low[3], double high[3])
-{
-    enum { SAMPLES = 999 };
-    double sample[SAMPLES];
-    size_t count = list->count < SAMPLES ? list->count : SAMPLES;
-    for (int k = 0; k < 3 && count; k++) {
-        for (size_t i = 0; i < count; i++)
-            sample[i] = list->items[i * list->count / count][k] * r->scale[k] + r->translate[k];
-        qsort(sample, count, sizeof *sample, compare_doubles);
-        low[k] = high[k] = sample[count / 2];
-    }
-}
-
 static void place(cityjson_reader *r, const point_list *list, json_span metadata)
 {
-    static const double FAR = 1e6;
-    city_facts         *facts = &r->scene->city;
-    double              low[3], high[3];
-    if (list->count == 0) {
-        if (!read_extent(metadata, low, high))
-            return;
-    } else {
-        measure(r, list, low, high);
-        if (!(high[0] - low[0] <= FAR) || !(high[1] - low[1] <= FAR) || !(high[2] - low[2] <= FAR))
-            find_middle(r, list, low, high);
-    }
+    city_facts *facts = &r->scene->city;
+    double      low[3], high[3];
+    if (list->count == 0 && !read_extent(metadata, low, high))
+        return;
+    if (list->count)
+        city_extent(list->items, list->count, low, high);
     facts->geographic = city_crs_is_geographic(facts->crs, low, high, &r->latitude_first);
     if (facts->geographic && r->latitude_first) {
         double kept[2] = {low[0], high[0]};
@@ -184,13 +145,15 @@ void cityjson_read_points(cityjson_reader *r, json_span vertices, json_span meta
 {
     point_list list = {0};
     read_list(r, vertices, &list);
+    for (size_t i = 0; i < list.count; i++)
+        for (int k = 0; k < 3; k++)
+            list.items[i][k] = list.items[i][k] * r->scale[k] + r->translate[k];
     if (!r->placed && r->status == LMN_OK)
         place(r, &list, metadata);
     const city_facts *facts = &r->scene->city;
     for (size_t i = 0; i < list.count; i++) {
         double p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = list.items[i][k] * r->scale[k] + r->translate[k];
+        memcpy(p, list.items[i], sizeof p);
         city_crs_local(facts, r->latitude_first, p);
         vec3 small = {(float)p[0], (float)p[1], (float)p[2]};
         memcpy((char *)list.items + i * sizeof small, &small, sizeof small);

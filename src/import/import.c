@@ -12,9 +12,9 @@
 #include "import/up_axis.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_cityjson, &import_gltf,  &import_ply, &import_stl,
-                                               &import_obj,      &import_bvh,   &import_csg, &import_scad,
-                                               &import_script,   &import_assimp};
+static const import_format *const formats[] = {&import_cityjson, &import_citygml, &import_gltf,  &import_ply,
+                                               &import_stl,      &import_obj,     &import_bvh,   &import_csg,
+                                               &import_scad,     &import_script,  &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -138,7 +138,7 @@ static lmn_status check_options(const import_format *format, const char *path, c
         error_hint(error, "--safe refuses programs; evaluate it where it may run: openscad -o model.csg model.scad");
         return LMN_UNSUPPORTED;
     }
-    if (desc->lod && format != &import_cityjson) {
+    if (desc->lod && format != &import_cityjson && format != &import_citygml) {
         error_in_file(error, LMN_USAGE, path, 0,
                       "levels of detail are of city models (CityJSON, CityGML), and this is %s", format->name);
         return LMN_USAGE;

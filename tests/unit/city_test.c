@@ -567,7 +567,7 @@ static void test_cut_off_and_memory(void **state)
         HEAD "\"appearance\":{\"materials\":[{\"name\":\"m\"}]},\"CityObjects\":{\"a\":{\"type\":\"Building\","
              "\"attributes\":{\"k\":\"v\"},"
              "\"geometry\":[" SOLID "]},\"b\":{\"type\":\"BuildingPart\",\"parents\":[\"a\"],\"geometry\":[{\"type\":"
-                                    "\"MultiSurface\",\"lod\":\"2\","
+             "\"MultiSurface\",\"lod\":\"2\","
              "\"boundaries\":[[[4,5,6,7]]],\"material\":{\"t\":{\"value\":0}}}]}}," CUBE_VERTICES "}";
     lmn_scene *s;
     lmn_error  error;
