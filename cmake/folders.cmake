@@ -7,6 +7,7 @@ set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose 
 # What one folder alone sees of libraries; all see the first.
 set(limner_all EPOXY JANSSON PNG JPEG WEBP ZLIB DEFLATE ASSIMP GLU)
 set(limner_stroke_texture_sees XML)
+set(limner_import_sees XML)
 set(limner_export_sees CAIRO PANGO)
 set(limner_construct_sees GEOS QHULL FREETYPE FONTCONFIG HARFBUZZ)
 set(limner_fence_sees SECCOMP)
