@@ -85,8 +85,8 @@ static const param params[] = {
                       .cpu_only = true, .only_if = "datum",
                       .doc = "The colours of the ramp from the least to the most, or of the words one by one."),
     PARAM_TEXT_ROW(scene_values, datum_words, .example = "house,office", .only_if = "datum",
-                   .doc = "Words that get the colours in this order, separated by commas; empty: the most frequent "
-                          "first, and numbers are numbers."),
+                   .doc = "Words that get the colours in this order, separated by commas, and by | where several "
+                          "share one; empty: the most frequent first, and numbers are numbers."),
     PARAM_FLOAT_ROW(scene_values, datum_from, .def = 0, .min = -1e9, .max = 1e9, .soft_min = 0, .soft_max = 100,
                     .cpu_only = true, .only_if = "datum",
                     .doc = "Number with the first colour; where it is not below the other end, both ends are those of "

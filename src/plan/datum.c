@@ -95,10 +95,24 @@ static void show_numbers(datum *d, const reading *r)
     }
 }
 
+/* Is the word one of those of the entry, which '|' separates? */
+static bool has_word(const datum_entry *e, const char *word)
+{
+    for (const char *at = e->text;; at++) {
+        size_t length = strcspn(at, "|");
+        if (strlen(word) == length && strncmp(at, word, length) == 0)
+            return true;
+        at += length;
+        if (!*at)
+            /* Longer ones are kept as far as there is room. */
+            return strncmp(e->text, word, DATUM_TEXT_MAX - 1) == 0;
+    }
+}
+
 static datum_entry *entry_of(datum *d, const char *word)
 {
     for (size_t i = 0; i < d->entry_count; i++)
-        if (strncmp(d->entries[i].text, word, DATUM_TEXT_MAX - 1) == 0)
+        if (has_word(&d->entries[i], word))
             return &d->entries[i];
     return NULL;
 }
@@ -164,7 +178,8 @@ lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *va
     out->name = values->datum.text;
     out->other = values->datum_other;
     read_values(&r, scene, selected);
-    if (r.known == 0)
+    /* What a surface is, files of cities say and looks for cities ask of any model. */
+    if (r.known == 0 && strcmp(values->datum.text, "surface") != 0)
         warnings_add(warnings, WARNING_NO_MATCH, "no part that is drawn has the attribute '%s' (scene.datum)",
                      values->datum.text);
     else if (r.numbers)
