@@ -72,6 +72,32 @@ static const param params[] = {
     PARAM_FLOAT_ROW(scene_values, depth_cue, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Fraction of their colourfulness that filled surfaces lose at the farthest place, less in "
                            "front of it; how light they are stays."),
+    PARAM_TEXT_ROW(scene_values, datum, .example = "height",
+                   .doc = "An attribute that files state about parts, shown as their colour: a ramp for numbers, a "
+                          "colour each for words."),
+    PARAM_PALETTE_ROW(scene_values, datum_palette,
+                      .def_palette = {5,
+                                      {{0.98f, 0.92f, 0.75f, 1},
+                                       {0.96f, 0.75f, 0.46f, 1},
+                                       {0.89f, 0.51f, 0.35f, 1},
+                                       {0.70f, 0.30f, 0.36f, 1},
+                                       {0.38f, 0.19f, 0.36f, 1}}},
+                      .cpu_only = true, .only_if = "datum",
+                      .doc = "The colours of the ramp from the least to the most, or of the words one by one."),
+    PARAM_TEXT_ROW(scene_values, datum_words, .example = "house,office", .only_if = "datum",
+                   .doc = "Words that get the colours in this order, separated by commas, and by | where several "
+                          "share one; empty: the most frequent first, and numbers are numbers."),
+    PARAM_FLOAT_ROW(scene_values, datum_from, .def = 0, .min = -1e9, .max = 1e9, .soft_min = 0, .soft_max = 100,
+                    .cpu_only = true, .only_if = "datum",
+                    .doc = "Number with the first colour; where it is not below the other end, both ends are those of "
+                           "the parts that are drawn."),
+    PARAM_FLOAT_ROW(scene_values, datum_to, .def = 0, .min = -1e9, .max = 1e9, .soft_min = 0, .soft_max = 100,
+                    .cpu_only = true, .only_if = "datum", .doc = "Number with the last colour."),
+    PARAM_INT_ROW(scene_values, datum_classes, .def = 0, .min = 0, .max = 16, .soft_max = 8, .unit = UNIT_COUNT,
+                  .cpu_only = true, .only_if = "datum",
+                  .doc = "Numbers fall into so many classes of one colour each; 0: colours go over into each other."),
+    PARAM_COLOUR_ROW(scene_values, datum_other, .def_colour = {0.85f, 0.85f, 0.85f, 1}, .cpu_only = true,
+                     .only_if = "datum", .doc = "Colour of parts that have no value; none: their own."),
     PARAM_TEXT_ROW(scene_values, cut, .example = "x=55%", .check = check_cut,
                    .doc = "What is cut away: planes and boxes separated by ';', such as x, -z=40% or "
                           "box=50%,0%,50%:100%,100%,100%; see draw.md."),

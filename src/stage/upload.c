@@ -115,6 +115,8 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     if (!job->meshes[i])
         status = upload_primitive(u, g, job, i, error);
     draw_item item = upload_item(job, i);
+    if (u->needs.walls)
+        item.building = building_facts_of(u->pose->scene, u->pose->scene->parts[job->part_index].node);
     item.mesh = job->meshes[i];
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);

@@ -1,36 +1,18 @@
 /* Meshes whose vertices know where on a wall they are: what facades are laid out by. */
 #include "stage/upload_private.h"
 
-#include <stdlib.h>
-
 #include "base/memory.h"
 #include "field/walls.h"
-#include "scene/content.h"
 
-/* How many storeys the file says that a part has; 0: it says nothing. CityJSON and CityGML, then OpenStreetMap. */
-static int storeys_of(const lmn_scene *scene, int32_t node_index)
-{
-    static const char *const keys[] = {"storeysAboveGround", "building:levels", "storeys"};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        const char *value = scene_attribute_of(scene, node_index, keys[i]);
-        long        count = value ? strtol(value, NULL, 10) : 0;
-        if (count > 0 && count < 1000)
-            return (int)count;
-    }
-    return 0;
-}
-
-/* Four numbers a vertex: where it lies on its wall, the wall's length, and the height of its eaves or, below 0, the
- * number of its storeys. */
-static float (*numbers_of(const wall_mesh *m, int storeys))[4]
+/* Four numbers a vertex: where it lies on its wall, the wall's length and the height of its eaves. */
+static float (*numbers_of(const wall_mesh *m))[4]
 {
     float(*out)[4] = mem_calloc(m->vertex_count, sizeof *out);
-    for (uint32_t i = 0; out && i < m->vertex_count; i++) {
-        out[i][0] = m->at[i][0];
-        out[i][1] = m->at[i][1];
-        out[i][2] = m->extent[i][0];
-        out[i][3] = storeys && m->extent[i][1] > 0 ? (float)-storeys : m->extent[i][1];
-    }
+    for (uint32_t i = 0; out && i < m->vertex_count; i++)
+        for (int k = 0; k < 2; k++) {
+            out[i][k] = m->at[i][k];
+            out[i][2 + k] = m->extent[i][k];
+        }
     return out;
 }
 
@@ -68,7 +50,7 @@ lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_pa
     wall_mesh        made;
     lmn_status       status = wall_mesh_make(&made, &p, &world, up, (double)(up == 2 ? low.z : low.y), error);
     if (status == LMN_OK) {
-        out->numbers = numbers_of(&made, storeys_of(scene, scene->parts[job->part_index].node));
+        out->numbers = numbers_of(&made);
         if (!split(out, &made, data) || !out->numbers)
             status = error_memory(error);
         out->indices = made.indices;

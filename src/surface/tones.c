@@ -3,10 +3,16 @@
  * any number of steps); rows Großmann 1, C05, C07. */
 #include "surface/surface.h"
 
-typedef enum facade_style { FACADE_NONE, FACADE_RESIDENTIAL, FACADE_OFFICE, FACADE_INDUSTRIAL } facade_style;
+typedef enum facade_style {
+    FACADE_NONE,
+    FACADE_AUTO,
+    FACADE_RESIDENTIAL,
+    FACADE_OFFICE,
+    FACADE_INDUSTRIAL
+} facade_style;
 typedef enum ground_storey { GROUND_STOREY_LIKE, GROUND_STOREY_SHOPS, GROUND_STOREY_BLANK } ground_storey;
 
-static const char *const facade_names[] = {"none", "residential", "office", "industrial", NULL};
+static const char *const facade_names[] = {"none", "auto", "residential", "office", "industrial", NULL};
 static const char *const ground_storey_names[] = {"like", "shops", "blank", NULL};
 
 typedef struct tones {
@@ -28,7 +34,8 @@ static const param params[] = {
                     .doc = "Moves the borders: positive widens the lit tones."),
     PARAM_ENUM_ROW(tones, facade, .names = facade_names,
                    .doc = "What is laid out on upright faces: windows one by one and a door, bands of glass, or high "
-                          "and wide industrial windows. As many storeys as the file says (storeysAboveGround, "
+                          "and wide industrial windows; auto: as the building's use is, which the file says (function, "
+                          "usage, class, building). As many storeys as the file says (storeysAboveGround, "
                           "building:levels) or as there is room for; calm where they get too small to be seen."),
     PARAM_FLOAT_ROW(tones, storey, .def = 3, .min = 0.01, .max = 1000, .soft_min = 2.4, .soft_max = 6,
                     .only_if = "facade",

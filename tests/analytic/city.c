@@ -1,11 +1,12 @@
 /* Illustrative city models: few tones a building, facades that tell storeys, use and occupancy, and a depth cue that
- * leaves light alone. Nienhaus 2005, section 4.8; rows C05, C06, C07. */
+ * leaves light alone. Nienhaus 2005, section 4.8; rows C04 to C07. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
+#include "light_truth.h"
 #include "picture.h"
 #include "shape.h"
 #include "shot.h"
@@ -213,6 +214,58 @@ static void only_its_tones(void)
     shape_release(&s);
 }
 
+/* Row C04: blocks in streets, from above and among them. What lies in shadow by rays is so in the picture, but for what
+ * a border within a pixel takes. */
+static void shadows_are_where_rays_say(void)
+{
+    static const struct {
+        const char *name;
+        dvec        eye, target;
+    } views[] = {{"above", {-120, 160, 220}, {100, 0, 100}},
+                 {"roofs", {-20, 40, 215}, {110, 0, 90}},
+                 {"street", {38, 2.2, 205}, {60, 6, 0}}};
+    shape    s = {0};
+    uint32_t random = 5;
+    shape_box(&s, "ground", dvec_of(-40, -1, -40), dvec_of(240, 0, 240));
+    for (int i = 0; i < 64; i++) {
+        double r[3];
+        for (int k = 0; k < 3; k++) {
+            random = random * 1664525u + 1013904223u;
+            r[k] = (random >> 8) / 16777216.0;
+        }
+        double x = 25.0 * (i % 8), z = 25.0 * (i / 8);
+        char   name[16];
+        snprintf(name, sizeof name, "block%d", i);
+        shape_box(&s, name, dvec_of(x, 0, z), dvec_of(x + 10 + 8 * r[0], 4 + 24 * r[1] * r[1], z + 10 + 8 * r[2]));
+    }
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        light_scene l = {.s = s,
+                         .file = "blocks.glb",
+                         .view = {.width = 512,
+                                  .height = 512,
+                                  .eye = views[i].eye,
+                                  .target = views[i].target,
+                                  .up = {0, 1, 0},
+                                  .fov_deg = 50},
+                         .towards = {-0.5, 0.55, 0.7}};
+        shot        with, without;
+        light_map   m;
+        if (!light_shot(&with, &l, true))
+            continue;
+        if (light_shot(&without, &l, false)) {
+            light_map_drawn(&m, &with, &without);
+            light_map_shadows(&m, &l, &with, 1, 5);
+            light_score score = light_compare(&m);
+            check_at_least("C04", score.positions, 5000, "positions compared (%s)", views[i].name);
+            check_at_most("C04", score.far, 0.005, "fraction of them that is lit or in shadow and should not be");
+            light_map_release(&m);
+            shot_release(&without);
+        }
+        shot_release(&with);
+    }
+    shape_release(&s);
+}
+
 static double luminance_of(const uint8_t *c)
 {
     return 0.2126 * picture_linear(c[0]) + 0.7152 * picture_linear(c[1]) + 0.0722 * picture_linear(c[2]);
@@ -274,8 +327,9 @@ static void depth_cue(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"storeys", storeys_and_bays},  {"uses", uses_differ},     {"occupancy", occupancy_is_counted},
-        {"calm", far_facades_are_calm}, {"tones", only_its_tones}, {"cue", depth_cue},
+        {"storeys", storeys_and_bays},           {"uses", uses_differ},     {"occupancy", occupancy_is_counted},
+        {"calm", far_facades_are_calm},          {"tones", only_its_tones}, {"cue", depth_cue},
+        {"shadows", shadows_are_where_rays_say},
     };
     int status = check_main(argc, argv, "city", cases, sizeof cases / sizeof *cases);
     shot_end();
