@@ -14,7 +14,7 @@
 /* Of a picture that may be larger, the part (from its upper left corner) that the drawing is. */
 static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, const int part[4], lmn_error *error)
 {
-    int width = gpu_texture_width(picture), height = gpu_texture_height(picture);
+    int    width = gpu_texture_width(picture), height = gpu_texture_height(picture);
     size_t stride = (size_t)d->width * 4;
     d->pixels = mem_alloc(stride * (size_t)d->height);
     uint8_t *row = mem_alloc(stride);

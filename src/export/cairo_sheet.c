@@ -237,7 +237,8 @@ lmn_status export_paint(uint8_t *rgba, const int part[4], int width, int height,
     bool done = cairo_sheet_draw(context, s) && cairo_status(context) == CAIRO_STATUS_SUCCESS;
     cairo_surface_flush(surface);
     if (done)
-        lay_over(rgba, part[2], part[3], cairo_image_surface_get_data(surface), cairo_image_surface_get_stride(surface));
+        lay_over(rgba, part[2], part[3], cairo_image_surface_get_data(surface),
+                 cairo_image_surface_get_stride(surface));
     cairo_destroy(context);
     cairo_surface_destroy(surface);
     return done ? LMN_OK : error_memory(error);
