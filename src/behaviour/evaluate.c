@@ -1,7 +1,6 @@
 #include "behaviour/evaluate.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -150,23 +149,6 @@ static bool add_local(double local, void *user)
     return add_time(b, span_global(b->s, b->span, local));
 }
 
-static int compare_times(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void schedule_sort_times(double *times, size_t *count)
-{
-    size_t kept = 0;
-    if (*count)
-        qsort(times, *count, sizeof *times, compare_times);
-    for (size_t i = 0; i < *count; i++)
-        if (i == 0 || times[i] > times[kept - 1])
-            times[kept++] = times[i];
-    *count = kept;
-}
-
 bool schedule_breaks(const schedule *s, const behaviour_property *p, double begin, double end, double **times,
                      size_t *count, size_t *capacity)
 {
@@ -185,7 +167,7 @@ bool schedule_breaks(const schedule *s, const behaviour_property *p, double begi
             map_breaks(n, &s->curves[b.span->node], b.span->length, add_local, &b);
     }
     if (!b.failed)
-        schedule_sort_times(*times, count);
+        trajectory_sort_times(*times, count);
     return !b.failed;
 }
 

@@ -55,7 +55,7 @@ lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t 
     size_t     capacity = 0;
     *out = NULL;
     *count = 0;
-    lmn_status status = trajectory_create(&t, s, node_index, NULL, from, to, INFINITY, error);
+    lmn_status status = schedule_trajectory(&t, s, node_index, NULL, from, to, INFINITY, error);
     for (size_t i = 0; i + 1 < t.count && status == LMN_OK; i++) {
         impact found;
         if (!is_impact(&t.samples[i], &t.samples[i + 1], least, &found))

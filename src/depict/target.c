@@ -153,15 +153,15 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
                           double to, lmn_error *error)
 {
     trajectory way;
-    lmn_status status = trajectory_sample(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
+    lmn_status status = way_trajectory(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
     double     length = 0;
     *count = 0;
     for (size_t i = 1; i < way.count && status == LMN_OK; i++)
-        length += vector3_distance(way.samples[i - 1].at, way.samples[i].at);
+        length += vector3_distance(way.samples[i - 1].position, way.samples[i].position);
     const double usual = to > from ? length / (to - from) : 0, span = (to - from) * 1e-4;
     double       last = -INFINITY;
     for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
-        depict_impact now = {.time = way.samples[i].time};
+        depict_impact now = {.time = way.samples[i].seconds};
         double        before[3];
         if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
@@ -172,12 +172,12 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
         if (turn < 0.3 * usual || now.speed < 0.05 * usual)
             continue;
         last = now.time;
-        vector3_copy(now.at, way.samples[i].at);
+        vector3_copy(now.at, way.samples[i].position);
         impact_keep(out, most, count, &now);
     }
     if (*count > 1)
         qsort(out, *count, sizeof *out, compare_impacts);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 

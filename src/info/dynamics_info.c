@@ -63,7 +63,7 @@ static bool put_trajectory(json_t *object, const schedule *s, int32_t index)
         for (int k = 12; k < 15; k++)
             reach = fmax(reach, fabs(world.m[k] - first.m[k]));
     }
-    bool done = trajectory_create(&t, s, index, NULL, 0, s->duration, fmax(reach / 500, 1e-9), NULL) == LMN_OK;
+    bool done = schedule_trajectory(&t, s, index, NULL, 0, s->duration, fmax(reach / 500, 1e-9), NULL) == LMN_OK;
     for (size_t i = 0; i < t.count && i < SAMPLES_SHOWN; i++)
         json_array_append_new(list, json_pack("{s:f,s:o,s:o,s:o}", "time", t.samples[i].seconds, "position",
                                               vector(t.samples[i].position), "velocity", vector(t.samples[i].velocity),

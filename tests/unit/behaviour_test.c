@@ -474,7 +474,7 @@ static void test_trajectory_is_the_parabola(void **state)
     trajectory t;
     double     first = bounce_impact(m, 0), before = 0, behind = 0;
     assert_int_equal(schedule_create(&c, s, NULL), LMN_OK);
-    assert_int_equal(trajectory_create(&t, &c, 0, NULL, 0, 2, 0.01, NULL), LMN_OK);
+    assert_int_equal(schedule_trajectory(&t, &c, 0, NULL, 0, 2, 0.01, NULL), LMN_OK);
     assert_true(t.count > 8 && t.count < 200);
     for (size_t i = 0; i < t.count; i++) {
         const trajectory_sample *p = &t.samples[i];

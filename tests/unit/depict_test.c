@@ -210,24 +210,24 @@ static void trajectories_are_the_motion(void **state)
     double     at[3], velocity[3], local[3] = {0, 0, 0};
     when.clips[when.clip_count++] = 0;
     assert_int_equal(way_open(&w, scene, depict_find_node(scene, "ball"), &when, &error), LMN_OK);
-    assert_int_equal(trajectory_sample(&t, &w, local, 0, contact_time() + rise_time(), 0.002, &error), LMN_OK);
+    assert_int_equal(way_trajectory(&t, &w, local, 0, contact_time() + rise_time(), 0.002, &error), LMN_OK);
     bool bounced = false;
     for (size_t i = 0; i < t.count; i++) {
-        ball_at(t.samples[i].time, at);
-        assert_near(vector3_distance(at, t.samples[i].at), 0, 2e-5);
-        bounced = bounced || fabs(t.samples[i].time - contact_time()) < 1e-6;
+        ball_at(t.samples[i].seconds, at);
+        assert_near(vector3_distance(at, t.samples[i].position), 0, 2e-5);
+        bounced = bounced || fabs(t.samples[i].seconds - contact_time()) < 1e-6;
     }
     assert_true(bounced); /* keys are samples */
     for (size_t i = 1; i < t.count; i++) {
         double middle[3], chord[3];
-        ball_at((t.samples[i - 1].time + t.samples[i].time) / 2, middle);
-        vector3_mix(chord, t.samples[i - 1].at, t.samples[i].at, 0.5);
+        ball_at((t.samples[i - 1].seconds + t.samples[i].seconds) / 2, middle);
+        vector3_mix(chord, t.samples[i - 1].position, t.samples[i].position, 0.5);
         assert_near(vector3_distance(middle, chord), 0, 0.004);
     }
     way_velocity(&w, local, 0.4, 0.01, velocity);
     assert_near(velocity[0], forward, 1e-4);
     assert_near(velocity[1], -gravity * 0.4, 1e-3);
-    trajectory_free(&t);
+    trajectory_release(&t);
     way_release(&w);
     lmn_scene_destroy(&scene);
 }
