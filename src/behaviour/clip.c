@@ -240,6 +240,22 @@ static void release_channels(animation_channel *channels, size_t count)
     mem_free(channels);
 }
 
+/* A matrix is what nodes of programs have by nature: it is told only where something of it is lost. */
+static void split_matrix(lmn_scene *scene, int32_t index)
+{
+    node  *n = &scene->nodes[index];
+    double t[3], r[4], size[3];
+    if (!n->has_matrix || !mat4_decompose(&n->matrix, t, r, size)) {
+        node_split_matrix(scene, index);
+        return;
+    }
+    memcpy(n->translation, t, sizeof t);
+    memcpy(n->rotation, r, sizeof r);
+    memcpy(n->scale, size, sizeof size);
+    n->has_matrix = false;
+    n->matrix = mat4_identity();
+}
+
 lmn_status behaviour_write_clip(lmn_scene *scene, int32_t index, lmn_error *error)
 {
     schedule           s;
@@ -261,7 +277,7 @@ lmn_status behaviour_write_clip(lmn_scene *scene, int32_t index, lmn_error *erro
         a->duration = s.duration;
         for (size_t i = 0; i < a->channel_count; i++)
             if (made[i].path <= PATH_SCALE)
-                node_split_matrix(scene, made[i].target);
+                split_matrix(scene, made[i].target);
         scene->behaviour->written = index;
     } else {
         release_channels(made, made ? s.property_count : 0);

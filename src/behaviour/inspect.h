@@ -30,9 +30,8 @@ lmn_status schedule_point_at(trajectory_sample *out, const schedule *s, int32_t 
                              double seconds, time_side side, lmn_error *error);
 
 /* An impact: an instant at which a node's velocity jumps while its place does not. The normal is the way that it is
- * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its outermost vertex against
- * the normal, or its origin where it and all below it have no mesh. Read from the motion alone: what it hits need not
- * be in the scene. */
+ * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its origin. Read from the
+ * motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
 typedef struct impact {
     double seconds, place[3], normal[3], speed;
 } impact;

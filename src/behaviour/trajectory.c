@@ -21,8 +21,10 @@ typedef struct sampler {
     lmn_error               *error;
 } sampler;
 
+/* Rounding must not lead past a break. */
 static void place(const trajectory_source *s, double t, double begin, double end, double out[3])
 {
+    t = fmin(fmax(t, begin), end);
     s->place(s->of, t, t <= begin ? SIDE_BEHIND : t >= end ? SIDE_BEFORE : SIDE_AT, out);
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/work.h"
+#include "contact/surface.h"
 #include "depict/depict_private.h"
 
 /* Is a node below another one, or the same? */
@@ -184,21 +184,13 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
 lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *impact,
                           lmn_error *error)
 {
-    vec3      *vertices;
-    size_t     count, best = 0;
-    double     most = -INFINITY;
-    lmn_status status = target_vertices(&vertices, &count, j, t, impact->time, error);
+    const pose *posed = NULL;
+    double      way[3];
+    bool        found = false;
+    lmn_status  status = depict_pose(&posed, j, impact->time, error);
     vector3_copy(out, impact->at);
-    for (size_t i = 0; i < count && status == LMN_OK; i++) {
-        double p[3] = {(double)vertices[i].x, (double)vertices[i].y, (double)vertices[i].z},
-               along = -vector3_dot(p, impact->change);
-        if (along > most) {
-            most = along;
-            best = i;
-        }
-    }
-    if (count > 0)
-        vector3_set(out, (double)vertices[best].x, (double)vertices[best].y, (double)vertices[best].z);
-    mem_free(vertices);
-    return status;
+    vector3_copy(way, impact->change);
+    if (status != LMN_OK || !vector3_normalise(way))
+        return status;
+    return surface_outermost(out, &found, posed, t->parts, way, 1e-5 * t->radius, error);
 }
