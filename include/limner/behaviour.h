@@ -10,7 +10,7 @@
  *
  * Times are in seconds, 0 … 1e9; lengths in the scene's unit, angles in degrees, rotations unit quaternions x y z w,
  * colours sRGB; all numbers finite and within ±1e18. Arrays and texts are copied during the call. On any error the
- * scene is unchanged. Every function that has an error can fail with LMN_USAGE (a NULL, a number that is not there, a
+ * scene is unchanged. Every function can fail with LMN_USAGE (a NULL, a number that is not there, a
  * value that is not finite or not in its range, an activity that contains itself, has nothing in it or lasts no time;
  * the message names it), LMN_LIMIT (more than 256 levels, a million lifetimes, four million keys), LMN_MEMORY and
  * LMN_CANCELLED. A scene is changed by one thread at a time and never while it is drawn; different scenes by different
@@ -233,7 +233,8 @@ typedef struct lmn_contact {
 } lmn_contact;
 
 /* Contacts of a node, with all below it, whose impulse is `least` or more, 0 or above, in order of time: whose surface
- * is met is looked for among all parts that are not its own, as they are then. At most `capacity` are written, and
+ * is met is looked for among all parts that are not its own, as they are then. Where it only sets off or stops with
+ * nothing near, whoever moves it has done that, and it is no contact. At most `capacity` are written, and
  * *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be where the
  * animation puts it). */
 LMN_API lmn_status lmn_dynamics_contacts(const lmn_dynamics *dynamics, uint32_t node, double from_s, double to_s,

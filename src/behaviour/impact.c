@@ -20,6 +20,8 @@ static bool is_impact(const trajectory_sample *a, const trajectory_sample *b, do
     for (int k = 0; k < 3; k++)
         out->normal[k] = out->speed > 0 ? change[k] / out->speed : 0;
     memcpy(out->place, a->position, sizeof out->place);
+    out->sets_off = vector3_length(a->velocity) <= 1e-6 * out->speed;
+    out->stops = vector3_length(b->velocity) <= 1e-6 * out->speed;
     return moved <= 1e-6 * (1 + fast) && out->speed >= least && out->speed > 1e-4 * fast;
 }
 

@@ -76,6 +76,7 @@ lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const 
     contact_sides sides = {NULL};
     pose          posed;
     bool          is_posed = false;
+    size_t        kept = 0;
     *out = NULL;
     *count = 0;
     lmn_status status = impacts_find(&hits, count, s, node_index, from, to, least, error);
@@ -84,9 +85,12 @@ lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const 
         status = *out ? contact_sides_find(&sides, s->scene, node_index, error) : error_memory(error);
     }
     for (size_t i = 0; i < *count && status == LMN_OK; i++) {
-        (*out)[i] = (contact){hits[i], NONE, 0};
-        status = meet(&(*out)[i], &sides, &posed, clips, s->scene, &is_posed, error);
+        contact *c = &(*out)[kept];
+        *c = (contact){hits[i], NONE, 0};
+        status = meet(c, &sides, &posed, clips, s->scene, &is_posed, error);
+        kept += c->other != NONE || !(hits[i].sets_off || hits[i].stops);
     }
+    *count = kept;
     if (is_posed)
         pose_release(&posed);
     contact_sides_release(&sides);

@@ -22,8 +22,9 @@ typedef struct contact_sides {
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *scene, int32_t node_index, lmn_error *error);
 void       contact_sides_release(contact_sides *s);
 
-/* Those of a node and all below it in from … to whose speed is `least` or more, in order; `clips` has what is laid out
- * in the schedule as clips of the scene. Free *out with mem_free. Errors: as of schedule_trajectory and pose_create. */
+/* Those of a node and all below it in from … to whose speed is `least` or more, in order, but for those by which it
+ * sets off or stops with nothing near: whoever moves it has done that. `clips` has what is laid out in the schedule as
+ * clips of the scene. Free *out with mem_free. Errors: as of schedule_trajectory and pose_create. */
 lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const moment *clips, int32_t node_index,
                          double from, double to, double least, lmn_error *error);
 

@@ -68,6 +68,10 @@ static void test_bounces_are_those_of_the_formulas(void **state)
         seconds += 2 * speed / 9.81;
     }
     mem_free(found);
+    /* Another one is set off by nobody at 1 s: no contact. */
+    found = contacts_of(s, "red", 0.1, &count);
+    assert_true(count > 0 && fabs(found[0].hit.seconds - 1 - sqrt(2 * 3.5 / 9.81)) < 1e-6);
+    mem_free(found);
     lmn_scene_destroy(&s);
 }
 
