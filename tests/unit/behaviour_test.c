@@ -421,7 +421,7 @@ static void test_follower_is_where_the_other_was(void **state)
     at(s, leader)->map.other = 1;
     lmn_error error;
     assert_int_equal(behaviour_write_clip(s, 0, &error), LMN_FORMAT);
-    assert_non_null(strstr(error.message, "follows itself"));
+    assert_non_null(strstr(error.message, "follow itself"));
     scene_free(s);
 }
 
