@@ -1,8 +1,6 @@
 /* Glyphs against the motion that they tell, which is known in closed form: a ball that falls and bounces. Nienhaus
  * 2005, sections 7.6 to 7.8; rows D08 to D11 and D13 to D16. */
-#include "import_support.h"
-
-#include <math.h>
+#include "depict_support.h"
 
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
@@ -12,14 +10,6 @@
 
 static const double red[3] = {0.8, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5}, gravity = 9.81, radius = 0.5, height = 4,
                     forward = 2;
-
-#define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
-
-static void near_or_fail(double value, double expected, double off, const char *what, int line)
-{
-    if (!(fabs(value - expected) <= off))
-        fail_msg("line %d: %s is %.8g instead of %.8g", line, what, value, expected);
-}
 
 /* --- the ball --------------------------------------------------------------------------------------------------- */
 
@@ -75,16 +65,6 @@ static lmn_scene *ball_scene(const char *name, bool moves)
     return load_or_fail(path);
 }
 
-static lmn_draw_desc seen_at(double seconds)
-{
-    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
-    d.view = LMN_VIEW_FRONT;
-    d.orthographic = true;
-    d.time_s = seconds;
-    d.time_given = true;
-    return d;
-}
-
 static lmn_status tell(lmn_scene *scene, const char *expressions, double seconds, char **json, lmn_error *error)
 {
     lmn_draw_desc   draw = seen_at(seconds);
@@ -101,33 +81,6 @@ static void tell_or_fail(lmn_scene *scene, const char *expressions, double secon
 }
 
 /* --- what was put into the scene --------------------------------------------------------------------------------- */
-
-static const char *value_of(const node *n, const char *key)
-{
-    for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, key) == 0)
-            return n->attributes[i].value;
-    return "";
-}
-
-/* The k-th glyph of a kind and tense (NULL: any); NULL when there are fewer. */
-static const primitive *glyph_at(const lmn_scene *s, const char *glyph, const char *when, size_t k)
-{
-    for (size_t i = 0; i < s->part_count; i++) {
-        const node *n = &s->nodes[s->parts[i].node];
-        if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 &&
-            (!when || strcmp(value_of(n, "when"), when) == 0) && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
-    }
-    return NULL;
-}
-
-static void position(const primitive *p, uint32_t i, double out[3])
-{
-    out[0] = (double)p->positions[i].x;
-    out[1] = (double)p->positions[i].y;
-    out[2] = (double)p->positions[i].z;
-}
 
 static void middle_of(const primitive *p, double out[3])
 {
