@@ -32,6 +32,7 @@ static const fuzz_target targets[] = {
     {"cut", fuzz_cut, NULL},
     {"set", fuzz_set, NULL},
     {"sheet", fuzz_sheet, NULL},
+    {"depict", fuzz_depict, NULL},
     {"draw", fuzz_draw, fuzz_mutate_draw},
 };
 enum { TARGETS = sizeof targets / sizeof *targets };

@@ -49,6 +49,10 @@ void fuzz_cut(const uint8_t *bytes, size_t size);
 void fuzz_set(const uint8_t *bytes, size_t size);
 void fuzz_sheet(const uint8_t *bytes, size_t size);
 
+/* --- expressions.c --- */
+
+void fuzz_depict(const uint8_t *bytes, size_t size);
+
 /* --- drawing.c --- */
 
 /* The first DRAWING_CHOICES bytes choose what is done, the rest is the model. */
