@@ -1,4 +1,5 @@
-/* What set something off: a ghost image of what did it, and an arrow from there to what it did it to. Nienhaus 2005,
+/* What set something off: a ghost image of what did it as it began to, and an arrow along the way that the place which
+ * did it went while it did; from what does not move, an arrow straight to what it did it to. Nienhaus 2005,
  * section 7.10, figure 7-11. */
 #include "base/error.h"
 #include "base/memory.h"
@@ -14,7 +15,7 @@ static const param cause_params[] = {
     PARAM_FLOAT_ROW(cause_values, at, .def = 0, .min = 0, .max = 1e9, .can_auto = true, .def_auto = true,
                     .doc = "When it happens, seconds; auto: the strongest impact, or else where the target begins to "
                            "move."),
-    PARAM_FLOAT_ROW(cause_values, width, .def = 0.35, .min = 0.001, .max = 10, .soft_max = 1, .unit = UNIT_FRACTION,
+    PARAM_FLOAT_ROW(cause_values, width, .def = 0.6, .min = 0.001, .max = 10, .soft_max = 2, .unit = UNIT_FRACTION,
                     .doc = "Breadth of the arrow, fraction of the target's radius."),
     PARAM_BOOL_ROW(cause_values, ghost, .def = 1, .doc = "A ghost image of the partner as it was then."),
     PARAM_COLOUR_ROW(cause_values, colour, .def_colour = {0.42f, 0.25f, 0.6f, 1}, .doc = "Of the arrow."),
@@ -65,40 +66,128 @@ static lmn_status put_ghost(depict_job *j, const expression *e, double event, lm
     return status;
 }
 
-static lmn_status put_cause(depict_job *j, const expression *e, const depict_target *t, const depict_target *partner,
-                            double event, lmn_error *error)
+/* The place of the partner that is nearest to the target when it happens, in the axes of what carries it. */
+typedef struct doer {
+    way    way;
+    double local[3];
+    double begin, end; /* of the act: it sets off, and they part */
+} doer;
+
+static lmn_status nearest_part(doer *out, const depict_job *j, const depict_target *partner, const double at[3],
+                               double event, lmn_error *error)
 {
+    double     best = INFINITY, place[3];
+    int32_t    own = partner->node;
+    lmn_status status = LMN_OK;
+    vector3_copy(place, at);
+    for (size_t i = 0; i < partner->part_count && status == LMN_OK; i++) {
+        depict_target one;
+        vec3         *vertices = NULL;
+        size_t        count = 0;
+        if (!partner->parts[i])
+            continue;
+        status = target_open(&one, j, j->scene->parts[i].node, error);
+        if (status == LMN_OK)
+            status = target_vertices(&vertices, &count, j, &one, event, error);
+        for (size_t k = 0; k < count; k++) {
+            const double p[3] = {(double)vertices[k].x, (double)vertices[k].y, (double)vertices[k].z};
+            if (vector3_distance(p, at) < best) {
+                best = vector3_distance(p, at);
+                own = one.node;
+                vector3_copy(place, p);
+            }
+        }
+        mem_free(vertices);
+        target_release(&one);
+    }
+    if (status == LMN_OK)
+        status = way_open(&out->way, j->scene, own, &j->when, error);
+    if (status == LMN_OK) {
+        const mat4 world = way_world(&out->way, event), inverse = mat4_inverse(&world);
+        for (int k = 0; k < 3; k++)
+            out->local[k] =
+                inverse.m[k] * place[0] + inverse.m[4 + k] * place[1] + inverse.m[8 + k] * place[2] + inverse.m[12 + k];
+    }
+    return status;
+}
+
+/* Back from the event for as long as the doer moves, and on for as long as both go together. */
+static void find_act(doer *d, const expression *e, const depict_target *t, double event)
+{
+    enum { STEPS = 200 };
+    const double step = (e->to - e->from) / STEPS, slow = 0.02 * t->radius;
+    double       last[3], now[3], at[3];
+    d->begin = d->end = event;
+    way_point(&d->way, d->local, event, last);
+    way_point(&t->way, t->centre, event, at);
+    const double apart = vector3_distance(last, at);
+    for (int i = 1; i <= STEPS && event - step * i >= e->from && step * i <= 1; i++) {
+        way_point(&d->way, d->local, event - step * i, now);
+        if (vector3_distance(now, last) < slow)
+            break;
+        vector3_copy(last, now);
+        d->begin = event - step * i;
+    }
+    way_point(&d->way, d->local, event, last);
+    for (int i = 1; i <= STEPS && event + step * i <= e->to; i++) {
+        way_point(&d->way, d->local, event + step * i, now);
+        way_point(&t->way, t->centre, event + step * i, at);
+        if (fabs(vector3_distance(now, at) - apart) > 0.6 * t->radius)
+            break;
+        d->end = event + step * i;
+    }
+}
+
+/* The way of the doer's place while it acts; where that does not move, straight from the partner to the target. */
+static lmn_status put_cause(depict_job *j, const expression *e, const depict_target *t, const depict_target *partner,
+                            const doer *d, double event, lmn_error *error)
+{
+    enum { STEPS = 48 };
     const cause_values *v = e->values;
-    double              points[2][3], begin[3], moved[3], along[3];
+    double              points[STEPS + 1][3], along[3], gone = 0;
     glyph_mesh          m = {0};
-    way_point(&partner->way, partner->centre, event, points[0]);
-    vector3_copy(begin, points[0]);
-    way_point(&t->way, t->centre, event, points[1]);
-    way_point(&partner->way, partner->centre, fmin(fmax(e->now, 0), e->to), moved);
-    vector3_add(along, points[1], -1, points[0]);
-    const double apart = vector3_length(along);
-    /* From the partner's surface to that of the target, or over what there is between the middles. */
-    if (apart > 0)
-        for (int k = 0; k < 3; k++) {
+    size_t              count = STEPS + 1;
+    for (int i = 0; i <= STEPS; i++) {
+        way_point(&d->way, d->local, d->begin + (d->end - d->begin) * i / STEPS, points[i]);
+        gone += i ? vector3_distance(points[i], points[i - 1]) : 0;
+    }
+    if (gone < t->radius) {
+        count = 2;
+        way_point(&partner->way, partner->centre, event, points[0]);
+        way_point(&t->way, t->centre, event, points[1]);
+        vector3_add(along, points[1], -1, points[0]);
+        const double apart = vector3_length(along);
+        /* From the partner's surface to that of the target, or over what there is between the middles. */
+        for (int k = 0; k < 3 && apart > 0; k++) {
             points[0][k] += along[k] * fmin(partner->radius / apart, 0.4);
             points[1][k] -= along[k] * fmin(t->radius / apart, 0.15);
         }
-    for (int i = 0; i < 2; i++)
+    }
+    for (size_t i = 0; i < count; i++)
         depict_lift(j, points[i], depict_front(j, points[i]));
-    glyph_put_arrow(&m, j, (const double(*)[3])points, 2,
-                    &(arrow_style){.width = (double)v->width * t->radius, .tail = 0.5, .head = 2.2});
+    glyph_put_arrow(&m, j, (const double(*)[3])points, count,
+                    &(arrow_style){.width = (double)v->width * t->radius, .tail = 0.25, .head = 2.2});
     lmn_status status = glyph_put(j, &m, &(glyph_label){"cause-arrow", e->target, GLYPH_PAST, v->colour}, error);
     glyph_mesh_release(&m);
-    /* One that is still there is its own image. */
-    if (status == LMN_OK && v->ghost && vector3_distance(begin, moved) > 0.05 * partner->radius)
-        status = put_ghost(j, e, event, error);
     return status;
+}
+
+/* One that is still as it was is its own image. */
+static bool has_changed(const expression *e, const doer *d)
+{
+    double then[3], now[3], other[3];
+    way_point(&d->way, d->local, d->begin, then);
+    way_point(&d->way, d->local, fmin(fmax(e->now, 0), e->to), now);
+    way_point(&d->way, (const double[3]){0, 0, 0}, d->begin, other);
+    return vector3_distance(then, now) > 0.02 * vector3_distance(then, other) + 1e-6;
 }
 
 static lmn_status cause_depict(depict_job *j, const expression *e, lmn_error *error)
 {
-    depict_target t = {0}, partner = {0};
-    double        event = e->from;
+    const cause_values *v = e->values;
+    depict_target       t = {0}, partner = {0};
+    doer                d = {0};
+    double              event = e->from, at[3];
     if (e->partner == NONE)
         return error_set(error, LMN_USAGE, "'cause' needs \"partner\", what did it");
     lmn_status status = target_open(&t, j, e->target, error);
@@ -106,8 +195,18 @@ static lmn_status cause_depict(depict_job *j, const expression *e, lmn_error *er
         status = target_open(&partner, j, e->partner, error);
     if (status == LMN_OK)
         status = find_event(&event, e, &t, error);
+    if (status == LMN_OK) {
+        way_point(&t.way, t.centre, event, at);
+        status = nearest_part(&d, j, &partner, at, event, error);
+    }
+    if (status == LMN_OK) {
+        find_act(&d, e, &t, event);
+        if (v->ghost && has_changed(e, &d))
+            status = put_ghost(j, e, d.begin, error);
+    }
     if (status == LMN_OK)
-        status = put_cause(j, e, &t, &partner, event, error);
+        status = put_cause(j, e, &t, &partner, &d, event, error);
+    way_release(&d.way);
     target_release(&t);
     target_release(&partner);
     return status;
@@ -116,7 +215,9 @@ static lmn_status cause_depict(depict_job *j, const expression *e, lmn_error *er
 const depiction depiction_cause = {
     "cause",
     NULL,
-    "What set the target off: a ghost image of \"partner\" when it did, and an arrow from it to the target.",
+    "What set the target off: a ghost image of \"partner\" as it began to, and an arrow along the way of the place "
+    "that did "
+    "it, as long as it did; from a partner that rests, straight to the target.",
     cause_params,
     PARAM_COUNT(cause_params),
     sizeof(cause_values),

@@ -23,6 +23,7 @@ typedef struct depiction {
     size_t       param_count, values_size;
     bool         hides_target; /* its glyphs stand for the target */
     lmn_status (*depict)(struct depict_job *job, const struct expression *e, lmn_error *error);
+    bool last; /* made when the glyphs of all others are there: it looks for room */
 } depiction;
 
 /* All rows; NULL at the end. */

@@ -316,7 +316,9 @@ static void share_parts(plan *p)
         if (!p->selected[i])
             continue;
         bool ghost = p->scene->parts[i].ghost;
-        if (!ghost)
+        if (!ghost && node_is_overlay(&p->scene->nodes[p->scene->parts[i].node]))
+            p->box = box3_union(p->box, p->pose->part_boxes[i]);
+        else if (!ghost)
             fit_to(p, i, false);
         for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
             const selector *s = look->rules[r].selector;

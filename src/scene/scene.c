@@ -304,6 +304,14 @@ char *scene_name_of_file(const char *path)
     return length ? scene_clean_name(name, length) : mem_copy_text("model");
 }
 
+bool node_is_overlay(const node *n)
+{
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, NODE_OVERLAY) == 0)
+            return true;
+    return false;
+}
+
 size_t node_draw_count(const node *n)
 {
     return n->instance_count ? n->instance_count : 1;
