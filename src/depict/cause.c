@@ -1,12 +1,13 @@
-/* What set something off: a ghost image of what did it as it began to, and an arrow along the way that the place which
+/* What set something off: a ghost image of what did it, and an arrow along the way that the place which
  * did it went while it did; from what does not move, an arrow straight to what it did it to. Nienhaus 2005,
  * section 7.10, figure 7-11. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "depict/meeting.h"
 #include "depict/page.h"
 
 typedef struct cause_values {
-    float  at, width;
+    float  at, width, seconds;
     bool   ghost;
     colour colour;
 } cause_values;
@@ -17,6 +18,8 @@ static const param cause_params[] = {
                            "move."),
     PARAM_FLOAT_ROW(cause_values, width, .def = 0.6, .min = 0.001, .max = 10, .soft_max = 2, .unit = UNIT_FRACTION,
                     .doc = "Breadth of the arrow, fraction of the target's radius."),
+    PARAM_FLOAT_ROW(cause_values, seconds, .def = 0.5, .min = 0, .max = 1e6, .soft_max = 3,
+                    .doc = "How much of what the partner did before it is told at most."),
     PARAM_BOOL_ROW(cause_values, ghost, .def = 1, .doc = "A ghost image of the partner as it was then."),
     PARAM_COLOUR_ROW(cause_values, colour, .def_colour = {0.42f, 0.25f, 0.6f, 1}, .doc = "Of the arrow."),
 };
@@ -73,35 +76,19 @@ typedef struct doer {
     double begin, end; /* of the act: it sets off, and they part */
 } doer;
 
-static lmn_status nearest_part(doer *out, const depict_job *j, const depict_target *partner, const double at[3],
-                               double event, lmn_error *error)
+static lmn_status find_doer(doer *out, const depict_job *j, const depict_target *partner, const double at[3],
+                            double event, lmn_error *error)
 {
-    double     best = INFINITY, place[3];
+    double     distance = INFINITY, place[3];
     int32_t    own = partner->node;
     lmn_status status = LMN_OK;
-    vector3_copy(place, at);
-    for (size_t i = 0; i < partner->part_count && status == LMN_OK; i++) {
-        depict_target one;
-        vec3         *vertices = NULL;
-        size_t        count = 0;
-        if (!partner->parts[i])
-            continue;
-        status = target_open(&one, j, j->scene->parts[i].node, error);
-        if (status == LMN_OK)
-            status = target_vertices(&vertices, &count, j, &one, event, error);
-        for (size_t k = 0; k < count; k++) {
-            const double p[3] = {(double)vertices[k].x, (double)vertices[k].y, (double)vertices[k].z};
-            if (vector3_distance(p, at) < best) {
-                best = vector3_distance(p, at);
-                own = one.node;
-                vector3_copy(place, p);
-            }
-        }
-        mem_free(vertices);
-        target_release(&one);
-    }
+    way_point(&partner->way, partner->centre, event, place);
+    status = nearest_place(at, place, &distance, &own, j, partner, event, error);
+    /* What has a skin goes where its hip goes. */
     if (status == LMN_OK)
-        status = way_open(&out->way, j->scene, own, &j->when, error);
+        status = way_open(&out->way, j->scene,
+                          j->scene->nodes[own].skin == NONE ? own : partner->way.steps[partner->way.count - 1].node,
+                          &j->when, error);
     if (status == LMN_OK) {
         const mat4 world = way_world(&out->way, event), inverse = mat4_inverse(&world);
         for (int k = 0; k < 3; k++)
@@ -115,13 +102,13 @@ static lmn_status nearest_part(doer *out, const depict_job *j, const depict_targ
 static void find_act(doer *d, const expression *e, const depict_target *t, double event)
 {
     enum { STEPS = 200 };
-    const double step = (e->to - e->from) / STEPS, slow = 0.02 * t->radius;
-    double       last[3], now[3], at[3];
+    const cause_values *v = e->values;
+    const double        step = (e->to - e->from) / STEPS, slow = 0.02 * t->radius;
+    double              last[3], now[3], at[3], beside[3];
     d->begin = d->end = event;
     way_point(&d->way, d->local, event, last);
-    way_point(&t->way, t->centre, event, at);
-    const double apart = vector3_distance(last, at);
-    for (int i = 1; i <= STEPS && event - step * i >= e->from && step * i <= 1; i++) {
+    way_point(&t->way, t->centre, event, beside);
+    for (int i = 1; i <= STEPS && event - step * i >= e->from && step * i <= (double)v->seconds; i++) {
         way_point(&d->way, d->local, event - step * i, now);
         if (vector3_distance(now, last) < slow)
             break;
@@ -130,10 +117,16 @@ static void find_act(doer *d, const expression *e, const depict_target *t, doubl
     }
     way_point(&d->way, d->local, event, last);
     for (int i = 1; i <= STEPS && event + step * i <= e->to; i++) {
+        double own[3], other[3], apart[3];
         way_point(&d->way, d->local, event + step * i, now);
         way_point(&t->way, t->centre, event + step * i, at);
-        if (fabs(vector3_distance(now, at) - apart) > 0.6 * t->radius)
+        vector3_add(own, now, -1, last);
+        vector3_add(other, at, -1, beside);
+        vector3_add(apart, own, -1, other);
+        if (vector3_length(apart) > 0.5 * fmax(vector3_length(own), vector3_length(other)))
             break;
+        vector3_copy(last, now);
+        vector3_copy(beside, at);
         d->end = event + step * i;
     }
 }
@@ -173,12 +166,12 @@ static lmn_status put_cause(depict_job *j, const expression *e, const depict_tar
 }
 
 /* One that is still as it was is its own image. */
-static bool has_changed(const expression *e, const doer *d)
+static bool has_changed(const expression *e, const doer *d, double event)
 {
     double then[3], now[3], other[3];
-    way_point(&d->way, d->local, d->begin, then);
+    way_point(&d->way, d->local, event, then);
     way_point(&d->way, d->local, fmin(fmax(e->now, 0), e->to), now);
-    way_point(&d->way, (const double[3]){0, 0, 0}, d->begin, other);
+    way_point(&d->way, (const double[3]){0, 0, 0}, event, other);
     return vector3_distance(then, now) > 0.02 * vector3_distance(then, other) + 1e-6;
 }
 
@@ -197,12 +190,12 @@ static lmn_status cause_depict(depict_job *j, const expression *e, lmn_error *er
         status = find_event(&event, e, &t, error);
     if (status == LMN_OK) {
         way_point(&t.way, t.centre, event, at);
-        status = nearest_part(&d, j, &partner, at, event, error);
+        status = find_doer(&d, j, &partner, at, event, error);
     }
     if (status == LMN_OK) {
         find_act(&d, e, &t, event);
-        if (v->ghost && has_changed(e, &d))
-            status = put_ghost(j, e, d.begin, error);
+        if (v->ghost && has_changed(e, &d, event))
+            status = put_ghost(j, e, event, error);
     }
     if (status == LMN_OK)
         status = put_cause(j, e, &t, &partner, &d, event, error);
@@ -215,7 +208,7 @@ static lmn_status cause_depict(depict_job *j, const expression *e, lmn_error *er
 const depiction depiction_cause = {
     "cause",
     NULL,
-    "What set the target off: a ghost image of \"partner\" as it began to, and an arrow along the way of the place "
+    "What set the target off: a ghost image of \"partner\" as it was then, and an arrow along the way of the place "
     "that did "
     "it, as long as it did; from a partner that rests, straight to the target.",
     cause_params,

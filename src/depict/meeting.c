@@ -64,15 +64,15 @@ static void nearest_on_primitive(const double p[3], const primitive *from, const
     }
 }
 
-/* The partner's place nearest to a point, at a time. *distance stays INFINITY where it has no surface. */
-static lmn_status nearest_place(const double p[3], double best[3], double *distance, const depict_job *j,
-                                const depict_target *t, double seconds, lmn_error *error)
+lmn_status nearest_place(const double p[3], double best[3], double *distance, int32_t *node_index, const depict_job *j,
+                         const depict_target *t, double seconds, lmn_error *error)
 {
     const pose *posed = NULL;
     lmn_status  status = depict_pose(&posed, j, seconds, error);
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
-        const node *n = &j->scene->nodes[j->scene->parts[i].node];
-        const mesh *m = !t->parts[i] || n->mesh == NONE ? NULL : &j->scene->meshes[n->mesh];
+        const double before = *distance;
+        const node  *n = &j->scene->nodes[j->scene->parts[i].node];
+        const mesh  *m = !t->parts[i] || n->mesh == NONE ? NULL : &j->scene->meshes[n->mesh];
         for (size_t k = 0; m && k < m->primitive_count && status == LMN_OK; k++) {
             const primitive *from = &m->primitives[k];
             vec3            *positions = mem_alloc((from->vertex_count + 1) * sizeof *positions);
@@ -86,6 +86,8 @@ static lmn_status nearest_place(const double p[3], double best[3], double *dista
             }
             mem_free(positions);
         }
+        if (*distance < before)
+            *node_index = j->scene->parts[i].node;
     }
     return status == LMN_OK ? work_check(error) : status;
 }
@@ -99,9 +101,10 @@ lmn_status meeting_place(double out[3], bool *met, const depict_job *j, const de
         return status;
     depict_target other;
     double        at[3], distance = INFINITY;
+    int32_t       own = partner;
     status = target_open(&other, j, partner, error);
     if (status == LMN_OK)
-        status = nearest_place(out, at, &distance, j, &other, impact->time, error);
+        status = nearest_place(out, at, &distance, &own, j, &other, impact->time, error);
     *met = distance < 0.5 * t->radius;
     if (status == LMN_OK && *met)
         vector3_mix(out, out, at, 0.5);
