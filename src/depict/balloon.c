@@ -19,7 +19,8 @@ static const param balloon_params[] = {
     PARAM_TEXT_ROW(balloon_values, text, .def_text = "…", .example = "Look!|There it goes.",
                    .doc = "What is said or thought; \"|\" begins a line."),
     PARAM_ENUM_ROW(balloon_values, side, .names = sides, .def = SIDE_AUTO,
-                   .doc = "Of the head on which it lies; auto: where the target faces, right if it faces the viewer."),
+                   .doc =
+                       "Of the head on which it lies; auto: where the target looks, right if it looks at the viewer."),
     PARAM_INT_ROW(balloon_values, letters, .def = 14, .min = 0, .max = 200, .soft_max = 40, .unit = UNIT_COUNT,
                   .doc = "A longer line is broken between words; 0: none is."),
     PARAM_FLOAT_ROW(
@@ -78,12 +79,11 @@ static void put_thought(glyph_mesh *m, const page_place *p, double half_width, d
 static double side_of(const depict_job *j, const expression *e, const mouth *where)
 {
     const balloon_values *v = e->values;
-    double                right[3], up[3], front[3];
+    double                right[3], up[3];
     depict_page_axes(j, right, up);
-    vector3_add(front, where->at, -1, where->head);
     if (v->side != SIDE_AUTO)
         return v->side == SIDE_LEFT ? -1 : 1;
-    return vector3_dot(front, right) < -0.3 * where->radius ? -1 : 1;
+    return vector3_dot(where->gaze, right) < -0.3 ? -1 : 1;
 }
 
 /* Beside and above the head, `side` to the right of it. */

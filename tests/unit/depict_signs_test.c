@@ -7,6 +7,7 @@
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
 #include "depict/depict_private.h"
+#include "depict/mouth.h"
 #include "limner/content.h"
 #include "limner/depict.h"
 
@@ -490,6 +491,51 @@ static void balloons_end_at_the_mouth(void **state)
     lmn_scene_destroy(&scene);
 }
 
+static void look_for_face(mouth *out, const lmn_scene *scene)
+{
+    depict_poses  poses = {.count = 0};
+    depict_job    job = {.scene = scene, .poses = &poses, .size = 3};
+    depict_target t;
+    lmn_error     error = {0};
+    assert_int_equal(target_open(&t, &job, depict_find_node(scene, "somebody"), &error), LMN_OK);
+    assert_int_equal(mouth_find(out, &job, &t, 0, &error), LMN_OK);
+    target_release(&t);
+    depict_poses_release(&poses);
+}
+
+/* Where nodes say so; else at the front of the head, whose middle is at (0, 2.4, 0), 0.4 from there. */
+static void eyes_are_found(void **state)
+{
+    (void)state;
+    mouth      face;
+    lmn_scene *scene = speaker_scene(true, false);
+    look_for_face(&face, scene);
+    assert_false(face.named_eyes);
+    for (int i = 0; i < 2; i++) {
+        assert_near(face.eyes[i][0], i ? -0.16 : 0.16, 0.01);
+        assert_near(face.eyes[i][1], 2.4, 0.01);
+        assert_near(face.eyes[i][2], 0.4, 0.01);
+    }
+    assert_near(face.gaze[2], 1, 1e-9);
+    lmn_scene_destroy(&scene);
+    moving_scene m;
+    moving_scene_begin(&m);
+    moving_scene_name(&m, moving_scene_box(&m, 0, 1, 0, (double[]){0.4, 1, 0.2}, grey), "somebody");
+    const char  *names[] = {"Head", "RightEye", "LeftEye", "LeftEyebrow"};
+    const double places[][3] = {{0, 2.4, 0}, {-0.12, 2.5, 0.35}, {0.12, 2.5, 0.35}, {0.3, 2.6, 0.35}};
+    for (int i = 0; i < 4; i++) {
+        int joint = moving_scene_joint(&m, places[i][0], places[i][1] - 1, places[i][2]);
+        moving_scene_name(&m, joint, names[i]);
+        moving_scene_put_in(&m, joint, 0);
+    }
+    scene = finish(&m, "eyes");
+    look_for_face(&face, scene);
+    assert_true(face.named_eyes);
+    for (int i = 0; i < 2; i++)
+        assert_near(vector3_distance(face.eyes[i], places[2 - i]), 0, 1e-6);
+    lmn_scene_destroy(&scene);
+}
+
 static void thoughts_shrink_towards_the_head(void **state)
 {
     (void)state;
@@ -968,6 +1014,7 @@ int main(void)
         cmocka_unit_test(words_stand_in_lines),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
+        cmocka_unit_test(eyes_are_found),
         cmocka_unit_test(insets_are_what_the_camera_sees),
         cmocka_unit_test(insets_go_where_room_is),
         cmocka_unit_test(bursts_go_outward),
