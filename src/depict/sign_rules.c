@@ -68,40 +68,49 @@ static lmn_status add_flat(lmn_look *look, const char *select, const char *fill,
     return status;
 }
 
+/* What the first rule's lines have, as text; the buffer stays as it is where it has none. */
+static void lines_value(const lmn_look *look, const char *key, char out[PARAM_TEXT_MAX])
+{
+    param_place place;
+    lmn_error   none;
+    if (first_use(&look->rules[0], KIND_LINES) && look_find_param(&place, look, 0, "lines", 0, key, &none) == LMN_OK)
+        param_print(place.param, place.use->values, out, PARAM_TEXT_MAX);
+}
+
 /* The outline that the look has. */
 static lmn_status add_lines(lmn_look *look, size_t index, const char *ink, lmn_error *error)
 {
     const technique_use *use = first_use(&look->rules[0], KIND_LINES);
-    const param         *width = param_of(use, "width");
-    char                 value[PARAM_TEXT_MAX] = "";
+    char                 width[PARAM_TEXT_MAX] = "";
     use_list             lines;
     if (!use)
         return LMN_OK;
-    if (width)
-        param_print(width, use->values, value, sizeof value);
     const char *name = use->technique->name;
-    lmn_status  status = look_find_uses(&lines, look, index, "lines", error);
+    lines_value(look, "width", width);
+    lmn_status status = look_find_uses(&lines, look, index, "lines", error);
     if (status == LMN_OK)
         status = look_add_technique(look, &lines, name, LMN_AT_END, error);
     if (status == LMN_OK)
         status = set(look, index, "lines", "colour", ink, error);
-    return status == LMN_OK && *value ? set(look, index, "lines", "width", value, error) : status;
+    return status == LMN_OK && *width ? set(look, index, "lines", "width", width, error) : status;
 }
 
 lmn_status look_add_sign_rules(lmn_look *look, lmn_error *error)
 {
     if (look->rule_count == 0 || selects_signs(look))
         return LMN_OK;
-    const rule          *first = &look->rules[0];
-    const technique_use *lines = first_use(first, KIND_LINES), *sheet = &look->wide[KIND_FINISH];
-    const param         *colour_row = param_of(lines, "colour"), *ground = param_of(sheet, "ground");
-    const bool           ink_only = is_ink(first);
+    const technique_use *sheet = &look->wide[KIND_FINISH];
+    const param         *ground = param_of(sheet, "ground");
+    const colour        *ground_colour = ground ? (const colour *)((const char *)sheet->values + ground->offset) : NULL;
     char                 ink[PARAM_TEXT_MAX] = "#1b1d24", paper[PARAM_TEXT_MAX] = "#ffffff";
     size_t               index;
-    if (colour_row)
-        param_print(colour_row, lines->values, ink, sizeof ink);
-    if (ground && ((const colour *)((const char *)sheet->values + ground->offset))->a > 0)
+    bool                 ink_only = is_ink(&look->rules[0]);
+    lines_value(look, "colour", ink);
+    if (ground_colour && ground_colour->a > 0) {
         param_print(ground, sheet->values, paper, sizeof paper);
+        /* The letters' own colours are those of ink on light paper. */
+        ink_only = ink_only || ground_colour->r + ground_colour->g + ground_colour->b < 1.2f;
+    }
     lmn_status status = add_flat(look, letters, ink_only ? ink : NULL, &index, error);
     if (status == LMN_OK && ink_only)
         status = add_flat(look, papers, paper, &index, error);

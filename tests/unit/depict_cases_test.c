@@ -9,6 +9,7 @@
 #include "depict/depict.h"
 #include "depict/depict_private.h"
 #include "limner/depict.h"
+#include "limner/rules.h"
 
 /* --- scripts ------------------------------------------------------------------------------------------------------ */
 
@@ -285,8 +286,6 @@ static void stars_go_where_contacts_go(void **state)
         const primitive *star = sign_at(scene, "star", "", 0);
         const double     expected = cases[i].across * sqrt(2 * (cases[i].height - 0.6) / 9.81);
         /* Seen from the front the star lies before the contact, towards the viewer: the middle of the fan. */
-        depict_job job = {0};
-        (void)job;
         const double at = (double)star->positions[0].x, eye = 4; /* about */
         if (fabs(at - expected) > 0.12 * fabs(expected - eye) + 0.15)
             fail_msg("case %zu: star at %g, contact at %g", i, at, expected);
@@ -317,12 +316,41 @@ static void frames_go_where_the_camera_goes(void **state)
     lmn_scene_destroy(&low);
 }
 
+/* Letters in the look's ink, and plain paper behind them, where the look would drown them; once. */
+static void looks_learn_of_signs(void **state)
+{
+    (void)state;
+    const struct {
+        const char *look, *ink;
+        size_t      more;
+    } cases[] = {{"storyboard", NULL, 0}, {"toon", NULL, 1}, {"line", "#1b1d24", 2}, {"chalk", "#f6f3ea", 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        lmn_look *look = NULL;
+        lmn_error error = {0};
+        char      value[LMN_VALUE_TEXT_MAX];
+        assert_int_equal(lmn_look_load(&look, cases[i].look, &error), LMN_OK);
+        const size_t before = lmn_look_rule_count(look);
+        for (int times = 0; times < 2; times++)
+            assert_int_equal(lmn_look_add_sign_rules(look, &error), LMN_OK);
+        assert_int_equal(lmn_look_rule_count(look), before + cases[i].more);
+        if (cases[i].ink) {
+            assert_string_equal(lmn_look_rule_selector(look, before), "[glyph=words], [glyph=noise]");
+            assert_int_equal(lmn_look_technique_count(look, before, "lines"), 0);
+            assert_int_equal(lmn_look_get_text(look, before, "surface", 0, "colour", value, sizeof value, &error),
+                             LMN_OK);
+            assert_string_equal(value, cases[i].ink);
+            assert_int_equal(lmn_look_technique_count(look, before + 1, "lines"), 1);
+        }
+        lmn_look_destroy(&look);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(examples_tell_what_they_claim),      cmocka_unit_test(reversed_behaviour_reverses_signs),
         cmocka_unit_test(slower_behaviour_has_shorter_lines), cmocka_unit_test(stars_go_where_contacts_go),
-        cmocka_unit_test(frames_go_where_the_camera_goes),
+        cmocka_unit_test(frames_go_where_the_camera_goes),    cmocka_unit_test(looks_learn_of_signs),
     };
     return cmocka_run_group_tests_name("depict_cases", tests, NULL, NULL);
 }
