@@ -2,11 +2,12 @@
 # the includes against it.
 include(${CMAKE_CURRENT_LIST_DIR}/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose behaviour cut field stroke_texture csg info light halftone marks stroke import export film layer lines surface perturb compose motion finish look plan stage trace solids depict frame vector draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose behaviour cut field stroke_texture csg info light halftone marks stroke import export film layer lines surface perturb compose motion finish look plan annotate stage trace solids depict frame vector draw api)
 
 # What one folder alone sees of libraries; all see the first.
 set(limner_all EPOXY JANSSON PNG JPEG WEBP ZLIB DEFLATE ASSIMP GLU)
 set(limner_stroke_texture_sees XML)
+set(limner_import_sees XML)
 set(limner_export_sees CAIRO PANGO)
 set(limner_construct_sees GEOS QHULL FREETYPE FONTCONFIG HARFBUZZ)
 set(limner_fence_sees SECCOMP)

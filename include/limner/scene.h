@@ -49,10 +49,13 @@ typedef struct lmn_load_desc {
     /* Formats of the caller's, asked in this order before Limner's own; not for files that models name. Since 0.1. */
     const lmn_importer *const *importers;
     size_t                     importer_count;
+    /* Of city models (CityJSON, CityGML) alone; refused with others. "2" or "2.2": the most detailed geometry of each
+     * object that is not more detailed than that. NULL: the most detailed. Since 0.1. */
+    const char *lod;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0                                        \
+        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0, NULL                                  \
     }
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file_store.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "base/work.h"
 #include "import/import.h"
 #include "info/info.h"
@@ -56,6 +57,10 @@ lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, c
         if (status != LMN_OK)
             return status;
     }
+    double lod;
+    if (full->lod && (!text_is_double(full->lod, &lod) || !(lod >= 0)))
+        return error_set(error, LMN_USAGE, "%s: `lod` '%.40s' is no level of detail such as 2 or 2.2", caller,
+                         full->lod);
     for (size_t i = 0; i < full->define_count; i++)
         if (!full->defines || !full->defines[i])
             return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,

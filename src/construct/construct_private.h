@@ -3,6 +3,7 @@
 #define LIMNER_CONSTRUCT_CONSTRUCT_PRIVATE_H
 
 #include "construct/construct.h"
+#include "construct/triangulate.h"
 
 #define PI 3.14159265358979323846
 
@@ -42,13 +43,6 @@ bool polyhedron_is_closed(const polyhedron *p, bool *failed);
 /* LMN_FORMAT and LMN_LIMIT with a message that names the shape. */
 lmn_status check_numbers(const char *shape, const double *numbers, size_t count, lmn_error *error);
 lmn_status check_point_count(const char *shape, double count, lmn_error *error);
-
-/* Triangulates outlines in the plane by their winding (GLU): anticlockwise ones enclose, clockwise ones leave out.
- * The triangles' corners are the numbers of the points, counted through all contours. No corner is added: *exact is
- * false where edges cross or touch and the triangles' border is not the contours. Three corners a triangle in
- * *corners, which the caller frees. */
-lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count,
-                                bool *exact, lmn_error *error);
 
 /* --- regions -------------------------------------------------------------------------------------------- */
 

@@ -126,6 +126,7 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
              .crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
     bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
                        (r->up.needs.rest || !p->meshes.rest) && (r->up.needs.glue || !p->meshes.glue) &&
+                       (r->up.needs.walls || !p->meshes.walls) &&
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
                  r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&

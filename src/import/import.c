@@ -8,11 +8,13 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "import/access.h"
+#include "import/gunzip.h"
 #include "import/up_axis.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_gltf, &import_ply,  &import_stl,    &import_obj,   &import_bvh,
-                                               &import_csg,  &import_scad, &import_script, &import_assimp};
+static const import_format *const formats[] = {&import_cityjson, &import_citygml, &import_gltf,  &import_ply,
+                                               &import_stl,      &import_obj,     &import_bvh,   &import_csg,
+                                               &import_scad,     &import_script,  &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -51,7 +53,7 @@ static const import_format *by_ending(const char *ending)
 static lmn_status choose(const import_format **out, const char *path, const file_data *file, lmn_error *error)
 {
     char ending[16];
-    file_ending(path, ending, sizeof ending);
+    gunzip_ending(path, ending, sizeof ending);
     const import_format *named = by_ending(ending), *found = by_content(file);
     *out = found;
     if (file->size == 0) {
@@ -59,7 +61,7 @@ static lmn_status choose(const import_format **out, const char *path, const file
         error_hint(error, "export it again; the copy or download may have been cut off");
         return LMN_FORMAT;
     }
-    if (named && found && named != found) {
+    if (named && found && !is_among(found->endings, ending)) {
         error_in_file(error, LMN_FORMAT, path, 0, "the content is %s, but the ending %s says %s", found->name, ending,
                       named->name);
         error_hint(error, "rename the file so that its ending fits its content (%s)", found->endings);
@@ -102,13 +104,16 @@ static lmn_status check_triangles(const import_job *job, lmn_error *error)
     return LMN_LIMIT;
 }
 
-static lmn_status read_into(const import_job *job, const import_format *format, lmn_up_axis up, lmn_error *error)
+static lmn_status fill(const import_job *job, const import_format *format, lmn_error *error)
 {
     lmn_status status = import_progress(job, 0, "reading", error);
-    if (status == LMN_OK)
-        status = format->read(job, error);
-    if (status == LMN_OK)
-        status = name_single_node(job->scene, job->path, error);
+    return status == LMN_OK ? format->read(job, error) : status;
+}
+
+/* What is the same for all formats. The file's bytes are no longer there: a model may be several times as large. */
+static lmn_status finish(const import_job *job, const import_format *format, lmn_up_axis up, lmn_error *error)
+{
+    lmn_status status = name_single_node(job->scene, job->path, error);
     if (status == LMN_OK)
         status = import_progress(job, 0.9, "checking", error);
     if (status == LMN_OK)
@@ -133,6 +138,11 @@ static lmn_status check_options(const import_format *format, const char *path, c
         error_hint(error, "--safe refuses programs; evaluate it where it may run: openscad -o model.csg model.scad");
         return LMN_UNSUPPORTED;
     }
+    if (desc->lod && format != &import_cityjson && format != &import_citygml) {
+        error_in_file(error, LMN_USAGE, path, 0,
+                      "levels of detail are of city models (CityJSON, CityGML), and this is %s", format->name);
+        return LMN_USAGE;
+    }
     if (format == &import_scad || (!desc->define_count && !desc->strict))
         return LMN_OK;
     return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s",
@@ -145,7 +155,7 @@ static lmn_status check_options(const import_format *format, const char *path, c
 static const lmn_importer *find_importer(const lmn_load_desc *desc, const char *path, const file_data *file)
 {
     char ending[16];
-    file_ending(path, ending, sizeof ending);
+    gunzip_ending(path, ending, sizeof ending);
     for (size_t i = 0; i < desc->importer_count && file->size; i++) {
         const lmn_importer *of = desc->importers[i];
         if (of->probe ? of->probe(file->data, file->size, of->user) : is_among(of->endings, ending))
@@ -185,13 +195,17 @@ static lmn_status read_outside(const import_job *job, const lmn_importer *by, lm
 
 /* --- from a path to a scene ----------------------------------------------------------------------------- */
 
-static lmn_status read_ours(const import_job *job, lmn_error *error)
+static lmn_status read_ours(import_job *job, file_data *file, lmn_error *error)
 {
     const import_format *format = NULL;
     lmn_status           status = choose(&format, job->path, job->file, error);
     if (status == LMN_OK)
         status = check_options(format, job->path, job->desc, error);
-    return status == LMN_OK ? read_into(job, format, job->desc->up_axis, error) : status;
+    if (status == LMN_OK)
+        status = fill(job, format, error);
+    file_data_release(file);
+    job->file = NULL;
+    return status == LMN_OK ? finish(job, format, job->desc->up_axis, error) : status;
 }
 
 static lmn_status load(lmn_scene **out, const import_job *by, const char *path, const lmn_load_desc *desc,
@@ -201,6 +215,8 @@ static lmn_status load(lmn_scene **out, const import_job *by, const char *path, 
     double     start = clock_ms();
     file_data  file;
     lmn_status status = access_read(by, by ? "file" : "model", path, &file, NULL, error);
+    if (status == LMN_OK)
+        status = gunzip(&file, path, error);
     if (status != LMN_OK)
         return status;
     const lmn_importer *outside = find_importer(desc, path, &file);
@@ -209,7 +225,7 @@ static lmn_status load(lmn_scene **out, const import_job *by, const char *path, 
     if (!scene)
         status = error_memory(error);
     else
-        status = outside ? read_outside(&job, outside, error) : read_ours(&job, error);
+        status = outside ? read_outside(&job, outside, error) : read_ours(&job, &file, error);
     file_data_release(&file);
     if (status != LMN_OK) {
         /* Readers of parts of a file need not know its name. */

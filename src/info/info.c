@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "info/city_info.h"
 #include "info/info.h"
 #include "info/solid_info.h"
 
@@ -245,6 +246,7 @@ char *scene_info_json(const lmn_scene *s)
     json_object_set_new(root, "cameras", cameras_json(s));
     json_object_set_new(root, "lights", lights_json(s));
     json_object_set_new(root, "skins", skins_json(s));
+    json_object_set_new(root, "city", city_info_json(s));
     json_object_set_new(root, "warnings", warnings_json(s));
     /* Floats have nine digits; more would print 0.100000001490116. */
     char *dumped = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9));

@@ -2,9 +2,12 @@
  *   *            every part             Wheel*        glob on the part's name
  *   Truck/\*\/Axle glob on the path (it contains '/')
  *   [key]        has the attribute      [key=glob]    and its value matches; [material=glob] and [id=N] are built in
+ *   [key>30]     compared as a number: < <= > >=; [key!=glob]; = and != take 30 and 30.0 for the same. Units behind a
+ *                blank are left out ("12.5 m"); dates ("1898-05-02") are their year and the fraction of it
  *   a, b         either                 a [key=x]     both          !a   not
  *   @removed         what a solid's differences take away (ghosts); only selectors that say so match it, '*' does not
  *   @solid           parts that are solids: of set operations, not of triangles
+ *   @roof @wall …    what a surface of a city is (scene/city.h): [surface=roof]
  * Quotes keep blanks and commas: "Front Axle", [material="a, b"]. '*' and '?' work inside quotes too, and '*' also runs
  * over '/'. An attribute of a node holds for what is below it.
  */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "info/city_info.h"
 #include "limner/version.h"
 #include "plan/report_json.h"
 
@@ -31,6 +32,7 @@ lmn_status facts_take(report_facts *out, const pose *pose, const lmn_look *look,
     for (size_t i = 0; i < part_count; i++)
         if (!(out->part_names[i] = mem_copy_text(scene->parts[i].name)))
             return error_memory(error);
+    out->city = city_info_json(scene);
     return LMN_OK;
 }
 
@@ -41,6 +43,7 @@ void facts_release(report_facts *f)
         mem_free(f->part_names[i]);
     mem_free(f->part_names);
     json_decref(f->time);
+    json_decref(f->city);
     memset(f, 0, sizeof *f);
 }
 
@@ -58,6 +61,9 @@ json_t *facts_begin_json(const report_facts *f, int width, int height)
 
 json_t *facts_scene_json(const report_facts *f)
 {
-    return json_pack("{s:I, s:I, s:o}", "parts", (json_int_t)f->part_count, "triangles", (json_int_t)f->triangles,
-                     "bounds", report_box_json(f->bounds));
+    json_t *root = json_pack("{s:I, s:I, s:o}", "parts", (json_int_t)f->part_count, "triangles",
+                             (json_int_t)f->triangles, "bounds", report_box_json(f->bounds));
+    if (root && f->city && !json_is_null(f->city))
+        json_object_set(root, "city", f->city);
+    return root;
 }

@@ -15,7 +15,8 @@ typedef struct report_facts {
     uint64_t triangles; /* instances counted */
     box3     bounds;    /* of what is selected */
     double   load_ms;
-    json_t  *time; /* which; NULL: at rest */
+    json_t  *time;
+    json_t  *city; /* which; NULL: at rest */
 } report_facts;
 
 /* The bounds and triangles are the caller's to set. Errors: LMN_MEMORY. Release it also after one. */

@@ -549,6 +549,7 @@ static mesh_needs needs_of(const lmn_look *look, const pose *pose)
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
         all.rest = all.rest || own.rest;
+        all.walls = all.walls || own.walls;
     }
     return all;
 }
@@ -637,13 +638,21 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
         return status;
     share_parts(out);
     warn_of_idle_rules(out, options->parts_only && pose->ghost_count > 0, warnings);
-    return options->parts_only ? LMN_OK : plan_figures(out, options, warnings, error);
+    status = datum_make(&out->datum, out->scene, out->look->wide[KIND_SCENE].values, out->selected, out->part_count,
+                        warnings, error);
+    return status == LMN_OK && !options->parts_only ? plan_figures(out, options, warnings, error) : status;
 }
 
 const rule *plan_rule(const plan *p, size_t part_index)
 {
     int32_t index = p->rule_of[part_index];
     return index != NONE ? &p->look->rules[index] : NULL;
+}
+
+const colour *plan_datum_colour(const plan *p, size_t part_index)
+{
+    const colour *c = p->datum.colours && part_index < p->part_count ? &p->datum.colours[part_index] : NULL;
+    return c && c->a > 0 ? c : NULL;
 }
 
 void plan_camera_range(const plan *p, view_camera *camera, warnings *warnings)
@@ -671,6 +680,7 @@ void plan_release(plan *p)
     mem_free(p->figures);
     mem_free(p->rule_of);
     section_release(&p->section);
+    datum_release(&p->datum);
     mem_free(p->selected);
     mem_free(p->fitted);
     mem_free(p->throws);

@@ -13,12 +13,19 @@ typedef struct offsets {
     int32_t nodes, meshes, materials, images, cameras, lights, skins, solids;
 } offsets;
 
-static bool reserve_all(lmn_scene *into, const lmn_scene *from)
+/* An empty scene takes the arrays over as they are: then the root has to fit in front of the nodes there. */
+static bool reserve_nodes(lmn_scene *into, lmn_scene *from)
+{
+    lmn_scene *at = into->node_count ? into : from;
+    return mem_grow((void **)&at->nodes, &at->node_capacity, into->node_count + from->node_count + 1,
+                    sizeof *at->nodes);
+}
+
+static bool reserve_all(lmn_scene *into, lmn_scene *from)
 {
 #define RESERVE(array, count, capacity, more)                                                                          \
     mem_grow((void **)&into->array, &into->capacity, into->count + (more), sizeof *into->array)
-    return RESERVE(nodes, node_count, node_capacity, from->node_count + 1) &&
-           RESERVE(meshes, mesh_count, mesh_capacity, from->mesh_count) &&
+    return reserve_nodes(into, from) && RESERVE(meshes, mesh_count, mesh_capacity, from->mesh_count) &&
            RESERVE(materials, material_count, material_capacity, from->material_count) &&
            RESERVE(images, image_count, image_capacity, from->image_count) &&
            RESERVE(cameras, camera_count, camera_capacity, from->camera_count) &&
@@ -161,6 +168,28 @@ static lmn_status check_capacity(const lmn_scene *into, const lmn_scene *from, c
                          what);
 }
 
+static void move_nodes(lmn_scene *into, lmn_scene *from, char *name, const mat4 *position)
+{
+    size_t count = from->node_count;
+    if (into->node_count == 0) {
+        node  *nodes = into->nodes;
+        size_t capacity = into->node_capacity;
+        into->nodes = from->nodes;
+        into->node_capacity = from->node_capacity;
+        from->nodes = nodes;
+        from->node_capacity = capacity;
+        memmove(into->nodes + 1, into->nodes, count * sizeof *into->nodes);
+    }
+    node *root = scene_append_node(into); /* room was reserved */
+    root->name = name;
+    root->has_matrix = true;
+    root->matrix = *position;
+    if (into->node_count > 1 && count)
+        memcpy(into->nodes + into->node_count, from->nodes, count * sizeof *into->nodes);
+    into->node_count += count;
+    from->node_count = 0;
+}
+
 static void move_elements(lmn_scene *into, lmn_scene *from)
 {
 #define MOVE(array, count)                                                                                             \
@@ -170,7 +199,6 @@ static void move_elements(lmn_scene *into, lmn_scene *from)
         into->count += from->count;                                                                                    \
         from->count = 0;                                                                                               \
     } while (0)
-    MOVE(nodes, node_count);
     MOVE(meshes, mesh_count);
     MOVE(materials, material_count);
     MOVE(images, image_count);
@@ -207,20 +235,29 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     behaviour_take(into, from, &(behaviour_offsets){by.nodes, by.cameras, by.lights, (int32_t)into->animation_count});
     shift_references(from, &by);
     int32_t root = by.nodes - 1;
-    node   *n = scene_append_node(into); /* room was reserved */
-    n->name = name;
-    n->has_matrix = true;
-    n->matrix = *position;
+    move_nodes(into, from, name, position);
     move_elements(into, from);
     move_parts(into, from);
     for (size_t i = (size_t)by.nodes; i < into->node_count; i++)
         if (into->nodes[i].parent == NONE)
             scene_link_child(into, root, (int32_t)i);
     into->files[into->file_count++] = path;
+    city_merge(&into->city, &from->city);
     warnings_append(&into->warnings, &from->warnings);
     warnings_release(&from->warnings);
     into->load_ms += from->load_ms;
     into->revision = scene_next_revision();
+}
+
+/* Two files of one city have origins of their own. */
+static void put_in_place(mat4 *position, const lmn_scene *into, const lmn_scene *from)
+{
+    double offset[3];
+    if (!city_offset(&into->city, &from->city, offset))
+        return;
+    mat4 up = scene_up_rotation('z', scene_up_together(into, from));
+    for (int k = 0; k < 3; k++)
+        position->m[12 + k] += up.m[k] * offset[0] + up.m[4 + k] * offset[1] + up.m[8 + k] * offset[2];
 }
 
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
@@ -228,11 +265,15 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     lmn_status status = check_capacity(into, from, file, error);
     if (status != LMN_OK)
         return status;
-    mat4      position = scene_up_rotation(from->up, scene_up_together(into, from));
+    mat4 position = scene_up_rotation(from->up, scene_up_together(into, from));
+    put_in_place(&position, into, from);
     char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part     *grown = NULL;
-    bool      good =
+    parts_release(from->parts, from->part_count + from->ghost_count);
+    from->parts = NULL;
+    from->part_count = from->ghost_count = 0;
+    bool good =
         name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &position, &list);
     if (good) {
         size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
@@ -246,7 +287,6 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
         return error_memory(error);
     }
     into->parts = grown;
-    parts_release(from->parts, from->part_count + from->ghost_count);
     from->parts = list.parts;
     from->part_count = list.part_count;
     from->ghost_count = list.ghost_count;

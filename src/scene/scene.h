@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/warnings.h"
 #include "limner/scene.h"
+#include "scene/city.h"
 
 enum { NONE = -1, UV_SETS = 2 };
 
@@ -222,6 +223,7 @@ struct lmn_scene {
     struct solid     *solids; /* scene/solid.h */
     size_t            solid_count, solid_capacity;
     struct behaviour *behaviour; /* scene/behaviour.h; NULL: none */
+    city_facts        city;      /* where it lies and what of city data it consists of; empty of other models */
     part             *parts;     /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
     size_t            part_count, ghost_count;
     char            **files; /* paths as they were given, one per merged file */
@@ -280,7 +282,8 @@ mat4 scene_up_rotation(char from, char to);
 char scene_up_together(const lmn_scene *into, const lmn_scene *from);
 
 /* Moves all content of `from` (finished) into `into` below a new root node named after the file, rotated to
- * `into`'s up axis; `from` is empty afterwards. On error both are unchanged. Errors: LMN_LIMIT, LMN_MEMORY. */
+ * `into`'s up axis; `from` is empty afterwards. On error `into` is unchanged, and `from` may have lost its list of
+ * parts. Errors: LMN_LIMIT, LMN_MEMORY. */
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error);
 
 /* A copy of `size` bytes as valid UTF-8 without control characters (bad bytes become U+FFFD), for names from files.

@@ -12,13 +12,15 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static attribute vehicle[] = {{"kind", "vehicle"}}, spare[] = {{"kind", "spare part"}, {"stock", ""}};
-static node      nodes[] = {
-         {.parent = NONE, .mesh = NONE, .solid = NONE, .attributes = vehicle, .attribute_count = 1},
-         {.parent = 0, .mesh = 0, .solid = NONE},
-         {.parent = 0, .mesh = 1, .solid = NONE},
-         {.parent = 0, .mesh = 1, .solid = 0, .attributes = spare, .attribute_count = 2},
-         {.parent = 1, .mesh = NONE, .solid = NONE, .ghost = true},
+static attribute vehicle[] = {{"kind", "vehicle"}, {"height", "7"}},
+                 spare[] = {{"kind", "spare part"},  {"stock", ""},       {"height", "30.0"},
+                            {"built", "1898-05-02"}, {"mass", "12.5 kg"}, {"surface", "roof"}};
+static node nodes[] = {
+    {.parent = NONE, .mesh = NONE, .solid = NONE, .attributes = vehicle, .attribute_count = COUNT(vehicle)},
+    {.parent = 0, .mesh = 0, .solid = NONE},
+    {.parent = 0, .mesh = 1, .solid = NONE},
+    {.parent = 0, .mesh = 1, .solid = 0, .attributes = spare, .attribute_count = COUNT(spare)},
+    {.parent = 1, .mesh = NONE, .solid = NONE, .ghost = true},
 };
 static primitive painted = {.material = 0}, rubber = {.material = 1};
 static mesh meshes[] = {{.primitives = &painted, .primitive_count = 1}, {.primitives = &rubber, .primitive_count = 1}};
@@ -92,6 +94,35 @@ static void test_matches(void **state)
         {"\"@solid\"", "0000"},
         {"\"@removed\"", "0000"},
         {"@removed !removed, *", "1110"},
+        /* Numbers compare as numbers: as text, 7 comes behind 30. */
+        {"[height>7]", "001"},
+        {"[height>=7]", "111"},
+        {"[height<30]", "110"},
+        {"[height<=30.00]", "111"},
+        {"[height=30]", "001"},
+        {"[height=3e1]", "001"},
+        {"[height!=30]", "110"},
+        {"[height!=x]", "111"},
+        {"[missing!=x]", "000"},
+        {"![missing=x]", "111"},
+        {"[kind!=veh*]", "001"},
+        {"[kind>0]", "000"},
+        {"[kind<0]", "000"},
+        {"[built<1900]", "001"},
+        {"[built>1898]", "001"},
+        {"[built<1898-05-03]", "001"},
+        {"[built<1898-05-02]", "000"},
+        {"[built<=1898-05-02]", "001"},
+        {"[mass>12]", "001"},
+        {"[mass='12.5']", "001"},
+        {"[\"height\" > 7]", "000"},
+        {"[\"height\">7]", "001"},
+        {"[id>1]", "011"},
+        {"@roof", "001"},
+        {"!@roof", "110"},
+        {"@wall", "000"},
+        {"@roof[height>50]", "000"},
+        {"\"@roof\"", "000"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         selector *s = NULL;
@@ -126,8 +157,10 @@ static void test_names_removed(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"",     "  ", ",",   "a,", ",a",  "a,,b", "[",        "[a",        "[]",
-                                        "[=x]", "]",  "\"a", "!",  "a !", "@",    "@Removed", "@removed2", "a @x"};
+    static const char *const wrong[] = {"",      "  ",       ",",         "a,",   ",a",   "a,,b",       "[",
+                                        "[a",    "[]",       "[=x]",      "]",    "\"a",  "!",          "a !",
+                                        "@",     "@Removed", "@removed2", "a @x", "[a>]", "[a>b]",      "[a<=x1]",
+                                        "[a!b]", "[a!]",     "[>3]",      "[a>3", "@rof", "[a<1999-13]"};
     for (size_t i = 0; i < COUNT(wrong); i++) {
         selector *s = NULL;
         lmn_error error = {0};
