@@ -426,6 +426,8 @@ static int load_look(session *s)
                                       : "edges",
                       &error) != LMN_OK)
         return message_error(&error);
+    if (s->depicts && lmn_look_add_sign_rules(s->look, &error) != LMN_OK)
+        return message_error(&error);
     int status = set_motion(s->look, s->values->motion, s->values->poses);
     if (status == EXIT_DONE)
         status = set_all(s->look, &s->values->sets, s->values->cut != NULL);
