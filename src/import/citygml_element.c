@@ -453,8 +453,8 @@ void citygml_open_element(citygml_reader *r, const char *name, int attribute_cou
     static const gml_element outside = {.lod = -1, .word = CITY_NO_WORD};
     if (r->status != LMN_OK)
         return;
-    if (r->depth == GML_DEPTH_MAX) {
-        citygml_fail(r, LMN_LIMIT, "elements are nested deeper than %d", GML_DEPTH_MAX);
+    if (r->depth == LIMIT_XML_DEPTH) {
+        citygml_fail(r, LMN_LIMIT, "elements are nested deeper than %d", LIMIT_XML_DEPTH);
         return;
     }
     gml_element       *e = &r->stack[r->depth];
