@@ -55,7 +55,8 @@ static stroke *add(const float (*positions)[3], uint32_t count, uint32_t hidden_
     if (!goes_on)
         d.set.chain_count++;
     *s = (stroke){.kind = STROKE_CONTOUR,
-                  .part = 1,
+                  .part = (uint32_t)d.set.chain_count,
+                  .piece = (uint32_t)d.set.chain_count,
                   .hidden_by = hidden_by,
                   .chain = (uint32_t)d.set.chain_count - 1,
                   .id = 77 * d.set.chain_count,
@@ -374,6 +375,8 @@ static void test_crowds(void **state)
     add_line(0, 63, 200, 63, 5, 1);
     add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
     add_line(300, 40, 314, 40, 5, 1);
+    for (int i = 1; i < 3; i++) /* of what is seen */
+        d.strokes[d.set.stroke_count - (size_t)i].piece = d.strokes[d.set.stroke_count - 4].piece;
     ribbon_set r = make(&style);
     float      before = -100;
     int        left = 0;
