@@ -17,9 +17,10 @@ static const float own_apart = 4;        /* along a line, from where on it may c
 static const float run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
 static const float section_least = 4;    /* nearer to each other corners part nothing, in distances */
 static const float crowded_from = 0.5f;  /* fraction of crowded samples, of a feature and from corner to corner */
-/* Of the hidden lines of a wholly hidden body so much is drawn, of one that is seen, and of a part: of what no visible
- * line stands for. */
-static const float  body_from[2] = {0.6f, 0.4f}, part_from = 0.6f;
+/* Of the hidden lines of a wholly hidden body so much is drawn, of one that is seen, of a small one, such as a bolt,
+ * and of a part: of what no visible line stands for. */
+static const float  body_from[2] = {0.6f, 0.4f}, small_from = 0.8f, part_from = 0.6f;
+static const float  small_body = 208;   /* on paper */
 static const float  body_least = 0.25f; /* … and of all of them */
 static const float  island_least = 30;  /* on paper: what is smaller and wholly hidden is left out */
 static const float  least_apart = 0.5f; /* on paper */
@@ -275,7 +276,8 @@ static void judge_feature(gap_list *out, crowd_grid *g, const hidden_run *runs, 
 /* Small things that cannot be seen at all are not what a drawing is about, and what is left of others must be most. */
 static bool says_something(const hidden_run *run, const body_tally *tally)
 {
-    return (run->seen || run->extent >= island_least) && tally->kept >= body_from[run->seen] * tally->open &&
+    float least = run->extent < small_body ? small_from : body_from[run->seen];
+    return (run->seen || run->extent >= island_least) && tally->kept >= least * tally->open &&
            tally->kept >= body_least * tally->all;
 }
 
