@@ -5,6 +5,7 @@
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
 #include "depict/depict_private.h"
+#include "depict/mouth.h"
 #include "limner/content.h"
 #include "limner/depict.h"
 
@@ -429,6 +430,51 @@ static void balloons_end_at_the_mouth(void **state)
     lmn_scene_destroy(&scene);
 }
 
+static void look_for_face(mouth *out, const lmn_scene *scene)
+{
+    depict_poses  poses = {.count = 0};
+    depict_job    job = {.scene = scene, .poses = &poses, .size = 3};
+    depict_target t;
+    lmn_error     error = {0};
+    assert_int_equal(target_open(&t, &job, depict_find_node(scene, "somebody"), &error), LMN_OK);
+    assert_int_equal(mouth_find(out, &job, &t, 0, &error), LMN_OK);
+    target_release(&t);
+    depict_poses_release(&poses);
+}
+
+/* Where nodes say so; else at the front of the head, whose middle is at (0, 2.4, 0), 0.4 from there. */
+static void eyes_are_found(void **state)
+{
+    (void)state;
+    mouth      face;
+    lmn_scene *scene = speaker_scene(true, false);
+    look_for_face(&face, scene);
+    assert_false(face.named_eyes);
+    for (int i = 0; i < 2; i++) {
+        assert_near(face.eyes[i][0], i ? -0.16 : 0.16, 0.01);
+        assert_near(face.eyes[i][1], 2.4, 0.01);
+        assert_near(face.eyes[i][2], 0.4, 0.01);
+    }
+    assert_near(face.gaze[2], 1, 1e-9);
+    lmn_scene_destroy(&scene);
+    moving_scene m;
+    moving_scene_begin(&m);
+    moving_scene_name(&m, moving_scene_box(&m, 0, 1, 0, (double[]){0.4, 1, 0.2}, grey), "somebody");
+    const char  *names[] = {"Head", "RightEye", "LeftEye", "LeftEyebrow"};
+    const double places[][3] = {{0, 2.4, 0}, {-0.12, 2.5, 0.35}, {0.12, 2.5, 0.35}, {0.3, 2.6, 0.35}};
+    for (int i = 0; i < 4; i++) {
+        int joint = moving_scene_joint(&m, places[i][0], places[i][1] - 1, places[i][2]);
+        moving_scene_name(&m, joint, names[i]);
+        moving_scene_put_in(&m, joint, 0);
+    }
+    scene = finish(&m, "eyes");
+    look_for_face(&face, scene);
+    assert_true(face.named_eyes);
+    for (int i = 0; i < 2; i++)
+        assert_near(vector3_distance(face.eyes[i], places[2 - i]), 0, 1e-6);
+    lmn_scene_destroy(&scene);
+}
+
 static void thoughts_shrink_towards_the_head(void **state)
 {
     (void)state;
@@ -493,6 +539,106 @@ static void frames_are_what_the_camera_sees(void **state)
     assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_USAGE);
     assert_non_null(strstr(error.message, "camera"));
     lmn_scene_destroy(&scene);
+}
+
+/* A place of the page in half heights, by a camera given by its own parts. */
+static void seen(const double at[3], const double eye[3], double slope, double out[3])
+{
+    for (int k = 0; k < 2; k++)
+        out[k] = (at[k] - eye[k]) / ((eye[2] - at[2]) * slope);
+    out[2] = eye[2] - at[2];
+}
+
+/* The viewer stands at (0, 0, 20), the other camera at (1, 0.5, 4): each vertex that it sees has one in the panel, at
+ * the same place of that; nearer ones stay nearer. Nothing is outside, and the picture is not fitted to it. */
+static void insets_are_what_the_camera_sees(void **state)
+{
+    (void)state;
+    const double eye[3] = {0, 0, 20}, other[3] = {1, 0.5, 4}, slope = tan(15 * pi / 180), own = tan(20 * pi / 180);
+    moving_scene m;
+    moving_scene_begin(&m);
+    moving_scene_name(&m, moving_scene_box(&m, 0.8, 0.2, 0, (double[]){0.6, 0.4, 0.5}, red), "box");
+    moving_scene_name(&m, moving_scene_box(&m, 0, -1, -4, (double[]){9, 0.1, 6}, grey), "ground");
+    int camera = moving_scene_camera(&m, 0, 9, 4, false, 40);
+    moving_scene_keys(&m, camera, "translation", 2, (double[]){0, 2}, (double[]){0, 9, 4, 1, 0.5, 4});
+    lmn_scene    *scene = finish(&m, "inset");
+    lmn_draw_desc draw = LMN_DRAW_DESC_INIT;
+    draw.eye_given = true;
+    memcpy(draw.eye, eye, sizeof draw.eye);
+    draw.fov_deg = 30;
+    draw.time_given = true;
+    draw.width = 800;
+    draw.height = 600;
+    tell_as(scene, &draw,
+            "[{\"target\": \"eye\", \"depict\": \"inset\", \"now\": 2, \"corner\": \"bottom-left\", \"size\": 0.3, "
+            "\"aspect\": 1.25}]",
+            NULL);
+    const primitive *frame = sign_at(scene, "inset-frame", 0), *box = sign_at(scene, "inset", 0),
+                    *ground = sign_at(scene, "inset", 1);
+    assert_int_equal(count_of(scene, "inset"), 2);
+    double low[3], high[3], at[3];
+    position(frame, 0, at);
+    seen(at, eye, slope, low);
+    position(frame, 2, at);
+    seen(at, eye, slope, high);
+    assert_near((high[1] - low[1]) / 2, 0.3, 1e-4);
+    assert_near((high[0] - low[0]) / (high[1] - low[1]), 1.25, 1e-4);
+    assert_true(low[0] < -1 && low[1] < -0.9 && high[1] < 0);
+    double depths[8];
+    for (int c = 0; c < 8; c++) { /* all corners of the box are seen */
+        const double corner[3] = {0.8 + (c & 1 ? 0.6 : -0.6), 0.2 + (c & 2 ? 0.4 : -0.4), c & 4 ? 0.5 : -0.5};
+        double       there[3], best = INFINITY;
+        seen(corner, other, own, there);
+        const double x = low[0] + (there[0] / 1.25 + 1) / 2 * (high[0] - low[0]),
+                     y = low[1] + (there[1] + 1) / 2 * (high[1] - low[1]);
+        for (uint32_t i = 0; i < box->vertex_count; i++) {
+            double page[3];
+            position(box, i, at);
+            seen(at, eye, slope, page);
+            const double off = hypot(page[0] - x, page[1] - y);
+            depths[c] = off < best ? page[2] : depths[c];
+            best = fmin(best, off);
+        }
+        assert_near(best, 0, 1e-4);
+    }
+    for (int c = 0; c < 4; c++)
+        assert_true(depths[c] > depths[c + 4] + 0.01);
+    for (uint32_t i = 0; i < ground->vertex_count; i++) { /* cut at the frame */
+        double page[3];
+        position(ground, i, at);
+        seen(at, eye, slope, page);
+        assert_true(page[0] > low[0] - 1e-4 && page[0] < high[0] + 1e-4 && page[1] > low[1] - 1e-4 &&
+                    page[1] < high[1] + 1e-4);
+        assert_true(at[2] > 2); /* before all that the scene has */
+    }
+    assert_true(ground->vertex_count >= 4);
+    assert_string_equal(value_of(&scene->nodes[scene->node_count - 1], "overlay"), "true");
+    lmn_scene_destroy(&scene);
+}
+
+/* In the corner where nothing is. */
+static void insets_go_where_room_is(void **state)
+{
+    (void)state;
+    static const double places[][2] = {{-1, 1}, {1, 1}, {-1, -1}, {1, -1}};
+    for (int empty = 0; empty < 4; empty++) {
+        moving_scene m;
+        moving_scene_begin(&m);
+        for (int k = 0; k < 4; k++)
+            if (k != empty)
+                moving_scene_box(&m, 4 * places[k][0], 4 * places[k][1], 0, (double[]){1, 1, 1}, red);
+        int camera = moving_scene_camera(&m, 0, 0, 9, false, 40);
+        moving_scene_keys(&m, camera, "translation", 2, (double[]){0, 2}, (double[]){0, 0, 9, 1, 0, 9});
+        lmn_scene *scene = finish(&m, "room");
+        double     at[3];
+        tell_at(scene, 1, "[{\"target\": \"eye\", \"depict\": \"inset\"}]");
+        position(sign_at(scene, "inset-frame", 0), 0, at);
+        const double x = at[0];
+        position(sign_at(scene, "inset-frame", 0), 2, at);
+        assert_true((x + at[0]) * places[empty][0] > 0);
+        assert_true(at[1] * places[empty][1] > 0 || places[empty][1] < 0);
+        lmn_scene_destroy(&scene);
+    }
 }
 
 static void bursts_go_outward(void **state)
@@ -573,7 +719,9 @@ static void causes_are_shown(void **state)
     position(arrow, arrow->vertex_count - 1, tip);
     assert_near(tail[1], 0, 1e-3);
     assert_near(tip[1], 0, 1e-3);
-    assert_true(tail[0] > -1 && tail[0] < tip[0] && tip[0] <= 0);
+    /* The foot's face, from half a second before on. */
+    assert_near(tail[0], -2.2, 0.05);
+    assert_true(fabs(tip[0] + 0.7) < 0.35);
     for (uint32_t i = 0; i < ghost->vertex_count; i++) {
         double at[3];
         position(ghost, i, at);
@@ -676,7 +824,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
         scene = speaker_scene(true, true);
         target = "somebody";
         more = ", \"text\": \"Here I am again!\"";
-    } else if (strcmp(row, "camera-path") == 0 || strcmp(row, "shot-flow") == 0) {
+    } else if (strcmp(row, "camera-path") == 0 || strcmp(row, "shot-flow") == 0 || strcmp(row, "inset") == 0) {
         scene = drive_scene(false);
         target = "eye";
     } else if (strcmp(row, "explode") == 0) {
@@ -761,7 +909,7 @@ static void every_option_changes_its_signs(void **state)
         }
         lmn_scene_destroy(&scene);
     }
-    assert_int_equal(rows, 13);
+    assert_int_equal(rows, 14);
 }
 
 static void missing_memory_is_said_by_all(void **state)
@@ -806,6 +954,9 @@ int main(void)
         cmocka_unit_test(words_stand_in_lines),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
+        cmocka_unit_test(eyes_are_found),
+        cmocka_unit_test(insets_are_what_the_camera_sees),
+        cmocka_unit_test(insets_go_where_room_is),
         cmocka_unit_test(bursts_go_outward),
         cmocka_unit_test(stems_branch_smoothly),
         cmocka_unit_test(causes_are_shown),

@@ -507,6 +507,10 @@ CALL(lmn_depict_clear)
 {
     return lmn_depict_clear(P(0, w->scene), P(1, &w->error));
 }
+CALL(lmn_look_add_sign_rules)
+{
+    return lmn_look_add_sign_rules(P(0, w->look), P(1, &w->error));
+}
 CALL(lmn_depiction_at)
 {
     lmn_depiction_info info;
