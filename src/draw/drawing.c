@@ -2,13 +2,17 @@
 
 #include <string.h>
 
+#include "annotate/annotate.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "draw/exposure.h"
 #include "light/light.h"
+#include "export/export.h"
 #include "plan/refuse.h"
+#include "plan/unit.h"
 
-static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_error *error)
+/* `left` and `bottom`: of the drawing on the picture, which may be larger. */
+static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, int left, int bottom, lmn_error *error)
 {
     size_t stride = (size_t)d->width * 4;
     d->pixels = mem_alloc(stride * (size_t)d->height);
@@ -17,7 +21,7 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_
         mem_free(row);
         return error_memory(error);
     }
-    gpu_read(g, picture, d->pixels);
+    gpu_read_box(g, picture, (int[]){left, bottom, d->width, d->height}, d->pixels);
     for (int y = 0; y < d->height / 2; y++) {
         uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
         memcpy(row, top, stride);
@@ -25,7 +29,10 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_
         memcpy(bottom, row, stride);
     }
     mem_free(row);
-    return gpu_check(g, error);
+    lmn_status status = gpu_check(g, error);
+    return status == LMN_OK && d->annotations.item_count
+               ? export_paint(d->pixels, d->width, d->height, &d->annotations, error)
+               : status;
 }
 
 lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
@@ -39,7 +46,7 @@ lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
     if (d->kept->maps.on_gpu && !d->maps.depth && !frame_maps_read(&d->kept->maps, g, &d->maps))
         status = error_memory(error);
     if (status == LMN_OK)
-        status = read_pixels(d, g, d->kept->picture, error);
+        status = read_pixels(d, g, d->kept->picture, 0, 0, error);
     if (status != LMN_OK) {
         mem_free(d->pixels);
         d->pixels = NULL;
@@ -229,6 +236,29 @@ static lmn_status keep_facts(lmn_drawing *d, const lmn_renderer *r, const lmn_sc
     return drawing_refuse(s, scene, look, desc, &d->warnings, error);
 }
 
+/* What lies below the lines of a sheet gets that from the sheet. */
+static bool annotates(const lmn_look *look, const draw_options *options)
+{
+    return annotate_wanted(look) && !options->surfaces_only && !options->maps;
+}
+
+/* What is written beside the picture, laid out while its plan is there. */
+static lmn_status lay_annotations(lmn_drawing *d, const session *s, const lmn_draw_desc *desc, lmn_error *error)
+{
+    const double   per_mm = s->plan.pixels_per_mm / samples_side(desc);
+    annotated_view view = {.plan = &s->plan,
+                           .camera = &s->frame.camera,
+                           .box = {0, 0, d->width / per_mm, d->height / per_mm},
+                           .visible = d->part_pixels,
+                           .ground = s->plan.ground};
+    const char    *name;
+    bool           stated;
+    if (unit_find(NULL, s->plan.scene, &view.unit_mm, &name, &stated, error) != LMN_OK || !stated)
+        view.unit_mm = 0;
+    sheet_begin(&d->annotations, view.box[2], view.box[3], per_mm);
+    return annotate(&d->annotations, -1, &view, &d->warnings, error);
+}
+
 /* The extra frame of the maps: one sample a pixel. */
 static lmn_status draw_buffers(frame_maps *maps, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
                                const lmn_draw_desc *desc, lmn_error *error)
@@ -251,30 +281,30 @@ static lmn_status draw_buffers(frame_maps *maps, lmn_renderer *r, const lmn_scen
     return status;
 }
 
-/* The maps in memory, which are counted too. */
+/* The maps in memory, which are counted too, and kept where they are asked for. */
 static lmn_status draw_maps(lmn_drawing *d, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,
-                            const lmn_draw_desc *desc, lmn_error *error)
+                            const lmn_draw_desc *desc, bool kept, lmn_error *error)
 {
-    lmn_status status = frame_maps_create(&d->maps, desc->width, desc->height, desc->maps, error);
+    lmn_status status = frame_maps_create(&d->maps, desc->width, desc->height, kept, error);
     if (status == LMN_OK)
         status = draw_buffers(&d->maps, r, scene, look, desc, error);
-    if (status != LMN_OK)
-        return status;
-    d->part_pixels = mem_calloc(d->facts.part_count, sizeof *d->part_pixels);
-    if (!d->part_pixels)
-        return error_memory(error);
-    for (size_t i = 0, count = (size_t)desc->width * (size_t)desc->height; i < count; i++)
-        if (d->maps.id[i])
-            d->part_pixels[d->maps.id[i] - 1]++;
-    if (!desc->maps)
+    if (status == LMN_OK && !d->part_pixels) {
+        d->part_pixels = mem_calloc(scene->part_count + scene->ghost_count + 1, sizeof *d->part_pixels);
+        status = d->part_pixels ? LMN_OK : error_memory(error);
+        for (size_t i = 0, count = (size_t)desc->width * (size_t)desc->height; i < count && status == LMN_OK; i++)
+            if (d->maps.id[i])
+                d->part_pixels[d->maps.id[i] - 1]++;
+    }
+    if (!kept)
         frame_maps_release(&d->maps);
-    return LMN_OK;
+    return status;
 }
 
 /* The drawing whose frame is there. */
 typedef struct drawn_frame {
     lmn_drawing         *drawing;
     const lmn_draw_desc *desc;
+    bool                 annotated;
     double               start_ms;
 } drawn_frame;
 
@@ -300,11 +330,14 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     if (s->frame.lists_full)
         warnings_add(&d->warnings, WARNING_LAYER_MEMORY,
                      "layers did not fit into layers.memory and were peeled instead, which takes longer");
+    if (status == LMN_OK && drawn->annotated)
+        status = lay_annotations(d, s, desc, error);
     if (status == LMN_OK && d->kept) {
         d->kept->picture = s->out;
         s->out = NULL;
     } else if (status == LMN_OK) {
-        status = read_pixels(d, s->renderer->g, s->out, error);
+        status = read_pixels(d, s->renderer->g, s->out, s->frame.window[0] / s->frame.samples,
+                             s->frame.window[1] / s->frame.samples, error);
     }
     if (status != LMN_OK || !desc->profile)
         return status;
@@ -317,7 +350,7 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
 static lmn_status draw_frame(lmn_drawing *d, session *s, const lmn_look *look, const draw_options *options,
                              lmn_error *error)
 {
-    drawn_frame drawn = {d, options->desc, clock_ms()};
+    drawn_frame drawn = {d, options->desc, annotates(look, options), clock_ms()};
     exposure    e;
     lmn_status  status = exposure_find(&e, &s->plan, error);
     if (status == LMN_OK && e.technique) {
@@ -344,14 +377,22 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
     lmn_drawing         *d = mem_calloc(1, sizeof *d);
     if (!d)
         return error_memory(error);
-    d->width = desc->width;
-    d->height = desc->height;
+    bool windowed = desc->window[2] > 0;
+    d->width = windowed ? desc->window[2] : desc->width;
+    d->height = windowed ? desc->window[3] : desc->height;
     if (desc->textures && !(d->kept = mem_calloc(1, sizeof *d->kept))) {
         mem_free(d);
         return error_memory(error);
     }
     session    s;
-    lmn_status status = session_open(&s, r, scene, look, options, &d->warnings, error);
+    lmn_status status = annotates(look, options) && annotate_wants_visible(look)
+                            ? draw_maps(d, r, scene, look, desc, false, error)
+                            : LMN_OK;
+    if (status != LMN_OK) {
+        drawing_destroy(&d);
+        return status;
+    }
+    status = session_open(&s, r, scene, look, options, &d->warnings, error);
     if (status == LMN_OK && cancelled(desc, 0.3, "drawing"))
         status = error_set(error, LMN_CANCELLED, "cancelled");
     if (status == LMN_OK)
@@ -365,7 +406,7 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
         d->kept->maps.on_gpu = true;
         status = draw_buffers(&d->kept->maps, r, scene, look, desc, error);
     } else if (status == LMN_OK && (desc->maps || desc->profile)) {
-        status = draw_maps(d, r, scene, look, desc, error);
+        status = draw_maps(d, r, scene, look, desc, desc->maps, error);
     }
     kept_lend(d->kept, r);
     if (status != LMN_OK) {
@@ -395,6 +436,7 @@ void drawing_destroy(lmn_drawing **drawing)
         return;
     lmn_drawing *d = *drawing;
     mem_free(d->pixels);
+    sheet_release(&d->annotations);
     frame_maps_release(&d->maps);
     kept_release(d->kept);
     warnings_release(&d->warnings);

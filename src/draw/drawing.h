@@ -4,12 +4,14 @@
 
 #include "draw/session.h"
 #include "plan/facts.h"
+#include "sheet/sheet.h"
 
 struct lmn_drawing {
     int            width, height;
-    uint8_t       *pixels; /* RGBA, row 0 on top; NULL: kept on the GPU and not read back */
-    frame_maps     maps;   /* all NULL unless asked for */
-    kept_textures *kept;   /* NULL: none */
+    uint8_t       *pixels;      /* RGBA, row 0 on top; NULL: kept on the GPU and not read back */
+    sheet          annotations; /* laid over the picture when it is read back */
+    frame_maps     maps;        /* all NULL unless asked for */
+    kept_textures *kept;        /* NULL: none */
     warnings       warnings;
     /* for the report */
     report_facts facts;

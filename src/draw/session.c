@@ -126,6 +126,7 @@ static lmn_status bring_stage(lmn_renderer *r, const plan *p, const lmn_draw_des
              .crease_angle = p->crease_angle, .removed = p->has_removed, .needs = p->meshes, .section = &p->section};
     bool same_meshes = r->up.crease_angle == p->crease_angle && (r->up.needs.field || !p->meshes.field) &&
                        (r->up.needs.rest || !p->meshes.rest) && (r->up.needs.glue || !p->meshes.glue) &&
+                       (r->up.needs.walls || !p->meshes.walls) &&
                        (r->up.needs.patch == p->meshes.patch || p->meshes.patch == 0);
     bool there = r->up_valid && r->up.has_removed == p->has_removed && r->scene == scene &&
                  r->up.revision == scene->revision && same_meshes && moment_equal(&r->up.when, &r->pose.when) &&
@@ -293,6 +294,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->pixels_per_mm = s->plan.pixels_per_mm;
     f->width = desc->width * side;
     f->height = desc->height * side;
+    if (desc->window[2] > 0)
+        memcpy(f->window,
+               (int[]){desc->window[0] * side, (desc->height - desc->window[1] - desc->window[3]) * side,
+                       desc->window[2] * side, desc->window[3] * side},
+               sizeof f->window);
     f->ground = s->plan.ground;
     f->anchor = s->plan.box;
     f->seed = desc->seed;

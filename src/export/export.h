@@ -27,6 +27,11 @@ lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_dxf(export_bytes *out, const sheet *s, lmn_error *error);
 
+/* Lays a sheet over 8-bit RGBA pixels, row 0 on top, straight alpha, which it covers whole. Errors: LMN_MEMORY. */
+lmn_status export_paint(uint8_t *rgba, int width, int height, const sheet *s, lmn_error *error);
+/* How long one line of text of this size is, as sheet_add_text has it, in the unit of the size. Errors: LMN_MEMORY. */
+lmn_status export_text_width(double *out, const char *utf8, double size, lmn_error *error);
+
 /* A format of drawings: of pixels or of sheets, whichever writer it has. */
 typedef struct export_format {
     const char *ending;                         /* ".svg" */

@@ -13,6 +13,11 @@ typedef struct sheet_values {
     colour  ground, ink;
     int32_t paper, motion, paper_seed;
     float   grain, grain_size, pressure, relief;
+    /* src/annotate */
+    param_words labels, labels_by;
+    int32_t     labels_most;
+    float       label_size;
+    bool        legend, north_arrow, scale_bar;
 } sheet_values;
 
 /* How the model stands to the viewer, as far as a paper that goes with it wants to know. */

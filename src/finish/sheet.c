@@ -35,6 +35,23 @@ static const param params[] = {
                           "with it, while finer grain appears."),
     PARAM_INT_ROW(sheet_values, paper_seed, .def = 0, .min = 0, .max = 1000000, .soft_max = 100, .cpu_only = true,
                   .only_if = "paper", .doc = "Another sheet of the same kind."),
+    PARAM_TEXT_ROW(sheet_values, labels, .example = "name",
+                   .doc = "An attribute that is written beside the parts that state it and are seen, with leaders; "
+                          "'name' is what they are called. Labels keep clear of each other."),
+    PARAM_TEXT_ROW(sheet_values, labels_by, .example = "height", .only_if = "labels",
+                   .doc = "An attribute whose number says which labels are more important; empty: those of what shows "
+                          "most."),
+    PARAM_INT_ROW(sheet_values, labels_most, .def = 40, .min = 1, .max = 200, .soft_max = 80, .unit = UNIT_COUNT,
+                  .cpu_only = true, .only_if = "labels", .doc = "How many labels there are at most."),
+    PARAM_FLOAT_ROW(sheet_values, label_size, .def = 8, .min = 2, .max = 72, .soft_max = 16, .unit = UNIT_PT,
+                    .cpu_only = true, .along = true,
+                    .doc = "Size of letters in labels, the legend, and beside the north arrow and the scale bar."),
+    PARAM_BOOL_ROW(sheet_values, legend, .def = 0, .cpu_only = true,
+                   .doc = "The colours of scene.datum and what they mean, at the lower left."),
+    PARAM_BOOL_ROW(sheet_values, north_arrow, .def = 0, .cpu_only = true,
+                   .doc = "A needle that points north: along +Y where Z is up, along -Z where Y is."),
+    PARAM_BOOL_ROW(sheet_values, scale_bar, .def = 0, .cpu_only = true,
+                   .doc = "A bar as long as a round length, in parallel projection."),
 };
 
 static void describe(text *out, const void *values)

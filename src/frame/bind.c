@@ -133,6 +133,16 @@ static void set_focus(frame *f)
                            (float)(1 / ((double)v->focus_depth * range)), 0});
 }
 
+static void set_depth_cue(frame *f)
+{
+    double nearest, farthest;
+    find_depths(f, &nearest, &farthest);
+    nearest = fmax(nearest, f->camera.near);
+    gpu_set_vec4(f->g, "u_depth_cue",
+                 (float[]){((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->depth_cue, (float)nearest,
+                           (float)(1 / fmax(farthest - nearest, 1e-30)), 0});
+}
+
 /* Where the middle of all that is drawn lies on the page: strokes on the page move with it. */
 static void set_anchor(frame *f)
 {
@@ -190,6 +200,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_cut(f);
     if (gpu_has_uniform(g, "u_focus"))
         set_focus(f);
+    if (gpu_has_uniform(g, "u_depth_cue"))
+        set_depth_cue(f);
     if (gpu_has_uniform(g, "u_anchor"))
         set_anchor(f);
     if (gpu_has_uniform(g, "u_tone_range"))
@@ -356,8 +368,11 @@ const pass *rule_merged_detection(const rule *r)
 gpu_program *program_of(frame *f, gpu_dialect dialect, const char *vertex, const char *fragment, text *prelude)
 {
     text_append(prelude, "#define DIRECTION_APART %d\n#define TILE_PIXELS %d\n", DIRECTION_APART, TILE_PIXELS);
-    if (((const scene_values *)f->plan->look->wide[KIND_SCENE].values)->focus > 0)
+    const scene_values *scene = f->plan->look->wide[KIND_SCENE].values;
+    if (scene->focus > 0)
         text_append(prelude, "#define HAS_FOCUS\n");
+    if (scene->depth_cue > 0)
+        text_append(prelude, "#define HAS_DEPTH_CUE\n");
     if (f->tone_range.automatic)
         text_append(prelude, "#define RANGED\n");
     return view_program(f->g, dialect, vertex, fragment, prelude);

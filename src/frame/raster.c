@@ -14,7 +14,20 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
     return fig->designated[item->part_index] || (fig->complement && f->plan->opaque[item->part_index]);
 }
 
-/* The item's material; `capacity` holds it when it is painted in the figure's highlight. */
+/* Has its part another colour than its own, for what is known about it? */
+static bool shows_datum(const frame *f, const draw_item *item)
+{
+    return !item->is_cut && plan_datum_colour(f->plan, item->part_index);
+}
+
+static void set_datum(frame *f, const draw_item *item)
+{
+    float light[4];
+    uniforms_light(*plan_datum_colour(f->plan, item->part_index), light);
+    gpu_set_vec4(f->g, "u_base_colour", light);
+}
+
+/* The item's material; `capacity` holds it when it is painted in the figure's highlight or a datum's colour. */
 static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *capacity)
 {
     /* Formats without materials: a light neutral grey. */
@@ -24,10 +37,11 @@ static const material *material_of(const frame *f, const figure *fig, const draw
                                       .normal_scale = 1,
                                       .alpha_cutoff = 0.5f};
     const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
-    if (!(fig->highlight.a > 0))
+    const colour         *datum = shows_datum(f, item) ? plan_datum_colour(f->plan, item->part_index) : NULL;
+    if (!(fig->highlight.a > 0) && !datum)
         return own;
     float light[4];
-    uniforms_light(fig->highlight, light);
+    uniforms_light(fig->highlight.a > 0 ? fig->highlight : *datum, light);
     *capacity = *own;
     capacity->base_texture = standard.base_texture;
     capacity->base_colour = (vec4){light[0], light[1], light[2], light[3]};
@@ -49,12 +63,12 @@ static item_textures textures_of(frame *f, const draw_item *item, const material
 }
 
 static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m,
-                             item_textures t)
+                             item_textures t, bool datum)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     if (t.base || t.normal || (item->has_uvs && surface && shades_with_geometry(surface)))
         text_append(prelude, "#define HAS_UV\n");
-    if (item->has_colours)
+    if (item->has_colours && !datum)
         text_append(prelude, "#define HAS_COLOURS\n");
     if (item->has_uv1)
         text_append(prelude, "#define HAS_UV1\n");
@@ -258,8 +272,8 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool                has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_rest, has_past, ready;
-    uint32_t            triangles; /* drawn so far: orders what coincides */
+    bool has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_walls, has_rest, has_past, has_datum, ready;
+    uint32_t triangles; /* drawn so far: orders what coincides */
 } raster_setup;
 
 /* What programs of the geometry pass get, wherever their surfaces come from. */
@@ -307,6 +321,14 @@ static bool uses_patches(const raster_job *job, const figure_state *s, const dra
            surface->technique->surface->needs(surface->values).patch > 0;
 }
 
+/* Does the surface lay out facades on the item's walls? */
+static bool uses_walls(const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    return job->at.shade >= 0 && !item->is_cut && surface && surface->technique->surface->needs &&
+           surface->technique->surface->needs(surface->values).walls && gpu_mesh_has_walls(item->mesh);
+}
+
 /* Is anything tied to where the item is when nothing has moved? */
 static bool uses_rest(const raster_job *job, const figure_state *s, const draw_item *item)
 {
@@ -329,18 +351,22 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
-    bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh);
+    bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh), walls = uses_walls(job, s, item);
+    bool datum = shows_datum(f, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
-        field == last->has_field && patches == last->has_patches && rest == last->has_rest && past == last->has_past)
+        field == last->has_field && patches == last->has_patches && walls == last->has_walls &&
+        datum == last->has_datum && rest == last->has_rest && past == last->has_past)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures   t = textures_of(f, item, m);
     text            prelude = {0};
-    declare_material(&prelude, s, item, m, t);
+    declare_material(&prelude, s, item, m, t, datum);
     text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "",
                 field && !patches ? "#define HAS_FIELD\n" : "");
+    if (walls)
+        text_append(&prelude, "#define HAS_WALLS\n");
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
     if (past)
@@ -361,6 +387,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
                            .is_cut = item->is_cut,
                            .has_field = field,
                            .has_patches = patches,
+                           .has_walls = walls,
+                           .has_datum = datum,
                            .has_rest = rest,
                            .has_past = past,
                            .ready = true,
@@ -425,7 +453,7 @@ static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_i
     const material *m = material_of(f, s->figure, item, &tinted);
     item_textures   t = textures_of(f, item, m);
     text            prelude = {0};
-    declare_material(&prelude, s, item, m, t);
+    declare_material(&prelude, s, item, m, t, shows_datum(f, item));
     text_append(&prelude, "#define UNWRAPPED\n");
     lights_declare(&prelude, f);
     uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
@@ -482,6 +510,10 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
         gpu_set_float(f->g, "u_nearer", 2 * item->nearer);
     if (last->has_patches)
         gpu_set_float(f->g, "u_patch_radius", item->patch_radius);
+    if (last->has_walls)
+        gpu_set_ivec2(f->g, "u_building", item->building.storeys, (int)item->building.use);
+    if (last->has_datum)
+        set_datum(f, item);
     gpu_draw_mesh(f->g, last->has_patches ? item->lapped : item->mesh);
     last->triangles += gpu_mesh_triangles(item->mesh);
 }
@@ -635,8 +667,8 @@ void raster_figure(frame *f, figure_state *s)
     const figure *fig = s->figure;
     stopwatch     w = watch_start(&f->profile);
     gpu_pass      pass = {0};
-    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    memcpy(pass.scissor, s->drawn[0], sizeof pass.scissor);
+    memcpy(pass.clear_box, s->drawn[1], sizeof pass.clear_box);
     outputs o =
         open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
     if (!gpu_failed(f->g)) {

@@ -2,6 +2,7 @@
  * pictures. Pixels tell that surfaces part, records where. Persson's geometric post-process antialiasing (2011) does
  * the same for edges of triangles. */
 #include "base/memory.h"
+#include "base/paper.h"
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
 
@@ -55,12 +56,22 @@ static gpu_program *program(frame *f, const figure_state *s, const pass *p, cons
     return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
 }
 
+/* Pixels tell all that there is about parts no larger than this, points of paper. */
+#define SMALLEST_PART 8.0
+
+static bool is_drawn(const frame *f, const figure_state *s, const stroke_item *item)
+{
+    double smallest = SMALLEST_PART * MM_PER_POINT * f->pixels_per_mm;
+    return s->figure->designated[item->part_index] &&
+           camera_size_of(&f->camera, f->up->pose->part_boxes[item->part_index], f->height) >= smallest;
+}
+
 static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use)
 {
     gpu_program *drawing = program(f, s, p, use);
     /* Before the pass begins: making records takes the place of what is bound. */
     for (uint32_t i = 0; i < store->scene.item_count; i++)
-        if (s->figure->designated[store->scene.items[i].part_index])
+        if (is_drawn(f, s, &store->scene.items[i]))
             edges_bring(f, store, i, false);
     open_pictures(f, s, p);
     if (drawing && !gpu_failed(f->g)) {
@@ -74,7 +85,7 @@ static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, 
         gpu_set_int(f->g, "u_inside", f->plan->has_cut || f->up->has_removed || !eye_is_outside(f));
         gpu_settle(f->g);
         for (uint32_t i = 0; i < store->scene.item_count; i++)
-            if (s->figure->designated[store->scene.items[i].part_index])
+            if (is_drawn(f, s, &store->scene.items[i]))
                 edges_draw(f, store, i, false);
     }
 }

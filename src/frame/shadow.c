@@ -5,15 +5,15 @@
 
 #include "light/light.h"
 
-enum { SHADOW_SIDE_MOST = 2048, SHADOW_SIDE_LEAST = 256 };
+enum { SHADOW_SIDE_MOST = 4096, SHADOW_SIDE_LEAST = 512 };
 
-/* Twice as fine as the picture, about; half of that is enough for soft borders. */
+/* Four times as fine as the picture, about; a quarter of that is enough for soft borders. */
 static int side_of(const frame *f, bool soft)
 {
     int longest = f->width > f->height ? f->width : f->height, side = SHADOW_SIDE_LEAST;
-    while (side < SHADOW_SIDE_MOST && side < 2 * longest)
+    while (side < SHADOW_SIDE_MOST && side < 4 * longest)
         side *= 2;
-    return soft ? side / 2 : side;
+    return soft ? side / 4 : side;
 }
 
 static double dot(const double a[3], const double b[3])
@@ -34,22 +34,69 @@ static void scale_to(double v[3], double length)
         v[k] *= length / (own > 0 ? own : 1);
 }
 
-/* An eye that looks along the light, with parallel rays, at the whole box. `back`: world axes, towards the light. */
-static view_camera camera_of_light(box3 box, const double back[3])
+/* A rectangle across the light: least and most along its two axes. */
+typedef struct light_window {
+    double least[2], most[2];
+} light_window;
+
+static void widen(light_window *w, const double *const axes[2], const double point[3])
+{
+    for (int i = 0; i < 2; i++) {
+        w->least[i] = fmin(w->least[i], dot(axes[i], point));
+        w->most[i] = fmax(w->most[i], dot(axes[i], point));
+    }
+}
+
+/* Where what the viewer sees lies: no other place is asked for, whatever throws its shadow there. */
+static light_window window_of_view(const view_camera *c, const double *const axes[2])
+{
+    light_window  out = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    const double *m = c->view.m, *p = c->projection.m;
+    for (int corner = 0; corner < 8; corner++) {
+        double depth = corner & 4 ? c->far : c->near, away = c->orthographic ? 1 : depth;
+        double eye[3] = {(corner & 1 ? 1 : -1) * away / p[0], (corner & 2 ? 1 : -1) * away / p[5], -depth}, world[3];
+        for (int k = 0; k < 3; k++)
+            eye[k] -= m[12 + k];
+        for (int k = 0; k < 3; k++)
+            world[k] = m[4 * k] * eye[0] + m[4 * k + 1] * eye[1] + m[4 * k + 2] * eye[2];
+        widen(&out, axes, world);
+    }
+    return out;
+}
+
+static light_window window_of_box(box3 box, const double *const axes[2])
+{
+    light_window out = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (int corner = 0; corner < 8; corner++) {
+        const double point[3] = {(double)(corner & 1 ? box.max.x : box.min.x),
+                                 (double)(corner & 2 ? box.max.y : box.min.y),
+                                 (double)(corner & 4 ? box.max.z : box.min.z)};
+        widen(&out, axes, point);
+    }
+    return out;
+}
+
+/* An eye that looks along the light, with parallel rays, at the whole box, or at what a viewer (may be NULL) sees of
+ * it. `back`: world axes, towards the light. */
+static view_camera camera_of_light(box3 box, const double back[3], const view_camera *viewer)
 {
     double seed[3] = {0, 0, 0}, right[3], up[3];
     seed[fabs(back[0]) < 0.6 ? 0 : 1] = 1;
     cross(seed, back, right);
     scale_to(right, 1);
     cross(back, right, up);
-    double middle[3];
-    box3_middle(box, middle);
-    double        half[3] = {((double)box.max.x - (double)box.min.x) / 2, ((double)box.max.y - (double)box.min.y) / 2,
-                             ((double)box.max.z - (double)box.min.z) / 2};
-    double        reach = sqrt(dot(half, half)), side = 0;
     const double *axes[2] = {right, up};
-    for (int i = 0; i < 2; i++)
-        side = fmax(side, half[0] * fabs(axes[i][0]) + half[1] * fabs(axes[i][1]) + half[2] * fabs(axes[i][2]));
+    double        middle[3], reach = box3_diagonal(box) / 2, side = 0;
+    box3_middle(box, middle);
+    light_window w = window_of_box(box, axes), seen = viewer ? window_of_view(viewer, axes) : w;
+    for (int i = 0; i < 2; i++) {
+        double least = fmax(w.least[i], seen.least[i]), most = fmin(w.most[i], seen.most[i]);
+        bool   any = most > least;
+        double at = any ? (least + most) / 2 : (w.least[i] + w.most[i]) / 2, off = at - dot(axes[i], middle);
+        side = fmax(side, (any ? most - least : w.most[i] - w.least[i]) / 2);
+        for (int k = 0; k < 3; k++)
+            middle[k] += off * axes[i][k];
+    }
     view_camera c = {
         .orthographic = true, .aspect = 1, .half_height = side > 0 ? side * 1.01 : 1, .view = mat4_identity()};
     for (int k = 0; k < 3; k++) {
@@ -65,6 +112,18 @@ static view_camera camera_of_light(box3 box, const double back[3])
     c.view.m[14] = -dot(back, c.eye);
     camera_set_range(&c, reach > 0 ? reach * 0.99 : 0.5, reach > 0 ? reach * 3.01 : 2);
     return c;
+}
+
+/* Is light asked for away from the page: in mirrors, or on surfaces laid out by their texture coordinates? */
+static bool is_seen_elsewhere(const frame *f)
+{
+    for (size_t i = 0; i < f->plan->figure_count; i++) {
+        const figure        *fig = &f->plan->figures[i];
+        const technique_use *surface = rule_use(fig->rule, KIND_SURFACE);
+        if (fig->reflects || fig->mover || (surface && surface->technique->surface->light_map_when))
+            return true;
+    }
+    return false;
 }
 
 static bool rule_reads_shadow(const rule *r)
@@ -100,15 +159,17 @@ void shadow_draw(frame *f)
     for (int k = 0; k < 3; k++) /* the view's rotation, backwards */
         back[k] = dot(&f->camera.view.m[4 * k], towards);
     scale_to(back, 1);
+    bool      hard = read || !(v->shadow_softness > 0);
     stopwatch w = watch_start(&f->profile);
     frame     light = *f;
-    light.camera = f->shadow_camera = camera_of_light(f->plan->box, back);
-    light.width = light.height = side_of(f, !read && v->shadow_softness > 0);
+    light.camera = f->shadow_camera =
+        camera_of_light(f->plan->box, back, hard && !is_seen_elsewhere(f) ? &f->camera : NULL);
+    light.width = light.height = side_of(f, !hard);
     light.maps = NULL;
     gpu_texture *depth = frame_acquire_sized(f, TARGET_SHADOW, light.width, light.height);
     light.page_depth = depth; /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
-        raster_depth(&light, depth);
+        raster_depth_of(&light, depth, f->plan->throws);
     f->shadow = depth;
     if (v->shadows)
         movers_throw_shadows(f);

@@ -268,6 +268,11 @@ void gpu_settle(gpu *g)
         gpu_finish(g);
 }
 
+bool gpu_mesh_has_walls(const gpu_mesh *m)
+{
+    return m && m->has_walls;
+}
+
 bool gpu_mesh_has_rest(const gpu_mesh *m)
 {
     return m && m->has_rest;
@@ -320,7 +325,8 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
         glEnableVertexAttribArray(5);
     }
     add_tensors(m, data);
-    add_attribute(m, 8, 4, data->vertex_count, data->patches);
+    add_attribute(m, 8, 4, data->vertex_count, data->walls ? data->walls : data->patches);
+    m->has_walls = data->walls != NULL;
     add_attribute(m, 9, 3, data->vertex_count, data->rest);
     m->has_rest = data->rest != NULL;
     for (unsigned k = 0; k < GPU_PAST_MAX; k++)
@@ -345,7 +351,8 @@ bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
 {
     if (g->failed || !m || m->vertex_count != data->vertex_count || m->index_count != data->index_count ||
         m->glue_count != data->glue_count || m->has_tensors != (data->tensors != NULL) ||
-        m->has_rest != (data->rest != NULL) || m->has_past != (data->past[0] != NULL))
+        m->has_walls != (data->walls != NULL) || m->has_rest != (data->rest != NULL) ||
+        m->has_past != (data->past[0] != NULL))
         return false;
     for (int k = 1; k < GPU_PAST_MAX; k++)
         if ((m->buffers[10 + k] != 0) != (data->past[k] != NULL))
@@ -353,9 +360,11 @@ bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
     const struct {
         int         buffer, components;
         const void *values;
-    } rows[] = {{0, 3, data->positions}, {1, 3, data->normals}, {2, 2, data->uvs[0]},
-                {3, 2, data->uvs[1]},    {4, 4, data->colours}, {5, 1, data->keys},
-                {6, 6, data->tensors},   {8, 4, data->patches}, {9, 3, data->rest}};
+    } rows[] = {{0, 3, data->positions}, {1, 3, data->normals},
+                {2, 2, data->uvs[0]},    {3, 2, data->uvs[1]},
+                {4, 4, data->colours},   {5, 1, data->keys},
+                {6, 6, data->tensors},   {8, 4, data->walls ? data->walls : data->patches},
+                {9, 3, data->rest}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         rewrite(m, rows[i].buffer, rows[i].components, rows[i].values);
     for (int k = 0; k < GPU_PAST_MAX; k++)

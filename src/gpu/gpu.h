@@ -146,6 +146,7 @@ typedef struct gpu_mesh_data {
     const float    *positions, *normals, *uvs[2], *colours;
     const float    *tensors;            /* six numbers a vertex: locations 6 and 7 */
     const float    *patches;            /* four numbers a vertex: location 8 */
+    const float    *walls;              /* likewise, in meshes without patches: location 8, too */
     const float    *rest;               /* positions when nothing has moved: location 9 */
     const float    *past[GPU_PAST_MAX]; /* positions earlier: locations 10 and up */
     const uint32_t *keys;               /* a number a vertex; that of a triangle's last corner is the triangle's */
@@ -156,10 +157,12 @@ typedef struct gpu_mesh_data {
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data);
 void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 /* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
- * mesh has as many vertices and indices, and tensors and positions at rest and earlier just where these are given. */
+ * mesh has as many vertices and indices, and tensors, walls and positions at rest and earlier just where these are
+ * given. */
 bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
 uint32_t gpu_mesh_triangles(const gpu_mesh *m);
 bool     gpu_mesh_has_tensors(const gpu_mesh *m);
+bool     gpu_mesh_has_walls(const gpu_mesh *m);
 bool     gpu_mesh_has_rest(const gpu_mesh *m);
 bool     gpu_mesh_has_past(const gpu_mesh *m);
 

@@ -49,7 +49,7 @@ enum { GPU_BUFFERS = 15 };
 struct gpu_mesh {
     GLuint   array, buffers[GPU_BUFFERS];           /* by attribute, the last for indices */
     uint32_t index_count, glue_count, vertex_count; /* glue: behind the indices */
-    bool     has_colours, has_tensors, has_rest, has_past;
+    bool     has_colours, has_tensors, has_walls, has_rest, has_past;
 };
 
 struct gpu_marks {

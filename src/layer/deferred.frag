@@ -4,6 +4,10 @@
 #include "light/cut.glsl"
 #endif
 
+#ifdef HAS_DEPTH_CUE
+#include "light/depth_cue.glsl"
+#endif
+
 layout(location = 0) out vec4 out_shade;
 
 vec4 shade_of(ivec2 pixel, uvec2 id)
@@ -17,6 +21,9 @@ vec4 shade_of(ivec2 pixel, uvec2 id)
     vec4 shade = surface_colour(surface_point(eye, normal, albedo, false, id.r));
 #else
     vec4 shade = surface_colour(surface_point(eye, normal, vec4(albedo.rgb, 1.0), albedo.a == ALBEDO_UNLIT, id.r));
+#ifdef HAS_DEPTH_CUE
+    shade = depth_cued(shade, normal_depth.w);
+#endif
 #endif
 #ifdef HAS_CUT
     if ((id.g & SURFACE_CUT) != 0u)

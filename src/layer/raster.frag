@@ -80,6 +80,9 @@ bool outside_patch()
 }
 #endif
 
+#if defined(AT_SHADE) && defined(HAS_DEPTH_CUE)
+#include "light/depth_cue.glsl"
+#endif
 #if defined(INKED) && defined(HAS_FOCUS)
 #include "light/focus.glsl"
 #endif
@@ -199,6 +202,9 @@ void main()
 #endif
 #endif
     out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0, 0u));
+#ifdef HAS_DEPTH_CUE
+    out_shade = depth_cued(out_shade, -v_eye.z);
+#endif
 #if defined(SOLID) && defined(HAS_CUT)
     if (surface_is_cut)
         out_shade = cut_colour(ivec2(gl_FragCoord.xy), uvec2(u_part_id, surface_id), albedo.rgb);

@@ -15,6 +15,11 @@ layout(location = 8) in vec4 a_patch; /* src/field/lapped.h */
 out vec4 v_patch;
 #endif
 
+#ifdef HAS_WALLS
+layout(location = 8) in vec4 a_wall; /* src/stage/upload_walls.c */
+out vec4 v_wall;
+#endif
+
 #ifdef HAS_REST
 layout(location = 9) in vec3 a_rest;
 out vec3 v_rest;
@@ -78,6 +83,9 @@ void main()
 #endif
 #ifdef HAS_PATCHES
     v_patch = a_patch;
+#endif
+#ifdef HAS_WALLS
+    v_wall = a_wall;
 #endif
 #ifdef HAS_REST
     v_rest = a_rest;

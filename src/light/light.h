@@ -27,6 +27,12 @@ typedef struct scene_values {
     bool        ground_flat;
     colour      ground_colour;
     float       focus, focus_at, focus_depth;
+    float       depth_cue;
+    param_words datum, datum_words;
+    palette     datum_palette;
+    float       datum_from, datum_to;
+    int32_t     datum_classes;
+    colour      datum_other;
     param_words cut, cut_keep;
     float       cut_hatch, cut_angle, cut_width;
     colour      cut_colour, cut_fill;

@@ -16,6 +16,9 @@ in vec3 v_field_sides;
 #ifdef HAS_REST
 in vec3 v_rest; /* where it is when nothing has moved, in its part's frame */
 #endif
+#ifdef HAS_WALLS
+in vec4 v_wall; /* src/stage/upload_walls.c */
+#endif
 #ifdef HAS_PATCHES
 in vec4 v_patch;
 uniform float u_patch_radius;

@@ -210,7 +210,8 @@ static bool mesh_needs_differ(const surface_row *s, const void *a, const void *b
     if (!s->needs)
         return false;
     mesh_needs one = s->needs(a), other = s->needs(b);
-    return one.field != other.field || one.patch != other.patch || one.rest != other.rest || one.glue != other.glue;
+    return one.field != other.field || one.patch != other.patch || one.rest != other.rest || one.walls != other.walls ||
+           one.glue != other.glue;
 }
 
 /* Are other shapes made from those of the scene? */

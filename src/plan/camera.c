@@ -342,6 +342,27 @@ void camera_depth_range(const view_camera *c, box3 box, double *nearest, double 
     }
 }
 
+double camera_size_of(const view_camera *c, box3 box, int height)
+{
+    double        middle[3], eye[3], radius = box3_diagonal(box) / 2;
+    const double *m = c->view.m, *p = c->projection.m;
+    box3_middle(box, middle);
+    for (int k = 0; k < 3; k++)
+        eye[k] = m[k] * middle[0] + m[4 + k] * middle[1] + m[8 + k] * middle[2] + m[12 + k];
+    double depth = -eye[2];
+    /* Planes through the eye lean by 1 / projection: what lies beyond them by more than the radius is not seen. */
+    for (int k = 0; k < 2; k++) {
+        double scale = p[5 * k];
+        double beyond = c->orthographic ? fabs(eye[k] * scale) - 1 : fabs(eye[k]) * scale - depth;
+        double reach = c->orthographic ? radius * scale : radius * sqrt(scale * scale + 1);
+        if (beyond > reach)
+            return 0;
+    }
+    if (c->orthographic)
+        return radius * p[5] * height;
+    return depth > radius ? radius * p[5] * height / depth : depth < -radius ? 0 : INFINITY;
+}
+
 void camera_set_range(view_camera *c, double nearest, double farthest)
 {
     double range = farthest - nearest, size = fmax(fabs(nearest), fabs(farthest));

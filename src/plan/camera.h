@@ -27,6 +27,10 @@ lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose 
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */
 void camera_set_range(view_camera *camera, double nearest, double farthest);
 
+/* How large a ball around a box is on a page of this height, pixels; 0 where nothing of it is seen, infinite where it
+ * may reach the eye. */
+double camera_size_of(const view_camera *camera, box3 box, int height);
+
 /* Widens a range of eye depths by the corners of a box (world axes). Start with INFINITY and −INFINITY. */
 void camera_depth_range(const view_camera *camera, box3 box, double *nearest, double *farthest);
 

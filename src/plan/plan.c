@@ -316,7 +316,9 @@ static void share_parts(plan *p)
         if (!p->selected[i])
             continue;
         bool ghost = p->scene->parts[i].ghost;
-        if (!ghost)
+        if (!ghost && node_is_overlay(&p->scene->nodes[p->scene->parts[i].node]))
+            p->box = box3_union(p->box, p->pose->part_boxes[i]);
+        else if (!ghost)
             fit_to(p, i, false);
         for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
             const selector *s = look->rules[r].selector;
@@ -327,6 +329,7 @@ static void share_parts(plan *p)
         if (ghost && taken)
             fit_to(p, i, true);
         p->selected[i] = taken;
+        p->throws[i] = taken && node_throws_shadow(&p->scene->nodes[p->scene->parts[i].node]);
         p->selected_count -= !taken;
     }
 }
@@ -546,6 +549,7 @@ static mesh_needs needs_of(const lmn_look *look, const pose *pose)
         all.field = all.field || own.field;
         all.patch = own.patch > 0 ? own.patch : all.patch;
         all.rest = all.rest || own.rest;
+        all.walls = all.walls || own.walls;
     }
     return all;
 }
@@ -587,12 +591,13 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);
     out->selected = mem_calloc(out->part_count, sizeof *out->selected);
     out->fitted = mem_calloc(out->part_count, sizeof *out->fitted);
+    out->throws = mem_calloc(out->part_count, sizeof *out->throws);
     out->ghost_boxes = mem_calloc(out->part_count, sizeof *out->ghost_boxes);
     out->opaque = mem_calloc(out->part_count, sizeof *out->opaque);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
     if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules || !out->fitted ||
-        !out->ghost_boxes)
+        !out->throws || !out->ghost_boxes)
         return error_memory(error);
     out->fit = (fit_body){pose, out->fitted, out->ghost_boxes, out->part_count, box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
@@ -633,13 +638,21 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
         return status;
     share_parts(out);
     warn_of_idle_rules(out, options->parts_only && pose->ghost_count > 0, warnings);
-    return options->parts_only ? LMN_OK : plan_figures(out, options, warnings, error);
+    status = datum_make(&out->datum, out->scene, out->look->wide[KIND_SCENE].values, out->selected, out->part_count,
+                        warnings, error);
+    return status == LMN_OK && !options->parts_only ? plan_figures(out, options, warnings, error) : status;
 }
 
 const rule *plan_rule(const plan *p, size_t part_index)
 {
     int32_t index = p->rule_of[part_index];
     return index != NONE ? &p->look->rules[index] : NULL;
+}
+
+const colour *plan_datum_colour(const plan *p, size_t part_index)
+{
+    const colour *c = p->datum.colours && part_index < p->part_count ? &p->datum.colours[part_index] : NULL;
+    return c && c->a > 0 ? c : NULL;
 }
 
 void plan_camera_range(const plan *p, view_camera *camera, warnings *warnings)
@@ -667,8 +680,10 @@ void plan_release(plan *p)
     mem_free(p->figures);
     mem_free(p->rule_of);
     section_release(&p->section);
+    datum_release(&p->datum);
     mem_free(p->selected);
     mem_free(p->fitted);
+    mem_free(p->throws);
     mem_free(p->ghost_boxes);
     mem_free(p->opaque);
     paper_look_destroy(&p->own_look);

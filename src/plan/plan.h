@@ -5,6 +5,7 @@
 #include "layer/layer.h"
 #include "look/look.h"
 #include "plan/camera.h"
+#include "plan/datum.h"
 #include "plan/section.h"
 #include "pose/pose.h"
 
@@ -51,10 +52,12 @@ typedef struct plan {
     size_t   selected_count, opaque_count;
     box3     box;         /* of the selection, before it is cut */
     fit_body fit;         /* what the picture is fitted to: the same, or where it comes over time */
+    bool    *throws;      /* per part: it is drawn and throws a shadow */
     bool    *fitted;      /* per part: it is a part of that */
     box3    *ghost_boxes; /* per part: of ghosts, what of them counts for it */
     /* figures */
     colour  ground; /* of the page */
+    datum   datum;  /* shown as the parts' colours */
     rule   *rules;  /* the look's, and variants of them */
     size_t  rule_count;
     figure *figures; /* drawn in this order: direct ones, others, mirrors, what is seen through, movers; among
@@ -83,6 +86,9 @@ void plan_settle(plan *p, bool as_sprites);
 
 /* The look's rule that draws a part; NULL: none does. */
 const rule *plan_rule(const plan *p, size_t part_index);
+
+/* The colour that a part has for what is known about it; NULL: its own. */
+const colour *plan_datum_colour(const plan *p, size_t part_index);
 
 /* The planes between which all that is drawn lies. Warns of a model behind the viewer. */
 void plan_camera_range(const plan *p, view_camera *camera, warnings *warnings);

@@ -231,6 +231,17 @@ bool scene_is_hidden(const lmn_scene *s, int32_t index)
     return index != NONE;
 }
 
+const char *scene_attribute_of(const lmn_scene *scene, int32_t node_index, const char *key)
+{
+    for (; node_index >= 0 && (size_t)node_index < scene->node_count; node_index = scene->nodes[node_index].parent) {
+        const node *n = &scene->nodes[node_index];
+        for (size_t i = 0; i < n->attribute_count; i++)
+            if (strcmp(n->attributes[i].key, key) == 0)
+                return n->attributes[i].value ? n->attributes[i].value : "";
+    }
+    return NULL;
+}
+
 lmn_status scene_set_attribute(lmn_scene *s, int32_t index, const char *key, const char *value, lmn_error *error)
 {
     node  *n = &s->nodes[index];

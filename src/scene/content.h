@@ -32,6 +32,10 @@ void scene_hide_node(lmn_scene *scene, int32_t node_index, bool hidden);
 /* Is a node hidden, or one above it? */
 bool scene_is_hidden(const lmn_scene *scene, int32_t node_index);
 
+/* What the nearest node on the way to the root that states the key says, so that what a file says about an assembly
+ * holds for its parts. Lent; NULL: none states it. */
+const char *scene_attribute_of(const lmn_scene *scene, int32_t node_index, const char *key);
+
 /* Sets an attribute (value NULL: takes it away); copies both. Errors: LMN_MEMORY. */
 lmn_status scene_set_attribute(lmn_scene *scene, int32_t node_index, const char *key, const char *value,
                                lmn_error *error);

@@ -12,6 +12,12 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
         v->at_rest ? upload_rest_positions(u, job->part_index, v->at_rest, v->now->vertex_count) : NULL;
     lmn_status status = v->at_rest && !rest_positions ? error_memory(error) : LMN_OK;
     v->rest_positions = rest_positions;
+    upload_walls walls = {.indices = NULL};
+    if (status == LMN_OK && u->needs.walls && !v->at_rest && !v->past[0]) {
+        status = upload_find_walls(&walls, u, job, v->now, error);
+        v->now = &walls.data;
+        v->walls = (const float *)walls.numbers;
+    }
     if (status == LMN_OK && u->needs.field) {
         status = upload_with_field(u, g, job, i, v, error);
     } else if (status == LMN_OK) {
@@ -22,6 +28,7 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
         mem_free((void *)(uintptr_t)with.glue);
     }
     mem_free(rest_positions);
+    upload_walls_release(&walls);
     return status == LMN_OK ? gpu_check(g, error) : status;
 }
 
@@ -108,6 +115,8 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     if (!job->meshes[i])
         status = upload_primitive(u, g, job, i, error);
     draw_item item = upload_item(job, i);
+    if (u->needs.walls)
+        item.building = building_facts_of(u->pose->scene, u->pose->scene->parts[job->part_index].node);
     item.mesh = job->meshes[i];
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);

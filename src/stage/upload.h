@@ -6,6 +6,7 @@
 #include "stage/mark_sets.h"
 #include "stage/stroke_store.h"
 #include "gpu/gpu.h"
+#include "plan/building.h"
 #include "plan/section.h"
 #include "technique/technique.h"
 #include "pose/pose.h"
@@ -64,19 +65,20 @@ typedef struct upload_shape {
 
 /* One draw call: a primitive of a part at one position. */
 typedef struct draw_item {
-    gpu_mesh *mesh, *lapped; /* lapped: NULL: there is none */
-    float     patch_radius;
-    mat4      world, past[POSE_PAST_MAX]; /* past: where it was earlier, as many as the pose has */
-    uint32_t  part_id, surface_id;
-    size_t    part_index;
-    int32_t   material;
-    bool      has_uvs, has_uv1, has_colours;
-    bool      is_solid;                     /* operands of a solid: nothing of them is drawn as it is */
-    size_t    solid;                        /* in the upload's solids */
-    uint32_t  first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
-    uint32_t  first_plane, plane_count;
-    box3      reach;  /* world axes; of all operands, what is taken away too */
-    bool      is_cut; /* a cut face: unlit, hatched */
+    gpu_mesh      *mesh, *lapped; /* lapped: NULL: there is none */
+    float          patch_radius;
+    mat4           world, past[POSE_PAST_MAX]; /* past: where it was earlier, as many as the pose has */
+    uint32_t       part_id, surface_id;
+    size_t         part_index;
+    int32_t        material;
+    bool           has_uvs, has_uv1, has_colours;
+    building_facts building;                     /* where walls are asked for */
+    bool           is_solid;                     /* operands of a solid: nothing of them is drawn as it is */
+    size_t         solid;                        /* in the upload's solids */
+    uint32_t       first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
+    uint32_t       first_plane, plane_count;
+    box3           reach;  /* world axes; of all operands, what is taken away too */
+    bool           is_cut; /* a cut face: unlit, hatched */
     float nearer; /* window depth by which it is drawn nearer, so that cut faces of parts that overlap do not flicker */
 } draw_item;
 

@@ -20,6 +20,7 @@ gpu_mesh_data upload_data_over_time(const upload_vertices *v)
 {
     gpu_mesh_data data = upload_data_of(v->now);
     data.rest = (const float *)v->rest_positions;
+    data.walls = v->walls;
     for (int k = 0; k < POSE_PAST_MAX; k++)
         data.past[k] = (const float *)v->past[k];
     return data;

@@ -27,6 +27,7 @@ void upload_set_past(const upload *u, draw_item *item, size_t instance);
 /* The vertices of a primitive at several times. */
 typedef struct upload_vertices {
     const vertex_arrays *now;
+    const float         *walls;               /* four numbers a vertex, upload_walls.c; NULL: nobody asks */
     const vec3          *at_rest;             /* the same vertices; NULL: nobody asks, or it is that */
     const vec3          *past[POSE_PAST_MAX]; /* likewise; as many as there are */
     const vec3          *rest_positions;      /* of at_rest, in its part's frame */
@@ -55,6 +56,19 @@ lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job
                              const upload_vertices *v, lmn_error *error);
 /* Of the patches of a mesh with these bounds. */
 float upload_patch_radius(const upload *u, box3 bounds);
+
+/* --- upload_walls.c --- */
+/* A primitive with vertices of their own for each of its walls. */
+typedef struct upload_walls {
+    vertex_arrays data; /* points into the rest */
+    float        *positions, *normals, *colours, *uvs[UV_SETS];
+    uint32_t     *indices;
+    float (*numbers)[4];
+} upload_walls;
+/* Of what is not deformed. Errors: LMN_MEMORY. Release it also after one. */
+lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_part_job *job, const vertex_arrays *data,
+                             lmn_error *error);
+void       upload_walls_release(upload_walls *w);
 
 /* --- part_frames.c --- */
 /* Where the vertices of a deformed part are when nothing has moved, in its part's frame; free with mem_free. NULL when

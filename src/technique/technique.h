@@ -89,6 +89,7 @@ typedef struct mesh_needs {
     bool  field; /* the direction in which surfaces bend */
     float patch; /* radius of patches that cover them, fraction of a mesh's diagonal; 0: none */
     bool  rest;  /* where vertices of deformed parts are when nothing has moved */
+    bool  walls; /* where on a wall a vertex of an upright face lies */
     bool  glue;  /* patches between the two sides of hard edges, which motion pulls apart */
 } mesh_needs;
 

@@ -116,29 +116,6 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
     }
 }
 
-lmn_status vector_parse_unit(const char *text, const lmn_scene *scene, double *mm, const char **name, bool *stated,
-                             lmn_error *error)
-{
-    static const struct {
-        const char *name;
-        double      mm;
-    } units[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}};
-    char ending[16] = "";
-    if (!text && scene->file_count)
-        file_ending(scene->files[0], ending, sizeof ending);
-    bool metres = strcmp(ending, ".gltf") == 0 || strcmp(ending, ".glb") == 0;
-    *stated =
-        text || metres || strcmp(ending, ".stl") == 0 || strcmp(ending, ".csg") == 0 || strcmp(ending, ".scad") == 0;
-    const char *wanted = text ? text : metres ? "m" : "mm";
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(units[i].name, wanted) == 0) {
-            *mm = units[i].mm;
-            *name = units[i].name;
-            return LMN_OK;
-        }
-    return error_set(error, LMN_USAGE, "the unit is '%.40s'; allowed is mm, cm, m or in", wanted);
-}
-
 /* The largest of these, times a power of ten, that is no larger. */
 static double from_series(const double *series, size_t count, double value)
 {

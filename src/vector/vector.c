@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "annotate/annotate.h"
 #include "base/clock.h"
 #include "base/limits.h"
 #include "base/memory.h"
@@ -13,6 +14,7 @@
 #include "plan/plan.h"
 #include "plan/refuse.h"
 #include "plan/time.h"
+#include "plan/unit.h"
 #include "vector/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
@@ -38,6 +40,7 @@ typedef struct vector_job {
     bool                  lines_only, pixels, usual_scale;
     double                scale; /* 0: as large as fits */
     double                unit_mm;
+    bool                  unit_stated;
     bool                 *stroked; /* per part: drawn by some rule, and no solid */
     stroke_scene          strokes;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
@@ -296,15 +299,14 @@ static lmn_status begin_page(vector_job *j, lmn_error *error)
 {
     double     resolution = paper_pixels_per_mm(j->desc->width, j->desc->height, j->desc->dpi);
     double     size[2] = {j->desc->width / resolution, j->desc->height / resolution};
-    bool       stated = true;
     lmn_status status = j->wanted->page ? vector_parse_page(j->wanted->page, size, error) : LMN_OK;
     if (status == LMN_OK && j->wanted->scale)
         status = vector_parse_scale(j->wanted->scale, &j->scale, error);
     if (status == LMN_OK)
-        status = vector_parse_unit(j->wanted->unit, j->scene, &j->unit_mm, &j->out->unit, &stated, error);
+        status = unit_find(j->wanted->unit, j->scene, &j->unit_mm, &j->out->unit, &j->unit_stated, error);
     if (status != LMN_OK)
         return status;
-    if (!stated && (j->scale > 0 || j->wanted->frame))
+    if (!j->unit_stated && (j->scale > 0 || j->wanted->frame))
         warnings_add(&j->out->warnings, WARNING_PAGE, "the file does not say its unit; it is taken for millimetres");
     j->usual_scale = j->wanted->frame;
     sheet_begin(&j->out->page, size[0], size[1], VECTOR_PIXELS_PER_MM);
@@ -537,6 +539,21 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     return status;
 }
 
+/* Parts of which no stroke is seen have no label; where there are no strokes at all, nobody knows. */
+static lmn_status put_annotations(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
+{
+    bool known = false;
+    for (size_t i = 0; i < j->scene->part_count; i++)
+        known = known || j->out->part_strokes[i];
+    annotated_view view = {.plan = &j->plan,
+                           .camera = &v->camera,
+                           .box = {v->box[0], v->box[1], v->box[2], v->box[3]},
+                           .visible = known ? j->out->part_strokes : NULL,
+                           .unit_mm = j->unit_stated ? j->unit_mm : 0,
+                           .ground = j->plan.ground};
+    return annotate(&j->out->page, (int32_t)group, &view, &j->out->warnings, error);
+}
+
 static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
 {
     sheet     *page = &j->out->page;
@@ -549,7 +566,10 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
         status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
     if (status == LMN_OK && j->wanted->fill && !j->lines_only)
         status = vector_put_fills(page, &ink, v, &j->strokes, &j->plan, report_part, j, error);
-    return status == LMN_OK ? draw_ink(j, v, &ink, error) : status;
+    if (status == LMN_OK)
+        status = draw_ink(j, v, &ink, error);
+    return status == LMN_OK && annotate_wanted(j->look) && !j->wanted->plotter ? put_annotations(j, v, group, error)
+                                                                               : status;
 }
 
 /* Lines of frames: as dark as the page is light. */

@@ -15,11 +15,7 @@ enum { PAGE_SIDE_MOST = 4000 }; /* mm */
 /* "1:20": paper over model. Errors: LMN_USAGE. */
 lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
 /* Names separated by commas, none twice. Errors: LMN_USAGE. */
-lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], size_t *count, lmn_error *error);
-/* Millimetres of a unit; NULL text: what the scene's first file means. `*name` gets the unit's, `*stated` whether
- * the format says it. Errors: LMN_USAGE. */
-lmn_status  vector_parse_unit(const char *text, const lmn_scene *scene, double *mm, const char **name, bool *stated,
-                              lmn_error *error);
+lmn_status  vector_parse_views(const char *text, vector_view out[VIEWS_MOST], size_t *count, lmn_error *error);
 const char *vector_view_name(lmn_view view);
 /* The largest usual scale that is no larger. */
 double vector_usual_scale(double scale);
@@ -48,7 +44,7 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
 bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
 bool vector_rule_needs_pixels(const rule *r, colour ground);
 /* The colour that fills a part's area: the surface's own, the material's else. Linear. */
-colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index);
+colour vector_fill_colour(const plan *p, size_t part_index);
 
 /* --- ink.c: ribbons on the sheet ----------------------------------------------------------------- */
 

@@ -1,0 +1,243 @@
+/* Sheets by cairo; texts through pango, so that every script finds a font. */
+#include "export/cairo_sheet.h"
+
+#include <math.h>
+#include <pango/pangocairo.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/work.h"
+
+typedef struct painter {
+    const sheet *s;
+    cairo_t     *context;
+    bool         failed; /* memory is gone */
+} painter;
+
+typedef struct png_reader {
+    const unsigned char *data;
+    size_t               left;
+} png_reader;
+
+static cairo_status_t give_bytes(void *user, unsigned char *to, unsigned int size)
+{
+    png_reader *r = user;
+    if (size > r->left)
+        return CAIRO_STATUS_READ_ERROR;
+    memcpy(to, r->data, size);
+    r->data += size;
+    r->left -= size;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+static void set_ink(cairo_t *c, colour ink)
+{
+    double alpha = ink.a < 1 ? fmax((double)ink.a, 0) : 1;
+    cairo_set_source_rgba(c, (double)ink.r, (double)ink.g, (double)ink.b, alpha);
+}
+
+char *cairo_clean_text(const char *words)
+{
+    char *valid = g_utf8_make_valid(words, -1), *copy = mem_copy_text(valid);
+    g_free(valid);
+    for (char *at = copy; at && *at; at++)
+        if ((unsigned char)*at < 0x20 || *at == 0x7F)
+            *at = ' ';
+    return copy;
+}
+
+static void add_path(painter *w, const sheet_path *path, bool dots)
+{
+    cairo_t *c = w->context;
+    for (uint32_t i = 0; i < path->count; i++) {
+        const float *p = w->s->points[path->first + i];
+        if (i == 0 || dots)
+            cairo_move_to(c, (double)p[0], (double)p[1]);
+        if (i > 0 || dots)
+            cairo_line_to(c, (double)p[0], (double)p[1]);
+    }
+    if (path->closed && !dots)
+        cairo_close_path(c);
+}
+
+static bool same_pen(const sheet_path *a, const sheet_path *b)
+{
+    bool dashes = a->dash > 0 ? a->dash == b->dash && a->gap == b->gap && a->phase == b->phase : !(b->dash > 0);
+    return a->filled == b->filled && a->width == b->width && a->cap == b->cap && dashes;
+}
+
+static void draw_paths(painter *w, const sheet_item *item)
+{
+    cairo_t *c = w->context;
+    bool     dots = item->kind == SHEET_DOTS;
+    set_ink(c, item->ink);
+    for (uint32_t k = 0; k < item->count;) {
+        const sheet_path *first = &w->s->paths[item->first + k];
+        for (; k < item->count && same_pen(first, &w->s->paths[item->first + k]); k++)
+            add_path(w, &w->s->paths[item->first + k], dots);
+        if (first->filled && !dots) {
+            cairo_fill(c);
+            continue;
+        }
+        const double dashes[2] = {(double)first->dash, (double)first->gap};
+        cairo_set_dash(c, dashes, first->dash > 0 && !dots ? 2 : 0, first->dash > 0 ? (double)first->phase : 0);
+        cairo_set_line_cap(c, dots || first->cap == SHEET_CAP_ROUND ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+        cairo_set_line_width(c, (double)first->width);
+        cairo_stroke(c);
+    }
+}
+
+static void draw_image(painter *w, const sheet_item *item)
+{
+    cairo_t         *c = w->context;
+    cairo_surface_t *image =
+        cairo_image_surface_create_from_png_stream(give_bytes, &(png_reader){item->png, item->png_size});
+    if (cairo_surface_status(image) == CAIRO_STATUS_SUCCESS) {
+        cairo_save(c);
+        cairo_translate(c, item->box[0], item->box[1]);
+        cairo_scale(c, item->box[2] / cairo_image_surface_get_width(image),
+                    item->box[3] / cairo_image_surface_get_height(image));
+        cairo_set_source_surface(c, image, 0, 0);
+        cairo_paint(c);
+        cairo_restore(c);
+    }
+    cairo_surface_destroy(image);
+}
+
+/* Letters stand where the font has them, not on whole units: these are millimetres. */
+static void set_true_metrics(PangoLayout *layout)
+{
+    PangoContext         *context = pango_layout_get_context(layout);
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    pango_cairo_context_set_font_options(context, options);
+    pango_context_set_round_glyph_positions(context, FALSE);
+    cairo_font_options_destroy(options);
+    pango_layout_context_changed(layout);
+}
+
+/* One line of this size; the caller's. */
+static PangoLayout *layout_of(cairo_t *c, const char *words, double size)
+{
+    PangoLayout *layout = pango_cairo_create_layout(c);
+    set_true_metrics(layout);
+    PangoFontDescription *font = pango_font_description_from_string("Liberation Sans, Arial, Helvetica, sans-serif");
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_layout_set_text(layout, words, -1);
+    pango_font_description_free(font);
+    return layout;
+}
+
+static void draw_text(painter *w, const sheet_item *item)
+{
+    cairo_t *c = w->context;
+    char    *words = cairo_clean_text(item->text);
+    if (!words) {
+        w->failed = true;
+        return;
+    }
+    PangoLayout *layout = layout_of(c, words, item->box[3]);
+    int          width, height;
+    pango_layout_get_size(layout, &width, &height);
+    double fraction = item->anchor < 0 ? 0 : item->anchor == 0 ? 0.5 : 1;
+    set_ink(c, item->ink);
+    cairo_move_to(c, item->box[0] - fraction * width / PANGO_SCALE,
+                  item->box[1] - (double)pango_layout_get_baseline(layout) / PANGO_SCALE);
+    pango_cairo_show_layout(c, layout);
+    g_object_unref(layout);
+    mem_free(words);
+}
+
+static void clip_to_groups(painter *w, uint32_t group)
+{
+    if (group >= w->s->group_count)
+        return;
+    for (int32_t at = (int32_t)group; at >= 0; at = w->s->groups[at].parent) {
+        const double *clip = w->s->groups[at].clip;
+        if (!(clip[2] > 0))
+            continue;
+        cairo_rectangle(w->context, clip[0], clip[1], clip[2], clip[3]);
+        cairo_clip(w->context);
+    }
+}
+
+static void draw_item(painter *w, const sheet_item *item)
+{
+    cairo_save(w->context);
+    clip_to_groups(w, item->group);
+    switch (item->kind) {
+    case SHEET_PATH:
+    case SHEET_DOTS: draw_paths(w, item); break;
+    case SHEET_IMAGE: draw_image(w, item); break;
+    case SHEET_TEXT: draw_text(w, item); break;
+    }
+    cairo_restore(w->context);
+}
+
+bool cairo_sheet_draw(cairo_t *context, const sheet *s)
+{
+    painter w = {.s = s, .context = context, .failed = s->failed};
+    cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+    if (s->ground.a > 0) {
+        set_ink(context, s->ground);
+        cairo_paint(context);
+    }
+    for (size_t i = 0;
+         i < s->item_count && !w.failed && !work_stopped() && cairo_status(context) == CAIRO_STATUS_SUCCESS; i++)
+        draw_item(&w, &s->items[i]);
+    return !w.failed && !work_stopped();
+}
+
+lmn_status export_text_width(double *out, const char *utf8, double size, lmn_error *error)
+{
+    char *words = cairo_clean_text(utf8);
+    if (!words)
+        return error_memory(error);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t         *context = cairo_create(surface);
+    PangoLayout     *layout = layout_of(context, words, size);
+    int              width, height;
+    pango_layout_get_size(layout, &width, &height);
+    *out = (double)width / PANGO_SCALE;
+    g_object_unref(layout);
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    mem_free(words);
+    return LMN_OK;
+}
+
+/* Over 8-bit pixels with straight alpha, from what cairo has: blue first in memory, premultiplied. */
+static void lay_over(uint8_t *rgba, int width, int height, const unsigned char *argb, int stride)
+{
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            uint32_t pixel;
+            memcpy(&pixel, argb + (size_t)y * (size_t)stride + 4 * (size_t)x, sizeof pixel);
+            uint32_t over = pixel >> 24;
+            if (!over)
+                continue;
+            uint8_t *to = rgba + 4 * ((size_t)y * (size_t)width + (size_t)x);
+            uint32_t under = (uint32_t)to[3] * (255 - over), alpha = over * 255 + under; /* of 255² */
+            for (int k = 0; k < 3; k++) {
+                uint32_t ink = pixel >> (16 - 8 * k) & 255;
+                to[k] = (uint8_t)((ink * 65025u + to[k] * under + alpha / 2) / alpha);
+            }
+            to[3] = (uint8_t)((alpha + 127) / 255);
+        }
+}
+
+lmn_status export_paint(uint8_t *rgba, int width, int height, const sheet *s, lmn_error *error)
+{
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+    cairo_t         *context = cairo_create(surface);
+    cairo_scale(context, width / s->width, height / s->height);
+    bool done = cairo_sheet_draw(context, s) && cairo_status(context) == CAIRO_STATUS_SUCCESS;
+    cairo_surface_flush(surface);
+    if (done)
+        lay_over(rgba, width, height, cairo_image_surface_get_data(surface), cairo_image_surface_get_stride(surface));
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    return done ? LMN_OK : error_memory(error);
+}

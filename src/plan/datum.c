@@ -1,0 +1,202 @@
+/* From attributes of parts to their colours. */
+#include "plan/datum.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/content.h"
+
+typedef struct reading {
+    const scene_values *how;
+    const char        **values; /* per part, lent; NULL: it has none, or is not drawn */
+    size_t              count, known;
+    bool                numbers; /* all of them are */
+    double              least, most;
+} reading;
+
+static bool read_number(const char *text, double *out)
+{
+    char *end;
+    *out = strtod(text, &end);
+    return end != text && *end == '\0' && isfinite(*out);
+}
+
+static void read_values(reading *r, const lmn_scene *scene, const bool *selected)
+{
+    r->numbers = r->how->datum_words.text[0] == '\0';
+    r->least = INFINITY;
+    r->most = -INFINITY;
+    for (size_t i = 0; i < r->count; i++) {
+        double      number;
+        const char *value = selected[i] ? scene_attribute_of(scene, scene->parts[i].node, r->how->datum.text) : NULL;
+        r->values[i] = value && value[0] ? value : NULL;
+        if (!r->values[i])
+            continue;
+        r->known++;
+        if (!read_number(value, &number)) {
+            r->numbers = false;
+            continue;
+        }
+        r->least = fmin(r->least, number);
+        r->most = fmax(r->most, number);
+    }
+    if (r->how->datum_from < r->how->datum_to) {
+        r->least = (double)r->how->datum_from;
+        r->most = (double)r->how->datum_to;
+    }
+}
+
+/* The palette at 0 … 1, straight between its colours as they are shown. */
+static colour colour_at(const palette *p, double at)
+{
+    double        along = fmin(fmax(at, 0), 1) * (p->count - 1);
+    int           low = (int)fmin(floor(along), fmax(p->count - 2, 0)), high = low + 1 < p->count ? low + 1 : low;
+    float         f = (float)(along - low);
+    const colour *a = &p->colours[low], *b = &p->colours[high];
+    return (colour){a->r + f * (b->r - a->r), a->g + f * (b->g - a->g), a->b + f * (b->b - a->b), 1};
+}
+
+static void add_number(datum *d, double value, colour c, size_t parts)
+{
+    datum_entry *e = &d->entries[d->entry_count++];
+    *e = (datum_entry){.colour = c, .part_count = parts};
+    snprintf(e->text, sizeof e->text, "%.6g", value);
+}
+
+/* Ramps are told at five places; classes by the number that each begins with. */
+static void show_numbers(datum *d, const reading *r)
+{
+    const palette *p = &r->how->datum_palette;
+    double         range = r->most - r->least;
+    int            classes = r->how->datum_classes < DATUM_ENTRIES_MAX ? r->how->datum_classes : DATUM_ENTRIES_MAX;
+    d->is_ramp = classes == 0;
+    for (int k = 0; k < (classes ? classes : 5); k++) {
+        double at = classes ? (double)k / classes : k / 4.0;
+        add_number(d, r->least + at * range, colour_at(p, classes > 1 ? (double)k / (classes - 1) : at), 0);
+        if (!(range > 0))
+            break;
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        double value;
+        if (!r->values[i] || !read_number(r->values[i], &value))
+            continue;
+        double at = range > 0 ? fmin(fmax((value - r->least) / range, 0), 1) : 0;
+        if (classes) {
+            int k = (int)fmin(floor(at * classes), (double)d->entry_count - 1);
+            d->colours[i] = d->entries[k].colour;
+            d->entries[k].part_count++;
+        } else {
+            d->colours[i] = colour_at(p, at);
+        }
+    }
+}
+
+/* Is the word one of those of the entry, which '|' separates? */
+static bool has_word(const datum_entry *e, const char *word)
+{
+    for (const char *at = e->text;; at++) {
+        size_t length = strcspn(at, "|");
+        if (strlen(word) == length && strncmp(at, word, length) == 0)
+            return true;
+        at += length;
+        if (!*at)
+            /* Longer ones are kept as far as there is room. */
+            return strncmp(e->text, word, DATUM_TEXT_MAX - 1) == 0;
+    }
+}
+
+static datum_entry *entry_of(datum *d, const char *word)
+{
+    for (size_t i = 0; i < d->entry_count; i++)
+        if (has_word(&d->entries[i], word))
+            return &d->entries[i];
+    return NULL;
+}
+
+static void add_word(datum *d, const char *word, size_t length)
+{
+    if (d->entry_count < DATUM_ENTRIES_MAX && length)
+        snprintf(d->entries[d->entry_count++].text, DATUM_TEXT_MAX, "%.*s", (int)length, word);
+}
+
+static int by_count(const void *a, const void *b)
+{
+    const datum_entry *one = a, *other = b;
+    return one->part_count != other->part_count ? (one->part_count < other->part_count ? 1 : -1)
+                                                : strcmp(one->text, other->text);
+}
+
+/* Words in the given order; else those that there are, the most frequent first. What is beyond the last colour has none
+ * of its own. */
+static void show_words(datum *d, const reading *r)
+{
+    const char    *given = r->how->datum_words.text;
+    const palette *p = &r->how->datum_palette;
+    for (const char *at = given; *at;) {
+        size_t length = strcspn(at, ",");
+        add_word(d, at, length);
+        at += length + (at[length] == ',');
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        if (!r->values[i])
+            continue;
+        if (!given[0] && !entry_of(d, r->values[i]))
+            add_word(d, r->values[i], strlen(r->values[i]));
+        datum_entry *e = entry_of(d, r->values[i]);
+        if (e)
+            e->part_count++;
+    }
+    if (!given[0])
+        qsort(d->entries, d->entry_count, sizeof *d->entries, by_count);
+    d->entry_count = d->entry_count < (size_t)p->count ? d->entry_count : (size_t)p->count;
+    for (size_t k = 0; k < d->entry_count; k++)
+        d->entries[k].colour = p->colours[k];
+    for (size_t i = 0; i < r->count; i++) {
+        const datum_entry *e = r->values[i] ? entry_of(d, r->values[i]) : NULL;
+        if (e)
+            d->colours[i] = e->colour;
+    }
+}
+
+lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *values, const bool *selected,
+                      size_t part_count, warnings *warnings, lmn_error *error)
+{
+    reading r = {.how = values, .count = part_count};
+    *out = (datum){.colours = NULL};
+    if (!values->datum.text[0])
+        return LMN_OK;
+    r.values = mem_calloc(part_count, sizeof *r.values);
+    out->colours = mem_calloc(part_count, sizeof *out->colours);
+    if (!r.values || !out->colours) {
+        mem_free(r.values);
+        return error_memory(error);
+    }
+    out->name = values->datum.text;
+    out->other = values->datum_other;
+    read_values(&r, scene, selected);
+    /* What a surface is, files of cities say and looks for cities ask of any model. */
+    if (r.known == 0 && strcmp(values->datum.text, "surface") != 0)
+        warnings_add(warnings, WARNING_NO_MATCH, "no part that is drawn has the attribute '%s' (scene.datum)",
+                     values->datum.text);
+    else if (r.numbers)
+        show_numbers(out, &r);
+    else
+        show_words(out, &r);
+    for (size_t i = 0; i < part_count; i++)
+        if (selected[i] && !(out->colours[i].a > 0)) {
+            out->colours[i] = values->datum_other;
+            out->other_count++;
+        }
+    mem_free(r.values);
+    return LMN_OK;
+}
+
+void datum_release(datum *d)
+{
+    mem_free(d->colours);
+    *d = (datum){.colours = NULL};
+}

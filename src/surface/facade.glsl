@@ -1,0 +1,77 @@
+/* Windows and doors of a wall, without a picture of them. Nienhaus 2005, section 4.8: facade elements composed for each building from sets of texture
+ * coordinates, which tell storeys, use and occupancy; row C07. Bays and storeys divide a wall evenly, so none is cut off at its ends. */
+uniform ivec2 u_building; /* storeys, 0 where nobody says; use (src/plan/building.h) */
+
+const int FACADE_AUTO = 1, FACADE_OFFICE = 3, FACADE_INDUSTRIAL = 4;
+const int USE_UNKNOWN = 0;
+const int GROUND_STOREY_SHOPS = 1, GROUND_STOREY_BLANK = 2;
+
+/* Buildings whose use nobody knows are dwellings, as most are. */
+int facade_style()
+{
+    return u_facade != FACADE_AUTO ? u_facade : u_building.y == USE_UNKNOWN ? FACADE_AUTO + 1 : FACADE_AUTO + u_building.y;
+}
+
+/* An opening in its cell: left, low, right, high, fractions of the cell. Nothing: right before left. */
+vec4 window_of(ivec2 cell, ivec2 cells, uint wall)
+{
+    const vec4 NOTHING = vec4(1.0, 1.0, 0.0, 0.0);
+    bool ground = cell.y == 0;
+    if (cell.y < 0 || cell.x < 0 || any(greaterThanEqual(cell, cells)))
+        return NOTHING;
+    if (ground && u_ground_storey == GROUND_STOREY_BLANK)
+        return NOTHING;
+    if (ground && u_ground_storey == GROUND_STOREY_SHOPS)
+        return vec4(0.1, 0.06, 0.9, 0.78);
+    if (facade_style() == FACADE_OFFICE)
+        return vec4(0.03, 0.3, 0.97, 0.86);
+    if (facade_style() == FACADE_INDUSTRIAL)
+        return vec4(0.12, 0.52, 0.88, 0.86);
+    if (ground && cell.x == int(wall % uint(cells.x)))
+        return vec4(0.31, 0.0, 0.69, 0.76);
+    return vec4(0.28, 0.3, 0.72, 0.84);
+}
+
+uint mixed_bits(uint n)
+{
+    n = (n ^ (n >> 16)) * 0x7FEB352Du;
+    n = (n ^ (n >> 15)) * 0x846CA68Bu;
+    return n ^ (n >> 16);
+}
+
+/* Fraction of a pixel of this size around a place that a rectangle covers. */
+float covered(vec4 rectangle, vec2 at, vec2 pixel)
+{
+    vec2 low = max(rectangle.xy, at - 0.5 * pixel), high = min(rectangle.zw, at + 0.5 * pixel);
+    vec2 share = clamp((high - low) / pixel, 0.0, 1.0);
+    return share.x * share.y;
+}
+
+/* `shade` is the wall as it is shown, `tone` what its tone leaves of full light. */
+vec3 with_facade(vec3 shade, vec3 tone)
+{
+    float storeys = v_wall.z <= 0.0 ? 0.0 : u_building.x > 0 ? float(u_building.x) : round(v_wall.w / u_storey);
+    float bay = facade_style() == FACADE_INDUSTRIAL ? 2.0 * u_bay : u_bay;
+    vec2 cells = vec2(v_wall.z > 0.6 * bay ? max(round(v_wall.z / bay), 1.0) : 0.0, storeys);
+    vec2 along = v_wall.xy * cells;
+    vec2 pixel = max(fwidth(v_wall.xy) * cells, vec2(1e-6));
+    float keeps = clamp((1.0 / max(pixel.x, pixel.y) - 3.0) / 4.0, 0.0, 1.0);
+    vec2 cell = floor(along), at = along - cell;
+    /* One number a wall: what interpolation leaves of its last bits is rounded off. */
+    uint wall = mixed_bits(uint(round(64.0 * v_wall.z)) * 977u + uint(round(64.0 * v_wall.w)));
+    uint window = mixed_bits(wall + uint(int(cell.x) + 4096) * 8191u + uint(int(cell.y) + 4096));
+    vec4 opening = window_of(ivec2(cell), ivec2(cells), wall);
+    vec4 around = opening + vec4(-1.0, -1.0, 1.0, 1.0) * (u_frame * pixel.xyxy);
+    bool there = opening.z > opening.x;
+    float glass = there ? covered(opening, at, pixel) : 0.0;
+    float frame = there && u_frame > 0.0 ? covered(around, at, pixel) - glass : 0.0;
+    float occupied = float(window >> 8) / 16777216.0 < u_occupancy ? 1.0 : 0.0;
+    vec3 pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, occupied));
+    /* Too small to be seen one by one, windows are the mean of what they are. */
+    vec4 mean_of = window_of(ivec2(0, 1), ivec2(1, 2), 1u);
+    float area = there ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
+    vec3 mean_pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, u_occupancy));
+    vec3 near = mix(mix(shade, shown(u_frame_colour.rgb), clamp(frame, 0.0, 1.0)), pane, glass);
+    vec3 far = mix(shade, mean_pane, area);
+    return mix(far, near, keeps);
+}
