@@ -19,12 +19,15 @@
 #define BEND 5.0f
 /* How much of a line says which way its end points. */
 #define REACH 6.0f
+/* Ends that are as near as this are one corner. */
+#define CORNER 0.1f
 /* Much farther behind lies something else: units. */
 #define DEPTH_MOST 48.0
 enum { NEAR_MOST = 64 /* ends of one cell that are looked at */ };
 
 typedef struct loose_end {
     uint32_t number; /* 2 · stroke, + 1 for its last point */
+    bool     loose;  /* of an outline, and no other line ends there */
     int32_t  column, row;
     float    x, y, depth, out_x, out_y;
 } loose_end;
@@ -80,7 +83,7 @@ static void gather_ends(trimmer *t)
 {
     for (uint32_t i = 0; i < t->set->stroke_count; i++) {
         const stroke *s = &t->set->strokes[i];
-        for (uint32_t k = 0; k < 2 && s->kind == STROKE_CONTOUR && s->hidden_by == 0 && !s->closed && s->count > 1; k++)
+        for (uint32_t k = 0; k < 2 && s->hidden_by == 0 && !s->closed && s->count > 1; k++)
             t->ends[t->count++] = end_of(t->set, 2 * i + k);
     }
     if (t->count)
@@ -91,23 +94,6 @@ static float length_of(const stroke_set *set, uint32_t number)
 {
     const stroke *s = &set->strokes[number / 2];
     return set->points[s->first + s->count - 1].arc - set->points[s->first].arc;
-}
-
-/* Do two ends run past each other side by side? */
-static bool is_overlap(const trimmer *t, const loose_end *a, const loose_end *b, end_pair *out)
-{
-    const stroke *s = &t->set->strokes[a->number / 2], *o = &t->set->strokes[b->number / 2];
-    float         x = a->x - b->x, y = a->y - b->y;
-    out->overlap = x * a->out_x + y * a->out_y;
-    out->apart = fabsf(x * a->out_y - y * a->out_x);
-    if (s == o || s->part != o->part || s->smooth != o->smooth ||
-        a->out_x * b->out_x + a->out_y * b->out_y > -AGAINST || !(out->overlap > OVERLAP_LEAST) ||
-        out->overlap > OVERLAP_MOST || out->apart > APART_MOST)
-        return false;
-    float  least = out->overlap + BEND / 2;
-    double scale = 0.5 * t->v->camera.height * fabs(t->v->camera.projection.m[5]);
-    double deeper = fabs((double)a->depth - b->depth) * scale / (t->v->camera.orthographic ? 1 : (double)a->depth);
-    return deeper <= DEPTH_MOST && length_of(t->set, a->number) > least && length_of(t->set, b->number) > least;
 }
 
 /* The first end of a cell. */
@@ -123,6 +109,40 @@ static size_t first_in(const trimmer *t, int32_t column, int32_t row)
             high = middle;
     }
     return low;
+}
+
+/* Outlines that end where another line does have a corner there, and are left as they are. */
+static void find_loose(trimmer *t)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        loose_end *e = &t->ends[i];
+        bool       loose = t->set->strokes[e->number / 2].kind == STROKE_CONTOUR;
+        size_t     first = loose ? first_in(t, e->column, e->row) : t->count;
+        for (size_t k = first; k < t->count && loose; k++) {
+            const loose_end *o = &t->ends[k];
+            if (o->column != e->column || o->row != e->row || k == first + NEAR_MOST)
+                break;
+            loose = k == i || fabsf(o->x - e->x) > CORNER || fabsf(o->y - e->y) > CORNER;
+        }
+        e->loose = loose;
+    }
+}
+
+/* Do two ends run past each other side by side? */
+static bool is_overlap(const trimmer *t, const loose_end *a, const loose_end *b, end_pair *out)
+{
+    const stroke *s = &t->set->strokes[a->number / 2], *o = &t->set->strokes[b->number / 2];
+    float         x = a->x - b->x, y = a->y - b->y;
+    out->overlap = x * a->out_x + y * a->out_y;
+    out->apart = fabsf(x * a->out_y - y * a->out_x);
+    if (s == o || !a->loose || !b->loose || s->piece != o->piece || s->smooth != o->smooth ||
+        a->out_x * b->out_x + a->out_y * b->out_y > -AGAINST || !(out->overlap > OVERLAP_LEAST) ||
+        out->overlap > OVERLAP_MOST || out->apart > APART_MOST)
+        return false;
+    float  least = out->overlap + BEND / 2;
+    double scale = 0.5 * t->v->camera.height * fabs(t->v->camera.projection.m[5]);
+    double deeper = fabs((double)a->depth - b->depth) * scale / (t->v->camera.orthographic ? 1 : (double)a->depth);
+    return deeper <= DEPTH_MOST && length_of(t->set, a->number) > least && length_of(t->set, b->number) > least;
 }
 
 static bool find_pairs(trimmer *t)
@@ -207,8 +227,10 @@ lmn_status strokes_trim(stroke_set *set, const stroke_view *v, size_t *count, lm
 {
     trimmer t = {.set = set, .v = v, .ends = mem_alloc((2 * set->stroke_count + 1) * sizeof *t.ends)};
     bool    good = t.ends != NULL;
-    if (good)
+    if (good) {
         gather_ends(&t);
+        find_loose(&t);
+    }
     good = good && find_pairs(&t) && trim_pairs(&t);
     *count = t.pair_count;
     mem_free(t.ends);
