@@ -74,8 +74,8 @@ static double longest_edge(const mesh *m)
                 longest = fmax(longest, squared_distance(&p->positions[p->indices[k + (uint32_t)corner]],
                                                          &p->positions[p->indices[k + (uint32_t)(corner + 1) % 3]]));
         for (uint32_t k = 0; k < p->line_count; k++)
-            longest = fmax(longest,
-                           squared_distance(&p->positions[p->lines[2 * k]], &p->positions[p->lines[2 * k + 1]]));
+            longest =
+                fmax(longest, squared_distance(&p->positions[p->lines[2 * k]], &p->positions[p->lines[2 * k + 1]]));
     }
     return sqrt(longest);
 }
