@@ -6,8 +6,9 @@
 #include <string.h>
 #include <strings.h>
 
-const command *const commands[] = {&command_draw,    &command_depict, &command_simulate, &command_info, &command_looks,
-                                   &command_strokes, &command_bench,  &command_doctor,   &command_view, NULL};
+const command *const commands[] = {
+    &command_draw,    &command_tiles, &command_depict, &command_simulate, &command_info, &command_looks,
+    &command_strokes, &command_bench, &command_doctor, &command_view,     NULL};
 
 const char *const up_axis_choices[] = {"y", "z", NULL};
 

@@ -9,7 +9,7 @@
 #include "options.h"
 
 extern const command command_draw, command_depict, command_simulate, command_info, command_looks, command_bench,
-    command_doctor, command_strokes, command_view;
+    command_doctor, command_strokes, command_tiles, command_view;
 
 /* All of them in the order of the usage text; NULL at the end. */
 extern const command *const commands[];

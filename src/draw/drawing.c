@@ -11,8 +11,10 @@
 #include "plan/refuse.h"
 #include "plan/unit.h"
 
-static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_error *error)
+/* Of a picture that may be larger, the part (from its upper left corner) that the drawing is. */
+static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, const int part[4], lmn_error *error)
 {
+    int    width = gpu_texture_width(picture), height = gpu_texture_height(picture);
     size_t stride = (size_t)d->width * 4;
     d->pixels = mem_alloc(stride * (size_t)d->height);
     uint8_t *row = mem_alloc(stride);
@@ -20,7 +22,7 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_
         mem_free(row);
         return error_memory(error);
     }
-    gpu_read(g, picture, d->pixels);
+    gpu_read_box(g, picture, (int[]){part[0], height - part[1] - part[3], part[2], part[3]}, d->pixels);
     for (int y = 0; y < d->height / 2; y++) {
         uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
         memcpy(row, top, stride);
@@ -30,7 +32,7 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_
     mem_free(row);
     lmn_status status = gpu_check(g, error);
     return status == LMN_OK && d->annotations.item_count
-               ? export_paint(d->pixels, d->width, d->height, &d->annotations, error)
+               ? export_paint(d->pixels, part, width, height, &d->annotations, error)
                : status;
 }
 
@@ -45,7 +47,7 @@ lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
     if (d->kept->maps.on_gpu && !d->maps.depth && !frame_maps_read(&d->kept->maps, g, &d->maps))
         status = error_memory(error);
     if (status == LMN_OK)
-        status = read_pixels(d, g, d->kept->picture, error);
+        status = read_pixels(d, g, d->kept->picture, (int[]){0, 0, d->width, d->height}, error);
     if (status != LMN_OK) {
         mem_free(d->pixels);
         d->pixels = NULL;
@@ -247,7 +249,7 @@ static lmn_status lay_annotations(lmn_drawing *d, const session *s, const lmn_dr
     const double   per_mm = s->plan.pixels_per_mm / samples_side(desc);
     annotated_view view = {.plan = &s->plan,
                            .camera = &s->frame.camera,
-                           .box = {0, 0, d->width / per_mm, d->height / per_mm},
+                           .box = {0, 0, desc->width / per_mm, desc->height / per_mm},
                            .visible = d->part_pixels,
                            .ground = s->plan.ground};
     const char    *name;
@@ -335,7 +337,8 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
         d->kept->picture = s->out;
         s->out = NULL;
     } else if (status == LMN_OK) {
-        status = read_pixels(d, s->renderer->g, s->out, error);
+        status = read_pixels(d, s->renderer->g, s->out,
+                             desc->window[2] > 0 ? desc->window : (const int[]){0, 0, d->width, d->height}, error);
     }
     if (status != LMN_OK || !desc->profile)
         return status;
@@ -375,8 +378,9 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
     lmn_drawing         *d = mem_calloc(1, sizeof *d);
     if (!d)
         return error_memory(error);
-    d->width = desc->width;
-    d->height = desc->height;
+    bool windowed = desc->window[2] > 0;
+    d->width = windowed ? desc->window[2] : desc->width;
+    d->height = windowed ? desc->window[3] : desc->height;
     if (desc->textures && !(d->kept = mem_calloc(1, sizeof *d->kept))) {
         mem_free(d);
         return error_memory(error);

@@ -228,15 +228,17 @@ static void lay_over(uint8_t *rgba, int width, int height, const unsigned char *
         }
 }
 
-lmn_status export_paint(uint8_t *rgba, int width, int height, const sheet *s, lmn_error *error)
+lmn_status export_paint(uint8_t *rgba, const int part[4], int width, int height, const sheet *s, lmn_error *error)
 {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
-    cairo_t         *context = cairo_create(surface);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, part[2], part[3]);
+    cairo_surface_set_device_offset(surface, -part[0], -part[1]);
+    cairo_t *context = cairo_create(surface);
     cairo_scale(context, width / s->width, height / s->height);
     bool done = cairo_sheet_draw(context, s) && cairo_status(context) == CAIRO_STATUS_SUCCESS;
     cairo_surface_flush(surface);
     if (done)
-        lay_over(rgba, width, height, cairo_image_surface_get_data(surface), cairo_image_surface_get_stride(surface));
+        lay_over(rgba, part[2], part[3], cairo_image_surface_get_data(surface),
+                 cairo_image_surface_get_stride(surface));
     cairo_destroy(context);
     cairo_surface_destroy(surface);
     return done ? LMN_OK : error_memory(error);

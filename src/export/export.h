@@ -27,8 +27,9 @@ lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_dxf(export_bytes *out, const sheet *s, lmn_error *error);
 
-/* Lays a sheet over 8-bit RGBA pixels, row 0 on top, straight alpha, which it covers whole. Errors: LMN_MEMORY. */
-lmn_status export_paint(uint8_t *rgba, int width, int height, const sheet *s, lmn_error *error);
+/* Lays a sheet over a picture of 8-bit RGBA pixels, row 0 on top, straight alpha, which it covers whole. The pixels are
+ * those of a part of the picture: x and y of its upper left corner, width, height. Errors: LMN_MEMORY. */
+lmn_status export_paint(uint8_t *rgba, const int part[4], int width, int height, const sheet *s, lmn_error *error);
 /* How long one line of text of this size is, as sheet_add_text has it, in the unit of the size. Errors: LMN_MEMORY. */
 lmn_status export_text_width(double *out, const char *utf8, double size, lmn_error *error);
 

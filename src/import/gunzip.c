@@ -20,7 +20,7 @@ enum { STEP = 1 << 22, GZIP_WINDOW = 15 + 16 };
 typedef struct unpacking {
     z_stream       stream;
     unsigned char *bytes;
-    size_t         size, capacity, most;
+    size_t         size, capacity, first, most; /* `first`: what is asked for at the beginning */
 } unpacking;
 
 static lmn_status grow(unpacking *u, lmn_error *error)
@@ -30,7 +30,7 @@ static lmn_status grow(unpacking *u, lmn_error *error)
         error_hint(error, "no model is packed so well; if it is one, unpack it with gunzip");
         return LMN_LIMIT;
     }
-    size_t wanted = u->capacity ? u->capacity * 2 : STEP;
+    size_t wanted = u->capacity ? u->capacity * 2 : u->first;
     wanted = wanted < u->most ? wanted : u->most;
     unsigned char *grown = mem_realloc(u->bytes, wanted + 1);
     if (!grown)
@@ -73,7 +73,7 @@ lmn_status gunzip(file_data *file, const char *path, lmn_error *error)
 {
     if (file->size < 2 || file->data[0] != 0x1f || file->data[1] != 0x8b)
         return LMN_OK;
-    unpacking  u = {.most = most_of(file->size)};
+    unpacking  u = {.first = file->size * 8 + 4096, .most = most_of(file->size)};
     lmn_status status = LMN_OK;
     if (file->size > UINT_MAX)
         status = error_set(error, LMN_LIMIT, "a packed file has at most 4 GiB");

@@ -20,6 +20,7 @@ static const fuzz_target targets[] = {
     {"mtl", fuzz_mtl, NULL},
     {"bvh", fuzz_bvh, NULL},
     {"cityjson", fuzz_cityjson, NULL},
+    {"geojson", fuzz_geojson, NULL},
     {"citygml", fuzz_citygml, NULL},
     {"gzip", fuzz_gzip, NULL},
     {"script", fuzz_script, NULL},

@@ -74,6 +74,11 @@ void fuzz_cityjson(const uint8_t *bytes, size_t size)
     use(fuzz_read_model(import_cityjson.read, 'z', bytes, size));
 }
 
+void fuzz_geojson(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_geojson.read, 'z', bytes, size));
+}
+
 void fuzz_citygml(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(import_citygml.read, 'z', bytes, size));

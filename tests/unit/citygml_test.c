@@ -386,9 +386,9 @@ static void test_refused(void **state)
         if (try_bytes(texts[i], strlen(texts[i]), &error) != LMN_FORMAT)
             fail_msg("text %zu: %s", i, error.message);
     static char deep[8000];
-    size_t      size = (size_t)sprintf(deep, "%s", ROOT);
+    size_t      size = (size_t)snprintf(deep, sizeof deep, "%s", ROOT);
     for (int i = 0; i < 1000; i++)
-        size += (size_t)sprintf(deep + size, "<a>");
+        size += (size_t)snprintf(deep + size, sizeof deep - size, "<a>");
     assert_int_not_equal(try_bytes(deep, size, &error), LMN_OK);
 }
 
@@ -406,7 +406,7 @@ static void test_long_line(void **state)
     assert_non_null(text);
     memcpy(text, begin, size);
     while (size + sizeof end + 16 < room)
-        size += (size_t)sprintf(text + size, "%zu 7 0 ", size % 1000);
+        size += (size_t)snprintf(text + size, room - size, "%zu 7 0 ", size % 1000);
     memcpy(text + size, end, sizeof end - 1);
     lmn_scene *s = load_or_fail(temp_file("city.gml", text, size + sizeof end - 1));
     expect(s, NULL, 6);
@@ -422,18 +422,19 @@ static void test_amplified(void **state)
     size_t room = (size_t)8 << 20, size = 0;
     char  *text = malloc(room);
     assert_non_null(text);
-    size += (size_t)sprintf(text,
-                            "%s<bldg:Building gml:id=\"a\"><bldg:lod1Solid><gml:Polygon "
-                            "gml:id=\"p\"><gml:exterior><gml:LinearRing><gml:posList>",
-                            ROOT);
+    size += (size_t)snprintf(text, room,
+                             "%s<bldg:Building gml:id=\"a\"><bldg:lod1Solid><gml:Polygon "
+                             "gml:id=\"p\"><gml:exterior><gml:LinearRing><gml:posList>",
+                             ROOT);
     for (int i = 0; i < 20000; i++)
-        size += (size_t)sprintf(text + size, "%d %d 0 ", i, i % 2);
-    size += (size_t)sprintf(
-        text + size, "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></bldg:lod1Solid></bldg:Building>"
-                     "<bldg:Building gml:id=\"b\"><bldg:lod1Solid>");
+        size += (size_t)snprintf(text + size, room - size, "%d %d 0 ", i, i % 2);
+    size +=
+        (size_t)snprintf(text + size, room - size,
+                         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></bldg:lod1Solid></bldg:Building>"
+                         "<bldg:Building gml:id=\"b\"><bldg:lod1Solid>");
     for (int i = 0; i < 50000; i++)
-        size += (size_t)sprintf(text + size, "<gml:surfaceMember xlink:href=\"#p\"/>");
-    size += (size_t)sprintf(text + size, "</bldg:lod1Solid></bldg:Building>%s", END);
+        size += (size_t)snprintf(text + size, room - size, "<gml:surfaceMember xlink:href=\"#p\"/>");
+    size += (size_t)snprintf(text + size, room - size, "</bldg:lod1Solid></bldg:Building>%s", END);
     lmn_error error;
     assert_int_equal(try_bytes(text, size, &error), LMN_LIMIT);
     free(text);

@@ -383,6 +383,7 @@ class lmn_draw_desc(Structure):
         ("textures", c_bool),
         ("draft", c_bool),
         ("fit_direction", c_bool),
+        ("window", c_int * 4),
     ]
 
 
@@ -784,7 +785,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_node_desc: lambda: lmn_node_desc(sizeof(lmn_node_desc), None, 0, 0, 0, 0, 0, ( 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 ,)),
     lmn_depict_desc: lambda: lmn_depict_desc(sizeof(lmn_depict_desc), None, False, 0, 0),
     lmn_renderer_desc: lambda: lmn_renderer_desc(sizeof(lmn_renderer_desc), False, False, False, False),
-    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), (0,), False, False, False),
+    lmn_draw_desc: lambda: lmn_draw_desc(sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), None, False, 30.0, 0.9, 0.0, 0, 0, None, None, False, False, lmn_progress_fn(), None, False, False, None, False, 0, False, (0,), (0,), False, False, False, ( 0 ,)),
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
     lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
@@ -846,6 +847,7 @@ FUNCTIONS = {
     "lmn_drawing_destroy": (None, [POINTER(c_void_p)]),
     "lmn_drawing_pixels": (POINTER(c_uint8), [c_void_p, POINTER(c_int), POINTER(c_int)]),
     "lmn_drawing_write": (c_int, [c_void_p, c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
+    "lmn_drawing_write_part": (c_int, [c_void_p, POINTER(c_int), c_char_p, c_char_p, POINTER(c_uint64), POINTER(lmn_error)]),
     "lmn_drawing_encode": (c_int, [c_void_p, c_char_p, POINTER(POINTER(c_uint8)), POINTER(c_size_t), POINTER(lmn_error)]),
     "lmn_bytes_free": (None, [POINTER(c_uint8)]),
     "lmn_drawing_write_maps": (c_int, [c_void_p, c_char_p, POINTER(lmn_error)]),
