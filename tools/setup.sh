@@ -8,12 +8,13 @@ packages=(build-essential cmake ninja-build pkg-config
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
           libpng-dev libjpeg-dev libwebp-dev zlib1g-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
-          libxml2-dev libseccomp-dev
+          libxml2-dev libseccomp-dev libsqlite3-dev
           libcairo2-dev libpango1.0-dev
           xvfb libglfw3-dev libsdl2-dev libgtk-4-dev libadwaita-1-dev
           dbus at-spi2-core gir1.2-atspi-2.0 python3-gi xdotool adwaita-icon-theme desktop-file-utils appstream gettext
           libcmocka-dev librsvg2-bin poppler-utils libdxflib-dev chromium ffmpeg
           abigail-tools mandoc zsh fish python3 python3-numpy
+          slurmctld slurmd slurm-client munge parallel
           clang clang-format libclang-rt-dev llvm lld ccache)
 
 if ! command -v dpkg-query > /dev/null; then

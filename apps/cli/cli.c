@@ -6,8 +6,9 @@
 #include <string.h>
 #include <strings.h>
 
-const command *const commands[] = {&command_draw,    &command_depict, &command_simulate, &command_info, &command_looks,
-                                   &command_strokes, &command_bench,  &command_doctor,   &command_view, NULL};
+const command *const commands[] = {
+    &command_draw,    &command_tiles, &command_depict, &command_simulate, &command_info, &command_looks,
+    &command_strokes, &command_bench, &command_doctor, &command_view,     NULL};
 
 const char *const up_axis_choices[] = {"y", "z", NULL};
 
@@ -36,7 +37,7 @@ int check_programs(const word_list *inputs, const program_options *programs)
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
 {
     const word_list none = {0};
-    return scene_of_programs(out, paths, count, up, &(program_options){&none, false}, p);
+    return scene_of_programs(out, paths, count, up, &(program_options){&none, false, NULL}, p);
 }
 
 int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,
@@ -54,6 +55,7 @@ int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, l
         desc.defines = programs->defines->items;
         desc.define_count = program ? programs->defines->count : 0;
         desc.strict = program && programs->strict;
+        desc.lod = programs->lod;
         status = lmn_scene_add_file(*out, paths[i], &desc, &error);
     }
     progress_erase(p);

@@ -3,6 +3,7 @@
 #include "depict.h"
 #include "formats.h"
 #include "frames.h"
+#include "job.h"
 #include "names.h"
 #include "sets.h"
 #include "task.h"
@@ -25,8 +26,10 @@ typedef struct draw_values {
     option_vector eye, target, up;
     option_number fov, fit, time, seed, samples, dpi;
     int           view, up_axis, angle;
+    const char   *lod;
     word_list     defines;
     bool        orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
+    job_values  job;
     task_values task;
 } draw_values;
 
@@ -97,6 +100,7 @@ static const option options[] = {
      "must change with time."},
     {"resume", 0, OPTION_FLAG, AT(resume), NULL,
      "Of numbered pictures: go on where a run was broken off, drawing only frames whose picture is not there yet."},
+    JOB_OPTIONS(draw_values),
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
     {"samples", 0, OPTION_WHOLE, AT(samples), "N",
      "Samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64. Default: 1, and more for small pictures (below 64 --dpi).", 1,
@@ -104,6 +108,7 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
+    LOD_OPTION(AT(lod)),
     {"page", 0, OPTION_TEXT, AT(page), "PAGE",
      "Size of the paper: A4, A3-landscape, letter or 210x120mm. Pictures have --dpi pixels an inch of it, or --size in "
      "all. "
@@ -144,6 +149,7 @@ typedef struct session {
     const draw_values *values;
     const char        *pattern; /* of the output's name */
     frame_range        frames;
+    shard              shard;
     frame_run          run;
     lmn_look          *look;
     lmn_renderer      *renderer;
@@ -364,6 +370,12 @@ static int check_frames(const session *s)
         return message_usage("for example --frames 0:47:24", "--resume goes with frames, but there is no --frames");
     if (v->resume && strcmp(s->ending, format_standard(false)) != 0)
         return message_usage(NULL, "--resume goes with numbered pictures, *%s, which it can tell to be whole",
+                             format_standard(false));
+    if ((v->job.shard || v->job.kind >= 0) && (!s->frames.given || s->film))
+        return message_usage("for example --frames 0:47:24 -o name-{frame}.png",
+                             "--%s goes with frames as numbered pictures", v->job.shard ? "shard" : "job");
+    if (v->job.kind >= 0 && strcmp(s->ending, format_standard(false)) != 0)
+        return message_usage(NULL, "--job goes with numbered pictures, *%s, which a task can tell to be whole",
                              format_standard(false));
     if (v->output && s->frames.given && !s->film && !name_has_frame(v->output)) {
         snprintf(hint, sizeof hint, "put {frame} into the name, or make it a film: %s", film_list(list, true));
@@ -686,21 +698,24 @@ static bool is_drawn(const session *s, const char *input, long frame)
     return there;
 }
 
-/* Which frames are there already? */
+/* Which frames are there already, or another shard's? */
 static int find_drawn(session *s, const char *input)
 {
     size_t count = (size_t)(s->frames.last - s->frames.first + 1), there = 0;
     s->run.to_draw = (long)count;
-    if (!s->values->resume)
+    if (!s->values->resume && s->shard.count == 1)
         return EXIT_DONE;
     s->run.there = calloc(count, sizeof *s->run.there);
     if (!s->run.there)
         return message_out_of_memory();
-    for (size_t i = 0; i < count && !progress_cancelled(); i++)
-        there += s->run.there[i] = is_drawn(s, input, s->frames.first + (long)i);
-    s->run.to_draw -= (long)there;
+    for (size_t i = 0; i < count && !progress_cancelled(); i++) {
+        bool own = shard_has(&s->shard, (long)i);
+        s->run.there[i] = !own || (s->values->resume && is_drawn(s, input, s->frames.first + (long)i));
+        there += own && s->run.there[i];
+        s->run.to_draw -= s->run.there[i];
+    }
     if (there > 0 && !s->values->quiet)
-        message_note("%zu of %zu frames are there already", there, count);
+        message_note("%zu of %zu frames are there already", there, (size_t)s->run.to_draw + there);
     return EXIT_DONE;
 }
 
@@ -773,7 +788,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
     double                start = now_ms();
-    const program_options programs = {&s->values->defines, s->values->strict};
+    const program_options programs = {&s->values->defines, s->values->strict, s->values->lod};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;
@@ -820,9 +835,13 @@ static int run_as(const word_list *inputs, const draw_values *v, bool depicts)
     if (status == EXIT_DONE && v->frames)
         status = frames_parse(v->frames, &s.frames);
     if (status == EXIT_DONE)
+        status = job_check(&v->job);
+    if (status == EXIT_DONE)
+        status = shard_parse(v->job.shard, &s.shard);
+    if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_options){&v->defines, v->strict});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL});
     if (status == EXIT_DONE)
         status = load_look(&s);
     if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))
@@ -831,6 +850,10 @@ static int run_as(const word_list *inputs, const draw_values *v, bool depicts)
     snprintf(standard, sizeof standard, "%s%s",
              s.frames.given && !s.film ? NAME_PLACEHOLDER "-" FRAME_PLACEHOLDER : NAME_PLACEHOLDER, s.ending);
     s.pattern = v->output ? v->output : standard;
+    if (status == EXIT_DONE && v->job.kind >= 0) {
+        lmn_look_destroy(&s.look);
+        return job_print(depicts ? &command_depict : &command_draw, inputs, v, &v->job, NULL);
+    }
     progress_begin(&s.progress, v->quiet);
     fill_desc(&s);
     if (status == EXIT_DONE)
@@ -888,7 +911,7 @@ static int find_whole(char *out, size_t size, const word_list *inputs, const dra
     lmn_scene            *scene = NULL;
     progress              bar;
     lmn_task             *task = NULL;
-    const program_options programs = {&v->defines, v->strict};
+    const program_options programs = {&v->defines, v->strict, v->lod};
     double                duration = 0;
     progress_begin(&bar, true);
     int status = check_programs(inputs, &programs);

@@ -317,6 +317,94 @@ void options_release(const command *c, void *values, word_list *inputs)
     word_list_release(inputs);
 }
 
+/* --- back to a command line ------------------------------------------------------------------------------- */
+
+static void print_quoted(const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:,=@%";
+    if (*word && word[strspn(word, plain)] == '\0') {
+        fputs(word, stdout);
+        return;
+    }
+    putchar('\'');
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", stdout);
+        else
+            putchar(*word);
+    putchar('\'');
+}
+
+static void print_given(const char *name, const char *value)
+{
+    printf(" --%s", name);
+    if (value) {
+        putchar(' ');
+        print_quoted(value);
+    }
+}
+
+static void print_value(const option *o, const void *at)
+{
+    char                 text[128];
+    const option_number *number = at;
+    const option_vector *vector = at;
+    const option_size   *size = at;
+    const word_list     *list = at;
+    switch (o->type) {
+    case OPTION_FLAG:
+        if (*(const bool *)at)
+            print_given(o->name, NULL);
+        break;
+    case OPTION_TEXT:
+        if (*(const char *const *)at)
+            print_given(o->name, *(const char *const *)at);
+        break;
+    case OPTION_LIST:
+        for (size_t i = 0; i < list->count; i++)
+            print_given(o->name, list->items[i]);
+        break;
+    case OPTION_NUMBER:
+    case OPTION_WHOLE:
+        snprintf(text, sizeof text, "%.17g", number->value);
+        if (number->given)
+            print_given(o->name, text);
+        break;
+    case OPTION_VECTOR:
+        snprintf(text, sizeof text, "%.17g,%.17g,%.17g", vector->value[0], vector->value[1], vector->value[2]);
+        if (vector->given)
+            print_given(o->name, text);
+        break;
+    case OPTION_SIZE:
+        snprintf(text, sizeof text, "%dx%d", size->width, size->height);
+        if (size->given)
+            print_given(o->name, text);
+        break;
+    case OPTION_CHOICE:
+        if (*(const int *)at >= 0)
+            print_given(o->name, o->choices[*(const int *)at]);
+        break;
+    }
+}
+
+void options_print_line(const command *c, const word_list *inputs, const void *values, const char *const *left_out)
+{
+    printf("%s", c->name);
+    for (size_t i = 0; i < c->option_count; i++) {
+        bool wanted = true;
+        for (const char *const *name = left_out; *name; name++)
+            wanted = wanted && strcmp(*name, c->options[i].name) != 0;
+        if (wanted)
+            print_value(&c->options[i], (const char *)values + c->options[i].offset);
+    }
+    for (size_t i = 0; i < inputs->count; i++) {
+        putchar(' ');
+        if (inputs->items[i][0] == '-') /* else taken for an option */
+            fputs("./", stdout);
+        print_quoted(inputs->items[i]);
+    }
+}
+
 /* Text behind the option's column, broken at blanks. */
 static void print_doc(const char *doc)
 {

@@ -67,6 +67,10 @@ int options_parse(const command *c, int count, char **arguments, void *values, w
 /* Frees the lists inside values and inputs. */
 void options_release(const command *c, void *values, word_list *inputs);
 
+/* Prints the command line that gives these values, quoted for a shell: the command's name, its options but those in
+ * `left_out` (NULL-terminated), and the inputs. */
+void options_print_line(const command *c, const word_list *inputs, const void *values, const char *const *left_out);
+
 /* Prints the command's usage to standard output. */
 void options_print_usage(const command *c);
 

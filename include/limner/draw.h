@@ -87,12 +87,19 @@ typedef struct lmn_draw_desc {
     /* With eye_given: eye, target and up say only from which direction and which way up; how near the eye is follows
      * from `fit`, as with named views. Since 0.1. */
     bool fit_direction;
+    /* The part of the picture that is wanted: x and y of its upper left corner, width, height; a width of 0: all of
+     * it. The drawing has the part's size; its pixels are those that the whole picture has there, to the bit, and
+     * little beside them is drawn. Not with maps, profile or textures, and not for sheets. Since 0.1. */
+    int window[4];
 } lmn_draw_desc;
 #define LMN_DRAW_DESC_INIT                                                                                             \
     {                                                                                                                  \
         sizeof(lmn_draw_desc), 1024, 1024, LMN_VIEW_ISO, false, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NULL, false, 30.0,    \
             0.9, 0.0, 0, 0, NULL, NULL, false, false, NULL, NULL, false, false, NULL, false, 0, false, {0}, {0},       \
-            false, false, false                                                                                        \
+            false, false, false,                                                                                       \
+        {                                                                                                              \
+            0                                                                                                          \
+        }                                                                                                              \
     }
 
 /* Makes a renderer with a GL context of its own, without display or window, or one that draws in the caller's (adopt).
@@ -136,8 +143,14 @@ LMN_API const uint8_t *lmn_drawing_pixels(const lmn_drawing *drawing, int *width
 LMN_API lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const char *format, uint64_t *bytes,
                                      lmn_error *error);
 
-/* The same bytes in memory instead of a file: *bytes gets them, *size how many. `format` is as for lmn_drawing_write
- * and not NULL. Free them with lmn_bytes_free. Errors: LMN_USAGE (unknown format), LMN_MEMORY. Since 0.1. */
+/* The same of a part of the picture: x and y of its upper left corner, width, height. For tiles. Errors: those of
+ * lmn_drawing_write, and LMN_USAGE when the part does not lie in the picture. Since 0.1. */
+LMN_API lmn_status lmn_drawing_write_part(const lmn_drawing *drawing, const int part[4], const char *path,
+                                          const char *format, uint64_t *bytes, lmn_error *error);
+
+/* The same as lmn_drawing_write in memory instead of a file: *bytes gets them, *size how many. `format` is as for
+ * lmn_drawing_write and not NULL. Free them with lmn_bytes_free. Errors: LMN_USAGE (unknown format), LMN_MEMORY. Since
+ * 0.1. */
 LMN_API lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *format, uint8_t **bytes, size_t *size,
                                       lmn_error *error);
 

@@ -91,11 +91,27 @@ static lmn_status check_numbers(const lmn_draw_desc *d, lmn_error *error)
     return status;
 }
 
+/* A part of the picture lies inside it, and has pixels alone. */
+static lmn_status check_window(const lmn_draw_desc *d, lmn_error *error)
+{
+    const int *w = d->window;
+    if (w[2] == 0)
+        return LMN_OK;
+    if (w[0] < 0 || w[1] < 0 || w[2] < 0 || w[3] < 1 || w[0] > d->width - w[2] || w[1] > d->height - w[3])
+        return error_set(error, LMN_USAGE, "the window %d,%d %dx%d does not lie in the picture of %dx%d pixels", w[0],
+                         w[1], w[2], w[3], d->width, d->height);
+    if (d->maps || d->profile || d->textures)
+        return error_set(error, LMN_USAGE, "a window has neither maps nor a profile nor textures");
+    return LMN_OK;
+}
+
 lmn_status check_draw_desc(lmn_draw_desc *full, const lmn_draw_desc *given, lmn_error *error)
 {
     *full = (lmn_draw_desc)LMN_DRAW_DESC_INIT;
     lmn_status status = desc_complete(full, sizeof *full, given, "LMN_DRAW_DESC_INIT", error);
-    return status == LMN_OK ? check_numbers(full, error) : status;
+    if (status == LMN_OK)
+        status = check_numbers(full, error);
+    return status == LMN_OK ? check_window(full, error) : status;
 }
 
 lmn_status check_pixels(const lmn_draw_desc *d, lmn_error *error)
@@ -207,6 +223,30 @@ lmn_status lmn_drawing_write(const lmn_drawing *drawing, const char *path, const
         *bytes = data.size;
     mem_free(data.data);
     return status == LMN_OK ? work_end_done(&w) : work_end(&w, status, error);
+}
+
+lmn_status lmn_drawing_write_part(const lmn_drawing *drawing, const int part[4], const char *path, const char *format,
+                                  uint64_t *bytes, lmn_error *error)
+{
+    if (!drawing || !part)
+        return missing("lmn_drawing_write_part", drawing ? "part" : "drawing", error);
+    if (part[0] < 0 || part[1] < 0 || part[2] < 1 || part[3] < 1 || part[0] > drawing->width - part[2] ||
+        part[1] > drawing->height - part[3])
+        return error_set(error, LMN_USAGE, "the part %d,%d %dx%d does not lie in the picture of %dx%d pixels", part[0],
+                         part[1], part[2], part[3], drawing->width, drawing->height);
+    lmn_status status = check_read_back(drawing, "lmn_drawing_write_part", error);
+    if (status != LMN_OK)
+        return status;
+    lmn_drawing cut = {.width = part[2], .height = part[3]};
+    size_t      row = (size_t)part[2] * 4;
+    if (!(cut.pixels = mem_alloc(row * (size_t)part[3])))
+        return error_memory(error);
+    for (size_t y = 0; y < (size_t)part[3]; y++)
+        memcpy(cut.pixels + y * row,
+               drawing->pixels + 4 * (((size_t)part[1] + y) * (size_t)drawing->width + (size_t)part[0]), row);
+    status = lmn_drawing_write(&cut, path, format, bytes, error);
+    mem_free(cut.pixels);
+    return status;
 }
 
 lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *format, uint8_t **bytes, size_t *size,

@@ -63,6 +63,8 @@ lmn_status lmn_draw_sheet(lmn_sheet **out, lmn_renderer *renderer, const lmn_sce
         return error_set(error, LMN_USAGE, "a sheet has no textures; lmn_draw keeps some (`textures`)");
     if (status == LMN_OK)
         status = complete(&full, sheet, error);
+    if (status == LMN_OK && wanted.window[2])
+        return error_set(error, LMN_USAGE, "a sheet is drawn whole; lmn_draw draws windows of pictures (`window`)");
     if (status == LMN_OK && wanted.matrices_given)
         status = error_set(error, LMN_UNSUPPORTED, "a sheet's camera is given by eye and target, not by matrices");
     if (status != LMN_OK)

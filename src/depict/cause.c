@@ -3,6 +3,7 @@
  * section 7.10, figure 7-11. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "contact/surface.h"
 #include "depict/meeting.h"
 #include "depict/page.h"
 
@@ -79,11 +80,19 @@ typedef struct doer {
 static lmn_status find_doer(doer *out, const depict_job *j, const depict_target *partner, const double at[3],
                             double event, lmn_error *error)
 {
-    double     distance = INFINITY, place[3];
-    int32_t    own = partner->node;
-    lmn_status status = LMN_OK;
+    double        place[3];
+    int32_t       own = partner->node;
+    const pose   *posed = NULL;
+    surface_place nearest;
+    bool          found = false;
     way_point(&partner->way, partner->centre, event, place);
-    status = nearest_place(at, place, &distance, &own, j, partner, event, error);
+    lmn_status status = depict_pose(&posed, j, event, error);
+    if (status == LMN_OK)
+        status = surface_nearest(&nearest, &found, posed, partner->parts, at, INFINITY, error);
+    if (status == LMN_OK && found) {
+        vector3_copy(place, nearest.place);
+        own = j->scene->parts[nearest.part].node;
+    }
     /* What has a skin goes where its hip goes. */
     if (status == LMN_OK)
         status = way_open(&out->way, j->scene,

@@ -11,7 +11,8 @@
 #include "plan/refuse.h"
 #include "plan/unit.h"
 
-static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_error *error)
+/* `left` and `bottom`: of the drawing on the picture, which may be larger. */
+static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, int left, int bottom, lmn_error *error)
 {
     size_t stride = (size_t)d->width * 4;
     d->pixels = mem_alloc(stride * (size_t)d->height);
@@ -20,7 +21,7 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_
         mem_free(row);
         return error_memory(error);
     }
-    gpu_read(g, picture, d->pixels);
+    gpu_read_box(g, picture, (int[]){left, bottom, d->width, d->height}, d->pixels);
     for (int y = 0; y < d->height / 2; y++) {
         uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
         memcpy(row, top, stride);
@@ -45,7 +46,7 @@ lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
     if (d->kept->maps.on_gpu && !d->maps.depth && !frame_maps_read(&d->kept->maps, g, &d->maps))
         status = error_memory(error);
     if (status == LMN_OK)
-        status = read_pixels(d, g, d->kept->picture, error);
+        status = read_pixels(d, g, d->kept->picture, 0, 0, error);
     if (status != LMN_OK) {
         mem_free(d->pixels);
         d->pixels = NULL;
@@ -335,7 +336,8 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
         d->kept->picture = s->out;
         s->out = NULL;
     } else if (status == LMN_OK) {
-        status = read_pixels(d, s->renderer->g, s->out, error);
+        status = read_pixels(d, s->renderer->g, s->out, s->frame.window[0] / s->frame.samples,
+                             s->frame.window[1] / s->frame.samples, error);
     }
     if (status != LMN_OK || !desc->profile)
         return status;
@@ -375,8 +377,9 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
     lmn_drawing         *d = mem_calloc(1, sizeof *d);
     if (!d)
         return error_memory(error);
-    d->width = desc->width;
-    d->height = desc->height;
+    bool windowed = desc->window[2] > 0;
+    d->width = windowed ? desc->window[2] : desc->width;
+    d->height = windowed ? desc->window[3] : desc->height;
     if (desc->textures && !(d->kept = mem_calloc(1, sizeof *d->kept))) {
         mem_free(d);
         return error_memory(error);

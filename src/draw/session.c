@@ -294,6 +294,11 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     f->pixels_per_mm = s->plan.pixels_per_mm;
     f->width = desc->width * side;
     f->height = desc->height * side;
+    if (desc->window[2] > 0)
+        memcpy(f->window,
+               (int[]){desc->window[0] * side, (desc->height - desc->window[1] - desc->window[3]) * side,
+                       desc->window[2] * side, desc->window[3] * side},
+               sizeof f->window);
     f->ground = s->plan.ground;
     f->anchor = s->plan.box;
     f->seed = desc->seed;

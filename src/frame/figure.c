@@ -2,6 +2,7 @@
 #include "frame/frame_private.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The sum of the lengths that matter with these values. */
 static float lengths_of(const param *params, size_t count, const void *values)
@@ -64,5 +65,9 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
         keep_box(f->maps, s);
     else if (!f->maps) /* maps are read back whole */
         camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
+    memcpy(s->drawn[0], s->pixels, sizeof s->drawn[0]);
+    memcpy(s->drawn[1], s->around, sizeof s->drawn[1]);
+    if (!f->maps)
+        window_figure(f, s);
     return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
 }

@@ -18,6 +18,8 @@ static void clear_page(frame *f)
 {
     gpu_pass pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth, .clear = true};
     frame_ground(f, pass.clear_values[0]);
+    if (f->window[2] > 0)
+        window_around(f, window_margin(f), pass.clear_box);
     gpu_pass_begin(f->g, &pass);
 }
 
@@ -111,7 +113,10 @@ static void encode(frame *f, gpu_texture *out)
     paper_declare(&prelude, f);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "finish/encode.frag", &prelude);
     if (p && !gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &(gpu_pass){.colours = {out}, .colour_count = 1});
+        gpu_pass pass = {.colours = {out}, .colour_count = 1};
+        for (int k = 0; k < 4; k++)
+            pass.scissor[k] = f->window[k] / f->samples;
+        gpu_pass_begin(f->g, &pass);
         gpu_use(f->g, p, (gpu_state){0});
         gpu_set_texture(f->g, "t_page", f->page, false);
         gpu_set_int(f->g, "u_samples", f->samples);

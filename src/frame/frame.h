@@ -24,17 +24,18 @@ typedef struct frame {
     view_camera          camera_past[POSE_PAST_MAX]; /* where it was at the steps of the pose's past */
     int                  width, height;              /* of the page, supersamples counted */
     int                  samples;                    /* a side */
-    double               pixels_per_mm;              /* of paper, supersamples counted */
-    colour               ground;
-    box3                 anchor; /* strokes that lie on the page move with its middle */
-    uint32_t             seed;
-    double               time_s;
-    gpu_profile          profile;
-    frame_maps          *maps; /* collects the figures' buffers when not NULL */
-    gpu_texture         *page, *page_depth;
-    bool                 draft;       /* lmn_draw_desc.draft */
-    bool                 keeps_depth; /* of the page, for who asks after frame_draw */
-    gpu_texture         *kept_depth;  /* with keeps_depth: the page's; the caller's to release */
+    int          window[4]; /* of the page, from its lower left corner: what will be looked at; width 0: all of it */
+    double       pixels_per_mm; /* of paper, supersamples counted */
+    colour       ground;
+    box3         anchor; /* strokes that lie on the page move with its middle */
+    uint32_t     seed;
+    double       time_s;
+    gpu_profile  profile;
+    frame_maps  *maps; /* collects the figures' buffers when not NULL */
+    gpu_texture *page, *page_depth;
+    bool         draft;       /* lmn_draw_desc.draft */
+    bool         keeps_depth; /* of the page, for who asks after frame_draw */
+    gpu_texture *kept_depth;  /* with keeps_depth: the page's; the caller's to release */
     gpu_texture
         *seen_depth; /* the same of what is seen through or moves, which the page's leaves out; NULL: there is none */
     int  seen_reach; /* how far ink of that lies beside it, samples */

@@ -33,6 +33,7 @@ typedef struct figure_state {
     float            *edges;       /* for maps: darkest of all line techniques' edge maps, 4 a pixel */
     int               pixels[4];   /* where the figure and its lines can be: scissor */
     int               around[4];   /* what passes there can look at: cleared */
+    int               drawn[2][4]; /* both of the geometry, which windows may need more of */
     int               band[4];     /* layered: what is composed now, a part of `pixels` */
     int               layer;       /* layered: 0 = visible */
     int               index;       /* layered: of the figure among those that share their layers */
@@ -68,6 +69,18 @@ typedef struct layer_stack {
     int          node_vectors;
     solid_layers solids; /* of all figures */
 } layer_stack;
+
+/* --- window.c: a part of the page --- */
+/* Pixels beside a window that are drawn, too, since what lies in it looks at them; beyond the reach of lines. */
+enum { WINDOW_MARGIN = 256 };
+/* The window and so many pixels around it, inside the page; without a window the page. */
+void window_around(const frame *f, int margin, int out[4]);
+/* Leaves of a box of pixels what lies so near to the window. */
+void window_clip(const frame *f, int margin, int box[4]);
+/* Of a figure: where it is drawn and what is cleared, unless something about it depends on the whole page. */
+void window_figure(const frame *f, figure_state *s);
+/* How much of the page around the window is cleared: for the figure whose lines reach farthest. */
+int window_margin(const frame *f);
 
 /* --- figure.c --- */
 /* Sets range and pixels; false when nothing of it is on the page. */

@@ -354,6 +354,7 @@ void ground_draw(frame *f)
     figure_state  s = {.figure = &fig, .near = f->camera.near, .far = f->camera.far, .ground = true};
     bool          drawn = is_drawn_by(f, &fig);
     find_pixels(f, &square, drawn ? DRAWN_MARGIN : MARGIN, s.pixels);
+    window_clip(f, WINDOW_MARGIN, s.pixels);
     memcpy(s.around, s.pixels, sizeof s.around);
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0)
         return;

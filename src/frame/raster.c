@@ -667,8 +667,8 @@ void raster_figure(frame *f, figure_state *s)
     const figure *fig = s->figure;
     stopwatch     w = watch_start(&f->profile);
     gpu_pass      pass = {0};
-    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
+    memcpy(pass.scissor, s->drawn[0], sizeof pass.scissor);
+    memcpy(pass.clear_box, s->drawn[1], sizeof pass.clear_box);
     outputs o =
         open_outputs(f, fig->channels & ~(unsigned)(fig->deferred ? CHANNEL_SHADE : 0), s->targets, &pass, s->far);
     if (!gpu_failed(f->g)) {

@@ -42,6 +42,20 @@ static void set_depth(const frame *f, int width, int height)
     }
 }
 
+/* Where of a small picture light is measured: around the window, as far as it is blurred. */
+static void limit_to_window(const frame *f, int width, gpu_pass *pass)
+{
+    int fraction = f->width > width ? (f->width + width - 1) / width : 1;
+    if (f->window[2] <= 0)
+        return;
+    window_around(f, WINDOW_MARGIN * fraction, pass->scissor);
+    for (int k = 0; k < 2; k++) {
+        int end = (pass->scissor[k] + pass->scissor[2 + k] + fraction - 1) / fraction;
+        pass->scissor[k] /= fraction;
+        pass->scissor[2 + k] = end - pass->scissor[k];
+    }
+}
+
 static void measure(frame *f, gpu_texture *depth, gpu_texture *fraction, gpu_texture *normals)
 {
     const scene_values *v = values_of(f);
@@ -54,7 +68,9 @@ static void measure(frame *f, gpu_texture *depth, gpu_texture *fraction, gpu_tex
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
-    gpu_pass_begin(f->g, &(gpu_pass){.colours = {fraction, normals}, .colour_count = 2});
+    gpu_pass pass = {.colours = {fraction, normals}, .colour_count = 2};
+    limit_to_window(f, width, &pass);
+    gpu_pass_begin(f->g, &pass);
     gpu_use(f->g, p, (gpu_state){0});
     set_positions(f, width, height);
     set_depth(f, width, height);
@@ -71,7 +87,9 @@ static void blur(frame *f, gpu_texture *from, gpu_texture *to, gpu_texture *norm
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/visibility_blur.frag", &prelude);
     if (!p || gpu_failed(f->g))
         return;
-    gpu_pass_begin(f->g, &(gpu_pass){.colours = {to}, .colour_count = 1});
+    gpu_pass pass = {.colours = {to}, .colour_count = 1};
+    limit_to_window(f, gpu_texture_width(to), &pass);
+    gpu_pass_begin(f->g, &pass);
     gpu_use(f->g, p, (gpu_state){0});
     set_positions(f, gpu_texture_width(to), gpu_texture_height(to));
     gpu_set_vec2(f->g, "u_along", upwards ? 0 : 1, upwards ? 1 : 0);

@@ -8,8 +8,12 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-/* Text of models is packed to a tenth; a hundredth would be one that says the same all the time. */
-static const size_t RATIO_MAX = 200, ALWAYS_ALLOWED = (size_t)64 << 20;
+/* How large it may become. Text of models is packed to a tenth; a hundredth would say the same all the time. */
+static size_t most_of(size_t packed)
+{
+    size_t most = packed < LIMIT_FILE_BYTES / LIMIT_GZIP_RATIO ? packed * LIMIT_GZIP_RATIO : LIMIT_FILE_BYTES;
+    return most < LIMIT_GZIP_BYTES ? LIMIT_GZIP_BYTES : most;
+}
 
 enum { STEP = 1 << 22, GZIP_WINDOW = 15 + 16 };
 
@@ -69,8 +73,7 @@ lmn_status gunzip(file_data *file, const char *path, lmn_error *error)
 {
     if (file->size < 2 || file->data[0] != 0x1f || file->data[1] != 0x8b)
         return LMN_OK;
-    unpacking u = {.most = file->size < ALWAYS_ALLOWED ? file->size * RATIO_MAX : LIMIT_FILE_BYTES};
-    u.most = u.most < ALWAYS_ALLOWED ? ALWAYS_ALLOWED : u.most > LIMIT_FILE_BYTES ? LIMIT_FILE_BYTES : u.most;
+    unpacking  u = {.most = most_of(file->size)};
     lmn_status status = LMN_OK;
     if (file->size > UINT_MAX)
         status = error_set(error, LMN_LIMIT, "a packed file has at most 4 GiB");

@@ -970,6 +970,70 @@ group_doctor() {
     row 2 '^limner: nosuch.stl: ' '' draw nosuch.stl
 }
 
+# tiles FIRST LAST PATTERN: names of all tiles of these zooms, as `row` sorts them.
+tiles() {
+    local z x y
+    for z in $(seq "$1" "$2"); do for x in $(seq 0 $(((1 << z) - 1))); do for y in $(seq 0 $(((1 << z) - 1))); do
+        printf "$3\n" $z $x $y
+    done; done; done
+}
+
+group_tiles() {
+    local look=(--look hatch) way check=$source/tests/cli/tiles.py cube=box-tiles all kept
+    # Wrong arguments, before any work.
+    row 1 "^limner: --zoom is '3:1'; allowed is FIRST:LAST with 0 up to 20" '' tiles nosuch.stl --zoom 3:1
+    row 1 "^limner: --zoom is '0:21'" '' tiles nosuch.stl --zoom 0:21
+    row 1 "^limner: --zoom is '1x'" '' tiles nosuch.stl --zoom 1x
+    row 1 'picture of 32768 pixels a side with 1 sample each; with these the last possible zoom is 6$' '' tiles nosuch.stl --zoom 0:7
+    row 1 'with these the last possible zoom is 4$' '' tiles nosuch.stl --zoom 5 --tile 512 --samples 4
+    row 1 "^limner: --shard is '0/4'; allowed is I/N" '' tiles nosuch.stl --shard 0/4
+    row 1 "^limner: --shard is '5/4'" '' tiles nosuch.stl --shard 5/4
+    row 1 "^limner: --shard does not go with --job" '' tiles nosuch.stl --shard 1/4 --job slurm
+    row 1 '^limner: --tasks goes with --job' '' tiles nosuch.stl --tasks 4
+    row 1 '^limner: tiles cannot go to standard output' '' tiles nosuch.stl -o -
+    row 1 '^limner: --camera excludes' '' tiles nosuch.stl --camera a --view top
+    row 1 'no look .nosuch' '' tiles nosuch.stl --look nosuch
+    row 2 '^limner: nosuch.stl: ' '' tiles nosuch.stl
+    touch in-file
+    row 1 "^limner: 'in-file' is a file; tiles go into a folder" '' tiles "$box" -o in-file
+    row 4 '^limner: in-file/deep: ' '' tiles "$box" -o in-file/deep
+    row 1 '^limner: --shard goes with frames as numbered pictures' '' draw "$box" --shard 1/2
+    row 1 '^limner: --job goes with frames as numbered pictures' '' draw "$box" --job slurm -o x.webp --frames 0:1:24
+    # What is drawn: all tiles of all zooms, which together are the one big picture.
+    all=$( (tiles 0 2 $cube/%d/%d/%d.png; echo $cube/index.html; echo $cube/tiles.json) | LC_ALL=C sort | tr '\n' ' ')
+    row 0 '' "${all% }" tiles "$box" "${look[@]}" --zoom 0:2
+    documented $cube/tiles.json tiles.md
+    has_size $cube/2/3/3.png 256 256
+    kept=$(mktemp -d); mv $cube $kept/whole
+    row 0 '' 'x.png' draw "$box" "${look[@]}" --size 1024x1024 --dpi 96 --samples 1 -o x.png
+    python3 "$check" $kept/whole 2 256 x.png 2> .stderr || complain "the tiles are not the picture"
+    # Shards together are the same, whatever their number and order; a run that goes on draws what is missing.
+    row 0 '' "$( (tiles 1 1 x/%d/%d/%d.png; echo x/index.html; echo x/tiles.json) | tr '\n' ' ' | sed 's/ $//')" tiles "$box" "${look[@]}" --zoom 0:2 -o x --shard 2/3
+    for way in 3 1; do "$limner" tiles "$box" "${look[@]}" --zoom 0:2 -o x --shard $way/3 2> .stderr || complain "shard $way"; done
+    python3 "$check" same $kept/whole x 2> .stderr || complain "shards make other tiles"
+    rm -r x/2/3 x/0; : > x/1/0/0.png; touch -d '2000-01-01' x/2/0/0.png
+    "$limner" tiles "$box" "${look[@]}" --zoom 0:2 -o x --resume -v 2> .stderr || complain "no resuming"
+    grep -q '3 blocks drawn into x' .stderr || complain "other blocks than what was missing"
+    python3 "$check" same $kept/whole x 2> .stderr || complain "a resumed run makes other tiles"
+    [ "$(stat -c %Y x/2/0/0.png)" = "$(date -d '2000-01-01' +%s)" ] || complain "a tile that was there is written again"
+    # Another drawing does not go on there.
+    for way in "--look toon" "--tile 512" "--view top" "--set surface.scale=9" "--seed 3"; do
+        "$limner" tiles "$box" "${look[@]}" --zoom 0:2 -o x --resume $way 2> .stderr && complain "another drawing goes on: $way"
+        grep -Eq 'tiles of another drawing|given twice' .stderr || complain "not told: $way"
+    done
+    # One file.
+    row 0 '' 'x.mbtiles' tiles "$box" "${look[@]}" --zoom 0:2 -o x.mbtiles
+    python3 "$check" packed x.mbtiles $kept/whole 2> .stderr || complain "the file has other tiles"
+    # Scripts say the same command again, quoted.
+    row 0 '' '' tiles "it's.glb" --job slurm --tasks 5 --set surface.scale=4 --look hatch --eye 1,2.5,3 -q
+    out '^#SBATCH --array=1-5$'; out ' tiles --look hatch --set surface.scale=4 --eye 1,2.5,3 '"'it'\\\\''s.glb'"' --resume --quiet --shard "\$SLURM_ARRAY_TASK_ID/5"$'; out '^    exit 75$'
+    bash -n .stdout || complain "the script is none"
+    row 0 '' '' draw "$box" --frames 0:9:24 --job parallel
+    out '^seq 8 \| parallel .*--resume-failed .* draw --frames 0:9:24 .*box.glb --resume --quiet --shard \{\}/8$'
+    row 0 '' '' tiles "$box" -o x.mbtiles --job parallel; out ' && .* tiles --output x.mbtiles .*--resume --quiet$'
+    rm -r "$kept"
+}
+
 group_cancel() {
     local got=0
     row="draw with Ctrl-C"

@@ -1,8 +1,6 @@
 /* Signs against what they tell, which is known in closed form: where things meet, turn, grow, speak, part. Nienhaus
  * 2005, sections 7.6 to 7.10; rows D12, D19, D20, D22 to D26, D29, D30. */
-#include "import_support.h"
-
-#include <math.h>
+#include "depict_support.h"
 
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
@@ -12,14 +10,6 @@
 #include "limner/depict.h"
 
 static const double red[3] = {0.8, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5}, pi = 3.14159265358979;
-
-#define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
-
-static void near_or_fail(double value, double expected, double off, const char *what, int line)
-{
-    if (!(fabs(value - expected) <= off))
-        fail_msg("line %d: %s is %.8g instead of %.8g", line, what, value, expected);
-}
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
@@ -182,73 +172,6 @@ static lmn_scene *speaker_scene(bool with_head, bool with_mouth)
     return finish(&m, "speaker");
 }
 
-static lmn_draw_desc seen_at(double seconds)
-{
-    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
-    d.view = LMN_VIEW_FRONT;
-    d.orthographic = true;
-    d.time_s = seconds;
-    d.time_given = true;
-    return d;
-}
-
-static void tell_as(lmn_scene *scene, const lmn_draw_desc *draw, const char *expressions, char **json)
-{
-    lmn_error       error = {0};
-    lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
-    desc.expressions = expressions;
-    if (lmn_depict(scene, draw, &desc, json, &error) != LMN_OK)
-        fail_msg("%s: %s", expressions ? expressions : "proposed", error.message);
-}
-
-static void tell_at(lmn_scene *scene, double seconds, const char *expressions)
-{
-    lmn_draw_desc draw = seen_at(seconds);
-    tell_as(scene, &draw, expressions, NULL);
-}
-
-/* --- what was put into the scene ---------------------------------------------------------------------------------- */
-
-static const char *value_of(const node *n, const char *key)
-{
-    for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, key) == 0)
-            return n->attributes[i].value;
-    return "";
-}
-
-static const primitive *sign_at(const lmn_scene *s, const char *glyph, size_t k)
-{
-    for (size_t i = 0; i < s->part_count; i++) {
-        const node *n = &s->nodes[s->parts[i].node];
-        if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
-    }
-    return NULL;
-}
-
-static size_t count_of(const lmn_scene *s, const char *glyph)
-{
-    size_t count = 0;
-    while (sign_at(s, glyph, count))
-        count++;
-    return count;
-}
-
-static void position(const primitive *p, uint32_t i, double out[3])
-{
-    vector3_set(out, (double)p->positions[i].x, (double)p->positions[i].y, (double)p->positions[i].z);
-}
-
-/* In the middle of a ribbon's breadth, at its k-th pair of vertices. */
-static void ribbon_point(const primitive *p, uint32_t k, double out[3])
-{
-    double a[3], b[3];
-    position(p, 2 * k, a);
-    position(p, 2 * k + 1, b);
-    vector3_mix(out, a, b, 0.5);
-}
-
 /* --- tests -------------------------------------------------------------------------------------------------------- */
 
 static void stars_are_where_things_meet(void **state)
@@ -278,6 +201,22 @@ static void stars_are_where_things_meet(void **state)
     assert_near(at[0], 2, 1e-4);
     assert_near(at[1], -0.1, 1e-4); /* between both */
     lmn_scene_destroy(&scene);
+}
+
+/* Nobody has said what is hit: it is whatever is near. */
+static void stars_find_what_is_hit(void **state)
+{
+    (void)state;
+    static const double gaps[][2] = {{0, 0}, {0.04, -0.02}, {0.2, 0}}; /* too far away: the ball's own place */
+    for (int i = 0; i < 3; i++) {
+        lmn_scene *scene = bounce_scene(gaps[i][0]);
+        double     at[3];
+        tell_at(scene, 1.5, "[{\"target\": \"ball\", \"depict\": \"collision\"}]");
+        position(sign_at(scene, "star", 0), 0, at);
+        assert_near(at[0], 2, 1e-4);
+        assert_near(at[1], gaps[i][1], 1e-4);
+        lmn_scene_destroy(&scene);
+    }
 }
 
 /* In perspective what is nearer to the viewer is seen elsewhere unless it lies on the line of sight. */
@@ -1006,6 +945,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_are_where_things_meet),
+        cmocka_unit_test(stars_find_what_is_hit),
         cmocka_unit_test(stars_are_seen_where_things_meet),
         cmocka_unit_test(bent_arrows_turn_as_things_do),
         cmocka_unit_test(helices_turn_as_often),

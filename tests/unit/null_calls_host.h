@@ -47,6 +47,13 @@ CALL(lmn_drawing_encode)
     lmn_bytes_free(bytes);
     return status;
 }
+CALL(lmn_drawing_write_part)
+{
+    const int part[4] = {0, 0, 1, 1};
+    uint64_t  bytes;
+    return lmn_drawing_write_part(P(0, w->drawing), P(1, part), P(2, FOLDER "/part.png"), P(3, ".png"), P(4, &bytes),
+                                  P(5, &w->error));
+}
 CALL(lmn_bytes_free)
 {
     lmn_bytes_free(NULL);

@@ -385,6 +385,7 @@ CALL(lmn_look_name_at)
 {
     return neutral(w->null != 0 || !lmn_look_name_at(0) || lmn_look_name_at(SIZE_MAX));
 }
+#include "null_calls_behaviour.h"
 #include "null_calls_host.h"
 #include "null_calls_rules.h"
 CALL(lmn_look_reference_json)
