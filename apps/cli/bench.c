@@ -9,7 +9,7 @@ typedef struct bench_values {
     word_list     looks;
     option_size   size;
     option_number repeat, time;
-    const char   *clip;
+    const char   *clip, *lod;
     option_vector eye, target;
     int           view, up_axis;
     bool          orthographic, json, quiet;
@@ -33,6 +33,7 @@ static const option options[] = {
     {"clip", 0, OPTION_TEXT, AT(clip), "NAME|N", "Which animation. Default: the first of each file."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
+    LOD_OPTION(AT(lod)),
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
     TASK_OPTIONS(bench_values),
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No progress."},
@@ -111,6 +112,7 @@ static int measure(const bench_values *v, const lmn_scene *scene, progress *bar,
 static int run(const word_list *inputs, const void *values)
 {
     const bench_values *v = values;
+    const word_list     none = {0};
     lmn_scene          *scene = NULL;
     lmn_task           *task;
     char               *text = NULL;
@@ -118,7 +120,8 @@ static int run(const word_list *inputs, const void *values)
     progress_begin(&bar, v->quiet);
     int status = task_begin(&task, &v->task, &bar);
     if (status == EXIT_DONE)
-        status = scene_of_files(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &bar);
+        status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis),
+                                   &(program_options){&none, false, v->lod}, &bar);
     if (status == EXIT_DONE)
         status = measure(v, scene, &bar, &text);
     lmn_scene_destroy(&scene);

@@ -21,12 +21,22 @@ lmn_up_axis              up_axis_of(int choice);
 /* Loads files into a new scene. Errors are printed; returns the exit status. */
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p);
 
-/* The same; definitions and strictness are for OpenSCAD programs (.scad) among them, and refused when there is
- * none. */
+/* The same; definitions and strictness are for OpenSCAD programs (.scad) among them, and refused when there is none.
+ * The level of detail is for city models, and the library refuses it with others. */
 typedef struct program_options {
     const word_list *defines; /* NAME=VALUE */
     bool             strict;
+    const char      *lod; /* NULL: the highest */
 } program_options;
+
+/* "--lod", in every command that reads models. */
+#define LOD_OPTION(at)                                                                                                 \
+    {                                                                                                                  \
+        "lod", 0, OPTION_TEXT, at, "N",                                                                                \
+            "Of city models (CityJSON, CityGML): the most detailed geometry of each object up to this level, such as " \
+            "1 "                                                                                                       \
+            "or 2.2. Default: the most detailed."                                                                      \
+    }
 int check_programs(const word_list *inputs, const program_options *programs);
 int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,
                       const program_options *programs, progress *p);

@@ -26,6 +26,7 @@ typedef struct draw_values {
     option_vector eye, target, up;
     option_number fov, fit, time, seed, samples, dpi;
     int           view, up_axis, angle;
+    const char   *lod;
     word_list     defines;
     bool        orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
     job_values  job;
@@ -107,6 +108,7 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
+    LOD_OPTION(AT(lod)),
     {"page", 0, OPTION_TEXT, AT(page), "PAGE",
      "Size of the paper: A4, A3-landscape, letter or 210x120mm. Pictures have --dpi pixels an inch of it, or --size in "
      "all. "
@@ -435,6 +437,8 @@ static int load_look(session *s)
                       : s->depicts    ? "storyboard"
                                       : "edges",
                       &error) != LMN_OK)
+        return message_error(&error);
+    if (s->depicts && lmn_look_add_sign_rules(s->look, &error) != LMN_OK)
         return message_error(&error);
     int status = set_motion(s->look, s->values->motion, s->values->poses);
     if (status == EXIT_DONE)
@@ -784,7 +788,7 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
     double                start = now_ms();
-    const program_options programs = {&s->values->defines, s->values->strict};
+    const program_options programs = {&s->values->defines, s->values->strict, s->values->lod};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;
@@ -837,7 +841,7 @@ static int run_as(const word_list *inputs, const draw_values *v, bool depicts)
     if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_options){&v->defines, v->strict});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL});
     if (status == EXIT_DONE)
         status = load_look(&s);
     if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))
@@ -907,7 +911,7 @@ static int find_whole(char *out, size_t size, const word_list *inputs, const dra
     lmn_scene            *scene = NULL;
     progress              bar;
     lmn_task             *task = NULL;
-    const program_options programs = {&v->defines, v->strict};
+    const program_options programs = {&v->defines, v->strict, v->lod};
     double                duration = 0;
     progress_begin(&bar, true);
     int status = check_programs(inputs, &programs);

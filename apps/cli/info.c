@@ -7,6 +7,7 @@
 
 typedef struct info_values {
     bool        json, dynamics, strict;
+    const char *lod;
     int         up_axis;
     word_list   defines;
     task_values task;
@@ -19,10 +20,35 @@ static const option options[] = {
     TASK_OPTIONS(info_values),
     {"up-axis", 0, OPTION_CHOICE, offsetof(info_values, up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
+    LOD_OPTION(offsetof(info_values, lod)),
     {"define", 'D', OPTION_LIST, offsetof(info_values, defines), "NAME=VALUE",
      "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
     {"strict", 0, OPTION_FLAG, offsetof(info_values, strict), NULL, "Of OpenSCAD programs: warnings are errors."},
 };
+
+/* Of city data: where it lies, what there is, what is left out. */
+static void print_city(const json_t *city)
+{
+    static const char *const groups[] = {"objects", "lods", "surfaces", "skipped", "repaired"};
+    const json_t            *origin = json_object_get(city, "origin");
+    if (json_array_size(origin) == 3)
+        printf("origin      %.9g %.9g %.9g  %s\n", json_number_value(json_array_get(origin, 0)),
+               json_number_value(json_array_get(origin, 1)), json_number_value(json_array_get(origin, 2)),
+               text_at(city, "crs", "(no coordinate system)"));
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) {
+        json_t     *group = json_object_get(city, groups[i]), *count;
+        const char *name, *between = "";
+        if (json_object_size(group) == 0)
+            continue;
+        printf("%-12s", groups[i]);
+        json_object_foreach(group, name, count)
+        {
+            printf("%s%s %.0f", between, name, json_number_value(count));
+            between = ", ";
+        }
+        printf("\n");
+    }
+}
 
 static void print_bounds(const json_t *bounds, const char *indent)
 {
@@ -169,6 +195,7 @@ static void print_table(const json_t *root)
     if (number_at(root, "lines", 0) > 0)
         printf("lines       %.0f\n", number_at(root, "lines", 0));
     print_bounds(json_object_get(root, "bounds"), "");
+    print_city(json_object_get(root, "city"));
     print_animations(json_object_get(root, "animations"));
     print_names(root, "materials");
     print_names(root, "textures");
@@ -200,7 +227,7 @@ static void print_dynamics(const json_t *root)
 static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
     lmn_scene            *scene = NULL;
-    const program_options programs = {&v->defines, v->strict};
+    const program_options programs = {&v->defines, v->strict, v->lod};
     int                   status = check_programs(inputs, &programs);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);

@@ -38,6 +38,11 @@ LMN_API lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const
  * open: lmn_scene_end_changes). */
 LMN_API lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error);
 
+/* Adds rules behind all others for signs that have to be read: letters in ink, balloons and the like of plain paper
+ * where the look hatches or leaves colour out. A look that selects signs by itself ("[glyph=…]") stays as it is.
+ * Errors: LMN_USAGE, LMN_MEMORY. */
+LMN_API lmn_status lmn_look_add_sign_rules(lmn_look *look, lmn_error *error);
+
 /* The ways to depict something, one after the other. */
 typedef struct lmn_depiction_info {
     const char *name;      /* as expressions call it; static, as all text here */

@@ -26,6 +26,7 @@
 #ifndef LIMNER_LIMNER_H
 #define LIMNER_LIMNER_H
 
+#include "limner/behaviour.h"
 #include "limner/content.h"
 #include "limner/depict.h"
 #include "limner/draw.h"

@@ -933,4 +933,6 @@ inline std::vector<std::string> looks()
 
 } // namespace limner
 
+#include "limner/behaviour.hpp"
+
 #endif

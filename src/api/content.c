@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/check_content.h"
 #include "api/complete.h"
 #include "api/content_mesh.h"
 #include "base/colour.h"
@@ -16,38 +17,6 @@
 /* --- arguments ------------------------------------------------------------------------------------------ */
 
 static const double pi = 3.14159265358979323846;
-
-static lmn_status check_scene(const lmn_scene *scene, const char *caller, lmn_error *error)
-{
-    return scene ? LMN_OK : error_set(error, LMN_USAGE, "%s: `scene` is NULL", caller);
-}
-
-static lmn_status check_range(double value, double least, double most, const char *what, const char *caller,
-                              lmn_error *error)
-{
-    if (value >= least && value <= most)
-        return LMN_OK;
-    return error_set(error, LMN_USAGE, "%s: %s is %g, not %g to %g", caller, what, value, least, most);
-}
-
-static lmn_status check_number(uint32_t number, size_t count, const char *what, const char *caller, lmn_error *error)
-{
-    if (number <= count)
-        return LMN_OK;
-    return error_set(error, LMN_USAGE, "%s: the scene has no %s %u", caller, what, (unsigned)number);
-}
-
-static lmn_status check_node(const lmn_scene *scene, uint32_t number, const char *caller, lmn_error *error)
-{
-    lmn_status status = check_scene(scene, caller, error);
-    if (status != LMN_OK || (number > 0 && number <= scene->node_count && !scene->nodes[number - 1].removed &&
-                             !scene->nodes[number - 1].ghost))
-        return status;
-    error_set(error, LMN_USAGE, "%s: the scene has no node %u", caller, (unsigned)number);
-    error_hint(error,
-               "take numbers from lmn_scene_add_node or lmn_scene_node_of_part; those of removed nodes are gone");
-    return LMN_USAGE;
-}
 
 static lmn_status check_matrix(const double *m, const char *caller, lmn_error *error)
 {
@@ -63,22 +32,10 @@ static lmn_status check_matrix(const double *m, const char *caller, lmn_error *e
     return LMN_USAGE;
 }
 
-static int32_t index_of(uint32_t number)
-{
-    return number ? (int32_t)number - 1 : NONE;
-}
-
 static void give(uint32_t *out, size_t count)
 {
     if (out)
         *out = (uint32_t)count;
-}
-
-/* True with *out NULL where there is none to copy. */
-static bool copy_name(char **out, const char *name)
-{
-    *out = name && name[0] ? scene_clean_name(name, strlen(name)) : NULL;
-    return *out || !name || !name[0];
 }
 
 static void settle_up(lmn_scene *scene)
@@ -108,12 +65,12 @@ lmn_status lmn_scene_add_mesh(lmn_scene *scene, const lmn_mesh_desc *desc, uint3
 {
     primitive  p;
     char      *name = NULL;
-    lmn_status status = check_scene(scene, "lmn_scene_add_mesh", error);
+    lmn_status status = content_check_scene(scene, "lmn_scene_add_mesh", error);
     if (status == LMN_OK)
         status = make_mesh(&p, scene, NONE, desc, "lmn_scene_add_mesh", error);
     if (status != LMN_OK)
         return status;
-    mesh *m = copy_name(&name, desc->name) ? scene_append_mesh(scene) : NULL;
+    mesh *m = content_copy_name(&name, desc->name) ? scene_append_mesh(scene) : NULL;
     if (m)
         m->revision = m->topology = scene_next_revision();
     status = m ? scene_exchange_mesh(scene, (int32_t)scene->mesh_count - 1, &p, error) : error_memory(error);
@@ -132,11 +89,11 @@ lmn_status lmn_scene_add_mesh(lmn_scene *scene, const lmn_mesh_desc *desc, uint3
 /* A mesh that can be exchanged: a single piece that no solid is made of. */
 static lmn_status check_own_mesh(const lmn_scene *scene, uint32_t number, const char *caller, lmn_error *error)
 {
-    lmn_status status = check_scene(scene, caller, error);
+    lmn_status status = content_check_scene(scene, caller, error);
     if (status == LMN_OK && number == 0)
         return error_set(error, LMN_USAGE, "%s: the scene has no mesh 0", caller);
     if (status == LMN_OK)
-        status = check_number(number, scene->mesh_count, "mesh", caller, error);
+        status = content_check_number(number, scene->mesh_count, "mesh", caller, error);
     if (status != LMN_OK)
         return status;
     const mesh *m = &scene->meshes[number - 1];
@@ -193,17 +150,17 @@ lmn_status lmn_scene_add_texture(lmn_scene *scene, const char *name, int width, 
                                  uint32_t *out, lmn_error *error)
 {
     const char *caller = "lmn_scene_add_texture";
-    lmn_status  status = check_scene(scene, caller, error);
+    lmn_status  status = content_check_scene(scene, caller, error);
     if (status == LMN_OK && !pixels)
         status = error_set(error, LMN_USAGE, "%s: `pixels` is NULL", caller);
     if (status == LMN_OK)
-        status = check_range(width, 1, LIMIT_IMAGE_SIDE, "the width", caller, error);
+        status = content_check_range(width, 1, LIMIT_IMAGE_SIDE, "the width", caller, error);
     if (status == LMN_OK)
-        status = check_range(height, 1, LIMIT_IMAGE_SIDE, "the height", caller, error);
+        status = content_check_range(height, 1, LIMIT_IMAGE_SIDE, "the height", caller, error);
     if (status != LMN_OK)
         return status;
     image  made = {.width = (uint32_t)width, .height = (uint32_t)height};
-    bool   good = copy_name(&made.name, name);
+    bool   good = content_copy_name(&made.name, name);
     image *i = NULL;
     if (good && (made.pixels = mem_copy(pixels, (size_t)width * (size_t)height * 4)) != NULL)
         i = scene_append_image(scene);
@@ -224,11 +181,11 @@ static lmn_status make_material(material *out, const lmn_scene *scene, const lmn
     lmn_material_desc full = LMN_MATERIAL_DESC_INIT;
     lmn_status        status = desc_complete(&full, sizeof full, desc, "LMN_MATERIAL_DESC_INIT", error);
     for (int i = 0; i < 4 && status == LMN_OK; i++)
-        status = check_range((double)full.colour[i], 0, 1, "a number of the colour", caller, error);
+        status = content_check_range((double)full.colour[i], 0, 1, "a number of the colour", caller, error);
     if (status == LMN_OK)
-        status = check_range((double)full.alpha_cutoff, 0, 1, "alpha_cutoff", caller, error);
+        status = content_check_range((double)full.alpha_cutoff, 0, 1, "alpha_cutoff", caller, error);
     if (status == LMN_OK)
-        status = check_number(full.texture, scene->image_count, "texture", caller, error);
+        status = content_check_number(full.texture, scene->image_count, "texture", caller, error);
     if (status != LMN_OK)
         return status;
     const float *c = full.colour;
@@ -241,14 +198,14 @@ static lmn_status make_material(material *out, const lmn_scene *scene, const lmn
                                                      : ALPHA_OPAQUE,
                       .alpha_cutoff = full.alpha_cutoff,
                       .unlit = full.unlit};
-    out->base_texture.image = index_of(full.texture);
-    return copy_name(&out->name, full.name) ? LMN_OK : error_memory(error);
+    out->base_texture.image = content_index(full.texture);
+    return content_copy_name(&out->name, full.name) ? LMN_OK : error_memory(error);
 }
 
 lmn_status lmn_scene_add_material(lmn_scene *scene, const lmn_material_desc *desc, uint32_t *out, lmn_error *error)
 {
     material   made;
-    lmn_status status = check_scene(scene, "lmn_scene_add_material", error);
+    lmn_status status = content_check_scene(scene, "lmn_scene_add_material", error);
     if (status == LMN_OK)
         status = make_material(&made, scene, desc, "lmn_scene_add_material", error);
     if (status != LMN_OK)
@@ -268,7 +225,7 @@ lmn_status lmn_scene_set_material(lmn_scene *scene, uint32_t number, const lmn_m
 {
     const char *caller = "lmn_scene_set_material";
     material    made;
-    lmn_status  status = check_scene(scene, caller, error);
+    lmn_status  status = content_check_scene(scene, caller, error);
     if (status == LMN_OK && (number == 0 || number > scene->material_count))
         status = error_set(error, LMN_USAGE, "%s: the scene has no material %u", caller, (unsigned)number);
     if (status == LMN_OK)
@@ -288,16 +245,16 @@ lmn_status lmn_scene_add_camera(lmn_scene *scene, const lmn_camera_desc *desc, u
     const char     *caller = "lmn_scene_add_camera";
     lmn_camera_desc full = LMN_CAMERA_DESC_INIT;
     char           *name = NULL;
-    lmn_status      status = check_scene(scene, caller, error);
+    lmn_status      status = content_check_scene(scene, caller, error);
     if (status == LMN_OK)
         status = desc_complete(&full, sizeof full, desc, "LMN_CAMERA_DESC_INIT", error);
     if (status == LMN_OK && !full.orthographic)
-        status = check_range(full.fov_deg, 1, 170, "fov_deg", caller, error);
+        status = content_check_range(full.fov_deg, 1, 170, "fov_deg", caller, error);
     if (status == LMN_OK && full.orthographic)
-        status = check_range(full.half_height, 1e-18, 1e18, "half_height", caller, error);
+        status = content_check_range(full.half_height, 1e-18, 1e18, "half_height", caller, error);
     if (status != LMN_OK)
         return status;
-    camera *c = copy_name(&name, full.name) ? scene_append_camera(scene) : NULL;
+    camera *c = content_copy_name(&name, full.name) ? scene_append_camera(scene) : NULL;
     if (!c) {
         mem_free(name);
         return error_memory(error);
@@ -313,13 +270,14 @@ lmn_status lmn_scene_add_camera(lmn_scene *scene, const lmn_camera_desc *desc, u
 
 static lmn_status check_light(const lmn_light_desc *d, const char *caller, lmn_error *error)
 {
-    lmn_status status = check_range((double)d->type, LMN_LIGHT_DIRECTIONAL, LMN_LIGHT_SPOT, "the type", caller, error);
+    lmn_status status =
+        content_check_range((double)d->type, LMN_LIGHT_DIRECTIONAL, LMN_LIGHT_SPOT, "the type", caller, error);
     for (int i = 0; i < 3 && status == LMN_OK; i++)
-        status = check_range((double)d->colour[i], 0, 1, "a number of the colour", caller, error);
+        status = content_check_range((double)d->colour[i], 0, 1, "a number of the colour", caller, error);
     if (status == LMN_OK)
-        status = check_range((double)d->intensity, 0, 1e9, "the intensity", caller, error);
+        status = content_check_range((double)d->intensity, 0, 1e9, "the intensity", caller, error);
     if (status == LMN_OK && d->type == LMN_LIGHT_SPOT)
-        status = check_range((double)d->outer_cone, 0.01, 90, "outer_cone", caller, error);
+        status = content_check_range((double)d->outer_cone, 0.01, 90, "outer_cone", caller, error);
     if (status == LMN_OK && d->type == LMN_LIGHT_SPOT && !(d->inner_cone >= 0 && d->inner_cone < d->outer_cone))
         status = error_set(error, LMN_USAGE, "%s: inner_cone is %g, not 0 to less than outer_cone (%g)", caller,
                            (double)d->inner_cone, (double)d->outer_cone);
@@ -331,14 +289,14 @@ lmn_status lmn_scene_add_light(lmn_scene *scene, const lmn_light_desc *desc, uin
     const char    *caller = "lmn_scene_add_light";
     lmn_light_desc full = LMN_LIGHT_DESC_INIT;
     char          *name = NULL;
-    lmn_status     status = check_scene(scene, caller, error);
+    lmn_status     status = content_check_scene(scene, caller, error);
     if (status == LMN_OK)
         status = desc_complete(&full, sizeof full, desc, "LMN_LIGHT_DESC_INIT", error);
     if (status == LMN_OK)
         status = check_light(&full, caller, error);
     if (status != LMN_OK)
         return status;
-    light *l = copy_name(&name, full.name) ? scene_append_light(scene) : NULL;
+    light *l = content_copy_name(&name, full.name) ? scene_append_light(scene) : NULL;
     if (!l) {
         mem_free(name);
         return error_memory(error);
@@ -358,13 +316,13 @@ lmn_status lmn_scene_add_light(lmn_scene *scene, const lmn_light_desc *desc, uin
 static lmn_status check_skin(const lmn_scene *scene, const uint32_t *joints, const double *binds, size_t count,
                              const char *caller, lmn_error *error)
 {
-    lmn_status status = check_scene(scene, caller, error);
+    lmn_status status = content_check_scene(scene, caller, error);
     if (status == LMN_OK && (!joints || !binds))
         status = error_set(error, LMN_USAGE, "%s: `%s` is NULL", caller, joints ? "inverse_binds" : "joints");
     if (status == LMN_OK)
-        status = check_range((double)count, 1, UINT16_MAX, "the number of joints", caller, error);
+        status = content_check_range((double)count, 1, UINT16_MAX, "the number of joints", caller, error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
-        status = check_node(scene, joints[i], caller, error);
+        status = content_check_node(scene, joints[i], caller, error);
         if (status == LMN_OK)
             status = check_matrix(&binds[16 * i], caller, error);
     }
@@ -415,17 +373,17 @@ static lmn_status check_joints(const lmn_scene *scene, const lmn_node_desc *d, c
 
 static lmn_status check_node_desc(const lmn_scene *scene, const lmn_node_desc *d, const char *caller, lmn_error *error)
 {
-    lmn_status status = d->parent ? check_node(scene, d->parent, caller, error) : LMN_OK;
+    lmn_status status = d->parent ? content_check_node(scene, d->parent, caller, error) : LMN_OK;
     if (status == LMN_OK)
-        status = check_number(d->mesh, scene->mesh_count, "mesh", caller, error);
+        status = content_check_number(d->mesh, scene->mesh_count, "mesh", caller, error);
     if (status == LMN_OK && d->mesh && scene->meshes[d->mesh - 1].spare)
         status = error_set(error, LMN_USAGE, "%s: the scene has no mesh %u", caller, (unsigned)d->mesh);
     if (status == LMN_OK)
-        status = check_number(d->camera, scene->camera_count, "camera", caller, error);
+        status = content_check_number(d->camera, scene->camera_count, "camera", caller, error);
     if (status == LMN_OK)
-        status = check_number(d->light, scene->light_count, "light", caller, error);
+        status = content_check_number(d->light, scene->light_count, "light", caller, error);
     if (status == LMN_OK)
-        status = check_number(d->skin, scene->skin_count, "skin", caller, error);
+        status = content_check_number(d->skin, scene->skin_count, "skin", caller, error);
     if (status == LMN_OK)
         status = check_joints(scene, d, caller, error);
     return status == LMN_OK ? check_matrix(d->matrix, caller, error) : status;
@@ -435,27 +393,27 @@ lmn_status lmn_scene_add_node(lmn_scene *scene, const lmn_node_desc *desc, uint3
 {
     const char   *caller = "lmn_scene_add_node";
     lmn_node_desc full = LMN_NODE_DESC_INIT;
-    lmn_status    status = check_scene(scene, caller, error);
+    lmn_status    status = content_check_scene(scene, caller, error);
     if (status == LMN_OK)
         status = desc_complete(&full, sizeof full, desc, "LMN_NODE_DESC_INIT", error);
     if (status == LMN_OK)
         status = check_node_desc(scene, &full, caller, error);
     if (status != LMN_OK)
         return status;
-    node n = {.parent = index_of(full.parent),
+    node n = {.parent = content_index(full.parent),
               .first_child = NONE,
               .next_sibling = NONE,
               .last_child = NONE,
               .has_matrix = true,
               .rotation = {0, 0, 0, 1},
               .scale = {1, 1, 1},
-              .mesh = index_of(full.mesh),
-              .skin = index_of(full.skin),
-              .camera = index_of(full.camera),
-              .light = index_of(full.light),
+              .mesh = content_index(full.mesh),
+              .skin = content_index(full.skin),
+              .camera = content_index(full.camera),
+              .light = content_index(full.light),
               .solid = NONE};
     memcpy(n.matrix.m, full.matrix, sizeof n.matrix.m);
-    if (!copy_name(&n.name, full.name))
+    if (!content_copy_name(&n.name, full.name))
         return error_memory(error);
     status = scene_add_node(scene, &n, error);
     if (status != LMN_OK) {
@@ -475,7 +433,7 @@ uint32_t lmn_scene_node_of_part(const lmn_scene *scene, uint32_t part)
 lmn_status lmn_scene_set_matrix(lmn_scene *scene, uint32_t node_number, const double matrix[16], lmn_error *error)
 {
     mat4       m;
-    lmn_status status = check_node(scene, node_number, "lmn_scene_set_matrix", error);
+    lmn_status status = content_check_node(scene, node_number, "lmn_scene_set_matrix", error);
     if (status == LMN_OK)
         status = check_matrix(matrix, "lmn_scene_set_matrix", error);
     if (status != LMN_OK)
@@ -488,7 +446,7 @@ lmn_status lmn_scene_set_instances(lmn_scene *scene, uint32_t node_number, const
                                    lmn_error *error)
 {
     const char *caller = "lmn_scene_set_instances";
-    lmn_status  status = check_node(scene, node_number, caller, error);
+    lmn_status  status = content_check_node(scene, node_number, caller, error);
     if (status == LMN_OK && scene->nodes[node_number - 1].mesh == NONE)
         status = error_set(error, LMN_USAGE, "%s: node %u has no mesh", caller, (unsigned)node_number);
     if (status == LMN_OK && count > LIMIT_INSTANCES)
@@ -508,7 +466,7 @@ lmn_status lmn_scene_set_instances(lmn_scene *scene, uint32_t node_number, const
 
 lmn_status lmn_scene_set_visible(lmn_scene *scene, uint32_t node_number, bool visible, lmn_error *error)
 {
-    lmn_status status = check_node(scene, node_number, "lmn_scene_set_visible", error);
+    lmn_status status = content_check_node(scene, node_number, "lmn_scene_set_visible", error);
     if (status == LMN_OK)
         scene_hide_node(scene, (int32_t)node_number - 1, !visible);
     return status;
@@ -517,7 +475,7 @@ lmn_status lmn_scene_set_visible(lmn_scene *scene, uint32_t node_number, bool vi
 lmn_status lmn_scene_set_attribute(lmn_scene *scene, uint32_t node_number, const char *key, const char *value,
                                    lmn_error *error)
 {
-    lmn_status status = check_node(scene, node_number, "lmn_scene_set_attribute", error);
+    lmn_status status = content_check_node(scene, node_number, "lmn_scene_set_attribute", error);
     if (status == LMN_OK && (!key || !key[0]))
         status = error_set(error, LMN_USAGE, "lmn_scene_set_attribute: the key is empty");
     return status == LMN_OK ? scene_set_attribute(scene, (int32_t)node_number - 1, key, value, error) : status;
@@ -525,7 +483,7 @@ lmn_status lmn_scene_set_attribute(lmn_scene *scene, uint32_t node_number, const
 
 lmn_status lmn_scene_remove_node(lmn_scene *scene, uint32_t node_number, lmn_error *error)
 {
-    lmn_status status = check_node(scene, node_number, "lmn_scene_remove_node", error);
+    lmn_status status = content_check_node(scene, node_number, "lmn_scene_remove_node", error);
     return status == LMN_OK ? scene_remove_node(scene, (int32_t)node_number - 1, error) : status;
 }
 
@@ -533,7 +491,7 @@ lmn_status lmn_scene_remove_node(lmn_scene *scene, uint32_t node_number, lmn_err
 
 lmn_status lmn_scene_set_up(lmn_scene *scene, lmn_up_axis up, lmn_error *error)
 {
-    lmn_status status = check_scene(scene, "lmn_scene_set_up", error);
+    lmn_status status = content_check_scene(scene, "lmn_scene_set_up", error);
     if (status == LMN_OK && up != LMN_UP_Y && up != LMN_UP_Z)
         status = error_set(error, LMN_USAGE, "lmn_scene_set_up: %d is neither LMN_UP_Y nor LMN_UP_Z", (int)up);
     if (status == LMN_OK && (scene->node_count > 0 || scene->mesh_count > 0)) {
@@ -547,7 +505,7 @@ lmn_status lmn_scene_set_up(lmn_scene *scene, lmn_up_axis up, lmn_error *error)
 
 lmn_status lmn_scene_begin_changes(lmn_scene *scene, lmn_error *error)
 {
-    lmn_status status = check_scene(scene, "lmn_scene_begin_changes", error);
+    lmn_status status = content_check_scene(scene, "lmn_scene_begin_changes", error);
     if (status == LMN_OK)
         scene_begin_changes(scene);
     return status;
@@ -555,6 +513,6 @@ lmn_status lmn_scene_begin_changes(lmn_scene *scene, lmn_error *error)
 
 lmn_status lmn_scene_end_changes(lmn_scene *scene, lmn_error *error)
 {
-    lmn_status status = check_scene(scene, "lmn_scene_end_changes", error);
+    lmn_status status = content_check_scene(scene, "lmn_scene_end_changes", error);
     return status == LMN_OK ? scene_end_changes(scene, error) : status;
 }

@@ -34,6 +34,12 @@ lmn_status lmn_depict_clear(lmn_scene *scene, lmn_error *error)
     return scene ? depict_clear(scene, error) : error_set(error, LMN_USAGE, "lmn_depict_clear: `scene` is NULL");
 }
 
+lmn_status lmn_look_add_sign_rules(lmn_look *look, lmn_error *error)
+{
+    return look ? look_add_sign_rules(look, error)
+                : error_set(error, LMN_USAGE, "lmn_look_add_sign_rules: `look` is NULL");
+}
+
 static lmn_status complete(lmn_depict_desc *full, const lmn_depict_desc *given, lmn_error *error)
 {
     lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_DEPICT_DESC_INIT", error);

@@ -16,10 +16,13 @@
 #define LIMIT_ZERO_ELEMENTS   ((size_t)1 << 24)   /* of accessors without a buffer view */
 #define LIMIT_JSON_BYTES      ((size_t)1 << 29)   /* a .gltf file, or the JSON chunk of a .glb */
 #define LIMIT_JSON_DEPTH      256
+#define LIMIT_XML_DEPTH       256 /* of elements in CityGML */
+#define LIMIT_GZIP_RATIO      200 /* unpacked bytes for each packed one, beyond LIMIT_GZIP_BYTES */
+#define LIMIT_GZIP_BYTES      ((size_t)64 << 20)
 #define LIMIT_CSG_DEPTH       1024              /* of blocks and of vectors in .csg files */
 #define LIMIT_CSG_VALUES      ((size_t)1 << 25) /* numbers and other values of a .csg file */
 #define LIMIT_SCAD_SECONDS    60                /* the openscad process that evaluates a .scad file */
-#define LIMIT_POLYGON_CORNERS 65536             /* of one face in PLY or OBJ */
+#define LIMIT_POLYGON_CORNERS 65536             /* of one face in PLY, OBJ or a city model */
 #define LIMIT_SHAPE_POINTS    ((size_t)4000000) /* of one shape made from numbers */
 #define LIMIT_STROKES         1000000           /* of one stroke texture */
 #define LIMIT_STROKE_LAYERS   65536

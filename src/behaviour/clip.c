@@ -28,12 +28,17 @@ typedef struct writer {
 } writer;
 
 /* The value of this piece, whoever drives at its ends. */
-static void piece_value(const writer *w, double t, double *out)
+static void piece_value(writer *w, double t, double *out)
 {
     if (w->span)
         schedule_span_value(w->s, w->span, t, out);
     else
         schedule_rest(w->s->scene, w->p->path, w->p->target, out);
+    for (size_t k = 0; k < w->n && w->status == LMN_OK; k++)
+        if (!(fabs(out[k]) <= 1e18)) /* callbacks say what they like */
+            w->status =
+                behaviour_refuse(&w->s->nodes[w->span ? w->span->node : 0], w->span ? (size_t)w->span->node : 0,
+                                 LMN_FORMAT, w->error, "gives a number at %g s that is not finite, or beyond 1e18", t);
     if (w->p->path != PATH_ROTATION || w->count == 0)
         return;
     /* Of the two quaternions of a rotation the one near the key before. */
@@ -46,7 +51,7 @@ static void piece_value(const writer *w, double t, double *out)
 }
 
 /* The derivative within the piece, by differences of second order that stay inside of it. */
-static void slope(const writer *w, double t, double *out)
+static void slope(writer *w, double t, double *out)
 {
     double *a = w->room, *b = a + w->n, *c = b + w->n, span = w->end - w->begin, h = 1e-4 * span;
     double  at = t - w->begin < h ? t : w->end - t < h ? t - 2 * h : t - h;
@@ -84,7 +89,7 @@ static void add_key(writer *w, float time, const double *value, const double *ta
 }
 
 /* How far the cubic between two keys is from what it stands for. */
-static double error_between(const writer *w, double from, double to, const double *a, const double *b, const double *da,
+static double error_between(writer *w, double from, double to, const double *a, const double *b, const double *da,
                             const double *db)
 {
     double worst = 0, span = to - from, *exact = w->room, made[COMPONENTS_MAX], length = 0;
@@ -119,7 +124,7 @@ static void add_between(writer *w, double from, double to, const double *a, cons
     double middle = from + (to - from) / 2;
     piece_value(w, to, b);
     slope(w, to, db);
-    if (halvings > 0 && (float)middle > (float)from && (float)middle < (float)to &&
+    if (w->status == LMN_OK && halvings > 0 && (float)middle > (float)from && (float)middle < (float)to &&
         error_between(w, from, to, a, b, da, db) > TOLERANCE * w->reach) {
         /* Keys lie where single precision can say, and so do their values. */
         middle = (double)(float)middle;
@@ -180,7 +185,8 @@ static void write_piece(writer *w, double *room)
         return;
     piece_value(w, w->begin, room);
     slope(w, w->begin, room + w->n);
-    begin_piece(w, room, room + w->n);
+    if (w->status == LMN_OK)
+        begin_piece(w, room, room + w->n);
     if (w->status == LMN_OK)
         add_between(w, w->begin, w->end, room, room + w->n, HALVINGS_MAX);
 }
@@ -211,7 +217,7 @@ static lmn_status write_channel(animation_channel *out, const schedule *s, const
     } else {
         times[count++] = 0;
         times[count++] = s->duration;
-        schedule_sort_times(times, &count);
+        trajectory_sort_times(times, &count);
         find_reach(&w, times, count);
         for (size_t i = 0; i + 1 < count && w.status == LMN_OK; i++) {
             w.begin = times[i];
@@ -232,6 +238,22 @@ static void release_channels(animation_channel *channels, size_t count)
         mem_free(channels[i].values);
     }
     mem_free(channels);
+}
+
+/* A matrix is what nodes of programs have by nature: it is told only where something of it is lost. */
+static void split_matrix(lmn_scene *scene, int32_t index)
+{
+    node  *n = &scene->nodes[index];
+    double t[3], r[4], size[3];
+    if (!n->has_matrix || !mat4_decompose(&n->matrix, t, r, size)) {
+        node_split_matrix(scene, index);
+        return;
+    }
+    memcpy(n->translation, t, sizeof t);
+    memcpy(n->rotation, r, sizeof r);
+    memcpy(n->scale, size, sizeof size);
+    n->has_matrix = false;
+    n->matrix = mat4_identity();
 }
 
 lmn_status behaviour_write_clip(lmn_scene *scene, int32_t index, lmn_error *error)
@@ -255,7 +277,7 @@ lmn_status behaviour_write_clip(lmn_scene *scene, int32_t index, lmn_error *erro
         a->duration = s.duration;
         for (size_t i = 0; i < a->channel_count; i++)
             if (made[i].path <= PATH_SCALE)
-                node_split_matrix(scene, made[i].target);
+                split_matrix(scene, made[i].target);
         scene->behaviour->written = index;
     } else {
         release_channels(made, made ? s.property_count : 0);

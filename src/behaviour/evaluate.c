@@ -1,7 +1,6 @@
 #include "behaviour/evaluate.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -150,23 +149,6 @@ static bool add_local(double local, void *user)
     return add_time(b, span_global(b->s, b->span, local));
 }
 
-static int compare_times(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void schedule_sort_times(double *times, size_t *count)
-{
-    size_t kept = 0;
-    if (*count)
-        qsort(times, *count, sizeof *times, compare_times);
-    for (size_t i = 0; i < *count; i++)
-        if (i == 0 || times[i] > times[kept - 1])
-            times[kept++] = times[i];
-    *count = kept;
-}
-
 bool schedule_breaks(const schedule *s, const behaviour_property *p, double begin, double end, double **times,
                      size_t *count, size_t *capacity)
 {
@@ -185,7 +167,7 @@ bool schedule_breaks(const schedule *s, const behaviour_property *p, double begi
             map_breaks(n, &s->curves[b.span->node], b.span->length, add_local, &b);
     }
     if (!b.failed)
-        schedule_sort_times(*times, count);
+        trajectory_sort_times(*times, count);
     return !b.failed;
 }
 
@@ -199,18 +181,22 @@ typedef struct following {
 
 enum { FOLLOW_DEPTH_MAX = 64 };
 
-/* Whose position a node's position needs: its parents', and that of those it follows. */
-static lmn_status check_follower(following *f, int32_t index, int depth)
+/* Whose position a node's position needs: its parents', and that of those it follows. `by` is the constraint that asks.
+ */
+static lmn_status check_follower(following *f, int32_t index, int32_t by, int depth)
 {
     const schedule *s = f->s;
     if (depth > FOLLOW_DEPTH_MAX)
-        return error_set(f->error, LMN_LIMIT, "more than %d nodes follow one another", FOLLOW_DEPTH_MAX);
+        return behaviour_refuse(&s->nodes[by], (size_t)by, LMN_LIMIT, f->error,
+                                "is one of more than %d, of which each follows what another one moves",
+                                FOLLOW_DEPTH_MAX);
     for (int32_t at = index; at != NONE; at = s->scene->nodes[at].parent) {
         if (f->state[at] == 2)
             return LMN_OK;
         if (f->state[at] == 1)
-            return error_set(f->error, LMN_FORMAT, "the node '%.100s' follows itself, in a circle of followers",
-                             s->scene->nodes[at].name ? s->scene->nodes[at].name : "(no name)");
+            return behaviour_refuse(&s->nodes[by], (size_t)by, LMN_FORMAT, f->error,
+                                    "makes the node '%.100s' follow itself, in a circle of followers",
+                                    s->scene->nodes[at].name ? s->scene->nodes[at].name : "(no name)");
         f->state[at] = 1;
         int32_t property = schedule_property(s, PATH_TRANSLATION, at);
         for (size_t i = 0; property != NONE && i < s->properties[property].span_count; i++) {
@@ -218,7 +204,7 @@ static lmn_status check_follower(following *f, int32_t index, int depth)
             const behaviour_node *n = &s->nodes[span->node];
             if (span->channel != NONE || n->map.kind != MAP_FOLLOW)
                 continue;
-            lmn_status status = check_follower(f, n->map.other, depth + 1);
+            lmn_status status = check_follower(f, n->map.other, span->node, depth + 1);
             if (status != LMN_OK)
                 return status;
         }
@@ -235,7 +221,7 @@ lmn_status schedule_check_followers(const schedule *s, lmn_error *error)
     for (size_t i = 0; i < s->span_count && status == LMN_OK; i++)
         if (s->nodes[s->spans[i].node].kind == BEHAVIOUR_CONSTRAINT &&
             s->nodes[s->spans[i].node].map.kind == MAP_FOLLOW)
-            status = check_follower(&f, s->nodes[s->spans[i].node].target, 0);
+            status = check_follower(&f, s->nodes[s->spans[i].node].target, s->spans[i].node, 0);
     mem_free(f.state);
     return status;
 }

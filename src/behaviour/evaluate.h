@@ -4,9 +4,7 @@
 #define LIMNER_BEHAVIOUR_EVALUATE_H
 
 #include "behaviour/schedule.h"
-
-/* Which of two values that meet at an instant: the one before it, the one that owns it, the one behind it. */
-typedef enum time_side { SIDE_BEFORE = -1, SIDE_AT, SIDE_BEHIND } time_side;
+#include "behaviour/trajectory.h"
 
 /* The span that drives a property; NONE: it rests. */
 int32_t schedule_driver(const schedule *s, const behaviour_property *p, double seconds, time_side side);
@@ -25,8 +23,6 @@ mat4 schedule_world(const schedule *s, int32_t node_index, double seconds, time_
  * Appends to an array that mem_grow grows. False when memory is gone. */
 bool schedule_breaks(const schedule *s, const behaviour_property *p, double begin, double end, double **times,
                      size_t *count, size_t *capacity);
-/* Sorts them and leaves each once. */
-void schedule_sort_times(double *times, size_t *count);
 
 /* Does nothing follow itself? Errors: LMN_FORMAT, LMN_MEMORY. */
 lmn_status schedule_check_followers(const schedule *s, lmn_error *error);

@@ -20,35 +20,25 @@ void       dynamics_release(dynamics *d);
 /* Does the span share an instant with the closed interval? Ends that others own count only by themselves. */
 bool span_meets(const behaviour_span *span, double from, double to);
 
-/* Where a point of a node is, how fast and how it speeds up; `before` and behind a forced time there is a sample each,
- * so that corners stay corners. */
-typedef struct trajectory_sample {
-    double seconds, position[3], velocity[3], acceleration[3];
-    bool   forced; /* a lifetime or a piece of a map begins or ends here */
-} trajectory_sample;
-
-typedef struct trajectory {
-    trajectory_sample *samples; /* times do not decrease */
-    size_t             count, capacity;
-} trajectory;
-
-/* Samples a point, in the node's axes (NULL: its origin), so closely that straight lines between samples are nowhere
- * farther than `tolerance` from it, and each turns by at most a tenth of a full turn. Errors: LMN_MEMORY, LMN_LIMIT,
- * LMN_CANCELLED. Release it also after one. */
-lmn_status trajectory_create(trajectory *out, const schedule *s, int32_t node_index, const double point[3], double from,
-                             double to, double tolerance, lmn_error *error);
-void       trajectory_release(trajectory *t);
+/* Where a point of a node, in the node's axes (NULL: its origin), goes, with its corners. Errors: as of
+ * trajectory_create. Release it also after one. */
+lmn_status schedule_trajectory(trajectory *out, const schedule *s, int32_t node_index, const double point[3],
+                               double from, double to, double tolerance, lmn_error *error);
+/* Where it is at one time, how fast and how it speeds up; at a break what lies on that side of it (SIDE_AT: behind it,
+ * at the end of all before it). Errors: LMN_MEMORY. */
+lmn_status schedule_point_at(trajectory_sample *out, const schedule *s, int32_t node_index, const double point[3],
+                             double seconds, time_side side, lmn_error *error);
 
 /* An impact: an instant at which a node's velocity jumps while its place does not. The normal is the way that it is
- * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its outermost vertex against
- * the normal, or its origin where it and all below it have no mesh. Read from the motion alone: what it hits need not
- * be in the scene. */
+ * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its origin. Read from the
+ * motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
 typedef struct impact {
     double seconds, place[3], normal[3], speed;
+    bool   sets_off, stops; /* was it at rest before, is it behind */
 } impact;
 
 /* Those of a node in from … to with a speed of `least` or more, in order; free *out with mem_free. Errors: as of
- * trajectory_create. */
+ * schedule_trajectory. */
 lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, double from, double to,
                         double least, lmn_error *error);
 

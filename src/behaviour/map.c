@@ -8,6 +8,18 @@
 
 static const double TURN = 6.283185307179586;
 
+void map_defaults(behaviour_map *m, const lmn_scene *scene)
+{
+    bool up_z = scene->up == 'z';
+    vector3_set(m->gravity, 0, up_z ? 0 : -9.81, up_z ? -9.81 : 0);
+    vector3_set(m->axis, 0, !up_z, up_z);
+    vector3_set(m->up, 0, !up_z, up_z);
+    vector3_set(m->forward, 0, up_z ? -1 : 0, !up_z);
+    m->restitution = 0.7;
+    m->frequency = 1;
+    m->rate = TURN;
+}
+
 double map_requirement(const behaviour_map *m)
 {
     if (m->kind == MAP_LINEAR && m->times)

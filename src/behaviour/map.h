@@ -4,6 +4,9 @@
 
 #include "behaviour/schedule.h"
 
+/* What maps have where nobody says it: gravity of 9.81 downward, a turn a second about what is up, models that look
+ * along +z (-y where z is up), restitution 0.7. */
+void map_defaults(behaviour_map *m, const lmn_scene *scene);
 /* What a constraint's map needs by itself, seconds; below 0: it has to be told. */
 double map_requirement(const behaviour_map *m);
 /* Is it one that the property can have? The reason why not, or NULL. */

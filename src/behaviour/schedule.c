@@ -2,34 +2,11 @@
 #include "behaviour/schedule.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/work.h"
 #include "behaviour/map.h"
-
-lmn_status behaviour_refuse(const behaviour_node *n, size_t index, lmn_status status, lmn_error *error,
-                            const char *format, ...)
-{
-    static const char *const kinds[] = {"sequence", "simultaneity", "table", "reverse", "repeat",
-                                        "creep",    "constraint",   "clip",  "event"};
-    char                     what[320];
-    va_list                  arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    if (n->name)
-        error_set(error, status, "the %s '%.100s' %s", kinds[n->kind], n->name, what);
-    else
-        error_set(error, status, "activity %zu, a %s, %s", index + 1, kinds[n->kind], what);
-    if (error) {
-        error->line = (int)n->line;
-        error->column = (int)n->column;
-    }
-    return status;
-}
 
 /* --- requirements --------------------------------------------------------------------------------------- */
 
@@ -44,33 +21,17 @@ typedef struct measuring {
 
 static lmn_status measure(measuring *m, int32_t index, uint32_t depth);
 
-static lmn_status check_leaf(measuring *m, int32_t index)
+static void measure_leaf(measuring *m, int32_t index)
 {
     const behaviour_node *n = &m->graph->nodes[index];
     requirement          *r = &m->all[index];
-    const char           *fault = NULL;
     r->leaves = 1;
-    if (n->kind == BEHAVIOUR_EVENT) {
-        if (n->duration > 0)
-            fault = "has a duration, and events have none";
-        r->needed = r->own = 0;
-    } else if (n->kind == BEHAVIOUR_CLIP) {
-        if (n->clip < 0 || (size_t)n->clip >= m->scene->animation_count)
-            fault = "is none of the scene";
-        else
-            r->own = m->scene->animations[n->clip].duration;
-        r->leaves = fault ? 0 : m->scene->animations[n->clip].channel_count;
-    } else {
-        fault = map_fault(m->scene, n);
-        r->own = fault ? 0 : map_requirement(&n->map);
-        if (!fault && r->own < 0 && n->duration < 0)
-            fault = "has to be told its duration";
-        if (n->duration >= 0)
-            r->own = n->duration;
+    if (n->kind == BEHAVIOUR_CLIP) {
+        r->own = m->scene->animations[n->clip].duration;
+        r->leaves = m->scene->animations[n->clip].channel_count;
+    } else if (n->kind == BEHAVIOUR_CONSTRAINT) {
+        r->own = n->duration >= 0 ? n->duration : map_requirement(&n->map);
     }
-    if (!fault && n->kind != BEHAVIOUR_EVENT && !((n->duration >= 0 ? n->duration : r->own) > 0))
-        fault = "lasts no time";
-    return fault ? behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "%s", fault) : LMN_OK;
 }
 
 /* What a child of this kind of parent adds. */
@@ -80,14 +41,8 @@ static lmn_status add_child(measuring *m, int32_t index, const behaviour_child *
     requirement          *r = &m->all[index];
     const requirement    *child = &m->all[c->node];
     double                needed = c->duration >= 0 && n->kind == BEHAVIOUR_TABLE ? c->duration : child->needed;
-    if (n->kind == BEHAVIOUR_TABLE) {
-        if (!isfinite(c->start) || c->start < 0 || !isfinite(needed) ||
-            (c->duration >= 0 && child->own > 0 && !(needed > 0)))
-            return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error,
-                                    "has a start or duration that is negative, empty or not finite");
-        if (needed > 0 && !(child->needed > 0))
-            return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "gives an event a duration");
-    }
+    if (n->kind == BEHAVIOUR_TABLE && c->duration >= 0 && !(child->needed > 0))
+        return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "gives an event a duration");
     r->own = n->kind == BEHAVIOUR_SEQUENCE ? r->own + needed
              : n->kind == BEHAVIOUR_TABLE  ? fmax(r->own, c->start + needed)
              : n->kind == BEHAVIOUR_REPEAT ? needed * n->times
@@ -100,18 +55,10 @@ static lmn_status add_child(measuring *m, int32_t index, const behaviour_child *
     return LMN_OK;
 }
 
-static lmn_status check_group(measuring *m, int32_t index, uint32_t depth)
+static lmn_status measure_group(measuring *m, int32_t index, uint32_t depth)
 {
     const behaviour_node *n = &m->graph->nodes[index];
-    bool                  modifier = n->kind >= BEHAVIOUR_REVERSE;
-    if (n->child_count == 0 || (modifier && n->child_count != 1))
-        return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, modifier ? "needs one activity" : "is empty");
-    if (n->kind == BEHAVIOUR_REPEAT && n->times < 1)
-        return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "repeats less than once");
-    if (n->kind == BEHAVIOUR_CREEP && !(n->exponent >= 1 && n->exponent <= 64))
-        return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "has the exponent %g, and 1 to 64 are allowed",
-                                n->exponent);
-    lmn_status status = LMN_OK;
+    lmn_status            status = LMN_OK;
     for (size_t i = 0; i < n->child_count && status == LMN_OK; i++) {
         status = measure(m, n->children[i].node, depth + 1);
         if (status == LMN_OK)
@@ -135,10 +82,11 @@ static lmn_status measure(measuring *m, int32_t index, uint32_t depth)
     if (r->state == DONE)
         return LMN_OK;
     r->state = OPEN;
-    if (isnan(n->duration) || n->duration > 1e9)
-        return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "lasts %g s, and at most 1e9 are allowed",
-                                n->duration);
-    lmn_status status = n->kind >= BEHAVIOUR_CONSTRAINT ? check_leaf(m, index) : check_group(m, index, depth);
+    lmn_status status = behaviour_check(m->scene, m->graph, index, m->error);
+    if (status == LMN_OK && n->kind >= BEHAVIOUR_CONSTRAINT)
+        measure_leaf(m, index);
+    else if (status == LMN_OK)
+        status = measure_group(m, index, depth);
     if (status == LMN_OK && !(r->own <= 1e9))
         status =
             behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "lasts %g s, and at most 1e9 are allowed", r->own);

@@ -7,6 +7,21 @@
 
 /* Beyond these a graph is refused with LMN_LIMIT: sharing and repeats can multiply without bound. */
 enum { BEHAVIOUR_DEPTH_MAX = 256, BEHAVIOUR_SPANS_MAX = 1000000, BEHAVIOUR_STEPS_MAX = 4000000 };
+enum { BEHAVIOUR_TIMES_MAX = 1000000, BEHAVIOUR_SECONDS_MAX = 1000000000 };
+
+/* --- check.c: one way for scripts and calls ---------------------------------------------------------------- */
+
+/* Is an activity in order by itself, whatever it is part of? Whoever makes one asks, and all that is laid out is asked
+ * again, since scenes change. Errors, which name it and its line: LMN_FORMAT. */
+lmn_status behaviour_check(const lmn_scene *scene, const struct behaviour *graph, int32_t index, lmn_error *error);
+/* Why a duration or a start that somebody gives is none, or NULL. */
+const char *behaviour_duration_fault(double seconds);
+const char *behaviour_start_fault(double seconds);
+/* "sequence 'walk'", and the line in the error. */
+lmn_status behaviour_refuse(const behaviour_node *n, size_t index, lmn_status status, lmn_error *error,
+                            const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* --- schedule.c -------------------------------------------------------------------------------------------- */
 
 /* One step from global time towards local time: offset + scale · t, and then of a creep length · (t/length)^exponent.
  */
@@ -94,8 +109,4 @@ int32_t schedule_property(const schedule *s, animation_path path, int32_t target
 
 /* Inside this folder: fills in properties and their slots once spans are there. Errors: LMN_MEMORY. */
 lmn_status schedule_find_drivers(schedule *s, lmn_error *error);
-/* "sequence 'walk'", and the line in the error. */
-lmn_status behaviour_refuse(const behaviour_node *n, size_t index, lmn_status status, lmn_error *error,
-                            const char *format, ...) __attribute__((format(printf, 5, 6)));
-
 #endif

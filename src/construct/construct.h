@@ -83,6 +83,9 @@ typedef struct text_style {
     const char *font; /* "Liberation Sans:style=Bold"; NULL or "": OpenSCAD's default */
     double      size, spacing;
     const char *direction, *language, *script, *halign, *valign; /* as OpenSCAD names them; NULL: its defaults */
+    /* Characters that the font lacks come from other fonts, and what runs from right to left does so beside what does
+     * not; else as OpenSCAD has it. Then characters that no font has are an error: LMN_UNSUPPORTED. */
+    bool fallback;
 } text_style;
 /* *missing: another font stands in for the one asked for. */
 lmn_status construct_text(region *out, const char *utf8, const text_style *style, facets f, bool *missing,

@@ -1,7 +1,5 @@
-/* Outlines of letters: Fontconfig finds the font; behind the fence, HarfBuzz says which glyphs stand where and
- * FreeType has their curves. The three take memory past base/memory.h and give it back, but for what Fontconfig
- * keeps about the installed fonts. */
-#include <fontconfig/fontconfig.h>
+/* Outlines of letters: text_fonts.c finds their fonts; behind the fence, HarfBuzz says which glyphs stand where and
+ * FreeType has their curves. Both take memory past base/memory.h and give it back. */
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_GLYPH_H
@@ -14,6 +12,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "construct/construct_private.h"
+#include "construct/text_fonts.h"
 #include "fence/fence.h"
 
 /* OpenSCAD sets every font at this size, in 64ths of a point, at 100 dots an inch, and scales the outlines from
@@ -38,61 +37,6 @@ typedef struct lettering {
 } lettering;
 
 /* --- the font ------------------------------------------------------------------------------------------- */
-
-/* Is one of the wanted families that of the match? A pattern without a family has no wish. */
-static bool family_matches(FcPattern *wanted, FcPattern *match)
-{
-    FcChar8 *name, *found;
-    if (FcPatternGetString(wanted, FC_FAMILY, 0, &name) != FcResultMatch)
-        return true;
-    for (int i = 0; FcPatternGetString(wanted, FC_FAMILY, i, &name) == FcResultMatch; i++)
-        for (int k = 0; FcPatternGetString(match, FC_FAMILY, k, &found) == FcResultMatch; k++)
-            if (FcStrCmpIgnoreCase(name, found) == 0)
-                return true;
-    return false;
-}
-
-/* The best font for the pattern; NULL when there is none at all. */
-static FcPattern *match_font(const char *name, bool *missing)
-{
-    FcPattern *wanted = FcNameParse((const FcChar8 *)(name && *name ? name : "Liberation Sans"));
-    FcPattern *asked = wanted ? FcPatternDuplicate(wanted) : NULL, *match = NULL;
-    FcResult   result;
-    if (asked && FcPatternAddBool(asked, FC_SCALABLE, FcTrue) && FcConfigSubstitute(NULL, asked, FcMatchPattern)) {
-        FcDefaultSubstitute(asked);
-        match = FcFontMatch(NULL, asked, &result);
-    }
-    *missing = match && !family_matches(wanted, match);
-    if (asked)
-        FcPatternDestroy(asked);
-    if (wanted)
-        FcPatternDestroy(wanted);
-    return match;
-}
-
-/* The font's file and which of its faces. The name comes from the model: Fontconfig's parser of names sees no more
- * than NAME_LONGEST of it. */
-static lmn_status find_font(file_data *out, int *index, const char *name, bool *missing, lmn_error *error)
-{
-    enum { NAME_LONGEST = 256 };
-    FcChar8 *file;
-    *index = 0;
-    if (name && strlen(name) > NAME_LONGEST)
-        return error_set(error, LMN_FORMAT, "text: the name of the font has %zu letters; allowed are %d", strlen(name),
-                         NAME_LONGEST);
-    FcPattern *match = match_font(name, missing);
-    if (!match || FcPatternGetString(match, FC_FILE, 0, &file) != FcResultMatch) {
-        if (match)
-            FcPatternDestroy(match);
-        error_set(error, LMN_UNSUPPORTED, "text: no font is installed");
-        error_hint(error, "install one, such as the Liberation fonts");
-        return LMN_UNSUPPORTED;
-    }
-    FcPatternGetInteger(match, FC_INDEX, 0, index);
-    lmn_status status = file_load(out, (const char *)file, error);
-    FcPatternDestroy(match);
-    return status;
-}
 
 static lmn_status open_font(lettering *l, const void *bytes, size_t size, int index, lmn_error *error)
 {
@@ -260,26 +204,48 @@ static lmn_status put_glyphs(lettering *l, fence_bytes *answer, lmn_error *error
     return status;
 }
 
-static void lettering_release(lettering *l)
+static void font_release(lettering *l)
 {
-    region_builder_release(&l->outline);
     hb_buffer_destroy(l->buffer);
     hb_font_destroy(l->font);
     if (l->face)
         FT_Done_Face(l->face);
     if (l->library)
         FT_Done_FreeType(l->library);
+    l->buffer = NULL;
+    l->font = NULL;
+    l->face = NULL;
+    l->library = NULL;
 }
 
 /* --- behind the fence and before it --------------------------------------------------------------------- */
 
-/* What stands first in a request. Then: the texts of the style, the text itself, the font. */
+/* What stands first in a request. Then: the texts of the style, and runs: each its face, its text, its font. */
 typedef struct text_numbers {
     double  size, spacing;
-    int32_t segments, face;
+    int32_t segments, runs;
 } text_numbers;
 
 enum { STYLE_TEXTS = 5 };
+
+static lmn_status shape_run(lettering *l, fence_reader *r, const text_style *style, bool alone, fence_bytes *answer,
+                            lmn_error *error)
+{
+    const uint32_t face = fence_take_u32(r);
+    char          *words = fence_take_text(r);
+    const uint32_t size = fence_take_u32(r);
+    const void    *font = fence_take(r, size);
+    lmn_status     status = words && font ? open_font(l, font, size, (int)face, error) : error_memory(error);
+    if (status == LMN_OK)
+        status = shape(l, words, style, error);
+    if (status == LMN_OK && alone)
+        align(l, style);
+    if (status == LMN_OK)
+        status = put_glyphs(l, answer, error);
+    font_release(l);
+    mem_free(words);
+    return status;
+}
 
 static lmn_status shape_text(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
 {
@@ -288,22 +254,19 @@ static lmn_status shape_text(const unsigned char *request, size_t size, fence_by
     const void  *at = fence_take(&r, sizeof n);
     if (at)
         memcpy(&n, at, sizeof n);
-    char *texts[STYLE_TEXTS + 1];
+    char *texts[STYLE_TEXTS];
     bool  good = true;
-    for (int i = 0; i <= STYLE_TEXTS; i++)
+    for (int i = 0; i < STYLE_TEXTS; i++)
         good = (texts[i] = fence_take_text(&r)) && good;
     const text_style style = {
         .direction = texts[0], .language = texts[1], .script = texts[2], .halign = texts[3], .valign = texts[4]};
     lettering  l = {.size = n.size, .spacing = n.spacing, .segments = n.segments};
-    lmn_status status = good ? open_font(&l, r.at, (size_t)(r.end - r.at), n.face, error) : error_memory(error);
-    if (status == LMN_OK)
-        status = shape(&l, texts[STYLE_TEXTS], &style, error);
-    if (status == LMN_OK) {
-        align(&l, &style);
-        status = put_glyphs(&l, answer, error);
-    }
-    lettering_release(&l);
-    for (int i = 0; i <= STYLE_TEXTS; i++)
+    lmn_status status = good ? LMN_OK : error_memory(error);
+    fence_put_u32(answer, (uint32_t)n.runs);
+    for (int32_t i = 0; i < n.runs && status == LMN_OK; i++)
+        status = shape_run(&l, &r, &style, n.runs == 1, answer, error);
+    region_builder_release(&l.outline);
+    for (int i = 0; i < STYLE_TEXTS; i++)
         mem_free(texts[i]);
     return status;
 }
@@ -334,18 +297,32 @@ static lmn_status take_glyph(region *out, fence_reader *r, lmn_error *error)
     return status;
 }
 
+/* All glyphs of one run. */
+static lmn_status take_run(region **glyphs, size_t *made, size_t *capacity, fence_reader *r, size_t limit,
+                           lmn_error *error)
+{
+    const size_t count = fence_take_u32(r);
+    lmn_status   status = LMN_OK;
+    /* A glyph takes four bytes at least. */
+    if (count > limit / 4)
+        return error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
+    for (size_t i = 0; i < count && status == LMN_OK; i++) {
+        if (!mem_grow((void **)glyphs, capacity, *made + 1, sizeof **glyphs))
+            return error_memory(error);
+        status = take_glyph(&(*glyphs)[*made], r, error);
+        *made += status == LMN_OK;
+    }
+    return status;
+}
+
 static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error *error)
 {
     fence_reader r = fence_read(answer->bytes, answer->size);
-    size_t       count = fence_take_u32(&r), made = 0;
-    /* A glyph takes four bytes at least. */
-    if (count > answer->size / 4)
-        return error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
-    region    *glyphs = mem_calloc(count, sizeof *glyphs);
-    lmn_status status = glyphs ? LMN_OK : error_memory(error);
-    while (status == LMN_OK && made < count)
-        if ((status = take_glyph(&glyphs[made], &r, error)) == LMN_OK)
-            made++;
+    size_t       runs = fence_take_u32(&r), made = 0, capacity = 0;
+    region      *glyphs = NULL;
+    lmn_status   status = LMN_OK;
+    for (size_t i = 0; i < runs && status == LMN_OK && !r.ended; i++)
+        status = take_run(&glyphs, &made, &capacity, &r, answer->size, error);
     if (status == LMN_OK && r.ended)
         status = error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
     if (status == LMN_OK)
@@ -353,6 +330,22 @@ static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error 
     for (size_t i = 0; i < made; i++)
         region_release(&glyphs[i]);
     mem_free(glyphs);
+    return status;
+}
+
+static lmn_status put_run(fence_bytes *request, const text_run *run, lmn_error *error)
+{
+    file_data  font = {0};
+    lmn_status status = file_load(&font, run->file, error);
+    if (status == LMN_OK && font.size > UINT32_MAX)
+        status = error_set(error, LMN_UNSUPPORTED, "text: the font cannot be read");
+    if (status == LMN_OK) {
+        fence_put_u32(request, (uint32_t)run->face);
+        fence_put_text(request, run->words);
+        fence_put_u32(request, (uint32_t)font.size);
+        fence_put(request, font.data, font.size);
+    }
+    file_data_release(&font);
     return status;
 }
 
@@ -370,22 +363,24 @@ lmn_status construct_text(region *out, const char *utf8, const text_style *style
     text_numbers n = {
         .size = style->size, .spacing = style->spacing, .segments = facets_of_circle(style->size, f) / 8 + 1};
     n.segments = n.segments < 2 ? 2 : n.segments;
-    file_data   font = {0};
-    int         face = 0;
+    text_runs   runs = {0};
     fence_bytes request = {0}, answer = {0};
-    status = find_font(&font, &face, style->font, missing, error);
+    status = style->fallback ? text_runs_find(&runs, utf8, style->font, error)
+                             : text_runs_whole(&runs, utf8, style->font, missing, error);
     if (status == LMN_OK) {
-        n.face = face;
-        const char *texts[] = {style->direction, style->language, style->script, style->halign, style->valign, utf8};
+        n.runs = (int32_t)runs.count;
+        const char *texts[] = {style->direction, style->language, style->script, style->halign, style->valign};
         fence_put(&request, &n, sizeof n);
         for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
             fence_put_text(&request, texts[i]);
-        fence_put(&request, font.data, font.size);
-        status = fence_call(&answer, shape_text, "the reader of fonts", &request, error);
+        for (size_t i = 0; i < runs.count && status == LMN_OK; i++)
+            status = put_run(&request, &runs.items[i], error);
     }
     if (status == LMN_OK)
+        status = fence_call(&answer, shape_text, "the reader of fonts", &request, error);
+    if (status == LMN_OK)
         status = join_glyphs(out, &answer, error);
-    file_data_release(&font);
+    text_runs_release(&runs);
     mem_free(request.bytes);
     mem_free(answer.bytes);
     return status;

@@ -124,13 +124,13 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     const path_values *v = e->values;
     trajectory         way;
     glyph_mesh         m = {0};
-    lmn_status         status = trajectory_sample(&way, &t->way, t->centre, from, to, t->radius * 0.01, error);
+    lmn_status         status = way_trajectory(&way, &t->way, t->centre, from, to, t->radius * 0.01, error);
     double(*points)[3] = status == LMN_OK ? mem_alloc(way.count * sizeof *points) : NULL;
     if (status == LMN_OK && !points)
         status = error_memory(error);
     const double width = (double)v->width * t->radius;
     for (size_t i = 0; i < way.count && status == LMN_OK; i++)
-        vector3_add(points[i], way.samples[i].at, (double)v->offset * t->radius, j->camera.up);
+        vector3_add(points[i], way.samples[i].position, (double)v->offset * t->radius, j->camera.up);
     if (status == LMN_OK) {
         const arrow_style style = {width,
                                    when == GLYPH_FUTURE ? (double)v->dash * width : 0,
@@ -143,7 +143,7 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     }
     glyph_mesh_release(&m);
     mem_free(points);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 

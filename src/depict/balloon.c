@@ -19,11 +19,14 @@ static const param balloon_params[] = {
     PARAM_TEXT_ROW(balloon_values, text, .def_text = "…", .example = "Look!|There it goes.",
                    .doc = "What is said or thought; \"|\" begins a line."),
     PARAM_ENUM_ROW(balloon_values, side, .names = sides, .def = SIDE_AUTO,
-                   .doc = "Of the head on which it lies; auto: where the target faces, right if it faces the viewer."),
+                   .doc =
+                       "Of the head on which it lies; auto: where the target looks, right if it looks at the viewer."),
     PARAM_INT_ROW(balloon_values, letters, .def = 14, .min = 0, .max = 200, .soft_max = 40, .unit = UNIT_COUNT,
                   .doc = "A longer line is broken between words; 0: none is."),
-    PARAM_FLOAT_ROW(balloon_values, size, .def = 0.035, .min = 0.001, .max = 10, .soft_max = 0.2, .unit = UNIT_FRACTION,
-                    .doc = "Height of a capital, share of the scene's size."),
+    PARAM_FLOAT_ROW(
+        balloon_values, size, .def = 0.035, .min = 0.001, .max = 10, .soft_max = 0.2, .unit = UNIT_FRACTION,
+        .doc = "Height of a capital, share of the scene's size; where the viewer stays where it is, of the page's "
+               "height at the head."),
     PARAM_FLOAT_ROW(balloon_values, distance, .def = 1, .min = 0, .max = 20, .soft_max = 4, .unit = UNIT_FRACTION,
                     .doc = "From the head, in its radii."),
     PARAM_COLOUR_ROW(balloon_values, colour, .def_colour = {1, 1, 1, 1}, .doc = "Of the balloon."),
@@ -76,31 +79,66 @@ static void put_thought(glyph_mesh *m, const page_place *p, double half_width, d
 static double side_of(const depict_job *j, const expression *e, const mouth *where)
 {
     const balloon_values *v = e->values;
-    double                right[3], up[3], front[3];
+    double                right[3], up[3];
     depict_page_axes(j, right, up);
-    vector3_add(front, where->at, -1, where->head);
     if (v->side != SIDE_AUTO)
         return v->side == SIDE_LEFT ? -1 : 1;
-    return vector3_dot(front, right) < -0.3 * where->radius ? -1 : 1;
+    return vector3_dot(where->gaze, right) < -0.3 ? -1 : 1;
+}
+
+/* Beside and above the head, `side` to the right of it. */
+static void beside_head(const depict_job *j, const expression *e, const mouth *where, double side, const double half[2],
+                        double out[3])
+{
+    const balloon_values *v = e->values;
+    const double          away = where->radius * (1 + (double)v->distance);
+    double                right[3], up[3];
+    depict_page_axes(j, right, up);
+    vector3_add(out, where->head, side * (away * 0.7 + half[0]), right);
+    vector3_add(out, out, away * 0.9 + half[1], up);
+}
+
+/* Into the page, where the viewer does not step back for it; how far it was from that. */
+static double bring_inside(const depict_job *j, double at[3], const double half[2])
+{
+    const double depth = page_depth_of(j, at), page = page_height(j, at) / 2,
+                 size[2] = {half[0] / page, half[1] / page};
+    double middle[2];
+    if (!page_seen_at(j, at, middle))
+        return INFINITY;
+    const double moved = page_keep_inside(j, middle, size);
+    page_position(j, middle, depth, at);
+    return moved;
+}
+
+/* At the side that is wanted, or where it would leave the page, at the other one if it has more room there. */
+static void place_balloon(const depict_job *j, const expression *e, const mouth *where, const double half[2],
+                          double out[3])
+{
+    const balloon_values *v = e->values;
+    const double          side = side_of(j, e, where);
+    double                other[3];
+    beside_head(j, e, where, side, half, out);
+    beside_head(j, e, where, -side, half, other);
+    if (bring_inside(j, out, half) > 2 * bring_inside(j, other, half) && v->side == SIDE_AUTO)
+        vector3_copy(out, other);
 }
 
 static lmn_status put_balloon(depict_job *j, const expression *e, const mouth *where, bool thought, lmn_error *error)
 {
     const balloon_values *v = e->values;
-    const double          height = (double)v->size * j->size, lift = depict_front(j, where->head);
+    const double          height = (double)v->size * (j->fixed_view ? page_height(j, where->head) : j->size),
+                 lift = depict_front(j, where->head);
     const lettering_style words = {v->text.text, v->letters, height, 0};
     glyph_mesh            letters = {0}, balloon = {0};
     page_place            place, behind;
-    double                size[2], middle[3], tip[2], right[3], up[3];
-    depict_page_axes(j, right, up);
+    double                size[2], middle[3], tip[2];
     /* How much room the words need, wherever they are. */
     page_place_at(&place, j, where->head, lift);
     lmn_status status = glyph_put_lettering(&letters, &place, &words, size, error);
     glyph_mesh_release(&letters);
-    const double half_width = size[0] * 0.62 + height * 1.1, half_height = size[1] * 0.66 + height * 1.1;
-    const double away = where->radius * (1 + (double)v->distance), side = side_of(j, e, where);
-    vector3_add(middle, where->head, side * (away * 0.7 + half_width), right);
-    vector3_add(middle, middle, away * 0.9 + half_height, up);
+    const double half[2] = {size[0] * 0.62 + height * 1.1, size[1] * 0.66 + height * 1.1};
+    place_balloon(j, e, where, half, middle);
     page_place_at(&behind, j, middle, lift);
     page_place_at(&place, j, middle, lift + 0.2 * height);
     if (status == LMN_OK)
@@ -112,9 +150,9 @@ static lmn_status put_balloon(depict_job *j, const expression *e, const mouth *w
         const double f = 1 - fmin(0.6, 1.3 * where->radius / fmax(hypot(tip[0], tip[1]), 1e-9));
         tip[0] *= f;
         tip[1] *= f;
-        put_thought(&balloon, &behind, half_width, half_height, tip);
+        put_thought(&balloon, &behind, half[0], half[1], tip);
     } else
-        put_speech(&balloon, &behind, half_width, half_height, tip);
+        put_speech(&balloon, &behind, half[0], half[1], tip);
     if (status == LMN_OK)
         status = glyph_put(j, &balloon, &(glyph_label){"balloon", e->target, GLYPH_PRESENT, v->colour}, error);
     if (status == LMN_OK)

@@ -1,10 +1,9 @@
 /* Where a camera goes: frames that show how much it sees, joined along the ways of their corners, or with arrows from
  * one to the next. Nienhaus 2005, section 7.9, figure 7-8. */
-#include <string.h>
-
 #include "base/error.h"
 #include "base/memory.h"
 #include "depict/page.h"
+#include "depict/shot.h"
 
 typedef struct camera_values {
     int32_t count;
@@ -26,61 +25,23 @@ typedef struct camera_values {
 static const param path_params[] = {CAMERA_ROWS(5)};
 static const param flow_params[] = {CAMERA_ROWS(3)};
 
-/* A camera on its way. */
-typedef struct shot {
-    way           way;
-    const camera *camera;
-    double        aspect, focus;
-} shot;
-
-static lmn_status shot_open(shot *out, const depict_job *j, const expression *e, lmn_error *error)
-{
-    const lmn_scene     *s = j->scene;
-    const camera_values *v = e->values;
-    int32_t              own = e->target;
-    memset(out, 0, sizeof *out);
-    while (own != NONE && s->nodes[own].camera == NONE)
-        own = scene_next_node(s, e->target, own);
-    if (own == NONE)
-        return error_set(error, LMN_USAGE, "'%s' is for cameras; '%.80s' has none", e->row->characteristic,
-                         s->nodes[e->target].name ? s->nodes[e->target].name : "the target");
-    out->camera = &s->cameras[s->nodes[own].camera];
-    out->aspect = j->camera.aspect;
-    lmn_status status = way_open(&out->way, s, own, &j->when, error);
-    if (status != LMN_OK)
-        return status;
-    mat4 world = way_world(&out->way, fmin(fmax(e->now, e->from), e->to));
-    out->focus = v->focus > 0 ? (double)v->focus : vector3_distance(&world.m[12], j->camera.target) / 5;
-    if (!(out->focus > 0))
-        out->focus = j->size / 5;
-    return LMN_OK;
-}
-
-/* A place of the plane that is in focus; (±1, ±1) are the corners of what is seen. */
-static void shot_point(const shot *s, double seconds, double x, double y, double out[3])
-{
-    const mat4   world = way_world(&s->way, seconds);
-    const double half = s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus;
-    double       axes[3][3];
-    for (int k = 0; k < 3; k++) {
-        vector3_copy(axes[k], &world.m[4 * k]);
-        vector3_normalise(axes[k]);
-    }
-    vector3_add(out, &world.m[12], x * half * s->aspect, axes[0]);
-    vector3_add(out, out, y * half, axes[1]);
-    vector3_add(out, out, -s->focus, axes[2]);
-}
-
-static double shot_height(const shot *s)
-{
-    return 2 * (s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus);
-}
-
 static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
 static glyph_tense tense_of(const expression *e, double seconds, double slack)
 {
     return fabs(seconds - e->now) <= slack ? GLYPH_PRESENT : seconds < e->now ? GLYPH_PAST : GLYPH_FUTURE;
+}
+
+/* A frame right before a viewer who does not step back: none of its corners is on the page, only bars would be. */
+static bool is_beyond_page(const depict_job *j, const shot *s, double seconds)
+{
+    for (int i = 0; i < 4 && j->fixed_view; i++) {
+        double at[3], page[2];
+        shot_point(s, seconds, corners[i][0], corners[i][1], at);
+        if (page_seen_at(j, at, page) && fabs(page[0]) < j->camera.aspect && fabs(page[1]) < 1)
+            return false;
+    }
+    return j->fixed_view;
 }
 
 /* Four bars around what is seen: the inner corners are those of the view. */
@@ -90,6 +51,8 @@ static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, d
     glyph_mesh           m = {0};
     const double         bar = 2 * (double)v->width;
     uint32_t             vertices[8];
+    if (is_beyond_page(j, s, seconds))
+        return LMN_OK;
     for (int i = 0; i < 8; i++) {
         const double *c = corners[i % 4], out = i < 4 ? 0 : bar;
         double        at[3];
@@ -115,6 +78,8 @@ static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, d
     const camera_values *v = e->values;
     glyph_mesh           m = {0};
     double               points[STEPS + 1][3], widths[STEPS + 1];
+    if (is_beyond_page(j, s, from) && is_beyond_page(j, s, to))
+        return LMN_OK;
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i <= STEPS; i++) {
             shot_point(s, from + (to - from) * i / STEPS, corners[k][0], corners[k][1], points[i]);
@@ -138,16 +103,17 @@ static lmn_status put_frames(depict_job *j, const expression *e, const shot *s, 
 
 static lmn_status camera_path_depict(depict_job *j, const expression *e, lmn_error *error)
 {
-    shot         s;
-    lmn_status   status = shot_open(&s, j, e, error);
-    const double split = fmin(fmax(e->now, e->from), e->to);
+    const camera_values *v = e->values;
+    shot                 s;
+    lmn_status           status = shot_open(&s, j, e, (double)v->focus, error);
+    const double         split = fmin(fmax(e->now, e->from), e->to);
     if (status == LMN_OK)
         status = put_frames(j, e, &s, error);
     if (status == LMN_OK && split > e->from)
         status = put_rails(j, e, &s, e->from, split, GLYPH_PAST, error);
     if (status == LMN_OK && split < e->to)
         status = put_rails(j, e, &s, split, e->to, GLYPH_FUTURE, error);
-    way_release(&s.way);
+    shot_release(&s);
     return status;
 }
 
@@ -173,13 +139,13 @@ static lmn_status shot_flow_depict(depict_job *j, const expression *e, lmn_error
 {
     const camera_values *v = e->values;
     shot                 s;
-    lmn_status           status = shot_open(&s, j, e, error);
+    lmn_status           status = shot_open(&s, j, e, (double)v->focus, error);
     const double         step = (e->to - e->from) / (v->count - 1);
     if (status == LMN_OK)
         status = put_frames(j, e, &s, error);
     for (int i = 0; i + 1 < v->count && status == LMN_OK; i++)
         status = put_flow(j, e, &s, e->from + step * i, e->from + step * (i + 1), error);
-    way_release(&s.way);
+    shot_release(&s);
     return status;
 }
 

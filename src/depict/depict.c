@@ -17,14 +17,27 @@ static const char root_name[] = "glyphs", hidden_key[] = "depicted";
 extern const depiction depiction_path, depiction_motion, depiction_still, depiction_still_plane, depiction_collision,
     depiction_turnaround, depiction_tailspin, depiction_expand, depiction_collapse, depiction_speech, depiction_thought,
     depiction_camera_path, depiction_shot_flow, depiction_explode, depiction_split_path, depiction_cause,
-    depiction_travelling;
+    depiction_travelling, depiction_inset;
 
-const depiction *const depictions[] = {&depiction_path,        &depiction_motion,     &depiction_still,
-                                       &depiction_still_plane, &depiction_collision,  &depiction_turnaround,
-                                       &depiction_tailspin,    &depiction_expand,     &depiction_collapse,
-                                       &depiction_speech,      &depiction_thought,    &depiction_camera_path,
-                                       &depiction_shot_flow,   &depiction_explode,    &depiction_split_path,
-                                       &depiction_cause,       &depiction_travelling, NULL};
+const depiction *const depictions[] = {&depiction_path,
+                                       &depiction_motion,
+                                       &depiction_still,
+                                       &depiction_still_plane,
+                                       &depiction_collision,
+                                       &depiction_turnaround,
+                                       &depiction_tailspin,
+                                       &depiction_expand,
+                                       &depiction_collapse,
+                                       &depiction_speech,
+                                       &depiction_thought,
+                                       &depiction_camera_path,
+                                       &depiction_shot_flow,
+                                       &depiction_explode,
+                                       &depiction_split_path,
+                                       &depiction_cause,
+                                       &depiction_travelling,
+                                       &depiction_inset,
+                                       NULL};
 
 /* --- taking glyphs out
  * ------------------------------------------------------------------------------------------------ */
@@ -184,8 +197,10 @@ static lmn_status change_scene(lmn_scene *scene, depict_job *j, const expression
 static lmn_status make_glyphs(depict_job *j, const expression_list *expressions, lmn_error *error)
 {
     lmn_status status = LMN_OK;
-    for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
-        status = expressions->items[i].row->depict(j, &expressions->items[i], error);
+    for (int last = 0; last < 2; last++)
+        for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
+            if (expressions->items[i].row->last == (last != 0))
+                status = expressions->items[i].row->depict(j, &expressions->items[i], error);
     return status;
 }
 
@@ -208,6 +223,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     depict_poses poses = {.count = 0};
     depict_job   j = {
           .scene = scene, .poses = &poses, .seed = desc->seed, .warnings = warnings, .expressions = expressions};
+    j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
         status = time_moment(&j.when, scene, desc, warnings, error);

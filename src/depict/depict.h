@@ -23,6 +23,7 @@ typedef struct depiction {
     size_t       param_count, values_size;
     bool         hides_target; /* its glyphs stand for the target */
     lmn_status (*depict)(struct depict_job *job, const struct expression *e, lmn_error *error);
+    bool last; /* made when the glyphs of all others are there: it looks for room */
 } depiction;
 
 /* All rows; NULL at the end. */
@@ -79,6 +80,9 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
  * LMN_MEMORY, LMN_LIMIT, LMN_FORMAT, LMN_CANCELLED; then the scene has no glyphs, and all it has is shown. */
 lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
                   lmn_error *error);
+/* As lmn_look_add_sign_rules. */
+lmn_status look_add_sign_rules(lmn_look *look, lmn_error *error);
+
 /* Takes all glyphs out, and shows what was hidden for them. Errors: LMN_MEMORY (then changes of the scene stay open).
  */
 lmn_status depict_clear(lmn_scene *scene, lmn_error *error);

@@ -24,8 +24,9 @@ typedef struct depict_job {
     const lmn_scene       *scene; /* without glyphs */
     moment                 when;
     view_camera            camera;
-    double                 size; /* of the scene: the diagonal of its box */
-    box3                   box;  /* of all that it has, wherever it goes */
+    bool                   fixed_view; /* it does not step back for signs */
+    double                 size;       /* of the scene: the diagonal of its box */
+    box3                   box;        /* of all that it has, wherever it goes */
     uint32_t               seed;
     warnings              *warnings;
     depict_poses          *poses;       /* kept; lent */
@@ -106,6 +107,7 @@ typedef struct glyph_label {
     glyph_tense when;
     colour      tint;
     bool        sketchy; /* to be drawn loosely */
+    bool        overlay; /* the picture is not fitted to it */
 } glyph_label;
 
 typedef struct glyph {

@@ -63,16 +63,16 @@ static lmn_status put_piece_arrow(depict_job *j, const expression *e, const depi
 {
     const explode_values *v = e->values;
     trajectory            way;
-    lmn_status            status = trajectory_sample(&way, &t->way, t->centre, begin, end, t->radius * 0.01, error);
+    lmn_status            status = way_trajectory(&way, &t->way, t->centre, begin, end, t->radius * 0.01, error);
     double(*points)[3] = status == LMN_OK ? mem_alloc(way.count * sizeof *points) : NULL;
     size_t count = 0;
     if (status == LMN_OK && !points)
         status = error_memory(error);
     for (size_t i = 0; i < way.count && status == LMN_OK; i++)
-        if (vector3_distance(way.samples[i].at, middle) >= clear)
-            vector3_copy(points[count++], way.samples[i].at);
+        if (vector3_distance(way.samples[i].position, middle) >= clear)
+            vector3_copy(points[count++], way.samples[i].position);
     if (count > 0 && count < way.count) { /* the last point inside, brought to the sign's edge */
-        const double *inside = way.samples[way.count - count - 1].at, *out = points[0];
+        const double *inside = way.samples[way.count - count - 1].position, *out = points[0];
         const double  a = vector3_distance(inside, middle), b = vector3_distance(out, middle);
         double        edge[3];
         vector3_mix(edge, inside, out, b > a ? (clear - a) / (b - a) : 0);
@@ -87,7 +87,7 @@ static lmn_status put_piece_arrow(depict_job *j, const expression *e, const depi
             &(arrow_style){
                 .width = (double)v->width * t->radius, .tail = 0.25, .head = 2.4, .short_of = 1.3 * t->radius});
     mem_free(points);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 

@@ -61,6 +61,12 @@ int32_t depict_find_node(const lmn_scene *scene, const char *name)
     if (name[0] == '#' && text_is_int(name + 1, &number) && number > 0 && (size_t)number <= scene->node_count &&
         !scene->nodes[number - 1].removed)
         return (int32_t)number - 1;
+    /* A file's own node, which has the file's name, comes behind what lies in it. */
+    for (size_t i = 0; i < scene->node_count; i++) {
+        const node *n = &scene->nodes[i];
+        if (n->name && !n->removed && n->parent != NONE && strcmp(name, n->name) == 0)
+            return (int32_t)i;
+    }
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < scene->node_count; i++) {
             const node *n = &scene->nodes[i];

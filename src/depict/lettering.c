@@ -14,6 +14,13 @@ typedef struct text_line {
     bool   seen;
 } text_line;
 
+/* Before these a line may end: from U+2E80 to U+D7FF, which take three bytes in UTF-8. */
+static bool is_ideograph(const char *at)
+{
+    const unsigned char first = (unsigned char)at[0], second = first ? (unsigned char)at[1] : 0;
+    return (first == 0xE2 && second >= 0xBA) || (first >= 0xE3 && first <= 0xEC) || (first == 0xED && second < 0xA0);
+}
+
 /* The next line of a text, and what comes behind it: up to "|", or the last word that has room. */
 static const char *take_line(const char *text, int most, char out[PARAM_TEXT_MAX])
 {
@@ -22,7 +29,7 @@ static const char *take_line(const char *text, int most, char out[PARAM_TEXT_MAX
         text++;
     for (; text[end] && text[end] != '|' && end + 1 < PARAM_TEXT_MAX; end++) {
         letters += ((unsigned char)text[end] & 0xC0) != 0x80; /* UTF-8: one a letter */
-        if (text[end] == ' ')
+        if (text[end] == ' ' || is_ideograph(text + end))
             word = end;
         if (most > 0 && letters > (size_t)most && word > 0) {
             end = word;
@@ -59,7 +66,7 @@ static lmn_status put_line(glyph_mesh *m, const page_place *p, const text_line *
 lmn_status glyph_put_lettering(glyph_mesh *m, const page_place *p, const lettering_style *style, double size[2],
                                lmn_error *error)
 {
-    const text_style font = {.size = 1, .spacing = 1, .font = "sans:bold"};
+    const text_style font = {.size = 1, .spacing = 1, .font = "sans:bold", .fallback = true};
     const double     leading = 1.5;
     text_line        lines[LINES_MOST] = {0};
     size_t           count = 0;

@@ -65,14 +65,21 @@ static void put_line(glyph_mesh *m, const depict_job *j, const expression *e, co
     size_t count = 0;
     vec3   inside = mat4_transform_point(&inverse, (vec3){(float)at[0], (float)at[1], (float)at[2]});
     vector3_set(local, (double)inside.x, (double)inside.y, (double)inside.z);
-    double last[3];
+    double last[3], back[3] = {0, 0, 0};
     vector3_copy(last, at);
     for (int i = 0; i <= STEPS; i++) {
         double ago = seconds * i / STEPS, p[3];
         if (e->now - ago < e->from)
             break;
         way_point(&t->way, local, e->now - ago, p);
-        gone += vector3_distance(last, p);
+        double step[3];
+        vector3_add(step, p, -1, last);
+        /* Where the way turns back a line would have a hook. */
+        if (vector3_dot(step, back) < 0)
+            break;
+        if (vector3_length(step) > 1e-3 * t->radius)
+            vector3_copy(back, step);
+        gone += vector3_length(step);
         vector3_copy(last, p);
         if (gone < gap)
             continue;

@@ -1,6 +1,47 @@
 /* Flat signs on the page. */
 #include "depict/page.h"
 
+double page_depth_of(const depict_job *j, const double at[3])
+{
+    const double *v = j->camera.view.m;
+    return -(v[2] * at[0] + v[6] * at[1] + v[10] * at[2] + v[14]);
+}
+
+bool page_seen_at(const depict_job *j, const double at[3], double out[2])
+{
+    const double *v = j->camera.view.m, depth = page_depth_of(j, at);
+    const double  half = j->camera.orthographic ? j->camera.half_height : depth * tan(j->camera.fov_y / 2);
+    for (int k = 0; k < 2; k++)
+        out[k] = (v[k] * at[0] + v[4 + k] * at[1] + v[8 + k] * at[2] + v[12 + k]) / half;
+    return half > 0;
+}
+
+void page_position(const depict_job *j, const double page[2], double depth, double out[3])
+{
+    const double *v = j->camera.view.m;
+    const double  half = j->camera.orthographic ? j->camera.half_height : depth * tan(j->camera.fov_y / 2);
+    const double  own[3] = {page[0] * half - v[12], page[1] * half - v[13], -depth - v[14]};
+    for (int k = 0; k < 3; k++)
+        out[k] = v[4 * k] * own[0] + v[4 * k + 1] * own[1] + v[4 * k + 2] * own[2];
+}
+
+double page_height(const depict_job *j, const double at[3])
+{
+    return 2 * (j->camera.orthographic ? j->camera.half_height : page_depth_of(j, at) * tan(j->camera.fov_y / 2));
+}
+
+double page_keep_inside(const depict_job *j, double middle[2], const double half[2])
+{
+    const double rim = 0.03, limit[2] = {j->camera.aspect - rim, 1 - rim};
+    double       moved[2] = {0, 0};
+    for (int k = 0; k < 2 && j->fixed_view; k++) {
+        const double room = fmax(limit[k] - half[k], 0), wanted = fmin(fmax(middle[k], -room), room);
+        moved[k] = wanted - middle[k];
+        middle[k] = wanted;
+    }
+    return hypot(moved[0], moved[1]);
+}
+
 void page_place_at(page_place *out, const depict_job *j, const double at[3], double lift)
 {
     vector3_copy(out->at, at);

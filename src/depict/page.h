@@ -16,6 +16,18 @@ void page_point(const page_place *p, double x, double y, double out[3]);
 /* From the place to a position: across and up the page. */
 void page_offset(const page_place *p, const double at[3], double out[2]);
 
+/* Where on the page a position is seen, in half heights from its middle; false: behind the viewer. */
+bool page_seen_at(const depict_job *j, const double at[3], double out[2]);
+/* How deep before the viewer a position lies. */
+double page_depth_of(const depict_job *j, const double at[3]);
+/* What the page's height is there, units. */
+double page_height(const depict_job *j, const double at[3]);
+/* The position that is seen at a place of the page, so deep. */
+void page_position(const depict_job *j, const double page[2], double depth, double out[3]);
+/* Moves a rectangle on the page, in half heights, into it: nothing where the viewer steps back for signs. The distance
+ * that it was moved. */
+double page_keep_inside(const depict_job *j, double middle[2], const double half[2]);
+
 /* A polygon that is star-shaped around (0, 0) of its place. */
 void glyph_put_polygon(glyph_mesh *m, const page_place *p, const double (*points)[2], size_t count);
 /* A star of spikes of seeded lengths, around `radius` long; `share` of each is drawn. */

@@ -57,11 +57,15 @@ static void put_glyph(preview *out, const glyph *g, size_t i)
 
 lmn_status preview_open(preview *out, const depict_job *j, const expression_list *expressions, lmn_error *error)
 {
+    size_t count = 0; /* of those that the viewer steps back for */
     memset(out, 0, sizeof *out);
-    if (!take_arrays(out, j->scene, j->glyph_count))
-        return error_memory(error);
     for (size_t i = 0; i < j->glyph_count; i++)
-        put_glyph(out, &j->glyphs[i], i);
+        count += !j->glyphs[i].label.overlay;
+    if (!take_arrays(out, j->scene, count))
+        return error_memory(error);
+    for (size_t i = 0, put = 0; i < j->glyph_count; i++)
+        if (!j->glyphs[i].label.overlay)
+            put_glyph(out, &j->glyphs[i], put++);
     for (size_t i = 0; i < expressions->count; i++)
         if (expressions->items[i].row->hides_target)
             out->scene.nodes[expressions->items[i].target].hidden = true;

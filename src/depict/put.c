@@ -79,6 +79,11 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
         status = scene_set_attribute(s, added, "of", s->nodes[label->of].name, error);
     if (status == LMN_OK && label->sketchy)
         status = scene_set_attribute(s, added, "sketchy", "true", error);
+    /* A ghost image stands in the scene. */
+    if (status == LMN_OK && strcmp(label->glyph, "still") != 0)
+        status = scene_set_attribute(s, added, NODE_SHADOWLESS, "true", error);
+    if (status == LMN_OK && label->overlay)
+        status = scene_set_attribute(s, added, NODE_OVERLAY, "true", error);
     return status == LMN_OK ? scene_set_attribute(s, added, "when", tenses[label->when], error) : status;
 }
 

@@ -241,10 +241,10 @@ static void add_time(still_times *t, double seconds, double apart)
 static double length_at(const trajectory *way, const double *lengths, double seconds)
 {
     size_t i = 1;
-    while (i + 1 < way->count && way->samples[i].time < seconds)
+    while (i + 1 < way->count && way->samples[i].seconds < seconds)
         i++;
-    double span = way->samples[i].time - way->samples[i - 1].time;
-    double f = span > 0 ? (seconds - way->samples[i - 1].time) / span : 0;
+    double span = way->samples[i].seconds - way->samples[i - 1].seconds;
+    double f = span > 0 ? (seconds - way->samples[i - 1].seconds) / span : 0;
     return lengths[i - 1] + fmin(fmax(f, 0), 1) * (lengths[i] - lengths[i - 1]);
 }
 
@@ -254,7 +254,7 @@ static double time_at(const trajectory *way, const double *lengths, double lengt
     while (i + 1 < way->count && lengths[i] < length)
         i++;
     double piece = lengths[i] - lengths[i - 1], f = piece > 0 ? (length - lengths[i - 1]) / piece : 0;
-    return way->samples[i - 1].time + fmin(fmax(f, 0), 1) * (way->samples[i].time - way->samples[i - 1].time);
+    return way->samples[i - 1].seconds + fmin(fmax(f, 0), 1) * (way->samples[i].seconds - way->samples[i - 1].seconds);
 }
 
 /* In the middle of the longest piece of way between two that are there; false when nothing lies between them. */
@@ -296,7 +296,7 @@ static lmn_status times_find(still_times *out, const expression *e, const depict
     for (size_t i = 0; i < impact_count && status == LMN_OK; i++)
         add_time(out, impacts[i].time, apart);
     if (status == LMN_OK && out->count < out->wanted) {
-        status = trajectory_sample(&way, &t->way, t->centre, e->from, e->to, t->radius * 0.05, error);
+        status = way_trajectory(&way, &t->way, t->centre, e->from, e->to, t->radius * 0.05, error);
         lengths = status == LMN_OK ? trajectory_lengths(&way) : NULL;
         if (status == LMN_OK && !lengths)
             status = error_memory(error);
@@ -304,7 +304,7 @@ static lmn_status times_find(still_times *out, const expression *e, const depict
     while (status == LMN_OK && out->count < out->wanted && fill_gap(out, &way, lengths, apart))
         ;
     mem_free(lengths);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 

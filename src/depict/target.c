@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/work.h"
+#include "contact/surface.h"
 #include "depict/depict_private.h"
 
 /* Is a node below another one, or the same? */
@@ -153,15 +153,15 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
                           double to, lmn_error *error)
 {
     trajectory way;
-    lmn_status status = trajectory_sample(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
+    lmn_status status = way_trajectory(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
     double     length = 0;
     *count = 0;
     for (size_t i = 1; i < way.count && status == LMN_OK; i++)
-        length += vector3_distance(way.samples[i - 1].at, way.samples[i].at);
+        length += vector3_distance(way.samples[i - 1].position, way.samples[i].position);
     const double usual = to > from ? length / (to - from) : 0, span = (to - from) * 1e-4;
     double       last = -INFINITY;
     for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
-        depict_impact now = {.time = way.samples[i].time};
+        depict_impact now = {.time = way.samples[i].seconds};
         double        before[3];
         if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
@@ -172,33 +172,25 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
         if (turn < 0.3 * usual || now.speed < 0.05 * usual)
             continue;
         last = now.time;
-        vector3_copy(now.at, way.samples[i].at);
+        vector3_copy(now.at, way.samples[i].position);
         impact_keep(out, most, count, &now);
     }
     if (*count > 1)
         qsort(out, *count, sizeof *out, compare_impacts);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 
 lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *impact,
                           lmn_error *error)
 {
-    vec3      *vertices;
-    size_t     count, best = 0;
-    double     most = -INFINITY;
-    lmn_status status = target_vertices(&vertices, &count, j, t, impact->time, error);
+    const pose *posed = NULL;
+    double      way[3];
+    bool        found = false;
+    lmn_status  status = depict_pose(&posed, j, impact->time, error);
     vector3_copy(out, impact->at);
-    for (size_t i = 0; i < count && status == LMN_OK; i++) {
-        double p[3] = {(double)vertices[i].x, (double)vertices[i].y, (double)vertices[i].z},
-               along = -vector3_dot(p, impact->change);
-        if (along > most) {
-            most = along;
-            best = i;
-        }
-    }
-    if (count > 0)
-        vector3_set(out, (double)vertices[best].x, (double)vertices[best].y, (double)vertices[best].z);
-    mem_free(vertices);
-    return status;
+    vector3_copy(way, impact->change);
+    if (status != LMN_OK || !vector3_normalise(way))
+        return status;
+    return surface_outermost(out, &found, posed, t->parts, way, 1e-5 * t->radius, error);
 }

@@ -179,12 +179,12 @@ static lmn_status put_helix(depict_job *j, const expression *e, const depict_tar
     trajectory         way;
     glyph_mesh         m = {0};
     const double       width = (double)v->width * t->radius;
-    lmn_status         status = trajectory_sample(&way, &t->way, local, from, to, t->radius * 0.01, error);
+    lmn_status         status = way_trajectory(&way, &t->way, local, from, to, t->radius * 0.01, error);
     double(*points)[3] = status == LMN_OK ? mem_alloc(way.count * sizeof *points) : NULL;
     if (status == LMN_OK && !points)
         status = error_memory(error);
     for (size_t i = 0; i < way.count && points; i++)
-        vector3_copy(points[i], way.samples[i].at);
+        vector3_copy(points[i], way.samples[i].position);
     if (status == LMN_OK) {
         const bool        future = when == GLYPH_FUTURE;
         const arrow_style style = {.width = width,
@@ -197,7 +197,7 @@ static lmn_status put_helix(depict_job *j, const expression *e, const depict_tar
     }
     glyph_mesh_release(&m);
     mem_free(points);
-    trajectory_free(&way);
+    trajectory_release(&way);
     return status;
 }
 

@@ -1,11 +1,9 @@
 #include "depict/way.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/work.h"
 #include "scene/channel.h"
 
 /* --- the path from the root ------------------------------------------------------------------------------------ */
@@ -119,13 +117,7 @@ void way_velocity(const way *w, const double local[3], double seconds, double sp
 
 /* --- trajectories ----------------------------------------------------------------------------------------------- */
 
-enum { KEYS_FORCED = 4096, HALVINGS = 10, SAMPLES_MOST = 65536 };
-
-static int compare_times(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+enum { KEYS_FORCED = 4096 };
 
 /* Both ends and all keys between them, in order, none twice. */
 static double *forced_times(const way *w, double from, double to, size_t *count)
@@ -148,94 +140,35 @@ static double *forced_times(const way *w, double from, double to, size_t *count)
                     times[(*count)++] = c->times[n];
         }
     times[(*count)++] = to;
-    qsort(times, *count, sizeof *times, compare_times);
-    size_t kept = 1;
-    for (size_t i = 1; i < *count; i++)
-        if (times[i] > times[kept - 1])
-            times[kept++] = times[i];
-    if (kept == 1)
-        times[kept++] = to;
-    *count = kept;
+    trajectory_sort_times(times, count);
+    if (*count == 1)
+        times[(*count)++] = to;
     return times;
 }
 
-typedef struct sampler {
+typedef struct way_place {
     const way    *way;
     const double *local;
-    double        tolerance;
-    trajectory   *out;
-    size_t        capacity;
-    bool          failed;
-} sampler;
+} way_place;
 
-static void put_sample(sampler *s, double time, const double at[3])
+static void place(const void *of, double seconds, time_side side, double out[3])
 {
-    trajectory *t = s->out;
-    if (s->failed || !mem_grow((void **)&t->samples, &s->capacity, t->count + 1, sizeof *t->samples)) {
-        s->failed = true;
-        return;
-    }
-    t->samples[t->count].time = time;
-    vector3_copy(t->samples[t->count++].at, at);
+    const way_place *p = of;
+    (void)side; /* channels are joined where keys meet */
+    way_point(p->way, p->local, seconds, out);
 }
 
-static double off_chord(const double a[3], const double b[3], const double p[3])
+lmn_status way_trajectory(trajectory *out, const way *w, const double local[3], double from, double to,
+                          double tolerance, lmn_error *error)
 {
-    double along[3], to[3];
-    vector3_add(along, b, -1, a);
-    vector3_add(to, p, -1, a);
-    double length = vector3_dot(along, along), f = length > 0 ? vector3_dot(to, along) / length : 0;
-    vector3_add(to, to, -fmin(fmax(f, 0), 1), along);
-    return vector3_length(to);
-}
-
-/* What lies between two times, without the first. */
-static void put_between(sampler *s, double from, const double a[3], double to, const double b[3], int depth)
-{
-    double middle = (from + to) / 2, third[3], m[3];
-    if (depth > 0 && !s->failed && s->out->count < SAMPLES_MOST) {
-        way_point(s->way, s->local, middle, m);
-        way_point(s->way, s->local, from + (to - from) * 0.29, third);
-        if (off_chord(a, b, m) > s->tolerance || off_chord(a, b, third) > s->tolerance) {
-            put_between(s, from, a, middle, m, depth - 1);
-            put_between(s, middle, m, to, b, depth - 1);
-            return;
-        }
-    }
-    put_sample(s, to, b);
-}
-
-lmn_status trajectory_sample(trajectory *out, const way *w, const double local[3], double from, double to,
-                             double tolerance, lmn_error *error)
-{
-    memset(out, 0, sizeof *out);
-    sampler s = {.way = w, .local = local, .tolerance = tolerance, .out = out};
-    size_t  count;
-    double *times = forced_times(w, from, to, &count), a[3], b[3];
+    const way_place of = {w, local};
+    size_t          count;
+    double         *times = forced_times(w, from, to, &count);
+    *out = (trajectory){.samples = NULL};
     if (!times)
         return error_memory(error);
-    way_point(w, local, times[0], a);
-    put_sample(&s, times[0], a);
-    for (size_t i = 1; i < count && !s.failed && !work_stopped(); i++) {
-        way_point(w, local, times[i], b);
-        put_between(&s, times[i - 1], a, times[i], b, HALVINGS);
-        vector3_copy(a, b);
-    }
+    const trajectory_source source = {place, &of, times, count};
+    lmn_status              status = trajectory_create(out, &source, tolerance, TRAJECTORY_PLACES, error);
     mem_free(times);
-    lmn_status status = work_check(error);
-    return status == LMN_OK && s.failed ? error_memory(error) : status;
-}
-
-void trajectory_free(trajectory *t)
-{
-    mem_free(t->samples);
-    memset(t, 0, sizeof *t);
-}
-
-double *trajectory_lengths(const trajectory *t)
-{
-    double *lengths = mem_alloc(t->count * sizeof *lengths);
-    for (size_t i = 0; i < t->count && lengths; i++)
-        lengths[i] = i == 0 ? 0 : lengths[i - 1] + vector3_distance(t->samples[i - 1].at, t->samples[i].at);
-    return lengths;
+    return status;
 }

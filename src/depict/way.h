@@ -4,6 +4,7 @@
 #define LIMNER_DEPICT_WAY_H
 
 #include "base/vector3.h"
+#include "behaviour/trajectory.h"
 #include "pose/moment.h"
 #include "scene/scene.h"
 
@@ -31,22 +32,9 @@ void way_point(const way *w, const double local[3], double seconds, double out[3
 /* By central differences over at most `span` seconds; units a second. Where something bounces, before and after. */
 void way_velocity(const way *w, const double local[3], double seconds, double span, double out[3]);
 
-typedef struct way_sample {
-    double time, at[3];
-} way_sample;
-
-/* A point's trajectory: all keys between the two times are samples, since there things bounce, and so many between
- * them that no chord is farther than `tolerance` (above 0) from the way. */
-typedef struct trajectory {
-    way_sample *samples; /* two at least */
-    size_t      count;
-} trajectory;
-
-/* Errors: LMN_MEMORY, LMN_CANCELLED. Release it also after one. */
-lmn_status trajectory_sample(trajectory *out, const way *w, const double local[3], double from, double to,
-                             double tolerance, lmn_error *error);
-void       trajectory_free(trajectory *t);
-/* Of a trajectory, the length up to each sample; free with mem_free. NULL: out of memory. */
-double *trajectory_lengths(const trajectory *t);
+/* A point's trajectory: all keys between the two times are samples, since there things bounce. Two samples at least.
+ * Errors: as of trajectory_create. Release it also after one. */
+lmn_status way_trajectory(trajectory *out, const way *w, const double local[3], double from, double to,
+                          double tolerance, lmn_error *error);
 
 #endif

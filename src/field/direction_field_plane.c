@@ -2,6 +2,7 @@
  * nothing about wide triangles; a hand sees that all between the rims is even. Triangles are collected into pieces by
  * their normals. A piece is a plane when what lies beside it without a crease is small, as roundings are: facets of
  * what is round have neighbours like themselves. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,10 @@ static const double even = 0.99998; /* cosine of 0.36 degrees: normals of a piec
 static const double alike = 1.0 / 6, beside_alike = 0.35;
 /* Pieces lie in one plane when their normals agree so far (sine), and their distances from the middle, diagonal 1. */
 static const double same_slope = 0.02, same_offset = 0.01;
+
+/* Planes whose normals are within 25 degrees are hatched as the largest of them. */
+static const double same_side = 0.906;
+enum { LEADERS_MOST = 64 };
 
 typedef struct plane_piece {
     point3   normal, middle;
@@ -324,6 +329,26 @@ static bool join_planes(plane_finder *f, plane_table *t, sized_triangle *sorted,
     return out->units != NULL;
 }
 
+/* What lies nearly as a larger plane does is hatched the same way: a hand keeps its direction over a wall that turns a
+ * little, and on all walls that face one way. The largest planes come first. */
+static void follow_larger(const plane_table *t, field_planes *out)
+{
+    uint32_t leaders[LEADERS_MOST], count = 0;
+    for (uint32_t k = 0; k < out->count; k++) {
+        bool follows = false;
+        for (uint32_t i = 0; i < count && !follows; i++) {
+            tensor unit;
+            if (fabs(point_dot(t->normals[k], t->normals[leaders[i]])) < same_side ||
+                !field_unit_in_plane(t->normals[k], &out->units[leaders[i]], &unit))
+                continue;
+            out->units[k] = unit;
+            follows = true;
+        }
+        if (!follows && count < LEADERS_MOST)
+            leaders[count++] = k;
+    }
+}
+
 static bool find_planes(plane_finder *f, field_planes *out)
 {
     plane_table     table = {0};
@@ -333,6 +358,8 @@ static bool find_planes(plane_finder *f, field_planes *out)
     if (good) {
         memset(planes, 0xFF, f->count * sizeof *planes);
         good = join_planes(f, &table, sorted, planes, out);
+        if (good)
+            follow_larger(&table, out);
     }
     for (uint32_t t = 0; good && t < f->surface->triangle_count; t++)
         out->of[t] = planes[f->pieces[t]];

@@ -169,7 +169,7 @@ void shadow_draw(frame *f)
     gpu_texture *depth = frame_acquire_sized(f, TARGET_SHADOW, light.width, light.height);
     light.page_depth = depth; /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
-        raster_depth(&light, depth);
+        raster_depth_of(&light, depth, f->plan->throws);
     f->shadow = depth;
     if (v->shadows)
         movers_throw_shadows(f);

@@ -41,7 +41,7 @@ void city_normal(const vec3 *points, const city_shape *shape, size_t face, doubl
 
 static bool append(city_triangles *t, uint32_t a, uint32_t b, uint32_t c)
 {
-    if (!mem_grow((void **)&t->corners, &t->capacity, t->count + 3, sizeof *t->corners))
+    if (t->count + 3 > t->capacity && !mem_grow((void **)&t->corners, &t->capacity, t->count + 3, sizeof *t->corners))
         return false;
     t->corners[t->count++] = a;
     t->corners[t->count++] = b;

@@ -3,10 +3,11 @@
 #ifndef LIMNER_IMPORT_CITYGML_H
 #define LIMNER_IMPORT_CITYGML_H
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "import/city.h"
 
-enum { GML_DEPTH_MAX = 256, GML_TEXT_MAX = 65536, GML_LODS = 5 };
+enum { GML_TEXT_MAX = 65536, GML_LODS = 5 };
 
 /* A hash of a gml:id; 0: none. */
 typedef uint64_t gml_id;
@@ -99,7 +100,7 @@ typedef struct citygml_reader {
     city_builder      builder;
     int               wish; /* highest level of detail */
 
-    gml_element stack[GML_DEPTH_MAX];
+    gml_element stack[LIMIT_XML_DEPTH];
     int         depth;
     int         skip_depth; /* all in the element at this depth is left out; 0: nothing is */
     int32_t     object;     /* that is read now */
@@ -116,8 +117,8 @@ typedef struct citygml_reader {
     char        generic[128]; /* the name of a generic attribute */
     gml_id      ring_id;
     uint32_t    ring_first;
-    uint32_t    range_starts[GML_DEPTH_MAX];
-    gml_id      range_ids[GML_DEPTH_MAX];
+    uint32_t    range_starts[LIMIT_XML_DEPTH];
+    gml_id      range_ids[LIMIT_XML_DEPTH];
 
     GML_LIST(double, points); /* three a point */
     GML_LIST(double, template_points);

@@ -100,17 +100,25 @@ static gml_kind kind_of(const char *name)
     return GML_OTHER;
 }
 
-/* What is inside of buildings, and what would be no geometry of the object it is in. */
-static bool is_left_out(const char *name)
+static bool is_among(const char *const *names, const char *name)
 {
-    static const char *const names[] = {
-        "Room",        "BuildingRoom", "IntBuildingInstallation", "BuildingFurniture", "Address", "boundingShape",
-        "HollowSpace", "BridgeRoom",   "MassPointRelief"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0)
-            return true;
-    return false;
+    while (*names && strcmp(*names, name) != 0)
+        names++;
+    return *names != NULL;
 }
+
+/* What is inside of things is not drawn. */
+static const char *const interiors[] = {"Room",
+                                        "BuildingRoom",
+                                        "IntBuildingInstallation",
+                                        "BuildingFurniture",
+                                        "BridgeRoom",
+                                        "IntBridgeInstallation",
+                                        "HollowSpace",
+                                        "IntTunnelInstallation",
+                                        NULL};
+/* Elements in which nothing is looked for. */
+static const char *const others[] = {"Address", "address", "externalReference", NULL};
 
 gml_id gml_id_of(const char *bytes, size_t size)
 {
@@ -445,8 +453,8 @@ void citygml_open_element(citygml_reader *r, const char *name, int attribute_cou
     static const gml_element outside = {.lod = -1, .word = CITY_NO_WORD};
     if (r->status != LMN_OK)
         return;
-    if (r->depth == GML_DEPTH_MAX) {
-        citygml_fail(r, LMN_LIMIT, "elements are nested deeper than %d", GML_DEPTH_MAX);
+    if (r->depth == LIMIT_XML_DEPTH) {
+        citygml_fail(r, LMN_LIMIT, "elements are nested deeper than %d", LIMIT_XML_DEPTH);
         return;
     }
     gml_element       *e = &r->stack[r->depth];
@@ -458,9 +466,10 @@ void citygml_open_element(citygml_reader *r, const char *name, int attribute_cou
     r->range_starts[r->depth] = (uint32_t)r->polygons_count;
     r->range_ids[r->depth] = 0;
     r->depth++;
-    if (!r->skip_depth && is_left_out(name)) {
+    bool interior = is_among(interiors, name);
+    if (!r->skip_depth && (interior || is_among(others, name))) {
         r->skip_depth = r->depth;
-        r->interiors++;
+        r->interiors += interior;
     }
     if (r->skip_depth)
         return;

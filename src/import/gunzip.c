@@ -8,15 +8,19 @@
 #include "base/memory.h"
 #include "base/work.h"
 
-/* Text of models is packed to a tenth; a hundredth would be one that says the same all the time. */
-static const size_t RATIO_MAX = 200, ALWAYS_ALLOWED = (size_t)64 << 20;
+/* How large it may become. Text of models is packed to a tenth; a hundredth would say the same all the time. */
+static size_t most_of(size_t packed)
+{
+    size_t most = packed < LIMIT_FILE_BYTES / LIMIT_GZIP_RATIO ? packed * LIMIT_GZIP_RATIO : LIMIT_FILE_BYTES;
+    return most < LIMIT_GZIP_BYTES ? LIMIT_GZIP_BYTES : most;
+}
 
 enum { STEP = 1 << 22, GZIP_WINDOW = 15 + 16 };
 
 typedef struct unpacking {
     z_stream       stream;
     unsigned char *bytes;
-    size_t         size, capacity, most;
+    size_t         size, capacity, first, most; /* `first`: what is asked for at the beginning */
 } unpacking;
 
 static lmn_status grow(unpacking *u, lmn_error *error)
@@ -26,7 +30,7 @@ static lmn_status grow(unpacking *u, lmn_error *error)
         error_hint(error, "no model is packed so well; if it is one, unpack it with gunzip");
         return LMN_LIMIT;
     }
-    size_t wanted = u->capacity ? u->capacity * 2 : STEP;
+    size_t wanted = u->capacity ? u->capacity * 2 : u->first;
     wanted = wanted < u->most ? wanted : u->most;
     unsigned char *grown = mem_realloc(u->bytes, wanted + 1);
     if (!grown)
@@ -69,8 +73,7 @@ lmn_status gunzip(file_data *file, const char *path, lmn_error *error)
 {
     if (file->size < 2 || file->data[0] != 0x1f || file->data[1] != 0x8b)
         return LMN_OK;
-    unpacking u = {.most = file->size < ALWAYS_ALLOWED ? file->size * RATIO_MAX : LIMIT_FILE_BYTES};
-    u.most = u.most < ALWAYS_ALLOWED ? ALWAYS_ALLOWED : u.most > LIMIT_FILE_BYTES ? LIMIT_FILE_BYTES : u.most;
+    unpacking  u = {.first = file->size * 8 + 4096, .most = most_of(file->size)};
     lmn_status status = LMN_OK;
     if (file->size > UINT_MAX)
         status = error_set(error, LMN_LIMIT, "a packed file has at most 4 GiB");

@@ -9,7 +9,8 @@
 
 json_scan scan_of(json_span span)
 {
-    return (json_scan){.at = span.at, .end = span.at + span.size};
+    const char *at = span.at ? span.at : "";
+    return (json_scan){.at = at, .end = at + (span.at ? span.size : 0)};
 }
 
 void scan_fail(json_scan *s, const char *what)

@@ -22,7 +22,7 @@ typedef struct json_span {
     size_t      size;
 } json_span;
 
-json_scan scan_of(json_span span);
+json_scan scan_of(json_span span); /* nothing is an empty text */
 void      scan_fail(json_scan *s, const char *what);
 
 /* The next byte that is no blank; 0 at the end. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
+#include "behaviour/schedule.h"
 #include "import/script.h"
 
 static const char *const KEYS[] = {"sequence", "simultaneity", "table", "reverse", "repeat",
@@ -13,6 +13,12 @@ static const char *const KEYS[] = {"sequence", "simultaneity", "table", "reverse
 static behaviour_node *at(script_reader *r, int32_t index)
 {
     return &r->scene->behaviour->nodes[index];
+}
+
+static void refuse(script_reader *r, const char *fault)
+{
+    if (fault)
+        script_fail(r, LMN_FORMAT, "%s", fault);
 }
 
 static void add_child(script_reader *r, int32_t parent, json_t *value, double start, double duration)
@@ -40,10 +46,9 @@ static void read_row(script_reader *r, json_t *row, int32_t index)
     }
     script_check_keys(r, row, "start duration activity");
     script_number(r, row, "start", r->file->time, &start);
-    if (script_number(r, row, "duration", r->file->time, &duration) && !(duration > 0))
-        script_fail(r, LMN_FORMAT, "the duration of a row has to be above 0");
-    if (start < 0)
-        script_fail(r, LMN_FORMAT, "the start of a row must not be below 0");
+    if (script_number(r, row, "duration", r->file->time, &duration))
+        refuse(r, behaviour_duration_fault(duration));
+    refuse(r, behaviour_start_fault(start));
     if (script_enter(r, "activity", 0)) {
         add_child(r, index, activity, start, duration);
         script_leave(r);
@@ -69,10 +74,8 @@ static void read_constraint(script_reader *r, json_t *object, int32_t index)
     animation_path           path = (animation_path)script_choice(r, object, "property", properties, PATH_TRANSLATION);
     if (name && script_enter(r, "target", 0)) {
         target = script_find_node(r, name);
-        if (target != NONE && animation_thing_of(path) == ANIMATED_CAMERA)
-            target = r->scene->nodes[target].camera;
-        else if (target != NONE && animation_thing_of(path) == ANIMATED_LIGHT)
-            target = r->scene->nodes[target].light;
+        if (target != NONE)
+            target = behaviour_target_of(r->scene, path, target);
         if (target == NONE)
             script_fail(r, LMN_FORMAT, "'%.100s' is no %s", name,
                         animation_thing_of(path) == ANIMATED_CAMERA ? "camera" : "light");
@@ -113,8 +116,8 @@ static void read_modifier(script_reader *r, json_t *object, int32_t index, behav
 {
     double times = 1, exponent = 2;
     if (kind == BEHAVIOUR_REPEAT && script_number(r, object, "times", 1, &times) &&
-        !(times >= 1 && times <= 1e6 && floor(times) == times))
-        script_fail(r, LMN_FORMAT, "'times' has to be a whole number from 1 to 1000000");
+        !(times >= 0 && times <= UINT32_MAX && floor(times) == times))
+        script_fail(r, LMN_FORMAT, "'times' has to be a whole number from 1 to %d", BEHAVIOUR_TIMES_MAX);
     if (kind == BEHAVIOUR_CREEP)
         script_number(r, object, "exponent", 1, &exponent);
     if (r->status != LMN_OK)
@@ -172,8 +175,8 @@ static void read_own(script_reader *r, json_t *object, int32_t index, behaviour_
     const char *name = script_text(r, object, kind == BEHAVIOUR_EVENT ? "event" : "name");
     double      duration = -1;
     int         line = 0, column = 0;
-    if (kind != BEHAVIOUR_EVENT && script_number(r, object, "duration", r->file->time, &duration) && !(duration > 0))
-        script_fail(r, LMN_FORMAT, "a duration has to be above 0");
+    if (kind != BEHAVIOUR_EVENT && script_number(r, object, "duration", r->file->time, &duration))
+        refuse(r, behaviour_duration_fault(duration));
     if (r->memo_file != r->file)
         r->memo = (locate_memo){.counted = NULL};
     r->memo_file = r->file;
@@ -212,6 +215,11 @@ static int32_t read_object(script_reader *r, json_t *object)
     read_own(r, object, index, (behaviour_kind)kind);
     if (r->status == LMN_OK)
         read_kind(r, object, index, (behaviour_kind)kind);
+    if (r->status == LMN_OK) {
+        r->status = behaviour_check(r->scene, r->scene->behaviour, index, r->error);
+        if (r->status != LMN_OK && r->error)
+            error_file(r->error, r->file->path);
+    }
     return r->status == LMN_OK ? index : NONE;
 }
 

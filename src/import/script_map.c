@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "behaviour/map.h"
 #include "import/script.h"
 
 /* What is read for one constraint; pointers into the graph move while it grows. */
@@ -98,10 +99,6 @@ static void read_curve(map_reader *q, const char *key)
     if (tangent) {
         q->m->components = 3;
         q->unit = r->file->length;
-        memcpy(q->m->forward, (double[3]){0, 0, 1}, sizeof q->m->forward);
-        memcpy(q->m->up, (double[3]){0, r->scene->up == 'y', r->scene->up == 'z'}, sizeof q->m->up);
-        if (r->scene->up == 'z')
-            memcpy(q->m->forward, (double[3]){0, -1, 0}, sizeof q->m->forward);
         script_vector(r, curve, "forward", 3, 1, q->m->forward);
         script_vector(r, curve, "up", 3, 1, q->m->up);
     }
@@ -121,13 +118,8 @@ static void read_function(map_reader *q)
     script_reader           *r = q->r;
     behaviour_map           *m = q->m;
     double                   length = r->file->length, rate = r->file->time;
-    bool                     up_z = r->scene->up == 'z';
     m->kind = kinds[script_choice(r, q->object, "function", names, 0)];
-    memcpy(m->gravity, (double[3]){0, up_z ? 0 : -9.81, up_z ? -9.81 : 0}, sizeof m->gravity);
-    m->restitution = 0.7;
-    m->axis[up_z ? 2 : 1] = 1;
     if (m->kind == MAP_OSCILLATE) {
-        m->frequency = 1;
         if (m->components > 3)
             script_fail(r, LMN_FORMAT, "only properties of up to three numbers oscillate");
         else if (m->components == 1) {
@@ -142,7 +134,6 @@ static void read_function(map_reader *q)
         return;
     }
     if (m->kind == MAP_SPIN) {
-        m->rate = 6.283185307179586;
         script_vector(r, q->object, "axis", 3, 1, m->axis);
         script_number(r, q->object, "rate", r->file->angle / rate, &m->rate);
         script_number(r, q->object, "phase", r->file->angle, &m->phase);
@@ -179,6 +170,7 @@ void script_read_map(script_reader *r, json_t *object, int32_t index)
         n->about = script_vector(r, object, "axis", 3, 1, n->axis);
     q.m->components = n->about ? 1 : behaviour_components(r->scene, n->path, n->target);
     q.unit = unit_of(r, n);
+    map_defaults(q.m, r->scene);
     if (r->status != LMN_OK)
         return;
     if (json_object_get(object, "constant")) {

@@ -5,21 +5,38 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "behaviour/inspect.h"
+#include "contact/contact.h"
 #include "info/info.h"
-#include "pose/moment.h"
+
+/* A document while it is written: once something of it could not be made, there is none. */
+typedef struct writer {
+    const lmn_scene *scene;
+    const schedule  *s;
+    const moment    *clips;
+    bool             failed;
+} writer;
+
+static void set(writer *w, json_t *object, const char *key, json_t *value)
+{
+    w->failed = !value || json_object_set_new(object, key, value) != 0 || w->failed;
+}
+
+static void append(writer *w, json_t *array, json_t *value)
+{
+    w->failed = !value || json_array_append_new(array, value) != 0 || w->failed;
+}
 
 static json_t *text_or_null(const char *t)
 {
     json_t *string = t ? json_string(t) : json_null();
-    return string ? string : json_null();
+    return string || !t ? string : json_null();
 }
 
-static json_t *vector(const double v[3])
+static json_t *vector(writer *w, const double v[3])
 {
     json_t *array = json_array();
     for (int k = 0; k < 3; k++)
-        json_array_append_new(array, json_real(isfinite(v[k]) ? v[k] : 0));
+        append(w, array, json_real(isfinite(v[k]) ? v[k] : 0));
     return array;
 }
 
@@ -37,99 +54,154 @@ static const char *map_name(const schedule *s, const behaviour_span *span)
     return span->channel != NONE ? "clip" : names[s->nodes[span->node].map.kind];
 }
 
-static json_t *span_json(const schedule *s, const behaviour_span *span)
+static json_t *span_json(writer *w, const behaviour_span *span)
 {
-    const behaviour_node *n = &s->nodes[span->node];
-    json_t *o = json_pack("{s:o,s:f,s:f}", "name", text_or_null(n->name), "from", span->from, "to", span->to);
-    bool    event = n->kind == BEHAVIOUR_EVENT;
-    json_object_set_new(o, "kind", json_string(event ? "event" : "constraint"));
+    const behaviour_node *n = &w->s->nodes[span->node];
+    const bool            event = n->kind == BEHAVIOUR_EVENT;
+    json_t               *o = json_object();
+    set(w, o, "name", text_or_null(n->name));
+    set(w, o, "from", json_real(span->from));
+    set(w, o, "to", json_real(span->to));
+    set(w, o, "kind", json_string(event ? "event" : "constraint"));
     if (!event) {
-        json_object_set_new(o, "property", json_string(property_name(s->properties[span->property].path)));
-        json_object_set_new(o, "map", json_string(map_name(s, span)));
+        set(w, o, "property", json_string(property_name(w->s->properties[span->property].path)));
+        set(w, o, "map", json_string(map_name(w->s, span)));
     }
     return o;
 }
 
-/* Few samples of long motions: who wants more has limner/behaviour.h's way, or asks for frames. */
-static bool put_trajectory(json_t *object, const schedule *s, int32_t index)
+static json_t *sample_json(writer *w, const trajectory_sample *sample)
+{
+    json_t *o = json_object();
+    set(w, o, "time", json_real(sample->seconds));
+    set(w, o, "position", vector(w, sample->position));
+    set(w, o, "velocity", vector(w, sample->velocity));
+    set(w, o, "acceleration", vector(w, sample->acceleration));
+    return o;
+}
+
+/* Few samples of long motions: who wants more has limner/behaviour.h, or asks for frames. */
+static json_t *trajectory_json(writer *w, int32_t index)
 {
     enum { SAMPLES_SHOWN = 2000 };
     trajectory t;
     json_t    *list = json_array();
     double     reach = 0;
     for (int i = 0; i <= 16; i++) {
-        mat4 world = schedule_world(s, index, s->duration * i / 16, SIDE_AT),
-             first = schedule_world(s, index, 0, SIDE_AT);
+        mat4 world = schedule_world(w->s, index, w->s->duration * i / 16, SIDE_AT),
+             first = schedule_world(w->s, index, 0, SIDE_AT);
         for (int k = 12; k < 15; k++)
             reach = fmax(reach, fabs(world.m[k] - first.m[k]));
     }
-    bool done = trajectory_create(&t, s, index, NULL, 0, s->duration, fmax(reach / 500, 1e-9), NULL) == LMN_OK;
-    for (size_t i = 0; i < t.count && i < SAMPLES_SHOWN; i++)
-        json_array_append_new(list, json_pack("{s:f,s:o,s:o,s:o}", "time", t.samples[i].seconds, "position",
-                                              vector(t.samples[i].position), "velocity", vector(t.samples[i].velocity),
-                                              "acceleration", vector(t.samples[i].acceleration)));
+    w->failed =
+        schedule_trajectory(&t, w->s, index, NULL, 0, w->s->duration, fmax(reach / 500, 1e-9), NULL) != LMN_OK ||
+        w->failed;
+    for (size_t i = 0; i < t.count && i < SAMPLES_SHOWN && !w->failed; i++)
+        append(w, list, sample_json(w, &t.samples[i]));
     trajectory_release(&t);
-    json_object_set_new(object, "trajectory", list);
-    return done;
+    return list;
 }
 
-/* NULL: memory is gone, or nothing drives it and it is nothing. */
-static json_t *node_json(const schedule *s, int32_t index, bool *failed)
+/* The strongest ones alone: rest is approached in ever smaller hops. */
+static json_t *contacts_json(writer *w, int32_t index)
+{
+    contact *found = NULL;
+    size_t   count = 0;
+    double   strongest = 0;
+    json_t  *list = json_array();
+    w->failed = contacts_find(&found, &count, w->s, w->clips, index, 0, w->s->duration, 0, NULL) != LMN_OK || w->failed;
+    for (size_t i = 0; i < count; i++)
+        strongest = fmax(strongest, found[i].hit.speed);
+    for (size_t i = 0; i < count && !w->failed; i++) {
+        const contact *c = &found[i];
+        if (c->hit.speed < 0.05 * strongest)
+            continue;
+        json_t *o = json_object();
+        set(w, o, "time", json_real(c->hit.seconds));
+        set(w, o, "place", vector(w, c->hit.place));
+        set(w, o, "normal", vector(w, c->hit.normal));
+        set(w, o, "impulse", json_real(c->hit.speed));
+        set(w, o, "other", text_or_null(c->other == NONE ? NULL : w->scene->nodes[c->other].name));
+        set(w, o, "other_node", c->other == NONE ? json_null() : json_integer(c->other + 1));
+        set(w, o, "distance", json_real(c->distance));
+        append(w, list, o);
+    }
+    mem_free(found);
+    return list;
+}
+
+/* Does one of the spans drive the node itself? */
+static bool is_driven(const schedule *s, const dynamics *d, int32_t index)
+{
+    for (size_t i = 0; i < d->span_count; i++) {
+        const behaviour_span *span = &s->spans[d->spans[i]];
+        int32_t target = span->property == NONE ? s->nodes[span->node].target : s->properties[span->property].target;
+        if (target == index || (span->property != NONE && s->properties[span->property].path >= PATH_CAMERA_FOV))
+            return true;
+    }
+    return false;
+}
+
+/* Nothing of what is not driven and is nothing. */
+static void put_node(writer *w, json_t *nodes, int32_t index)
 {
     dynamics    d;
-    const char *semantics = semantics_of(s->scene, index);
-    bool        own = false;
-    *failed = dynamics_create(&d, s, index, -INFINITY, INFINITY, NULL) != LMN_OK;
-    json_t *o = NULL, *spans = json_array(), *path = json_array();
-    for (size_t i = 0; i < d.span_count; i++) {
-        const behaviour_span *span = &s->spans[d.spans[i]];
-        int32_t target = span->property == NONE ? s->nodes[span->node].target : s->properties[span->property].target;
-        own =
-            own || target == index || (span->property != NONE && s->properties[span->property].path >= PATH_CAMERA_FOV);
-        json_array_append_new(spans, span_json(s, span));
+    const char *semantics = semantics_of(w->scene, index);
+    w->failed = dynamics_create(&d, w->s, index, -INFINITY, INFINITY, NULL) != LMN_OK || w->failed;
+    if (!w->failed &&
+        (semantics || is_driven(w->s, &d, index) || (d.span_count && w->scene->nodes[index].mesh != NONE))) {
+        json_t *o = json_object(), *spans = json_array(), *path = json_array();
+        for (size_t i = 0; i < d.path_count; i++)
+            append(w, path, text_or_null(w->scene->nodes[d.path[i]].name));
+        for (size_t i = 0; i < d.span_count; i++)
+            append(w, spans, span_json(w, &w->s->spans[d.spans[i]]));
+        set(w, o, "node", text_or_null(w->scene->nodes[index].name));
+        set(w, o, "semantics", text_or_null(semantics));
+        set(w, o, "path", path);
+        set(w, o, "constraints", spans);
+        if (d.span_count) {
+            set(w, o, "trajectory", trajectory_json(w, index));
+            set(w, o, "contacts", contacts_json(w, index));
+        }
+        append(w, nodes, o);
     }
-    for (size_t i = 0; i < d.path_count; i++)
-        json_array_append_new(path, text_or_null(s->scene->nodes[d.path[i]].name));
-    if (!*failed && (own || semantics || (d.span_count && s->scene->nodes[index].mesh != NONE))) {
-        o = json_pack("{s:o,s:o,s:O,s:O}", "node", text_or_null(s->scene->nodes[index].name), "semantics",
-                      text_or_null(semantics), "path", path, "constraints", spans);
-        if (d.span_count)
-            *failed = !put_trajectory(o, s, index);
-    }
-    json_decref(path);
-    json_decref(spans);
     dynamics_release(&d);
-    return o;
+}
+
+static json_t *dynamics_json(writer *w)
+{
+    json_t *root = json_object(), *nodes = json_array(), *events = json_array();
+    for (size_t i = 0; i < w->scene->node_count && !w->failed; i++)
+        put_node(w, nodes, (int32_t)i);
+    for (size_t i = 0; i < w->s->span_count && !w->failed; i++) {
+        const behaviour_span *span = &w->s->spans[i];
+        if (w->s->nodes[span->node].kind != BEHAVIOUR_EVENT)
+            continue;
+        json_t *o = json_object();
+        set(w, o, "name", text_or_null(w->s->nodes[span->node].name));
+        set(w, o, "time", json_real(span->from));
+        append(w, events, o);
+    }
+    set(w, root, "duration", json_real(w->s->duration));
+    set(w, root, "nodes", nodes);
+    set(w, root, "events", events);
+    return root;
 }
 
 char *scene_dynamics_json(const lmn_scene *scene)
 {
     schedule   s = {.scene = scene};
-    moment     when = moment_at_rest();
-    bool       failed = false;
-    lmn_status status =
-        scene->behaviour && scene->behaviour->root_count ? LMN_OK : moment_find(&when, scene, NULL, 0, NULL, NULL);
-    if (status == LMN_OK && scene->behaviour && scene->behaviour->root_count)
-        status = schedule_create(&s, scene, NULL);
-    else if (status == LMN_OK)
-        status = schedule_of_clips(&s, scene, when.clips, when.clip_count, NULL);
-    json_t *nodes = json_array(), *events = json_array(), *root = NULL;
-    for (size_t i = 0; status == LMN_OK && i < scene->node_count && !failed; i++) {
-        json_t *o = node_json(&s, (int32_t)i, &failed);
-        if (o)
-            json_array_append_new(nodes, o);
+    moment     clips;
+    writer     w = {scene, &s, &clips, false};
+    char      *out = NULL;
+    lmn_status status = schedule_of_moment(&s, &clips, scene, NULL, NULL);
+    json_t    *root = status == LMN_OK ? dynamics_json(&w) : NULL;
+    if (root && !w.failed) {
+        char *dumped = json_dumps(root, JSON_INDENT(2));
+        out = mem_copy_text(dumped);
+        free(dumped);
     }
-    for (size_t i = 0; status == LMN_OK && i < s.span_count; i++)
-        if (s.nodes[s.spans[i].node].kind == BEHAVIOUR_EVENT)
-            json_array_append_new(events, json_pack("{s:o,s:f}", "name", text_or_null(s.nodes[s.spans[i].node].name),
-                                                    "time", s.spans[i].from));
-    if (status == LMN_OK && !failed)
-        root = json_pack("{s:f,s:O,s:O}", "duration", s.duration, "nodes", nodes, "events", events);
-    char *dumped = root ? json_dumps(root, JSON_INDENT(2)) : NULL, *out = mem_copy_text(dumped);
-    free(dumped);
     json_decref(root);
-    json_decref(nodes);
-    json_decref(events);
     schedule_release(&s);
     return out;
 }

@@ -316,7 +316,9 @@ static void share_parts(plan *p)
         if (!p->selected[i])
             continue;
         bool ghost = p->scene->parts[i].ghost;
-        if (!ghost)
+        if (!ghost && node_is_overlay(&p->scene->nodes[p->scene->parts[i].node]))
+            p->box = box3_union(p->box, p->pose->part_boxes[i]);
+        else if (!ghost)
             fit_to(p, i, false);
         for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
             const selector *s = look->rules[r].selector;
@@ -327,6 +329,7 @@ static void share_parts(plan *p)
         if (ghost && taken)
             fit_to(p, i, true);
         p->selected[i] = taken;
+        p->throws[i] = taken && node_throws_shadow(&p->scene->nodes[p->scene->parts[i].node]);
         p->selected_count -= !taken;
     }
 }
@@ -588,12 +591,13 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->rule_of = mem_calloc(out->part_count, sizeof *out->rule_of);
     out->selected = mem_calloc(out->part_count, sizeof *out->selected);
     out->fitted = mem_calloc(out->part_count, sizeof *out->fitted);
+    out->throws = mem_calloc(out->part_count, sizeof *out->throws);
     out->ghost_boxes = mem_calloc(out->part_count, sizeof *out->ghost_boxes);
     out->opaque = mem_calloc(out->part_count, sizeof *out->opaque);
     out->figures = mem_calloc(look->rule_count, sizeof *out->figures);
     out->rules = mem_calloc(3 * look->rule_count, sizeof *out->rules);
     if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules || !out->fitted ||
-        !out->ghost_boxes)
+        !out->throws || !out->ghost_boxes)
         return error_memory(error);
     out->fit = (fit_body){pose, out->fitted, out->ghost_boxes, out->part_count, box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
@@ -679,6 +683,7 @@ void plan_release(plan *p)
     datum_release(&p->datum);
     mem_free(p->selected);
     mem_free(p->fitted);
+    mem_free(p->throws);
     mem_free(p->ghost_boxes);
     mem_free(p->opaque);
     paper_look_destroy(&p->own_look);

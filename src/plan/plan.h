@@ -52,6 +52,7 @@ typedef struct plan {
     size_t   selected_count, opaque_count;
     box3     box;         /* of the selection, before it is cut */
     fit_body fit;         /* what the picture is fitted to: the same, or where it comes over time */
+    bool    *throws;      /* per part: it is drawn and throws a shadow */
     bool    *fitted;      /* per part: it is a part of that */
     box3    *ghost_boxes; /* per part: of ghosts, what of them counts for it */
     /* figures */

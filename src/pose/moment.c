@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "scene/behaviour.h"
 
 moment moment_at_rest(void)
 {
@@ -130,12 +131,32 @@ static int32_t root_of(const lmn_scene *scene, const animation *clip)
     return NONE;
 }
 
-/* The first clip of each file, as far as there may be so many. */
+/* Does the scene's behaviour move something of a file's clip? Then it has that clip as an activity, or instead of it.
+ */
+static bool behaviour_moves(const lmn_scene *scene, size_t clip)
+{
+    int32_t written = scene->behaviour ? scene->behaviour->written : NONE, root;
+    if (written == NONE || (size_t)written == clip)
+        return false;
+    root = root_of(scene, &scene->animations[clip]);
+    const animation *a = &scene->animations[written];
+    for (size_t k = 0; k < a->channel_count; k++) {
+        int32_t at = animation_thing_of(a->channels[k].path) == ANIMATED_NODE ? a->channels[k].target : NONE;
+        while (at != NONE && scene->nodes[at].parent != NONE)
+            at = scene->nodes[at].parent;
+        if (at != NONE && at == root)
+            return true;
+    }
+    return false;
+}
+
+/* The behaviour, and the first clip of each file that it leaves alone, as far as there may be so many. */
 static void add_first_clips(moment *m, const lmn_scene *scene)
 {
     for (size_t i = 0; i < scene->animation_count && m->clip_count < CLIPS_AT_ONCE; i++) {
         int32_t root = root_of(scene, &scene->animations[i]);
-        bool    known = i > 0 && root == NONE;
+        bool    known = (i > 0 && root == NONE && !(scene->behaviour && scene->behaviour->written == (int32_t)i)) ||
+                     behaviour_moves(scene, i);
         for (size_t k = 0; k < m->clip_count; k++)
             known = known || root_of(scene, &scene->animations[m->clips[k]]) == root;
         if (!known)

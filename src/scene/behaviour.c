@@ -16,25 +16,33 @@ static behaviour *behaviour_of(lmn_scene *s)
     return s->behaviour;
 }
 
+behaviour_node behaviour_blank(behaviour_kind kind)
+{
+    behaviour_node n;
+    memset(&n, 0, sizeof n);
+    n.kind = kind;
+    n.duration = -1;
+    n.times = 1;
+    n.exponent = 1;
+    n.target = n.clip = n.map.other = NONE;
+    n.fit = FIT_START;
+    return n;
+}
+
 int32_t behaviour_append(lmn_scene *s, behaviour_kind kind)
 {
     behaviour *b = behaviour_of(s);
     if (!b || b->node_count >= INT32_MAX - 1 ||
         !mem_grow((void **)&b->nodes, &b->node_capacity, b->node_count + 1, sizeof *b->nodes))
         return NONE;
-    behaviour_node *n = &b->nodes[b->node_count];
-    memset(n, 0, sizeof *n);
-    n->kind = kind;
-    n->duration = -1;
-    n->times = 1;
-    n->exponent = 1;
-    n->target = n->clip = n->map.other = NONE;
-    n->fit = FIT_START;
+    b->nodes[b->node_count] = behaviour_blank(kind);
     return (int32_t)b->node_count++;
 }
 
-static void node_free(behaviour_node *n)
+void behaviour_node_release(behaviour_node *n)
 {
+    if (n->map.release)
+        n->map.release(n->map.user);
     mem_free(n->name);
     mem_free(n->children);
     mem_free(n->map.values);
@@ -43,7 +51,7 @@ static void node_free(behaviour_node *n)
 
 void behaviour_take_back(lmn_scene *s)
 {
-    node_free(&s->behaviour->nodes[--s->behaviour->node_count]);
+    behaviour_node_release(&s->behaviour->nodes[--s->behaviour->node_count]);
 }
 
 bool behaviour_append_child(lmn_scene *s, int32_t parent, int32_t child, double start, double duration)
@@ -75,6 +83,15 @@ bool behaviour_target_exists(const lmn_scene *s, animation_path path, int32_t ta
     return target >= 0 && (size_t)target < count;
 }
 
+int32_t behaviour_target_of(const lmn_scene *s, animation_path path, int32_t node_index)
+{
+    switch (animation_thing_of(path)) {
+    case ANIMATED_CAMERA: return s->nodes[node_index].camera;
+    case ANIMATED_LIGHT: return s->nodes[node_index].light;
+    default: return node_index;
+    }
+}
+
 size_t behaviour_components(const lmn_scene *s, animation_path path, int32_t target)
 {
     const node *n = &s->nodes[path == PATH_WEIGHTS ? target : 0];
@@ -94,7 +111,7 @@ void behaviour_free(behaviour *b)
     if (!b)
         return;
     for (size_t i = 0; i < b->node_count; i++)
-        node_free(&b->nodes[i]);
+        behaviour_node_release(&b->nodes[i]);
     mem_free(b->nodes);
     mem_free(b->roots);
     mem_free(b);

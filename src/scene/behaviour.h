@@ -40,6 +40,7 @@ typedef enum curve_kind { CURVE_BEZIER, CURVE_CATMULL_ROM } curve_kind;
 
 /* Seconds of the activity's own time to a value. Called at any time, in any order, several times. */
 typedef void (*behaviour_function)(double seconds, double *out, void *user);
+typedef void (*behaviour_release)(void *user);
 
 typedef struct behaviour_map {
     map_kind   kind;
@@ -58,6 +59,7 @@ typedef struct behaviour_map {
 
     behaviour_function function;
     void              *user;
+    behaviour_release  release; /* of `user`, when nobody asks any more; may be NULL */
 } behaviour_map;
 
 typedef struct behaviour_child {
@@ -94,6 +96,9 @@ struct behaviour {
 /* Appends a node without children, which is no root yet: it needs what it needs, nothing is its target. Makes the
  * scene's behaviour when there is none. Its index; NONE when memory is gone. */
 int32_t behaviour_append(lmn_scene *scene, behaviour_kind kind);
+/* What it is before anything is known of it. */
+behaviour_node behaviour_blank(behaviour_kind kind);
+void           behaviour_node_release(behaviour_node *n);
 /* Takes back what was appended last, which nothing refers to. */
 void behaviour_take_back(lmn_scene *scene);
 bool behaviour_append_child(lmn_scene *scene, int32_t parent, int32_t child, double start, double duration);
@@ -101,6 +106,8 @@ bool behaviour_append_root(lmn_scene *scene, int32_t root);
 
 /* How many numbers a property has; weights: those of the mesh, 0 where it has none. */
 size_t behaviour_components(const lmn_scene *scene, animation_path path, int32_t target);
+/* The camera or light of a node that a property is of, or the node itself; NONE: it has none. */
+int32_t behaviour_target_of(const lmn_scene *scene, animation_path path, int32_t node_index);
 /* Is there such a thing in the scene? */
 bool behaviour_target_exists(const lmn_scene *scene, animation_path path, int32_t target);
 

@@ -260,6 +260,27 @@ static void put_in_place(mat4 *position, const lmn_scene *into, const lmn_scene 
         position->m[12 + k] += up.m[k] * offset[0] + up.m[4 + k] * offset[1] + up.m[8 + k] * offset[2];
 }
 
+static bool is_identity(const mat4 *m)
+{
+    const mat4 identity = mat4_identity();
+    return memcmp(m, &identity, sizeof identity) == 0;
+}
+
+/* The parts of `from` as they are called in `into`. Its own list goes. In an empty scene at the same place they only
+ * get another path, which saves going through the tree once more. */
+static bool list_parts(const lmn_scene *into, lmn_scene *from, const char *name, const mat4 *position, part_list *out)
+{
+    part_list own = {from->parts, from->part_count, from->ghost_count};
+    from->parts = NULL;
+    from->part_count = from->ghost_count = 0;
+    if (into->part_count + into->ghost_count == 0 && own.parts && is_identity(position) && parts_fit(&own, name)) {
+        *out = own;
+        return parts_put_below(out, name);
+    }
+    parts_release(own.parts, own.part_count + own.ghost_count);
+    return parts_list(from, name, (uint32_t)into->part_count, position, out);
+}
+
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
 {
     lmn_status status = check_capacity(into, from, file, error);
@@ -270,11 +291,7 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
     char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
     part_list list = {.parts = NULL};
     part     *grown = NULL;
-    parts_release(from->parts, from->part_count + from->ghost_count);
-    from->parts = NULL;
-    from->part_count = from->ghost_count = 0;
-    bool good =
-        name && path && reserve_all(into, from) && parts_list(from, name, (uint32_t)into->part_count, &position, &list);
+    bool      good = name && path && reserve_all(into, from) && list_parts(into, from, name, &position, &list);
     if (good) {
         size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
         grown = mem_realloc(into->parts, total * sizeof *grown);

@@ -12,6 +12,11 @@ lmn_status mesh_weld_positions(primitive *p, lmn_error *error);
 /* For each vertex the first vertex at the same position: vertex_count entries, free with mem_free; NULL = memory
  * gone. */
 uint32_t *mesh_position_ids(const primitive *p);
+/* How near vertices lie that were one before they were rounded: a fraction of their box. */
+double mesh_near(const vec3 *positions, size_t count);
+/* Makes vertices one that lie so near each other, where ids[v] is the first vertex at v's position: it is the first one
+ * near it then. False when memory is gone. */
+bool mesh_weld_near(const vec3 *positions, uint32_t *ids, size_t count, double tolerance);
 
 /* Adjacency by position: for each of the index_count half-edges (corner k of a triangle to its next corner) the
  * half-edge on the other side, or UINT32_MAX at a border; edges of more than two triangles pair the first with the

@@ -193,6 +193,31 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     return true;
 }
 
+bool parts_fit(const part_list *list, const char *prefix)
+{
+    size_t length = strlen(prefix) + 1;
+    bool   fits = true;
+    for (size_t i = 0; i < list->part_count + list->ghost_count && fits; i++)
+        fits = length + strlen(list->parts[i].path) < PATH_BYTES_MAX;
+    return fits;
+}
+
+bool parts_put_below(part_list *list, const char *prefix)
+{
+    size_t length = strlen(prefix);
+    for (size_t i = 0; i < list->part_count + list->ghost_count; i++) {
+        size_t size = strlen(list->parts[i].path) + 1;
+        char  *path = mem_realloc(list->parts[i].path, length + 1 + size);
+        if (!path)
+            return false;
+        memmove(path + length + 1, path, size);
+        memcpy(path, prefix, length);
+        path[length] = '/';
+        list->parts[i].path = path;
+    }
+    return true;
+}
+
 size_t scene_plain_node_count(const lmn_scene *s)
 {
     size_t count = 0;

@@ -13,6 +13,9 @@ typedef struct part_list {
 } part_list;
 
 bool parts_list(const lmn_scene *scene, const char *prefix, uint32_t first_id, const mat4 *position, part_list *out);
+/* Puts a prefix and its slash in front of all paths of a list that has none. May it be so, without cutting one? */
+bool parts_fit(const part_list *list, const char *prefix);
+bool parts_put_below(part_list *list, const char *prefix); /* false when memory is gone */
 void parts_release(part *parts, size_t count);
 
 #endif

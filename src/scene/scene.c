@@ -305,6 +305,24 @@ char *scene_name_of_file(const char *path)
     return length ? scene_clean_name(name, length) : mem_copy_text("model");
 }
 
+static bool has_attribute(const node *n, const char *key)
+{
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, key) == 0)
+            return true;
+    return false;
+}
+
+bool node_is_overlay(const node *n)
+{
+    return has_attribute(n, NODE_OVERLAY);
+}
+
+bool node_throws_shadow(const node *n)
+{
+    return !has_attribute(n, NODE_SHADOWLESS);
+}
+
 size_t node_draw_count(const node *n)
 {
     return n->instance_count ? n->instance_count : 1;

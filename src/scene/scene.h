@@ -331,7 +331,13 @@ size_t scene_plain_node_count(const lmn_scene *scene);
 size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 
 /* How many times a node's mesh is drawn: its instances, or once. */
-size_t   node_draw_count(const node *n);
+size_t node_draw_count(const node *n);
+/* Does it lie over the picture, which is not fitted to it? Attribute NODE_OVERLAY. */
+#define NODE_OVERLAY "overlay"
+bool node_is_overlay(const node *n);
+/* Signs throw no shadow. Attribute NODE_SHADOWLESS. */
+#define NODE_SHADOWLESS "shadowless"
+bool     node_throws_shadow(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);
 uint64_t mesh_line_count(const mesh *m);
 

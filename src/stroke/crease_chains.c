@@ -8,10 +8,8 @@
 
 #define DEGREE 0.017453292519943295
 /* A chain with a free end is weak when its mean turn is less than this, and than the angle times … */
-#define WEAK       (45 * DEGREE)
+#define WEAK       (59 * DEGREE)
 #define WEAK_TIMES 2.25
-/* … of one with two free ends so many times that; */
-#define LOOSE 1.2
 /* … and short when it is shorter than this fraction of the mesh. */
 #define SHORT 0.6
 /* Beside other lines edges go on as one another when they turn by less: cosine. */
@@ -174,8 +172,7 @@ static bool judge_chains(chain_net *n, double size, double weak_turn)
         if (n->seen[i] || !is_chained(&m->edges[i]))
             continue;
         chain_facts f = follow(n, i);
-        double      least = weak_turn * (f.free_ends > 1 ? LOOSE : 1);
-        bool        weak = f.turn < least && f.length < SHORT * size;
+        bool        weak = f.turn < weak_turn && f.length < SHORT * size;
         bool        goes = weak && f.free_ends > 0;
         for (size_t k = 0; k < f.count; k++) {
             mesh_edge *e = &m->edges[n->chain[k]];

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "stroke/crease_chains.h"
+#include "stroke/crease_rings.h"
 
 #define DEGREE 0.017453292519943295
 /* Steps of a rounding turn by less; more is a prism. */
@@ -52,6 +53,8 @@
 #define ENDS_IN_FACE 1.75
 /* Edges in smooth surroundings turn by this many times as much as those next to them. */
 #define STANDS_ALONE 2.0
+/* Rims of chamfers turn by more than this. */
+#define RING_TURN (18 * DEGREE)
 enum { SIDE_RINGS = 3, STEPS_MOST = 10, FACES_MOST = 24, SIDE_FACES_MOST = 64 };
 
 typedef struct vector {
@@ -434,6 +437,13 @@ static bool is_sampled_crease(judge *j, uint32_t half, double own)
     return turn > fmax(0.67 * j->facts->angle, 3 * j->noise / rings) && fabs(own) > CONCENTRATED * turn;
 }
 
+/* Does hardly any edge lie in a plane, and do the file's normals not say which are sharp? So are animals and faces;
+ * what is constructed has flat faces. */
+static bool is_hand_made(const edge_mesh *m, const crease_facts *facts)
+{
+    return !facts->mixed && m->edge_count > BENT_FRACTION * m->all_edges;
+}
+
 /* --- chains ---------------------------------------------------------------------------------------------- */
 
 /* Edges that may be creases, by their vertices. */
@@ -564,6 +574,52 @@ static void drop_twig(judge *j, const crease_net *n, uint32_t vertex, double lea
         j->verdicts[n->stack[i]] = NO_CREASE;
 }
 
+/* Does the surface go on turning beside an edge and end as the edge begins? So do roundings of two strips. */
+static bool is_rim_of_rounding(const judge *j, uint32_t half, double own)
+{
+    const uint32_t sides[2] = {half, j->facts->opposite[half]};
+    for (int k = 0; k < 2; k++) {
+        step next[STEPS_MOST];
+        if (find_steps(j, sides[k], own, next, 2) == 2 && (next[0].turn < 0) == (own < 0) &&
+            (next[1].turn < 0) == (own < 0) && fabs(next[0].turn) * ALIKE > fabs(own) &&
+            is_alike(fabs(next[1].turn), fabs(own)) && is_alike(next[0].width, next[1].width))
+            return true;
+    }
+    return false;
+}
+
+/* Is an edge that turns by less than the crease angle sharp, if it is part of a ring? */
+static bool may_be_ring(const judge *j, uint32_t edge)
+{
+    const mesh_edge *e = &j->m->edges[edge];
+    uint32_t         half = e->flags & (EDGE_BORDER | EDGE_TWISTED) ? EDGE_NO_FACE : half_of(j, e);
+    if (j->verdicts[edge] != MAY_BELONG || half == EDGE_NO_FACE)
+        return false;
+    double       own = turn_over(j->m, half, j->facts->opposite[half]);
+    edge_shading shading = j->facts->shading ? (edge_shading)j->facts->shading[half] : SHADED_UNKNOWN;
+    return fabs(own) > RING_TURN && shading != SHADED_SMOOTH &&
+           (shading == SHADED_SPLIT || !is_rim_of_rounding(j, half, own));
+}
+
+/* Rims of chamfers are creases, though they turn by little. Not of samplings, and not of shapes that bend everywhere.
+ */
+static bool close_rings(judge *j, const crease_net *n)
+{
+    const edge_mesh *m = j->m;
+    if (j->noise >= 0 || is_hand_made(m, j->facts))
+        return true;
+    uint8_t *states = mem_calloc((size_t)m->edge_count + 1, 1);
+    bool     good = states != NULL;
+    for (uint32_t i = 0; good && i < m->edge_count; i++)
+        states[i] = j->verdicts[i] == IS_CREASE ? RING_LINE : may_be_ring(j, i) ? RING_MAY : RING_NONE;
+    good = good && crease_rings_close(m, n->starts, n->edges, states);
+    for (uint32_t i = 0; good && i < m->edge_count; i++)
+        if (states[i] == RING_LINE)
+            j->verdicts[i] = IS_CREASE;
+    mem_free(states);
+    return good;
+}
+
 static bool follow_chains(judge *j)
 {
     crease_net n = {0};
@@ -571,6 +627,7 @@ static bool follow_chains(judge *j)
     bool       good = seen && open_net(&n, j);
     if (good)
         go_on(j, &n);
+    good = good && close_rings(j, &n);
     double least = fmax(LONG_EDGES * j->mean_edge, LONG_FRACTION * j->size);
     for (uint32_t i = 0; good && i < j->m->edge_count; i++) {
         bool narrow = j->verdicts[i] == IS_NARROW;
@@ -634,13 +691,6 @@ static void set_flags(judge *j)
         else if (e->flags & EDGE_CREASE)
             e->flags = (e->flags & ~(uint32_t)EDGE_CREASE) | EDGE_CANDIDATE | EDGE_QUIET;
     }
-}
-
-/* Does hardly any edge lie in a plane, and do the file's normals not say which are sharp? So are animals and faces;
- * what is constructed has flat faces. */
-static bool is_hand_made(const edge_mesh *m, const crease_facts *facts)
-{
-    return !facts->mixed && m->edge_count > BENT_FRACTION * m->all_edges;
 }
 
 static bool has_creases(const edge_mesh *m)

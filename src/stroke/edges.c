@@ -36,6 +36,7 @@ struct edge_topology {
     uint32_t    range_edges[RANGES + 1]; /* per range: how many edges those before it have */
     edge_mesh   mesh;                    /* at rest */
     uint32_t   *welded;                  /* per vertex of the mesh: its number */
+    double      near;                    /* so far apart those of one number may lie */
     size_t      vertex_count;
     uint32_t   *starts; /* of `mesh`, as below */
     half_edge  *halves;
@@ -61,7 +62,7 @@ typedef struct builder {
     double         angle;
     bool           has_flat; /* faces without area were left out */
     bool has_twins; /* there may be faces that are there twice: edges have more than two, or both of an edge are the
-                       same */
+                       same, or lie on each other */
 } builder;
 
 static vec3 minus(vec3 a, vec3 b)
@@ -222,8 +223,9 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     out->materials = mixed ? mem_alloc(corners / 3 * sizeof *out->materials) : NULL;
     out->said = said ? mem_alloc(corners) : NULL;
     b->normals = shaded ? mem_alloc(corners * sizeof *b->normals) : NULL;
-    bool good = ids && out->faces && out->normals && (out->materials || !mixed) && (out->said || !said) &&
-                (b->normals || !shaded);
+    double near = ids ? mesh_near(out->positions, vertices) : 0;
+    bool   good = ids && mesh_weld_near(out->positions, ids, vertices, near) && out->faces && out->normals &&
+                (out->materials || !mixed) && (out->said || !said) && (b->normals || !shaded);
     if (good) {
         weld(out, ids, (uint32_t)vertices);
         gather_faces(b, m, ids);
@@ -232,6 +234,7 @@ static lmn_status make_faces(builder *b, const mesh *m, const vec3 *posed, lmn_e
     if (b->keeps) {
         b->keeps->welded = ids;
         b->keeps->vertex_count = vertices;
+        b->keeps->near = near;
         b->keeps->has_flat = b->has_flat;
         ids = NULL;
     }
@@ -449,7 +452,7 @@ static bool take_edge(builder *b, uint32_t low, const half_edge *group, size_t c
         group_join(b->pieces, group[0].corner / 3, group[1].corner / 3);
         b->has_twins = b->has_twins || have_same_corners(m->faces[group[0].corner / 3], m->faces[group[1].corner / 3]);
     }
-    b->has_twins = b->has_twins || count > 2;
+    b->has_twins = b->has_twins || count > 2 || (flags & EDGE_TWISTED);
     if (m->said)
         flags = obey(flags, m->said, group, count);
     return flags == 0 || flags == EDGE_CONVEX || put_edge(b, low, flags, group, count);
@@ -500,11 +503,72 @@ static bool mark_twins(builder *b, uint32_t low, const half_edge *group, size_t 
     return true;
 }
 
-/* Drops faces that are there twice, whichever way round. Returns how many. */
+/* The half-edges between two vertices. */
+static const half_edge *find_group(const builder *b, uint32_t p, uint32_t q, size_t *count)
+{
+    uint32_t         low = p < q ? p : q, high = p < q ? q : p;
+    const half_edge *at = b->halves + b->starts[low], *end = b->halves + b->starts[low + 1];
+    while (at < end && at->high < high)
+        at++;
+    for (*count = 0; at + *count < end && at[*count].high == high;)
+        ++*count;
+    return at;
+}
+
+static uint32_t third_corner(const uint32_t face[3], uint32_t p, uint32_t q)
+{
+    return face[0] != p && face[0] != q ? face[0] : face[1] != p && face[1] != q ? face[1] : face[2];
+}
+
+static vec3 cross(vec3 a, vec3 b)
+{
+    return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* Do p and q lie to different sides of the line through a and b? */
+static bool are_parted(const edge_mesh *m, uint32_t a, uint32_t b, uint32_t p, uint32_t q)
+{
+    vec3 from = m->positions[a], way = minus(m->positions[b], from);
+    return dot(cross(way, minus(m->positions[p], from)), cross(way, minus(m->positions[q], from))) < 0;
+}
+
+/* Is a face with a border from u to v half of a quad that two other faces in its plane make, divided the other way? */
+static bool is_covered(const builder *b, uint32_t face, uint32_t u, uint32_t v)
+{
+    const edge_mesh *m = b->mesh;
+    const float      in_plane = 1 - 1e-5f;
+    uint32_t         a = third_corner(m->faces[face], u, v);
+    size_t           count, others;
+    const half_edge *group = find_group(b, a, u, &count), *second = find_group(b, a, v, &others);
+    for (size_t i = 0; i < count && count <= SHORT_BUCKET && others <= SHORT_BUCKET; i++) {
+        uint32_t one = group[i].corner / 3, c = third_corner(m->faces[one], a, u);
+        if (one == face || fabsf(dot(m->normals[one], m->normals[face])) < in_plane)
+            continue;
+        for (size_t k = 0; k < others; k++) {
+            uint32_t other = second[k].corner / 3;
+            if (other != face && other != one && third_corner(m->faces[other], a, v) == c &&
+                fabsf(dot(m->normals[other], m->normals[face])) >= in_plane && are_parted(m, u, v, a, c) &&
+                are_parted(m, a, c, u, v))
+                return true;
+        }
+    }
+    return false;
+}
+
+static bool mark_covered(builder *b, uint32_t low, const half_edge *group, size_t count)
+{
+    uint32_t face = group[0].corner / 3;
+    if (count == 1 && !b->dropped[face] && is_covered(b, face, low, group[0].high))
+        b->dropped[face] = 1;
+    return true;
+}
+
+/* Drops faces that are there twice, whichever way round, or covered by others. Returns how many. */
 static uint32_t drop_twins(builder *b)
 {
     edge_mesh *m = b->mesh;
     each_edge(b, mark_twins);
+    each_edge(b, mark_covered);
     uint32_t kept = 0;
     for (uint32_t f = 0; f < m->face_count; f++) {
         if (b->dropped[f])
@@ -693,12 +757,14 @@ uint64_t edge_topology_revision(const edge_topology *t)
 static bool weld_again(edge_mesh *out, const edge_topology *t, const vec3 *positions)
 {
     uint32_t seen = 0;
+    double   apart = 2 * t->near; /* a pose may stretch */
     for (size_t i = 0; i < t->vertex_count; i++) {
         uint32_t number = t->welded[i];
         if (number == seen)
             out->positions[seen++] = positions[i];
         vec3 p = out->positions[number];
-        if (p.x != positions[i].x || p.y != positions[i].y || p.z != positions[i].z)
+        if (!(fabs((double)p.x - positions[i].x) <= apart && fabs((double)p.y - positions[i].y) <= apart &&
+              fabs((double)p.z - positions[i].z) <= apart))
             return false;
     }
     return true;

@@ -19,6 +19,7 @@ static const float straight_cosine = 0.985f;
 static const float sway_most = 0.05f; /* fraction of a line's length that it may stray */
 static const float crumb = 1.5f;      /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
+static const float hand_reach = 4; /* so many times as far as copies lie apart a hand looks for lines beside its own */
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
 
 /* --- lists of spans and gaps ---------------------------------------------------------------------------- */
@@ -199,14 +200,15 @@ enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_HAND, NOISE_COUNT };
 /* --- one line: a stretch of a stroke as it is drawn once ------------------------------------------------ */
 
 typedef struct builder {
-    ribbon_job  job;
-    ribbon_set *out;
-    size_t      ribbon_capacity, point_capacity;
-    span_list   inked, dashes, spans;
-    hand_pulls  pulls;
-    float      *arcs; /* where a line's points are */
-    size_t      arc_count, arc_capacity;
-    bool        failed;
+    ribbon_job   job;
+    ribbon_set  *out;
+    size_t       ribbon_capacity, point_capacity;
+    span_list    inked, dashes, spans;
+    hand_pulls   pulls;
+    segment_grid grid; /* of visible strokes, where a hand draws */
+    float       *arcs; /* where a line's points are */
+    size_t       arc_count, arc_capacity;
+    bool         failed;
 } builder;
 
 typedef struct line {
@@ -517,15 +519,14 @@ static void draw_line(builder *b, const line *l, const float beyond[2], bool das
 }
 
 /* A piece of a pull, drawn for the how manieth time. */
-static void draw_piece(builder *b, const line *whole, const hand_pull *pull, int number, int copy, int index,
-                       const float onward[2], bool dashed)
+static void draw_piece(builder *b, const stroke_style *style, const line *whole, const hand_pull *pull, int number,
+                       int copy, int index, const float onward[2], bool dashed)
 {
-    const stroke_style *style = b->job.style;
-    line                l = *whole;
-    uint64_t            key = noise_key(&b->job, l.s, number, NOISE_HAND);
-    int                 count = hand_piece_count(style, &b->pulls, pull, key), pieces = 32;
-    float               beyond[2];
-    bool                cut[2] = {pull->cut[0], pull->cut[1]};
+    line     l = *whole;
+    uint64_t key = noise_key(&b->job, l.s, number, NOISE_HAND);
+    int      count = hand_piece_count(style, &b->pulls, pull, key), pieces = 32;
+    float    beyond[2];
+    bool     cut[2] = {pull->cut[0], pull->cut[1]};
     if (index >= count)
         return;
     l.piece = hand_piece_of(style, &b->pulls, pull, key, copy, index, count);
@@ -555,23 +556,29 @@ static void draw_piece(builder *b, const line *whole, const hand_pull *pull, int
     draw_line(b, &l, beyond, dashed);
 }
 
-static void draw_pulls(builder *b, const line *whole, const float onward[2], bool dashed)
+/* A pull as it is drawn where it is, with so much room. */
+static void draw_pull(builder *b, const line *whole, int number, uint32_t own, const float onward[2], bool dashed)
 {
-    const stroke_style *style = b->job.style;
+    const hand_pull    *pull = &b->pulls.items[number];
+    const stroke_point *points = &b->pulls.points[pull->first];
+    float               reach = hand_reach * b->job.style->repeat_apart,
+          room = hand_room(&b->job, &b->grid, own, points, pull->count, reach);
+    stroke_style style = hand_style_in(b->job.style, room);
+    float        length = b->pulls.round ? b->pulls.loop : points[pull->count - 1].arc - points[0].arc;
+    int          copies = hand_copies(&style, length, whole->pen);
+    for (int copy = 0; copy < copies && copy < REPEATS_MOST; copy++)
+        for (int index = 0; index < HAND_PIECES_MOST && !b->failed; index++)
+            draw_piece(b, &style, whole, pull, number & 0xffff, copy, index, onward, dashed);
+}
+
+static void draw_pulls(builder *b, const line *whole, uint32_t own, const float onward[2], bool dashed)
+{
     hand_pulls_find(&b->pulls, b->job.strokes, whole->s);
     b->failed = b->failed || b->pulls.failed;
     if (b->pulls.loop > 0)
         unroll(b, whole->begin);
-    for (size_t i = 0; i < b->pulls.count && !b->failed; i++) {
-        const hand_pull *pull = &b->pulls.items[i];
-        float            length = b->pulls.round
-                                      ? b->pulls.loop
-                                      : b->pulls.points[pull->first + pull->count - 1].arc - b->pulls.points[pull->first].arc;
-        int              copies = hand_copies(style, length, whole->pen), number = (int)(i & 0xffff);
-        for (int copy = 0; copy < copies && copy < REPEATS_MOST; copy++)
-            for (int index = 0; index < HAND_PIECES_MOST && !b->failed; index++)
-                draw_piece(b, whole, pull, number, copy, index, onward, dashed);
-    }
+    for (int i = 0; i < (int)b->pulls.count && !b->failed; i++)
+        draw_pull(b, whole, i, own, onward, dashed);
     b->failed = b->failed || b->spans.failed;
 }
 
@@ -588,7 +595,7 @@ static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t
     span_list_intersect(&b->spans, &b->inked, &b->dashes);
     b->failed = b->failed || b->inked.failed || b->spans.failed;
     if (s->hidden_by == 0 && hand_draws(b->job.style))
-        draw_pulls(b, &l, onward, dashed);
+        draw_pulls(b, &l, index, onward, dashed);
     else
         draw_line(b, &l, onward, dashed);
 }
@@ -603,20 +610,18 @@ static void draw_strokes(builder *b, const gap_list *gaps, bool hidden)
 }
 
 /* What must be known of all strokes before the first one is drawn. */
-static bool look_round(ribbon_job *job, stroke_set *whole, gap_list *gaps)
+static bool look_round(ribbon_job *job, segment_grid *grid, stroke_set *whole, gap_list *gaps)
 {
-    segment_grid grid = {0};
-    bool         good = ribbon_make_whole(whole, job);
+    bool good = ribbon_make_whole(whole, job);
     job->strokes = whole;
-    good = good && find_chains(job) && ribbon_find_corners(job) && segment_grid_build(&grid, job) &&
-           ribbon_find_meetings(job, &grid) && line_room_find(&job->room, job);
+    good = good && find_chains(job) && ribbon_find_corners(job) && segment_grid_build(grid, job) &&
+           ribbon_find_meetings(job, grid) && line_room_find(&job->room, job);
     if (good) {
-        ribbon_find_halos(gaps, job, &grid);
+        ribbon_find_halos(gaps, job, grid);
         ribbon_find_crowds(gaps, job);
         ribbon_find_loose(gaps, job);
         gap_list_sort(gaps);
     }
-    segment_grid_release(&grid);
     return good && !gaps->failed;
 }
 
@@ -627,7 +632,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out};
     gap_list   gaps = {0};
     stroke_set whole = {0};
-    b.failed = !look_round(&b.job, &whole, &gaps);
+    b.failed = !look_round(&b.job, &b.grid, &whole, &gaps);
     if (!b.failed) {
         draw_strokes(&b, &gaps, true);
         draw_strokes(&b, &gaps, false);
@@ -637,6 +642,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     span_list_release(&b.dashes);
     span_list_release(&b.spans);
     hand_pulls_release(&b.pulls);
+    segment_grid_release(&b.grid);
     mem_free(b.arcs);
     mem_free(b.job.chains);
     mem_free(b.job.chain_of);

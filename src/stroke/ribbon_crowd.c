@@ -1,35 +1,36 @@
-/* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. Lines are taken in the
- * order of their importance, the visible ones first, and leave samples in a grid; from corner to corner, one that is
- * hidden is left out as a whole where much of it lies too near to what is there, so that nothing is left of it that
- * could be taken for something else. */
+/* Hidden lines that would crowd: those behind more surfaces and the shorter ones give way. The visible lines come first
+ * and leave samples in a grid; then one body after the other is tried, the nearest and the largest first, and of each
+ * one feature after the other (ribbon_features.h). From corner to corner, a hidden line goes where a visible one stands
+ * for it. What is left of a feature is drawn whole, or not at all where much of it lies too near to what is there, and
+ * a body of which most would go is left out as a whole: a part of a hidden thing says nothing that a reader could use.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "stroke/ribbon_private.h"
+#include "stroke/ribbon_features.h"
 
 enum { CELLS_MOST = 4096 };
-static const float  samples_apart = 0.5f; /* fractions of the distance that is kept */
-static const float  own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
-static const float  run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
-static const float  section_least = 4;    /* nearer to each other corners part nothing, in distances */
-static const float  crowded_from = 0.5f;  /* fraction of crowded samples from one corner to the next … */
-static const float  mostly_from = 0.6f;   /* … and of a whole run */
-static const float  least_apart = 0.5f;   /* on paper */
-static const float  longest = 1e6f;       /* of a segment that anybody draws, pixels */
+static const float samples_apart = 0.5f; /* fractions of the distance that is kept */
+static const float own_apart = 4;        /* along a line, from where on it may crowd itself, in distances */
+static const float run_crumb = 2.5f;     /* runs shorter than this say nothing, in distances */
+static const float section_least = 4;    /* nearer to each other corners part nothing, in distances */
+static const float crowded_from = 0.5f;  /* fraction of crowded samples, of a feature and from corner to corner */
+/* Of the hidden lines of a wholly hidden body so much is drawn, of one that is seen, of a small one, such as a bolt,
+ * and of a part: of what no visible line stands for. */
+static const float  body_from[2] = {0.6f, 0.4f}, small_from = 0.8f, part_from = 0.6f;
+static const float  small_body = 208;   /* on paper */
+static const float  body_least = 0.25f; /* … and of all of them */
+static const float  island_least = 30;  /* on paper: what is smaller and wholly hidden is left out */
+static const float  least_apart = 0.5f; /* on paper */
+static const float  longest = 1e6f;     /* of a segment that anybody draws, pixels */
 static const size_t samples_most = 50000000;
-
-/* Strokes of a chain that follow each other and are hidden. */
-typedef struct hidden_run {
-    uint32_t     first, count;  /* strokes */
-    float        length, depth; /* the mean of surfaces in front */
-    stroke_class kind;
-} hidden_run;
 
 typedef struct crowd_sample {
     float    x, y, arc;
-    uint32_t chain, stroke, next; /* the next of its cell, + 1 */
+    uint32_t chain, next; /* the next of its cell, + 1 */
+    bool     visible;
 } crowd_sample;
 
 typedef struct crowd_grid {
@@ -95,8 +96,8 @@ static void grid_take_back(crowd_grid *g, size_t count)
     }
 }
 
-/* Is there a line too near? The chain's own counts only from some way along it on. */
-static bool is_crowded(const crowd_grid *g, const crowd_sample *sample)
+/* Is there a line too near, or a visible one? The chain's own counts only from some way along it on. */
+static bool is_crowded(const crowd_grid *g, const crowd_sample *sample, bool by_visible)
 {
     int cell[2];
     cell_at(g, sample->x, sample->y, cell);
@@ -107,6 +108,8 @@ static bool is_crowded(const crowd_grid *g, const crowd_sample *sample)
             for (uint32_t at = g->heads[(size_t)row * (size_t)g->columns + (size_t)column]; at;
                  at = g->samples[at - 1].next) {
                 const crowd_sample *other = &g->samples[at - 1];
+                if (by_visible && !other->visible)
+                    continue;
                 if (other->chain == sample->chain && fabsf(other->arc - sample->arc) < own_apart * g->apart)
                     continue;
                 if (hypotf(other->x - sample->x, other->y - sample->y) < g->apart)
@@ -143,57 +146,29 @@ static void sample_stroke(sample_list *out, const ribbon_job *job, uint32_t inde
                 return;
             }
             out->items[out->count++] = (crowd_sample){
-                a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), next, job->chain_of[index], index, 0};
+                a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), next, job->chain_of[index], 0, s->hidden_by == 0};
         }
     }
 }
 
-/* --- runs ----------------------------------------------------------------------------------------------- */
+/* --- features -------------------------------------------------------------------------------------------- */
 
-static int compare_runs(const void *a, const void *b)
-{
-    const hidden_run *one = a, *other = b;
-    if (one->depth != other->depth)
-        return one->depth < other->depth ? -1 : 1;
-    if (one->kind != other->kind)
-        return one->kind < other->kind ? -1 : 1;
-    if (one->length != other->length)
-        return one->length > other->length ? -1 : 1;
-    return one->first < other->first ? -1 : one->first > other->first;
-}
-
-static hidden_run *find_runs(const ribbon_job *job, size_t *count)
-{
-    const stroke_set *set = job->strokes;
-    hidden_run       *runs = mem_calloc(set->stroke_count, sizeof *runs);
-    *count = 0;
-    for (size_t i = 0; runs && i < set->stroke_count; i++) {
-        const stroke *s = &set->strokes[i];
-        if (s->hidden_by == 0 || !job->drawn[i])
-            continue;
-        bool goes_on =
-            i > 0 && set->strokes[i - 1].hidden_by > 0 && job->drawn[i - 1] && job->chain_of[i] == job->chain_of[i - 1];
-        if (!goes_on)
-            runs[(*count)++] = (hidden_run){.first = (uint32_t)i, .kind = s->kind};
-        hidden_run *run = &runs[*count - 1];
-        float       length = s->count ? set->points[s->first + s->count - 1].arc - set->points[s->first].arc : 0;
-        length = isfinite(length) ? length : 0;
-        run->count++;
-        run->depth += length * (float)s->hidden_by;
-        run->length += length;
-    }
-    for (size_t i = 0; runs && i < *count; i++)
-        runs[i].depth = runs[i].length > 0 ? roundf(runs[i].depth / runs[i].length) : 0;
-    if (runs)
-        qsort(runs, *count, sizeof *runs, compare_runs);
-    return runs;
-}
+/* What has been tried of a body: length, but for what lies along visible lines; what of it is drawn; and all. */
+typedef struct body_tally {
+    float open, kept, all;
+} body_tally;
 
 /* Takes out of a run's strokes what lies between two arcs. */
 static void take_out(gap_list *out, const hidden_run *run, float from, float to)
 {
     for (uint32_t i = 0; i < run->count; i++)
         gap_list_add(out, run->first + i, from, to);
+}
+
+static void take_out_all(gap_list *out, const hidden_run *runs, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        take_out(out, &runs[i], -INFINITY, INFINITY);
 }
 
 /* The corner after which the next section begins, as a number of the job's; `from`: where this one does. */
@@ -225,81 +200,148 @@ static run_section find_section(const crowd_grid *g, const sample_list *list, si
     return s;
 }
 
-static void judge_section(gap_list *out, crowd_grid *g, const hidden_run *run, const sample_list *list, size_t *sums,
-                          run_section s)
+static bool runs_along_visible(const crowd_grid *g, const sample_list *list, run_section s)
 {
-    size_t waiting = s.first, before = g->count;
-    for (size_t i = s.first; i < s.end; i++) {
-        bool crowded = is_crowded(g, &list->items[i]);
-        sums[i + 1] = sums[i] + crowded;
-        /* What lies free is there for the rest of its own chain at once. */
-        for (; !crowded && waiting <= i; waiting++)
-            if (sums[waiting + 1] == sums[waiting])
-                grid_put(g, &list->items[waiting]);
-    }
-    bool gone = (float)(sums[s.end] - sums[s.first]) >= crowded_from * (float)(s.end - s.first);
-    if (gone) {
-        take_out(out, run, s.from, s.to);
-        grid_take_back(g, before); /* what is not drawn crowds nothing */
-    }
-    for (size_t i = s.first; i < s.end && !gone; i++)
-        if (sums[i + 1] != sums[i])
-            grid_put(g, &list->items[i]);
+    size_t beside = 0;
+    for (size_t i = s.first; i < s.end; i++)
+        beside += is_crowded(g, &list->items[i], true);
+    return (float)beside >= crowded_from * (float)(s.end - s.first);
 }
 
-/* Of what is nearly all crowded, single edges would be fragments. */
-static bool is_mostly_crowded(const crowd_grid *g, const sample_list *list)
+/* Samples a run and takes out what visible lines stand for. */
+static void open_run(gap_list *out, crowd_grid *g, const hidden_run *run, sample_list *list)
 {
-    size_t crowded = 0;
-    for (size_t i = 0; i < list->count; i++)
-        crowded += is_crowded(g, &list->items[i]);
-    return (float)crowded >= mostly_from * (float)list->count;
-}
-
-static void judge_run(gap_list *out, crowd_grid *g, const hidden_run *run, sample_list *list)
-{
-    list->count = 0;
+    size_t before = list->count, corner = 0, left = before;
+    float  from = -INFINITY;
     if (run->length < run_crumb * g->apart) {
         take_out(out, run, -INFINITY, INFINITY);
         return;
     }
     for (uint32_t i = 0; i < run->count; i++)
         sample_stroke(list, g->job, run->first + i, g->apart * samples_apart);
-    if (is_mostly_crowded(g, list)) {
-        take_out(out, run, -INFINITY, INFINITY);
-        return;
-    }
-    size_t *sums = mem_calloc(list->count + 1, sizeof *sums);
-    g->failed = g->failed || !sums || list->failed;
-    size_t corner = 0;
-    float  from = -INFINITY;
-    for (size_t first = 0; first < list->count && !g->failed;) {
+    for (size_t first = before; first < list->count && !list->failed;) {
         corner = next_corner(g, run, corner, fmaxf(from, list->items[first].arc));
         run_section s = find_section(g, list, first, corner, from);
-        judge_section(out, g, run, list, sums, s);
+        bool        stands = runs_along_visible(g, list, s);
+        if (stands)
+            take_out(out, run, s.from, s.to);
+        for (size_t i = s.first; i < s.end && !stands; i++)
+            list->items[left++] = list->items[i];
         first = s.end;
         from = s.to;
     }
-    mem_free(sums);
+    list->count = left;
+}
+
+/* Puts the samples of a feature into the grid, unless much of it is crowded, by itself too. */
+static bool put_feature(crowd_grid *g, const sample_list *list)
+{
+    size_t before = g->count, crowded = 0, waiting = 0;
+    bool  *near = mem_calloc(list->count + 1, sizeof *near);
+    g->failed = g->failed || !near;
+    for (size_t i = 0; near && i < list->count; i++) {
+        near[i] = is_crowded(g, &list->items[i], false);
+        crowded += near[i];
+        /* What lies free is there for the rest of its own chain at once. */
+        for (; !near[i] && waiting <= i; waiting++)
+            if (!near[waiting])
+                grid_put(g, &list->items[waiting]);
+    }
+    bool stays = near && list->count && (float)crowded < crowded_from * (float)list->count;
+    for (size_t i = 0; stays && i < list->count; i++)
+        if (near[i])
+            grid_put(g, &list->items[i]);
+    if (!stays)
+        grid_take_back(g, before); /* what is not drawn crowds nothing */
+    mem_free(near);
+    return stays;
+}
+
+static void judge_feature(gap_list *out, crowd_grid *g, const hidden_run *runs, size_t count, sample_list *list,
+                          body_tally *tally)
+{
+    float step = g->apart * samples_apart;
+    list->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        open_run(out, g, &runs[i], list);
+        tally->all += runs[i].length;
+    }
+    bool stays = put_feature(g, list);
+    tally->open += step * (float)list->count;
+    tally->kept += stays ? step * (float)list->count : 0;
+    if (!stays)
+        take_out_all(out, runs, count);
+}
+
+/* Small things that cannot be seen at all are not what a drawing is about, and what is left of others must be most. */
+static bool says_something(const hidden_run *run, const body_tally *tally)
+{
+    float least = run->extent < small_body ? small_from : body_from[run->seen];
+    return (run->seen || run->extent >= island_least) && tally->kept >= least * tally->open &&
+           tally->kept >= body_least * tally->all;
+}
+
+static void add_tally(body_tally *to, const body_tally *by, bool kept)
+{
+    to->open += by->open;
+    to->all += by->all;
+    to->kept += kept ? by->kept : 0;
+}
+
+static void judge_body(gap_list *out, crowd_grid *g, const hidden_run *runs, size_t count, sample_list *list,
+                       body_tally *part)
+{
+    body_tally tally = {0};
+    size_t     before = g->count;
+    for (size_t i = 0, end; i < count && !g->failed && !list->failed; i = end) {
+        for (end = i + 1; end < count && runs[end].feature == runs[i].feature;)
+            end++;
+        judge_feature(out, g, runs + i, end - i, list, &tally);
+    }
+    bool stays = says_something(runs, &tally);
+    add_tally(part, &tally, stays);
+    if (stays)
+        return;
+    grid_take_back(g, before);
+    take_out_all(out, runs, count);
+}
+
+/* What is there many times, such as joists and bolts, is drawn for most of them or for none. */
+static void judge_part(gap_list *out, crowd_grid *g, const hidden_run *runs, size_t count, sample_list *list)
+{
+    body_tally tally = {0};
+    size_t     before = g->count;
+    for (size_t i = 0, end; i < count && !g->failed && !list->failed; i = end) {
+        for (end = i + 1; end < count && runs[end].body == runs[i].body;)
+            end++;
+        judge_body(out, g, runs + i, end - i, list, &tally);
+    }
+    if (tally.kept >= part_from * tally.open)
+        return;
+    grid_take_back(g, before);
+    take_out_all(out, runs, count);
 }
 
 void ribbon_find_crowds(gap_list *out, const ribbon_job *job)
 {
     crowd_grid  g;
     sample_list list = {0};
+    hidden_runs runs = {0};
     if (!(job->style->hidden_crowd > 0) || job->style->hidden == HIDDEN_NONE || !grid_begin(&g, job))
         return;
-    size_t      count;
-    hidden_run *runs = find_runs(job, &count);
-    for (size_t i = 0; count && i < job->strokes->stroke_count && !list.failed; i++)
+    g.failed = g.failed || !hidden_runs_find(&runs, job);
+    for (size_t i = 0; runs.count && i < job->strokes->stroke_count && !list.failed; i++)
         if (job->drawn[i] && job->strokes->strokes[i].hidden_by == 0)
             sample_stroke(&list, job, (uint32_t)i, g.apart * samples_apart);
     for (size_t i = 0; i < list.count && !g.failed; i++)
         grid_put(&g, &list.items[i]);
-    for (size_t i = 0; runs && i < count && !g.failed && !list.failed && !out->failed; i++)
-        judge_run(out, &g, &runs[i], &list);
-    out->failed = out->failed || !runs || g.failed || list.failed;
-    mem_free(runs);
+    for (size_t i = 0, end; i < runs.count && !g.failed && !list.failed && !out->failed; i = end) {
+        for (end = i + 1; end < runs.count && runs.items[end].part == runs.items[i].part;)
+            end++;
+        judge_part(out, &g, runs.items + i, end - i, &list);
+    }
+    out->failed = out->failed || g.failed || list.failed;
+    mem_free(runs.items);
     mem_free(list.items);
     mem_free(g.heads);
     mem_free(g.samples);

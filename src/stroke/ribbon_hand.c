@@ -14,12 +14,14 @@
 
 /* A corner turns by more than 39° within 0.8 mm: rounder ones are drawn in one go. */
 static const float corner_cosine = 0.777f, corner_reach = 1.5f;
-static const float near_fraction = 0.4f; /* how far the first copy lies off, of what the others do */
-static const float lap_fraction = 0.12f; /* of a piece, by which it overlaps the next one */
+static const float near_fraction = 0.25f; /* how far the first copy lies off, of what the others do */
+static const float lap_fraction = 0.12f;  /* of a piece, by which it overlaps the next one */
 static const float lap_most = 9;
 static const float straight_most = 0.997f; /* chord over length of what is drawn in one go, however long */
 static const float met_fraction = 0.25f;   /* of corners, at which a line ends as it should */
 static const float crowded_pen = 0.85f;    /* lines that yield more are drawn once */
+
+static const float least_apart = 0.2f, least_beyond = 0.3f; /* what is left of both where lines run side by side */
 
 /* What is random of a piece. */
 enum {
@@ -156,6 +158,16 @@ int hand_copies(const stroke_style *style, float length, float pen)
         return most;
     float share = pen < crowded_pen ? 0 : fminf(fmaxf(length / style->repeat_least - 1, 0), 1);
     return 1 + (int)((float)(most - 1) * share + 0.5f);
+}
+
+stroke_style hand_style_in(const stroke_style *style, float room)
+{
+    stroke_style out = *style;
+    out.repeat_apart *= least_apart + (1 - least_apart) * room;
+    out.overshoot *= least_beyond + (1 - least_beyond) * room;
+    if (style->repeats > 1)
+        out.repeats = 1 + (int32_t)((float)(style->repeats - 1) * room + 0.5f);
+    return out;
 }
 
 static float length_of(const hand_pulls *p, const hand_pull *pull)

@@ -1,13 +1,14 @@
 /* Hidden lines are drawn whole or not at all (ISO 128): single dashes that float about say nothing. A *run* is what of
  * a chain is hidden without a visible stretch that could be seen; runs that end at one corner are one *figure*. A
- * figure of fewer than four dashes is left out, and so is a run that ends at no other line, as long as there are any.
- */
+ * figure of fewer than four dashes is left out, and so is a run that ends at no other line, as long as there are any;
+ * where most of a body goes, the rest of it goes too. */
 #include "stroke/ribbon_hidden.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/ribbon_features.h"
 
 enum { DASHES_LEAST = 4, ROUNDS_MOST = 12 };
 static const float unseen_widths = 1.5f; /* visible stretches shorter than this many widths part no run */
@@ -15,6 +16,9 @@ static const float touching = 2;         /* on paper, beyond a line's ink: an en
 static const float own_apart = 4;     /* of its own stroke an end lies on what is farther along than this, in reaches */
 static const float same_place = 0.5f; /* on paper: ends at one corner */
 static const float same_depth = 0.02f; /* the same in depth, fraction of the depth of all lines */
+
+/* Of the hidden lines of a wholly hidden body or part so much is drawn, or nothing is, and of one that is seen. */
+static const float group_least[2] = {0.7f, 0.4f};
 
 /* --- runs ------------------------------------------------------------------------------------------------ */
 
@@ -77,6 +81,8 @@ typedef struct hidden_figures {
     float            *shown;   /* per stroke: length without gaps */
     float            *lengths; /* of figures */
     bool             *loose;   /* of runs: has an end at nothing */
+    hidden_runs       order;   /* all of them, by bodies */
+    float            *wanted;  /* per run in that order: length that was to be drawn before any was found wanting */
     stroke_set        twin;    /* all that is drawn as if it were visible: what meets what does not ask for that */
     ribbon_job        all;
     segment_grid      grid;
@@ -268,6 +274,43 @@ static bool sift(hidden_figures *f)
     return some;
 }
 
+/* Length of what is drawn of a run. */
+static float drawn_of(const hidden_figures *f, const hidden_run *run)
+{
+    float length = 0;
+    for (uint32_t i = 0; i < run->count; i++)
+        length += f->kept[run->first + i] ? f->shown[run->first + i] : 0;
+    return length;
+}
+
+static bool is_one_group(const hidden_run *a, const hidden_run *b, bool parts)
+{
+    return parts ? a->part == b->part : a->body == b->body;
+}
+
+/* Takes out bodies, or whole parts, of which most is gone; true: there were some. */
+static bool sift_groups(hidden_figures *f, bool parts)
+{
+    const hidden_run *runs = f->order.items;
+    bool              some = false;
+    for (size_t i = 0, end; i < f->order.count; i = end) {
+        float wanted = 0, left = 0;
+        bool  seen = false;
+        for (end = i; end < f->order.count && is_one_group(&runs[end], &runs[i], parts); end++) {
+            wanted += f->wanted[end];
+            left += drawn_of(f, &runs[end]);
+            seen = seen || runs[end].seen;
+        }
+        if (!(left > 0) || left >= group_least[seen] * wanted)
+            continue;
+        some = true;
+        for (size_t k = i; k < end; k++)
+            for (uint32_t n = 0; n < runs[k].count; n++)
+                f->kept[runs[k].first + n] = false;
+    }
+    return some;
+}
+
 /* Lengths of strokes without their gaps. */
 static void measure(hidden_figures *f, const gap_list *gaps)
 {
@@ -295,9 +338,11 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     f->lengths = mem_calloc(count, sizeof *f->lengths);
     f->loose = mem_calloc(count, sizeof *f->loose);
     f->runs = mem_calloc(count, sizeof *f->runs);
+    f->wanted = mem_calloc(count, sizeof *f->wanted);
     f->twin = *set;
     f->twin.strokes = mem_calloc(count, sizeof *f->twin.strokes);
-    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->twin.strokes)
+    if (!f->kept || !f->figures || !f->shown || !f->lengths || !f->loose || !f->runs || !f->wanted ||
+        !f->twin.strokes || !hidden_runs_find(&f->order, f->job))
         return false;
     memcpy(f->twin.strokes, set->strokes, set->stroke_count * sizeof *set->strokes);
     memcpy(f->kept, f->job->drawn, set->stroke_count * sizeof *f->kept);
@@ -307,6 +352,8 @@ static bool open_figures(hidden_figures *f, const gap_list *gaps)
     for (size_t i = 0; i < gaps->count; i++)
         if (isinf(gaps->items[i].from) && isinf(gaps->items[i].to))
             f->kept[gaps->items[i].stroke] = false;
+    for (size_t i = 0; i < f->order.count; i++)
+        f->wanted[i] = drawn_of(f, &f->order.items[i]);
     f->all = *f->job;
     f->all.strokes = &f->twin;
     f->all.drawn = f->kept;
@@ -324,6 +371,8 @@ static void close_figures(hidden_figures *f)
     mem_free(f->lengths);
     mem_free(f->loose);
     mem_free(f->runs);
+    mem_free(f->wanted);
+    mem_free(f->order.items);
 }
 
 void ribbon_find_loose(gap_list *out, const ribbon_job *job)
@@ -337,7 +386,7 @@ void ribbon_find_loose(gap_list *out, const ribbon_job *job)
         good = look_again(&f);
         if (good) {
             gather(&f);
-            some = sift(&f);
+            some = sift(&f) || sift_groups(&f, false) || sift_groups(&f, true);
         }
     }
     for (size_t i = 0; i < job->strokes->stroke_count && good; i++)

@@ -274,6 +274,11 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
  * is too short. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
 
+/* --- overlap.c --- */
+/* Cuts visible outlines that run past each other, side by side, to where they meet; *count is above 0 where there were
+ * some, which are to be joined then. */
+lmn_status strokes_trim(stroke_set *set, const stroke_view *v, size_t *count, lmn_error *error);
+
 /* --- density.c --- */
 /* Small pieces are drawn with a finer pen, so that their outlines enclose something. */
 static inline double stroke_width_on_piece(const stroke *s, double width)

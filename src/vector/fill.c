@@ -272,7 +272,9 @@ static bool put_parts(fill_job *j, sheet *s, uint32_t group, const plan *plan)
         for (end = first + 1; end < j->crack_count && j->cracks[end].part == part;)
             end++;
         uint32_t own = sheet_add_group(s, (int32_t)group, scene->parts[part - 1].name, "part fill", part);
-        sheet_add_item(s, SHEET_PATH, own, vector_fill_colour(plan, part - 1), 0);
+        sheet_add_item(
+            s, SHEET_PATH, own,
+            vector_fill_colour(plan_rule(plan, part - 1), scene, part - 1, plan_datum_colour(plan, part - 1)), 0);
         if (!put_part(j, s, first, end))
             return false;
     }

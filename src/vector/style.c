@@ -156,11 +156,9 @@ static vec4 mean_colour(const lmn_scene *scene, int32_t index)
                  : (vec4){1, 1, 1, 1};
 }
 
-colour vector_fill_colour(const plan *p, size_t part_index)
+colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index, const colour *datum)
 {
-    const lmn_scene     *scene = p->scene;
-    const technique_use *surface = rule_use(plan_rule(p, part_index), KIND_SURFACE);
-    const colour        *datum = plan_datum_colour(p, part_index);
+    const technique_use *surface = rule_use(r, KIND_SURFACE);
     colour               only;
     if (surface && only_colour(surface, &only) && only.a > 0)
         return only;

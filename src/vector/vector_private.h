@@ -43,8 +43,9 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
 /* How the lines of a rule are drawn as strokes; false: it has none. */
 bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
 bool vector_rule_needs_pixels(const rule *r, colour ground);
-/* The colour that fills a part's area: the surface's own, the material's else. Linear. */
-colour vector_fill_colour(const plan *p, size_t part_index);
+/* The colour that fills a part's area: the surface's own, that of what is known about it (`datum`, may be NULL), the
+ * material's else. sRGB. */
+colour vector_fill_colour(const rule *r, const lmn_scene *scene, size_t part_index, const colour *datum);
 
 /* --- ink.c: ribbons on the sheet ----------------------------------------------------------------- */
 

@@ -19,6 +19,10 @@ static const fuzz_target targets[] = {
     {"obj", fuzz_obj, NULL},
     {"mtl", fuzz_mtl, NULL},
     {"bvh", fuzz_bvh, NULL},
+    {"cityjson", fuzz_cityjson, NULL},
+    {"geojson", fuzz_geojson, NULL},
+    {"citygml", fuzz_citygml, NULL},
+    {"gzip", fuzz_gzip, NULL},
     {"script", fuzz_script, NULL},
     {"csg", fuzz_csg, fuzz_mutate_csg},
     {"dxf", fuzz_dxf, NULL},
@@ -32,6 +36,7 @@ static const fuzz_target targets[] = {
     {"cut", fuzz_cut, NULL},
     {"set", fuzz_set, NULL},
     {"sheet", fuzz_sheet, NULL},
+    {"depict", fuzz_depict, NULL},
     {"draw", fuzz_draw, fuzz_mutate_draw},
 };
 enum { TARGETS = sizeof targets / sizeof *targets };

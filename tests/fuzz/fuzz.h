@@ -29,6 +29,10 @@ void fuzz_ply(const uint8_t *bytes, size_t size);
 void fuzz_obj(const uint8_t *bytes, size_t size);
 void fuzz_mtl(const uint8_t *bytes, size_t size);
 void fuzz_bvh(const uint8_t *bytes, size_t size);
+void fuzz_cityjson(const uint8_t *bytes, size_t size);
+void fuzz_geojson(const uint8_t *bytes, size_t size);
+void fuzz_citygml(const uint8_t *bytes, size_t size);
+void fuzz_gzip(const uint8_t *bytes, size_t size);
 void fuzz_script(const uint8_t *bytes, size_t size);
 void fuzz_csg(const uint8_t *bytes, size_t size);
 void fuzz_dxf(const uint8_t *bytes, size_t size);
@@ -48,6 +52,10 @@ void fuzz_selector(const uint8_t *bytes, size_t size);
 void fuzz_cut(const uint8_t *bytes, size_t size);
 void fuzz_set(const uint8_t *bytes, size_t size);
 void fuzz_sheet(const uint8_t *bytes, size_t size);
+
+/* --- expressions.c --- */
+
+void fuzz_depict(const uint8_t *bytes, size_t size);
 
 /* --- drawing.c --- */
 

@@ -15,6 +15,7 @@
 #include "info/info.h"
 #include "import/csg.h"
 #include "import/draco.h"
+#include "import/gunzip.h"
 #include "import/obj.h"
 #include "import/retarget.h"
 #include "scene/mesh.h"
@@ -66,6 +67,30 @@ static void use(lmn_scene *scene)
 void fuzz_gltf(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(import_gltf.read, 'y', bytes, size));
+}
+
+void fuzz_cityjson(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_cityjson.read, 'z', bytes, size));
+}
+
+void fuzz_geojson(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_geojson.read, 'z', bytes, size));
+}
+
+void fuzz_citygml(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(import_citygml.read, 'z', bytes, size));
+}
+
+/* What is packed by gzip: it is unpacked or refused. */
+void fuzz_gzip(const uint8_t *bytes, size_t size)
+{
+    unsigned char *copy = mem_copy(bytes, size);
+    file_data      file = {.data = copy, .size = size};
+    if (copy && gunzip(&file, "fuzz", NULL) == LMN_OK)
+        file_data_release(&file);
 }
 
 void fuzz_stl(const uint8_t *bytes, size_t size)

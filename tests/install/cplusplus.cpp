@@ -24,7 +24,7 @@ template <class Type> constexpr bool moves_only()
 }
 static_assert(moves_only<limner::scene>() && moves_only<limner::look>() && moves_only<limner::renderer>() &&
               moves_only<limner::drawing>() && moves_only<limner::sheet>() && moves_only<limner::film>() &&
-              moves_only<limner::strokes>());
+              moves_only<limner::strokes>() && moves_only<limner::dynamics>());
 static_assert(!std::is_move_constructible_v<limner::task> && !std::is_copy_constructible_v<limner::task>);
 static_assert(std::is_nothrow_copy_constructible_v<limner::error>);
 
@@ -112,6 +112,50 @@ static void drawings(const std::string &model, const std::string &folder)
     limner::strokes strokes;
     strokes.set(0, lmn_stroke{0, 0, 1, 1, 1, 1, 0});
     CHECK(strokes.size() == 1 && strokes.at(0).u1 == 1);
+}
+
+// What happens in a scene: made, changed, and told.
+static void behaviours()
+{
+    limner::scene     s;
+    const auto        ball = s.add(limner::node_desc());
+    limner::behaviour b(s);
+    auto              fall = limner::constraint_desc(ball, LMN_TIME_MAP_FALL, 1);
+    fall.start_given = true;
+    fall.start[1] = 9;
+    const double place[] = {1, 2, 3};
+    auto         rest = limner::constraint_desc(ball, LMN_TIME_MAP_CONSTANT, 1);
+    rest.values = place;
+    rest.value_count = 1;
+    const auto whole = b.add(LMN_ACTIVITY_SEQUENCE, {b.add(fall), b.add(rest)});
+    b.play({whole});
+    {
+        limner::dynamics d(s);
+        CHECK(d.duration() == 2 && d.lifetimes().size() == 2 && d.lifetimes()[1].from_s == 1);
+        CHECK(std::abs(d.point(ball, 0.5).position[1] - (9 - 9.81 / 8)) < 1e-9 && d.point(ball, 2).position[0] == 1);
+        CHECK(d.trajectory(ball, 0, 2, 0.01).size() >= 4 && d.contacts(ball, 0, 2).empty());
+        CHECK(d.of_node(ball, 0, 0.5).second == std::vector<std::size_t>{0});
+    }
+    // A function that throws leaves the scene as it was, and one that does not is kept as long as it is asked.
+    struct mine {
+    };
+    auto kept = std::make_shared<int>(0);
+    b.set(whole, limner::constraint_desc(ball, LMN_TIME_MAP_CALLBACK, 3), [kept](double seconds, double *out) {
+        out[0] = out[1] = out[2] = seconds;
+        ++*kept;
+    });
+    CHECK(*kept > 0 && kept.use_count() == 2 && limner::dynamics(s).point(ball, 2).position[2] == 2);
+    bool caught = false;
+    try {
+        b.set(whole, limner::constraint_desc(ball, LMN_TIME_MAP_CALLBACK, 3), [](double, double *) { throw mine(); });
+    } catch (const mine &) {
+        caught = true;
+    }
+    CHECK(caught && limner::dynamics(s).duration() == 3);
+    const std::vector<lmn_activity_child> itself = {{whole, 0, 0}};
+    CHECK(thrown([&] { b.set(whole, limner::activity_desc(LMN_ACTIVITY_TABLE), itself); }) == LMN_USAGE);
+    b.set(whole, rest);
+    CHECK(kept.use_count() == 1);
 }
 
 // Exceptions of callbacks arrive, and none goes through C.
@@ -316,6 +360,7 @@ int main(int count, char **arguments)
     errors(folder);
     ownership(model);
     drawings(model, folder);
+    behaviours();
     callbacks(model);
     films(folder);
     encoded(model, folder);

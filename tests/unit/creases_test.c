@@ -459,6 +459,60 @@ static void weak_creases_end_on_lines(void **state)
     assert_true(least == most && fabs(least - 34 * degree) < 3 * degree);
 }
 
+/* A turned body: a plane at the top and the bottom, and rings between them. How many creases its ring `ring` has. */
+static uint32_t ring_creases(const double (*profile)[2], uint32_t rings, uint32_t ring, double crease)
+{
+    enum { SIDES = 24 };
+    primitive p = empty_primitive(SIDES * rings + 2, 6 * SIDES * rings);
+    uint32_t  at = 0, count = 0;
+    for (uint32_t i = 0; i < rings * SIDES; i++) {
+        double turn = 360.0 * (i % SIDES) / SIDES * degree, radius = profile[i / SIDES][0];
+        p.positions[i] = (vec3){(float)(radius * cos(turn)), (float)(radius * sin(turn)), (float)profile[i / SIDES][1]};
+    }
+    p.positions[rings * SIDES] = (vec3){0, 0, (float)profile[0][1]};
+    p.positions[rings * SIDES + 1] = (vec3){0, 0, (float)profile[rings - 1][1]};
+    for (uint32_t i = 0; i < rings * SIDES; i++) {
+        uint32_t       next = i % SIDES + 1 == SIDES ? i + 1 - SIDES : i + 1, row = i / SIDES;
+        const uint32_t quad[6] = {i, i + SIDES, next + SIDES, i, next + SIDES, next}, top[3] = {rings * SIDES, i, next},
+                       bottom[3] = {rings * SIDES + 1, next, i};
+        if (row + 1 < rings) {
+            memcpy(p.indices + at, quad, sizeof quad);
+            at += 6;
+        }
+        if (row == 0 || row + 1 == rings) {
+            memcpy(p.indices + at, row ? bottom : top, sizeof top);
+            at += 3;
+        }
+    }
+    edge_mesh e = sort(&p, crease);
+    for (uint32_t i = 0; i < e.edge_count; i++) {
+        vec3 a = e.positions[e.edges[i].vertex[0]], b = e.positions[e.edges[i].vertex[1]];
+        count += (e.edges[i].flags & EDGE_CREASE) && (double)a.z == (double)(float)profile[ring][1] && a.z == b.z;
+    }
+    edge_mesh_release(&e);
+    primitive_release(&p);
+    return count;
+}
+
+/* The flat end of a bolt is a circle, though its chamfer turns by 30 degrees only; the rings of a dome and of a
+ * rounding are none. */
+static void rims_of_chamfers_are_creases(void **state)
+{
+    const double bolt[4][2] = {{0.8, 1}, {1, 0.8845}, {1, 0}, {0.9, -0.4}},
+                 round[5][2] = {{0.8, 1}, {0.9, 0.9732}, {0.9732, 0.9}, {1, 0.8}, {1, 0}},
+                 two[4][2] = {{0.8, 1}, {0.9414, 0.9414}, {1, 0.8}, {1, 0}},
+                 dome[5][2] = {{0.3, 0.954}, {0.6, 0.8}, {0.85, 0.527}, {1, 0}, {1, -1}};
+    (void)state;
+    assert_int_equal(ring_creases(bolt, 4, 0, 40), 24);
+    assert_int_equal(ring_creases(bolt, 4, 1, 40), 24); /* 60 degrees */
+    assert_int_equal(ring_creases(bolt, 4, 2, 40), 0);  /* 14 degrees */
+    for (uint32_t i = 0; i < 4; i++)
+        assert_int_equal(ring_creases(round, 5, i, 40), 0);
+    assert_int_equal(ring_creases(two, 4, 0, 40) + ring_creases(two, 4, 2, 40), 0);
+    for (uint32_t i = 0; i < 4; i++)
+        assert_int_equal(ring_creases(dome, 5, i, 40), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -467,6 +521,6 @@ int main(void)
         cmocka_unit_test(noise_of_scans_is_no_crease),     cmocka_unit_test(edges_of_scans_stay),
         cmocka_unit_test(normals_of_files_are_believed),   cmocka_unit_test(sharp_edges_stand_alone),
         cmocka_unit_test(creases_fade_out_whole),          cmocka_unit_test(creases_do_not_fray),
-        cmocka_unit_test(weak_creases_end_on_lines)};
+        cmocka_unit_test(weak_creases_end_on_lines),       cmocka_unit_test(rims_of_chamfers_are_creases)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,24 +1,15 @@
 /* Signs against what they tell, which is known in closed form: where things meet, turn, grow, speak, part. Nienhaus
  * 2005, sections 7.6 to 7.10; rows D12, D19, D20, D22 to D26, D29, D30. */
-#include "import_support.h"
-
-#include <math.h>
+#include "depict_support.h"
 
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
 #include "depict/depict_private.h"
+#include "depict/mouth.h"
 #include "limner/content.h"
 #include "limner/depict.h"
 
 static const double red[3] = {0.8, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5}, pi = 3.14159265358979;
-
-#define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
-
-static void near_or_fail(double value, double expected, double off, const char *what, int line)
-{
-    if (!(fabs(value - expected) <= off))
-        fail_msg("line %d: %s is %.8g instead of %.8g", line, what, value, expected);
-}
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
@@ -181,73 +172,6 @@ static lmn_scene *speaker_scene(bool with_head, bool with_mouth)
     return finish(&m, "speaker");
 }
 
-static lmn_draw_desc seen_at(double seconds)
-{
-    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
-    d.view = LMN_VIEW_FRONT;
-    d.orthographic = true;
-    d.time_s = seconds;
-    d.time_given = true;
-    return d;
-}
-
-static void tell_as(lmn_scene *scene, const lmn_draw_desc *draw, const char *expressions, char **json)
-{
-    lmn_error       error = {0};
-    lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
-    desc.expressions = expressions;
-    if (lmn_depict(scene, draw, &desc, json, &error) != LMN_OK)
-        fail_msg("%s: %s", expressions ? expressions : "proposed", error.message);
-}
-
-static void tell_at(lmn_scene *scene, double seconds, const char *expressions)
-{
-    lmn_draw_desc draw = seen_at(seconds);
-    tell_as(scene, &draw, expressions, NULL);
-}
-
-/* --- what was put into the scene ---------------------------------------------------------------------------------- */
-
-static const char *value_of(const node *n, const char *key)
-{
-    for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, key) == 0)
-            return n->attributes[i].value;
-    return "";
-}
-
-static const primitive *sign_at(const lmn_scene *s, const char *glyph, size_t k)
-{
-    for (size_t i = 0; i < s->part_count; i++) {
-        const node *n = &s->nodes[s->parts[i].node];
-        if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
-    }
-    return NULL;
-}
-
-static size_t count_of(const lmn_scene *s, const char *glyph)
-{
-    size_t count = 0;
-    while (sign_at(s, glyph, count))
-        count++;
-    return count;
-}
-
-static void position(const primitive *p, uint32_t i, double out[3])
-{
-    vector3_set(out, (double)p->positions[i].x, (double)p->positions[i].y, (double)p->positions[i].z);
-}
-
-/* In the middle of a ribbon's breadth, at its k-th pair of vertices. */
-static void ribbon_point(const primitive *p, uint32_t k, double out[3])
-{
-    double a[3], b[3];
-    position(p, 2 * k, a);
-    position(p, 2 * k + 1, b);
-    vector3_mix(out, a, b, 0.5);
-}
-
 /* --- tests -------------------------------------------------------------------------------------------------------- */
 
 static void stars_are_where_things_meet(void **state)
@@ -277,6 +201,22 @@ static void stars_are_where_things_meet(void **state)
     assert_near(at[0], 2, 1e-4);
     assert_near(at[1], -0.1, 1e-4); /* between both */
     lmn_scene_destroy(&scene);
+}
+
+/* Nobody has said what is hit: it is whatever is near. */
+static void stars_find_what_is_hit(void **state)
+{
+    (void)state;
+    static const double gaps[][2] = {{0, 0}, {0.04, -0.02}, {0.2, 0}}; /* too far away: the ball's own place */
+    for (int i = 0; i < 3; i++) {
+        lmn_scene *scene = bounce_scene(gaps[i][0]);
+        double     at[3];
+        tell_at(scene, 1.5, "[{\"target\": \"ball\", \"depict\": \"collision\"}]");
+        position(sign_at(scene, "star", 0), 0, at);
+        assert_near(at[0], 2, 1e-4);
+        assert_near(at[1], gaps[i][1], 1e-4);
+        lmn_scene_destroy(&scene);
+    }
 }
 
 /* In perspective what is nearer to the viewer is seen elsewhere unless it lies on the line of sight. */
@@ -490,6 +430,51 @@ static void balloons_end_at_the_mouth(void **state)
     lmn_scene_destroy(&scene);
 }
 
+static void look_for_face(mouth *out, const lmn_scene *scene)
+{
+    depict_poses  poses = {.count = 0};
+    depict_job    job = {.scene = scene, .poses = &poses, .size = 3};
+    depict_target t;
+    lmn_error     error = {0};
+    assert_int_equal(target_open(&t, &job, depict_find_node(scene, "somebody"), &error), LMN_OK);
+    assert_int_equal(mouth_find(out, &job, &t, 0, &error), LMN_OK);
+    target_release(&t);
+    depict_poses_release(&poses);
+}
+
+/* Where nodes say so; else at the front of the head, whose middle is at (0, 2.4, 0), 0.4 from there. */
+static void eyes_are_found(void **state)
+{
+    (void)state;
+    mouth      face;
+    lmn_scene *scene = speaker_scene(true, false);
+    look_for_face(&face, scene);
+    assert_false(face.named_eyes);
+    for (int i = 0; i < 2; i++) {
+        assert_near(face.eyes[i][0], i ? -0.16 : 0.16, 0.01);
+        assert_near(face.eyes[i][1], 2.4, 0.01);
+        assert_near(face.eyes[i][2], 0.4, 0.01);
+    }
+    assert_near(face.gaze[2], 1, 1e-9);
+    lmn_scene_destroy(&scene);
+    moving_scene m;
+    moving_scene_begin(&m);
+    moving_scene_name(&m, moving_scene_box(&m, 0, 1, 0, (double[]){0.4, 1, 0.2}, grey), "somebody");
+    const char  *names[] = {"Head", "RightEye", "LeftEye", "LeftEyebrow"};
+    const double places[][3] = {{0, 2.4, 0}, {-0.12, 2.5, 0.35}, {0.12, 2.5, 0.35}, {0.3, 2.6, 0.35}};
+    for (int i = 0; i < 4; i++) {
+        int joint = moving_scene_joint(&m, places[i][0], places[i][1] - 1, places[i][2]);
+        moving_scene_name(&m, joint, names[i]);
+        moving_scene_put_in(&m, joint, 0);
+    }
+    scene = finish(&m, "eyes");
+    look_for_face(&face, scene);
+    assert_true(face.named_eyes);
+    for (int i = 0; i < 2; i++)
+        assert_near(vector3_distance(face.eyes[i], places[2 - i]), 0, 1e-6);
+    lmn_scene_destroy(&scene);
+}
+
 static void thoughts_shrink_towards_the_head(void **state)
 {
     (void)state;
@@ -554,6 +539,106 @@ static void frames_are_what_the_camera_sees(void **state)
     assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_USAGE);
     assert_non_null(strstr(error.message, "camera"));
     lmn_scene_destroy(&scene);
+}
+
+/* A place of the page in half heights, by a camera given by its own parts. */
+static void seen(const double at[3], const double eye[3], double slope, double out[3])
+{
+    for (int k = 0; k < 2; k++)
+        out[k] = (at[k] - eye[k]) / ((eye[2] - at[2]) * slope);
+    out[2] = eye[2] - at[2];
+}
+
+/* The viewer stands at (0, 0, 20), the other camera at (1, 0.5, 4): each vertex that it sees has one in the panel, at
+ * the same place of that; nearer ones stay nearer. Nothing is outside, and the picture is not fitted to it. */
+static void insets_are_what_the_camera_sees(void **state)
+{
+    (void)state;
+    const double eye[3] = {0, 0, 20}, other[3] = {1, 0.5, 4}, slope = tan(15 * pi / 180), own = tan(20 * pi / 180);
+    moving_scene m;
+    moving_scene_begin(&m);
+    moving_scene_name(&m, moving_scene_box(&m, 0.8, 0.2, 0, (double[]){0.6, 0.4, 0.5}, red), "box");
+    moving_scene_name(&m, moving_scene_box(&m, 0, -1, -4, (double[]){9, 0.1, 6}, grey), "ground");
+    int camera = moving_scene_camera(&m, 0, 9, 4, false, 40);
+    moving_scene_keys(&m, camera, "translation", 2, (double[]){0, 2}, (double[]){0, 9, 4, 1, 0.5, 4});
+    lmn_scene    *scene = finish(&m, "inset");
+    lmn_draw_desc draw = LMN_DRAW_DESC_INIT;
+    draw.eye_given = true;
+    memcpy(draw.eye, eye, sizeof draw.eye);
+    draw.fov_deg = 30;
+    draw.time_given = true;
+    draw.width = 800;
+    draw.height = 600;
+    tell_as(scene, &draw,
+            "[{\"target\": \"eye\", \"depict\": \"inset\", \"now\": 2, \"corner\": \"bottom-left\", \"size\": 0.3, "
+            "\"aspect\": 1.25}]",
+            NULL);
+    const primitive *frame = sign_at(scene, "inset-frame", 0), *box = sign_at(scene, "inset", 0),
+                    *ground = sign_at(scene, "inset", 1);
+    assert_int_equal(count_of(scene, "inset"), 2);
+    double low[3], high[3], at[3];
+    position(frame, 0, at);
+    seen(at, eye, slope, low);
+    position(frame, 2, at);
+    seen(at, eye, slope, high);
+    assert_near((high[1] - low[1]) / 2, 0.3, 1e-4);
+    assert_near((high[0] - low[0]) / (high[1] - low[1]), 1.25, 1e-4);
+    assert_true(low[0] < -1 && low[1] < -0.9 && high[1] < 0);
+    double depths[8];
+    for (int c = 0; c < 8; c++) { /* all corners of the box are seen */
+        const double corner[3] = {0.8 + (c & 1 ? 0.6 : -0.6), 0.2 + (c & 2 ? 0.4 : -0.4), c & 4 ? 0.5 : -0.5};
+        double       there[3], best = INFINITY;
+        seen(corner, other, own, there);
+        const double x = low[0] + (there[0] / 1.25 + 1) / 2 * (high[0] - low[0]),
+                     y = low[1] + (there[1] + 1) / 2 * (high[1] - low[1]);
+        for (uint32_t i = 0; i < box->vertex_count; i++) {
+            double page[3];
+            position(box, i, at);
+            seen(at, eye, slope, page);
+            const double off = hypot(page[0] - x, page[1] - y);
+            depths[c] = off < best ? page[2] : depths[c];
+            best = fmin(best, off);
+        }
+        assert_near(best, 0, 1e-4);
+    }
+    for (int c = 0; c < 4; c++)
+        assert_true(depths[c] > depths[c + 4] + 0.01);
+    for (uint32_t i = 0; i < ground->vertex_count; i++) { /* cut at the frame */
+        double page[3];
+        position(ground, i, at);
+        seen(at, eye, slope, page);
+        assert_true(page[0] > low[0] - 1e-4 && page[0] < high[0] + 1e-4 && page[1] > low[1] - 1e-4 &&
+                    page[1] < high[1] + 1e-4);
+        assert_true(at[2] > 2); /* before all that the scene has */
+    }
+    assert_true(ground->vertex_count >= 4);
+    assert_string_equal(value_of(&scene->nodes[scene->node_count - 1], "overlay"), "true");
+    lmn_scene_destroy(&scene);
+}
+
+/* In the corner where nothing is. */
+static void insets_go_where_room_is(void **state)
+{
+    (void)state;
+    static const double places[][2] = {{-1, 1}, {1, 1}, {-1, -1}, {1, -1}};
+    for (int empty = 0; empty < 4; empty++) {
+        moving_scene m;
+        moving_scene_begin(&m);
+        for (int k = 0; k < 4; k++)
+            if (k != empty)
+                moving_scene_box(&m, 4 * places[k][0], 4 * places[k][1], 0, (double[]){1, 1, 1}, red);
+        int camera = moving_scene_camera(&m, 0, 0, 9, false, 40);
+        moving_scene_keys(&m, camera, "translation", 2, (double[]){0, 2}, (double[]){0, 0, 9, 1, 0, 9});
+        lmn_scene *scene = finish(&m, "room");
+        double     at[3];
+        tell_at(scene, 1, "[{\"target\": \"eye\", \"depict\": \"inset\"}]");
+        position(sign_at(scene, "inset-frame", 0), 0, at);
+        const double x = at[0];
+        position(sign_at(scene, "inset-frame", 0), 2, at);
+        assert_true((x + at[0]) * places[empty][0] > 0);
+        assert_true(at[1] * places[empty][1] > 0 || places[empty][1] < 0);
+        lmn_scene_destroy(&scene);
+    }
 }
 
 static void bursts_go_outward(void **state)
@@ -634,7 +719,9 @@ static void causes_are_shown(void **state)
     position(arrow, arrow->vertex_count - 1, tip);
     assert_near(tail[1], 0, 1e-3);
     assert_near(tip[1], 0, 1e-3);
-    assert_true(tail[0] > -1 && tail[0] < tip[0] && tip[0] <= 0);
+    /* The foot's face, from half a second before on. */
+    assert_near(tail[0], -2.2, 0.05);
+    assert_true(fabs(tip[0] + 0.7) < 0.35);
     for (uint32_t i = 0; i < ghost->vertex_count; i++) {
         double at[3];
         position(ghost, i, at);
@@ -737,7 +824,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
         scene = speaker_scene(true, true);
         target = "somebody";
         more = ", \"text\": \"Here I am again!\"";
-    } else if (strcmp(row, "camera-path") == 0 || strcmp(row, "shot-flow") == 0) {
+    } else if (strcmp(row, "camera-path") == 0 || strcmp(row, "shot-flow") == 0 || strcmp(row, "inset") == 0) {
         scene = drive_scene(false);
         target = "eye";
     } else if (strcmp(row, "explode") == 0) {
@@ -822,7 +909,7 @@ static void every_option_changes_its_signs(void **state)
         }
         lmn_scene_destroy(&scene);
     }
-    assert_int_equal(rows, 13);
+    assert_int_equal(rows, 14);
 }
 
 static void missing_memory_is_said_by_all(void **state)
@@ -858,6 +945,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_are_where_things_meet),
+        cmocka_unit_test(stars_find_what_is_hit),
         cmocka_unit_test(stars_are_seen_where_things_meet),
         cmocka_unit_test(bent_arrows_turn_as_things_do),
         cmocka_unit_test(helices_turn_as_often),
@@ -866,6 +954,9 @@ int main(void)
         cmocka_unit_test(words_stand_in_lines),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
+        cmocka_unit_test(eyes_are_found),
+        cmocka_unit_test(insets_are_what_the_camera_sees),
+        cmocka_unit_test(insets_go_where_room_is),
         cmocka_unit_test(bursts_go_outward),
         cmocka_unit_test(stems_branch_smoothly),
         cmocka_unit_test(causes_are_shown),

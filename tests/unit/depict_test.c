@@ -1,8 +1,6 @@
 /* Glyphs against the motion that they tell, which is known in closed form: a ball that falls and bounces. Nienhaus
  * 2005, sections 7.6 to 7.8; rows D08 to D11 and D13 to D16. */
-#include "import_support.h"
-
-#include <math.h>
+#include "depict_support.h"
 
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
@@ -12,14 +10,6 @@
 
 static const double red[3] = {0.8, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5}, gravity = 9.81, radius = 0.5, height = 4,
                     forward = 2;
-
-#define assert_near(VALUE, EXPECTED, OFF) near_or_fail(VALUE, EXPECTED, OFF, #VALUE, __LINE__)
-
-static void near_or_fail(double value, double expected, double off, const char *what, int line)
-{
-    if (!(fabs(value - expected) <= off))
-        fail_msg("line %d: %s is %.8g instead of %.8g", line, what, value, expected);
-}
 
 /* --- the ball --------------------------------------------------------------------------------------------------- */
 
@@ -75,16 +65,6 @@ static lmn_scene *ball_scene(const char *name, bool moves)
     return load_or_fail(path);
 }
 
-static lmn_draw_desc seen_at(double seconds)
-{
-    lmn_draw_desc d = LMN_DRAW_DESC_INIT;
-    d.view = LMN_VIEW_FRONT;
-    d.orthographic = true;
-    d.time_s = seconds;
-    d.time_given = true;
-    return d;
-}
-
 static lmn_status tell(lmn_scene *scene, const char *expressions, double seconds, char **json, lmn_error *error)
 {
     lmn_draw_desc   draw = seen_at(seconds);
@@ -101,33 +81,6 @@ static void tell_or_fail(lmn_scene *scene, const char *expressions, double secon
 }
 
 /* --- what was put into the scene --------------------------------------------------------------------------------- */
-
-static const char *value_of(const node *n, const char *key)
-{
-    for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, key) == 0)
-            return n->attributes[i].value;
-    return "";
-}
-
-/* The k-th glyph of a kind and tense (NULL: any); NULL when there are fewer. */
-static const primitive *glyph_at(const lmn_scene *s, const char *glyph, const char *when, size_t k)
-{
-    for (size_t i = 0; i < s->part_count; i++) {
-        const node *n = &s->nodes[s->parts[i].node];
-        if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 &&
-            (!when || strcmp(value_of(n, "when"), when) == 0) && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
-    }
-    return NULL;
-}
-
-static void position(const primitive *p, uint32_t i, double out[3])
-{
-    out[0] = (double)p->positions[i].x;
-    out[1] = (double)p->positions[i].y;
-    out[2] = (double)p->positions[i].z;
-}
 
 static void middle_of(const primitive *p, double out[3])
 {
@@ -210,24 +163,24 @@ static void trajectories_are_the_motion(void **state)
     double     at[3], velocity[3], local[3] = {0, 0, 0};
     when.clips[when.clip_count++] = 0;
     assert_int_equal(way_open(&w, scene, depict_find_node(scene, "ball"), &when, &error), LMN_OK);
-    assert_int_equal(trajectory_sample(&t, &w, local, 0, contact_time() + rise_time(), 0.002, &error), LMN_OK);
+    assert_int_equal(way_trajectory(&t, &w, local, 0, contact_time() + rise_time(), 0.002, &error), LMN_OK);
     bool bounced = false;
     for (size_t i = 0; i < t.count; i++) {
-        ball_at(t.samples[i].time, at);
-        assert_near(vector3_distance(at, t.samples[i].at), 0, 2e-5);
-        bounced = bounced || fabs(t.samples[i].time - contact_time()) < 1e-6;
+        ball_at(t.samples[i].seconds, at);
+        assert_near(vector3_distance(at, t.samples[i].position), 0, 2e-5);
+        bounced = bounced || fabs(t.samples[i].seconds - contact_time()) < 1e-6;
     }
     assert_true(bounced); /* keys are samples */
     for (size_t i = 1; i < t.count; i++) {
         double middle[3], chord[3];
-        ball_at((t.samples[i - 1].time + t.samples[i].time) / 2, middle);
-        vector3_mix(chord, t.samples[i - 1].at, t.samples[i].at, 0.5);
+        ball_at((t.samples[i - 1].seconds + t.samples[i].seconds) / 2, middle);
+        vector3_mix(chord, t.samples[i - 1].position, t.samples[i].position, 0.5);
         assert_near(vector3_distance(middle, chord), 0, 0.004);
     }
     way_velocity(&w, local, 0.4, 0.01, velocity);
     assert_near(velocity[0], forward, 1e-4);
     assert_near(velocity[1], -gravity * 0.4, 1e-3);
-    trajectory_free(&t);
+    trajectory_release(&t);
     way_release(&w);
     lmn_scene_destroy(&scene);
 }

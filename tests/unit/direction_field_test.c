@@ -422,6 +422,34 @@ static void planes_have_one_direction_whatever_bends_beside_them(void **state)
     primitive_release(&p);
 }
 
+/* A wide wall, and a tall one that turns a little from it: they are drawn one way. One that turns by more has its own.
+ */
+static void walls_that_turn_a_little_are_drawn_one_way(void **state)
+{
+    (void)state;
+    for (int more = 0; more < 2; more++) {
+        double         angle = (more ? 40 : 15) * field_pi / 180, x = cos(angle), z = -sin(angle);
+        const uint32_t corners[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+        const vec3     positions[8] = {{0, 0, 0},
+                                       {6, 0, 0},
+                                       {6, 2, 0},
+                                       {0, 2, 0},
+                                       {8, 0, 0},
+                                       {(float)(8 + 0.5 * x), 0, (float)(0.5 * z)},
+                                       {(float)(8 + 0.5 * x), 3, (float)(0.5 * z)},
+                                       {8, 3, 0}};
+        primitive      p = empty_primitive(8, 12);
+        memcpy(p.positions, positions, sizeof positions);
+        memcpy(p.indices, corners, sizeof corners);
+        direction_field f = make_field(&p);
+        assert_true(fabs(along(direction_field_at(&f, &p, 0), (place3){1, 0, 0}) - 0.05) < 1e-3);
+        place3 wanted = more ? (place3){0, 1, 0} : (place3){x, 0, z};
+        assert_true(fabs(along(direction_field_at(&f, &p, 6), wanted) - 0.05) < 1e-3);
+        direction_field_release(&f);
+        primitive_release(&p);
+    }
+}
+
 /* --- crosses -------------------------------------------------------------------------------------------- */
 
 typedef struct corner_frame {
@@ -816,6 +844,7 @@ int main(void)
         cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
         cmocka_unit_test(flat_positions_take_after_what_bends_beside_them),
         cmocka_unit_test(planes_have_one_direction_whatever_bends_beside_them),
+        cmocka_unit_test(walls_that_turn_a_little_are_drawn_one_way),
         cmocka_unit_test(crosses_turn_no_more_than_they_must),
         cmocka_unit_test(noise_is_looked_through),
         cmocka_unit_test(crosses_stand_along_creases),

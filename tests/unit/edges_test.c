@@ -296,6 +296,53 @@ static void vertices_at_one_position_are_one(void **state)
     primitive_release(&p);
 }
 
+/* A ball whose pole is another vertex for each meridian, since sines of 180 degrees are 1e-16 and not 0: it is closed.
+ * Vertices that are as far apart as one sees stay two. */
+static void what_was_rounded_is_one_vertex(void **state)
+{
+    enum { ROWS = 8, COLUMNS = 12, ACROSS = COLUMNS + 1 };
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double    off = k ? 1e-3 : 1e-17;
+        primitive p = empty_primitive((ROWS + 1) * ACROSS, 6 * ROWS * COLUMNS);
+        uint32_t  at = 0;
+        for (uint32_t i = 0; i < p.vertex_count; i++) {
+            double down = field_pi * (i / ACROSS) / ROWS, turn = 2 * field_pi * (i % ACROSS) / COLUMNS;
+            double out = i / ACROSS % ROWS == 0 ? off : sin(down);
+            p.positions[i] = (vec3){(float)(out * cos(turn)), (float)(out * sin(turn)), (float)cos(down)};
+        }
+        for (uint32_t r = 0; r < ROWS; r++)
+            for (uint32_t c = 0; c < COLUMNS; c++) {
+                uint32_t       a = r * ACROSS + c, b = a + ACROSS;
+                const uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
+                memcpy(p.indices + at, quad, sizeof quad);
+                at += 6;
+            }
+        edge_mesh e = sort(&p, 1, 60 * degree);
+        assert_int_equal(count_flag(&e, EDGE_BORDER), k ? 2 * COLUMNS : 0);
+        assert_int_equal(e.closed[0], !k);
+        edge_mesh_release(&e);
+        primitive_release(&p);
+    }
+}
+
+/* A square of two triangles, and half of it once more, divided the other way, as exporters leave it: its diagonal is no
+ * border. Where it folds out of the plane it is one. */
+static void halves_of_squares_are_covered(void **state)
+{
+    (void)state;
+    for (int folded = 0; folded < 2; folded++) {
+        const vec3     corners[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, folded ? 0.5f : 0}, {0, 1, 0}};
+        const uint32_t faces[9] = {0, 1, 2, 0, 2, 3, 0, 1, 3};
+        primitive      p = of_faces(corners, 4, faces, 9);
+        edge_mesh      e = sort(&p, 1, 30 * degree);
+        assert_int_equal((flags_between(&e, corners[1], corners[3]) & EDGE_BORDER) != 0, folded);
+        assert_int_equal(e.face_count, folded ? 3 : 2);
+        edge_mesh_release(&e);
+        primitive_release(&p);
+    }
+}
+
 static void inside_out_bodies_are_told(void **state)
 {
     (void)state;
@@ -483,6 +530,8 @@ int main(void)
         cmocka_unit_test(edges_of_three_faces_are_borders),
         cmocka_unit_test(materials_part_faces),
         cmocka_unit_test(vertices_at_one_position_are_one),
+        cmocka_unit_test(what_was_rounded_is_one_vertex),
+        cmocka_unit_test(halves_of_squares_are_covered),
         cmocka_unit_test(inside_out_bodies_are_told),
         cmocka_unit_test(nothing_that_is_an_outline_was_dropped),
         cmocka_unit_test(files_have_the_last_word),

@@ -183,7 +183,7 @@ static void test_bored(void **state)
 
 /* --- figures --------------------------------------------------------------------------------------------- */
 
-static stroke_point points[64];
+static stroke_point points[128];
 static stroke       strokes[32];
 static stroke_set   set;
 
@@ -327,11 +327,101 @@ static void test_run(void **state)
     }
 }
 
+/* --- whole features and bodies --------------------------------------------------------------------------- */
+
+/* Half a circle around the middle of the page, from the angle `from` on. */
+static void add_half(float radius, double from, stroke_class kind)
+{
+    stroke *s = &strokes[set.stroke_count++];
+    float   arc = 0;
+    set.chain_count++;
+    *s = (stroke){.kind = kind,
+                  .part = 2,
+                  .piece = 2,
+                  .hidden_by = 1,
+                  .chain = (uint32_t)set.chain_count - 1,
+                  .id = 5 * set.chain_count,
+                  .first = (uint32_t)set.point_count,
+                  .count = 25};
+    for (int i = 0; i < 25; i++) {
+        double angle = from + stroke_pi * i / 24;
+        float  x = 300 + radius * (float)cos(angle), y = 300 + radius * (float)sin(angle);
+        if (i > 0)
+            arc += hypotf(x - points[set.point_count - 1].x, y - points[set.point_count - 1].y);
+        points[set.point_count++] = (stroke_point){x, y, 5, arc, 1};
+    }
+    s->chain_length = arc;
+}
+
+/* The rim of a bore changes its kind halfway round. A nearer hidden line lies beside one half of it, or beside nothing:
+ * the two halves are drawn, or neither is. */
+static void test_whole_rim(void **state)
+{
+    const float radius = 100;
+    (void)state;
+    for (int crowded = 0; crowded < 2; crowded++) {
+        size_t dashes;
+        begin();
+        add(300, 180, 300, 420, 0, false); /* what is seen of the body */
+        strokes[0].piece = strokes[0].part = 2;
+        add_half(radius, 0, STROKE_CONTOUR);
+        add_half(radius, stroke_pi, STROKE_CREASE);
+        strokes[1].hidden_by = strokes[2].hidden_by = 2;
+        add_half(radius - (crowded ? 2 : 40), 0, STROKE_CONTOUR);
+        strokes[3].piece = strokes[3].part = 1;
+        add(150, 300, 450, 300, 0, false); /* where it ends */
+        strokes[4].part = 1;
+        double half = stroke_pi * (double)radius,
+               rims = crowded ? half - 2 * stroke_pi : 2 * half + half - 40 * stroke_pi;
+        assert_near(hidden_length_crowded(&set, &dashes), rims, 2);
+    }
+}
+
+/* Of a body that cannot be seen at all, most is drawn or nothing; and so of bodies of one part, such as joists. */
+static void test_whole_body(void **state)
+{
+    (void)state;
+    for (int mode = 0; mode < 3; mode++) { /* one body; bodies of one part; all apart */
+        size_t dashes;
+        begin();
+        add_posts(0, 200);
+        for (uint32_t i = 0; i < 3; i++) {
+            /* Two of them lie beside hidden lines of something nearer. */
+            add(0, -30 + 30 * (float)i, 200, -30 + 30 * (float)i, 2, false);
+            strokes[set.stroke_count - 1].part = mode < 2 ? 2 : 2 + i;
+            strokes[set.stroke_count - 1].piece = mode < 1 ? 7 : 7 + i;
+            if (i == 2)
+                continue;
+            add(0, -28 + 30 * (float)i, 200, -28 + 30 * (float)i, 1, false);
+            strokes[set.stroke_count - 1].part = strokes[set.stroke_count - 1].piece = 20;
+        }
+        strokes[0].part = strokes[1].part = 1;
+        assert_near(hidden_length_crowded(&set, &dashes), mode < 2 ? 400 : 600, 1e-3);
+    }
+}
+
+/* Small and wholly hidden: left out, unless some of it is seen. */
+static void test_island(void **state)
+{
+    (void)state;
+    for (int seen = 0; seen < 2; seen++) {
+        size_t dashes;
+        begin();
+        add_posts(0, 28);
+        add(0, 0, 28, 0, 1, false);
+        strokes[2].piece = strokes[2].part = 2;
+        if (seen)
+            strokes[0].piece = strokes[0].part = 2;
+        assert_near(hidden_length_crowded(&set, &dashes), seen ? 28 : 0, 1e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),  cmocka_unit_test(test_l),      cmocka_unit_test(test_bored),
-        cmocka_unit_test(test_short), cmocka_unit_test(test_loose),  cmocka_unit_test(test_corner),
-        cmocka_unit_test(test_run),   cmocka_unit_test(test_pruned), cmocka_unit_test(test_torn)};
+        cmocka_unit_test(test_cube),      cmocka_unit_test(test_l),          cmocka_unit_test(test_bored),
+        cmocka_unit_test(test_short),     cmocka_unit_test(test_loose),      cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_run),       cmocka_unit_test(test_pruned),     cmocka_unit_test(test_torn),
+        cmocka_unit_test(test_whole_rim), cmocka_unit_test(test_whole_body), cmocka_unit_test(test_island)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

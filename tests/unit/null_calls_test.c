@@ -385,6 +385,7 @@ CALL(lmn_look_name_at)
 {
     return neutral(w->null != 0 || !lmn_look_name_at(0) || lmn_look_name_at(SIZE_MAX));
 }
+#include "null_calls_behaviour.h"
 #include "null_calls_host.h"
 #include "null_calls_rules.h"
 CALL(lmn_look_reference_json)
@@ -505,6 +506,10 @@ CALL(lmn_depict)
 CALL(lmn_depict_clear)
 {
     return lmn_depict_clear(P(0, w->scene), P(1, &w->error));
+}
+CALL(lmn_look_add_sign_rules)
+{
+    return lmn_look_add_sign_rules(P(0, w->look), P(1, &w->error));
 }
 CALL(lmn_depiction_at)
 {

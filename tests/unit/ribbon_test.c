@@ -55,7 +55,8 @@ static stroke *add(const float (*positions)[3], uint32_t count, uint32_t hidden_
     if (!goes_on)
         d.set.chain_count++;
     *s = (stroke){.kind = STROKE_CONTOUR,
-                  .part = 1,
+                  .part = (uint32_t)d.set.chain_count,
+                  .piece = (uint32_t)d.set.chain_count,
                   .hidden_by = hidden_by,
                   .chain = (uint32_t)d.set.chain_count - 1,
                   .id = 77 * d.set.chain_count,
@@ -374,6 +375,8 @@ static void test_crowds(void **state)
     add_line(0, 63, 200, 63, 5, 1);
     add_line(300, 20, 310, 20, 5, 1); /* a crumb, and what is just more */
     add_line(300, 40, 314, 40, 5, 1);
+    for (int i = 1; i < 3; i++) /* of what is seen */
+        d.strokes[d.set.stroke_count - (size_t)i].piece = d.strokes[d.set.stroke_count - 4].piece;
     ribbon_set r = make(&style);
     float      before = -100;
     int        left = 0;
@@ -859,6 +862,37 @@ static void test_pulls(void **state)
     ribbon_set_release(&r);
 }
 
+/* Where lines run side by side a hand draws each once, and true; lines that cross it do not matter. */
+static void test_hand_beside_others(void **state)
+{
+    (void)state;
+    for (int mode = 0; mode < 3; mode++) { /* alone, beside others, among lines that cross it */
+        stroke_style style = plain_style();
+        size_t       copies = 0;
+        float        off = 0;
+        style.repeats = 4;
+        style.repeat_apart = 4;
+        style.repeat_least = 20;
+        begin();
+        add_line(0, 100, 300, 100, 5, 0);
+        for (int i = 0; i < 20; i++) {
+            if (mode == 1 && i < 2)
+                add_line(0, 96 + 8 * (float)i, 300, 96 + 8 * (float)i, 5, 0);
+            if (mode == 2)
+                add_line(5 + 15 * (float)i, 50, 5 + 15 * (float)i, 150, 5, 0);
+        }
+        ribbon_set r = make(&style);
+        for (size_t i = 0; i < r.ribbon_count; i++)
+            for (uint32_t k = 0; r.ribbons[i].chain == 0 && k < r.ribbons[i].count; k++) {
+                copies += k == 0;
+                off = fmaxf(off, fabsf(point_of(&r, i, k)->y - 100));
+            }
+        assert_int_equal(copies, mode == 1 ? 1 : 4);
+        assert_true(mode == 1 ? off < 0.5f : off > 1);
+        ribbon_set_release(&r);
+    }
+}
+
 /* --- hostile -------------------------------------------------------------------------------------------- */
 
 static void everything(stroke_style *style)
@@ -1048,39 +1082,38 @@ static void test_dashes_at_corners(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nodes),
-        cmocka_unit_test(test_outline_into_crease),
-        cmocka_unit_test(test_junctions),
-        cmocka_unit_test(test_halos_beside),
-        cmocka_unit_test(test_dashes_at_corners),
-        cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_colours_and_fading),
-        cmocka_unit_test(test_dashes),
-        cmocka_unit_test(test_closed_dashes),
-        cmocka_unit_test(test_hidden_dashes),
-        cmocka_unit_test(test_halos),
-        cmocka_unit_test(test_halos_at_ends),
-        cmocka_unit_test(test_halo_crumbs),
-        cmocka_unit_test(test_crowds_in_turns),
-        cmocka_unit_test(test_what_is_gone_crowds_nothing),
-        cmocka_unit_test(test_crowds_to_corners),
-        cmocka_unit_test(test_crowds_leave_no_crumbs),
-        cmocka_unit_test(test_halos_in_perspective),
-        cmocka_unit_test(test_crowds),
-        cmocka_unit_test(test_spring),
-        cmocka_unit_test(test_wobble),
-        cmocka_unit_test(test_overshoot),
-        cmocka_unit_test(test_widths),
-        cmocka_unit_test(test_repeats),
-        cmocka_unit_test(test_repeats_lie_apart),
-        cmocka_unit_test(test_corners_are_run_past_unevenly),
-        cmocka_unit_test(test_short_lines_are_drawn_once),
-        cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_circles),
-        cmocka_unit_test(test_pulls),
-        cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_out_of_memory),
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nodes),
+                                       cmocka_unit_test(test_outline_into_crease),
+                                       cmocka_unit_test(test_junctions),
+                                       cmocka_unit_test(test_halos_beside),
+                                       cmocka_unit_test(test_dashes_at_corners),
+                                       cmocka_unit_test(test_plain),
+                                       cmocka_unit_test(test_colours_and_fading),
+                                       cmocka_unit_test(test_dashes),
+                                       cmocka_unit_test(test_closed_dashes),
+                                       cmocka_unit_test(test_hidden_dashes),
+                                       cmocka_unit_test(test_halos),
+                                       cmocka_unit_test(test_halos_at_ends),
+                                       cmocka_unit_test(test_halo_crumbs),
+                                       cmocka_unit_test(test_crowds_in_turns),
+                                       cmocka_unit_test(test_what_is_gone_crowds_nothing),
+                                       cmocka_unit_test(test_crowds_to_corners),
+                                       cmocka_unit_test(test_crowds_leave_no_crumbs),
+                                       cmocka_unit_test(test_halos_in_perspective),
+                                       cmocka_unit_test(test_crowds),
+                                       cmocka_unit_test(test_spring),
+                                       cmocka_unit_test(test_wobble),
+                                       cmocka_unit_test(test_overshoot),
+                                       cmocka_unit_test(test_widths),
+                                       cmocka_unit_test(test_repeats),
+                                       cmocka_unit_test(test_repeats_lie_apart),
+                                       cmocka_unit_test(test_corners_are_run_past_unevenly),
+                                       cmocka_unit_test(test_short_lines_are_drawn_once),
+                                       cmocka_unit_test(test_corners),
+                                       cmocka_unit_test(test_circles),
+                                       cmocka_unit_test(test_pulls),
+                                       cmocka_unit_test(test_hostile),
+                                       cmocka_unit_test(test_out_of_memory),
+                                       cmocka_unit_test(test_hand_beside_others)};
     return cmocka_run_group_tests_name("ribbon", tests, NULL, NULL);
 }

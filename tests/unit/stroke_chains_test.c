@@ -1,6 +1,8 @@
 /* Chains are whole before anything is decided by their length, and are the same on any page. */
 #include "stroke_shapes.h"
 
+#include "stroke/stroke_private.h"
+
 #include "stroke/ribbon.h"
 
 static const double origin[3] = {0, 0, 0};
@@ -207,16 +209,83 @@ static void small_pieces_keep_their_outlines(void **state)
     }
 }
 
+/* --- what outlines of meshes leave ----------------------------------------------------------------------- */
+
+static stroke_point given_points[16];
+static stroke       given_strokes[8];
+
+/* A straight outline; a set of these belongs to the test. */
+static void give(stroke_set *set, float x0, float y0, float x1, float y1)
+{
+    stroke *s = &given_strokes[set->stroke_count++];
+    *s = (stroke){.kind = STROKE_CONTOUR,
+                  .part = 1,
+                  .chain = (uint32_t)set->chain_count++,
+                  .first = (uint32_t)set->point_count,
+                  .count = 2};
+    given_points[set->point_count++] = (stroke_point){x0, y0, 5, 0, 1};
+    given_points[set->point_count++] = (stroke_point){x1, y1, 5, hypotf(x1 - x0, y1 - y0), 1};
+}
+
+/* Two outlines that go on as each other run past each other side by side: they end where they meet, in the middle.
+ * Those that lie farther apart, or turn, or leave a gap, stay. */
+static void overlaps_become_one_line(void **state)
+{
+    const struct {
+        float x, y, to_x, to_y;
+        bool  meets;
+    } others[] = {{90, 51.5f, 200, 51.5f, true},   {200, 51.5f, 90, 51.5f, true},  {90, 53, 200, 53, false},
+                  {104, 51.5f, 200, 51.5f, false}, {60, 51.5f, 200, 51.5f, false}, {90, 51.5f, 90, 200, false}};
+    struct stroke_view view = {.camera = {.orthographic = true, .height = 100, .width = 100}};
+    (void)state;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        stroke_set set = {.strokes = given_strokes, .points = given_points};
+        size_t     count;
+        give(&set, 0, 50, 100, 50);
+        give(&set, others[i].x, others[i].y, others[i].to_x, others[i].to_y);
+        assert_int_equal(strokes_trim(&set, &view, &count, NULL), LMN_OK);
+        const stroke_point *p = &given_points[given_strokes[0].first + given_strokes[0].count - 1],
+                           *q = &given_points[given_strokes[1].first + (i == 1 ? given_strokes[1].count - 1 : 0)];
+        assert_int_equal(count, others[i].meets);
+        assert_int_equal(p->x == q->x && p->y == q->y, others[i].meets);
+        if (others[i].meets) {
+            assert_float_equal(p->x, 95, 1e-3);
+            assert_float_equal(p->y, 50.75, 1e-3);
+        }
+    }
+}
+
+/* A short outline that runs along a longer one is a crumb; one that stands on it, or joins two, is not. */
+static void crumbs_of_outlines_go(void **state)
+{
+    const struct {
+        float x, y, to_x, to_y;
+        bool  stays;
+    } crumbs[] = {{40, 51.5f, 52, 51.5f, false},
+                  {40, 51.5f, 43, 57, true},
+                  {40, 51.5f, 65, 51.5f, true},
+                  {40, 54, 52, 54, true},
+                  {101, 51, 101, 52.5f, true}};
+    (void)state;
+    for (size_t i = 0; i < sizeof crumbs / sizeof *crumbs; i++) {
+        stroke_set set = {.strokes = given_strokes, .points = given_points};
+        give(&set, 0, 50, 100, 50);
+        give(&set, crumbs[i].x, crumbs[i].y, crumbs[i].to_x, crumbs[i].to_y);
+        assert_int_equal(strokes_thin(&set, 0.75f, 300, 300, NULL), LMN_OK);
+        assert_int_equal(set.stroke_count, crumbs[i].stays ? 2 : 1);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_count_as_a_whole),
-        cmocka_unit_test(strangers_are_not_linked),
-        cmocka_unit_test(thin_bars_do_not_end_a_line),
-        cmocka_unit_test(parallels_fuse),
-        cmocka_unit_test(outlines_that_reach_beyond_others_stay),
-        cmocka_unit_test(lines_that_are_alone_for_long_stay),
-        cmocka_unit_test(small_pieces_keep_their_outlines),
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pieces_count_as_a_whole),
+                                       cmocka_unit_test(strangers_are_not_linked),
+                                       cmocka_unit_test(thin_bars_do_not_end_a_line),
+                                       cmocka_unit_test(parallels_fuse),
+                                       cmocka_unit_test(outlines_that_reach_beyond_others_stay),
+                                       cmocka_unit_test(lines_that_are_alone_for_long_stay),
+                                       cmocka_unit_test(small_pieces_keep_their_outlines),
+                                       cmocka_unit_test(overlaps_become_one_line),
+                                       cmocka_unit_test(crumbs_of_outlines_go)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -406,7 +406,7 @@ static void check_colours(const char *model, const lmn_scene *scene, const lmn_l
                 border = owners[y + k / 5 - 2][x + k % 5 - 2] != owners[y][x];
             if (border)
                 continue;
-            colour      c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1);
+            colour      c = vector_fill_colour(&look->rules[0], scene, owners[y][x] - 1, NULL);
             const float own[3] = {c.r, c.g, c.b};
             bool        same = true;
             for (int k = 0; k < 3; k++)

@@ -23,7 +23,7 @@ from ._library import (CancelledError, Error, FormatError, GLError, Handle, Inte
                        Progress, ReadError, UnsupportedError, UsageError, Watch, WriteError, call, encode, lib, take_text)
 
 __all__ = [
-    "CancelledError", "Drawing", "Error", "FormatError", "GLError", "InternalError", "LimitError", "Look", "OutOfMemoryError", "Picture",
+    "Behaviour", "CancelledError", "Drawing", "Dynamics", "Error", "FormatError", "GLError", "InternalError", "LimitError", "Look", "OutOfMemoryError", "Picture",
     "ReadError", "Renderer", "Scene", "Sheet", "UnsupportedError", "UsageError", "WriteError", "draw", "draw_svg", "looks", "version",
 ]
 __version__ = c.VERSION
@@ -69,18 +69,19 @@ class Scene(Handle):
 
     _end = "lmn_scene_destroy"
 
-    def __init__(self, *paths: Path, up_axis: str | None = None, progress: Progress | None = None) -> None:
+    def __init__(self, *paths: Path, up_axis: str | None = None, lod: str | float | None = None, progress: Progress | None = None) -> None:
         super().__init__()
         call("lmn_scene_create", self._out)
         for path in paths:
-            self.add(path, up_axis=up_axis, progress=progress)
+            self.add(path, up_axis=up_axis, lod=lod, progress=progress)
 
-    def add(self, path: Path, *, up_axis: str | None = None, progress: Progress | None = None) -> None:
-        """Reads a model file and adds it; when it cannot be read the scene is as before."""
+    def add(self, path: Path, *, up_axis: str | None = None, lod: str | float | None = None, progress: Progress | None = None) -> None:
+        """Reads a model file and adds it; when it cannot be read the scene is as before. Of city models `lod` is the level of detail that is not exceeded."""
         self._check()
         with Watch(progress) as watch:
             desc = c.STANDARDS[c.lmn_load_desc]()
             desc.up_axis, desc.progress = _choice("up_axis", up_axis, _UP), watch.function
+            desc.lod = None if lod is None else str(lod).encode()
             call("lmn_scene_add_file", self, encode(path), ctypes.byref(desc))
 
     @classmethod
@@ -121,6 +122,14 @@ class Scene(Handle):
         if turned and turned.count != at.count:
             raise UsageError(f"there are {turned.count} normals for {at.count} positions")
         call("lmn_scene_set_positions", self, mesh, at.pointer, turned.pointer if turned else None, at.count)
+
+    def node_of_part(self, part: int) -> int:
+        """The number of the node of a part, counted from 1 on: what behaviour moves."""
+        self._check()
+        node = int(lib.lmn_scene_node_of_part(self, part))
+        if not node:
+            raise UsageError(f"the scene has no part {part}")
+        return node
 
     @staticmethod
     def _mesh(positions: Any, indices: Any, normals: Any, colours: Any, uvs: Any, name: str | None) -> tuple[Any, list[Any]]:
@@ -381,3 +390,6 @@ def draw_svg(models: Scene | Path | Sequence[Path], look: Look | Path = "technic
         desc.progress = watch.function
         call("lmn_draw_sheet", sheet._out, renderer, scene, look, ctypes.byref(desc), ctypes.byref(paper))
     return sheet
+
+
+from ._behaviour import Behaviour, Dynamics  # noqa: E402  (it needs Scene)

@@ -5,6 +5,39 @@ from typing import Any, Callable
 
 VERSION = "0.1.0"
 
+LMN_ACTIVITY_SEQUENCE = 0
+LMN_ACTIVITY_SIMULTANEITY = 1
+LMN_ACTIVITY_TABLE = 2
+LMN_ACTIVITY_REVERSE = 3
+LMN_ACTIVITY_REPEAT = 4
+LMN_ACTIVITY_CREEP = 5
+LMN_ACTIVITY_CONSTRAINT = 6
+LMN_ACTIVITY_CLIP = 7
+LMN_ACTIVITY_EVENT = 8
+LMN_FIT_START = 0
+LMN_FIT_CENTRE = 1
+LMN_FIT_END = 2
+LMN_FIT_STRETCH = 3
+LMN_PROPERTY_TRANSLATION = 0
+LMN_PROPERTY_ROTATION = 1
+LMN_PROPERTY_SCALE = 2
+LMN_PROPERTY_WEIGHTS = 3
+LMN_PROPERTY_CAMERA_FOV = 4
+LMN_PROPERTY_CAMERA_HALF_HEIGHT = 5
+LMN_PROPERTY_LIGHT_COLOUR = 6
+LMN_PROPERTY_LIGHT_INTENSITY = 7
+LMN_TIME_MAP_CONSTANT = 0
+LMN_TIME_MAP_LINEAR = 1
+LMN_TIME_MAP_CURVE = 2
+LMN_TIME_MAP_TANGENT = 3
+LMN_TIME_MAP_FALL = 4
+LMN_TIME_MAP_BOUNCE = 5
+LMN_TIME_MAP_OSCILLATE = 6
+LMN_TIME_MAP_SPIN = 7
+LMN_TIME_MAP_FOLLOW = 8
+LMN_TIME_MAP_CALLBACK = 9
+LMN_CURVE_CATMULL_ROM = 0
+LMN_CURVE_BEZIER = 1
 LMN_LIGHT_DIRECTIONAL = 0
 LMN_LIGHT_POINT = 1
 LMN_LIGHT_SPOT = 2
@@ -95,6 +128,10 @@ LMN_PALETTE_MAX = 8
 LMN_VALUE_TEXT_MAX = 512
 LMN_SOLID_ROOT = 1
 
+lmn_behaviour_fn = CFUNCTYPE(None, c_double, POINTER(c_double), c_void_p)
+
+lmn_behaviour_release_fn = CFUNCTYPE(None, c_void_p)
+
 lmn_progress_fn = CFUNCTYPE(c_bool, c_double, c_char_p, c_void_p)
 
 lmn_alloc_fn = CFUNCTYPE(c_void_p, c_size_t, c_void_p)
@@ -121,6 +158,101 @@ lmn_import_fn = CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p, c_size_t, c_void_
 lmn_read_fn = CFUNCTYPE(c_bool, c_char_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t), c_void_p)
 
 lmn_log_fn = CFUNCTYPE(None, c_int, c_char_p, c_char_p, c_void_p)
+
+
+class lmn_activity_child(Structure):
+    _fields_ = [
+        ("activity", c_uint32),
+        ("start_s", c_double),
+        ("duration_s", c_double),
+    ]
+
+
+class lmn_activity_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_int),
+        ("name", c_char_p),
+        ("duration_s", c_double),
+        ("children", POINTER(lmn_activity_child)),
+        ("child_count", c_size_t),
+        ("fit", c_int),
+        ("times", c_uint32),
+        ("exponent", c_double),
+        ("clip", c_char_p),
+        ("node", c_uint32),
+    ]
+
+
+class lmn_constraint_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("duration_s", c_double),
+        ("node", c_uint32),
+        ("property", c_int),
+        ("map", c_int),
+        ("about_axis", c_bool),
+        ("axis", c_double * 3),
+        ("values", POINTER(c_double)),
+        ("value_count", c_size_t),
+        ("times_s", POINTER(c_double)),
+        ("curve", c_int),
+        ("closed", c_bool),
+        ("by_length", c_bool),
+        ("forward", c_double * 3),
+        ("up", c_double * 3),
+        ("start_given", c_bool),
+        ("start", c_double * 3),
+        ("velocity", c_double * 3),
+        ("gravity", c_double * 3),
+        ("floor_height", c_double),
+        ("restitution", c_double),
+        ("amplitude", c_double * 3),
+        ("frequency", c_double),
+        ("phase", c_double),
+        ("rate_deg", c_double),
+        ("phase_deg", c_double),
+        ("follows", c_uint32),
+        ("delay_s", c_double),
+        ("offset", c_double * 3),
+        ("function", lmn_behaviour_fn),
+        ("function_user", c_void_p),
+        ("release", lmn_behaviour_release_fn),
+    ]
+
+
+class lmn_lifetime(Structure):
+    _fields_ = [
+        ("activity", c_uint32),
+        ("is_event", c_bool),
+        ("node", c_uint32),
+        ("property", c_int),
+        ("from_s", c_double),
+        ("to_s", c_double),
+        ("open_from", c_bool),
+        ("open_to", c_bool),
+    ]
+
+
+class lmn_point_state(Structure):
+    _fields_ = [
+        ("time_s", c_double),
+        ("position", c_double * 3),
+        ("velocity", c_double * 3),
+        ("acceleration", c_double * 3),
+    ]
+
+
+class lmn_contact(Structure):
+    _fields_ = [
+        ("time_s", c_double),
+        ("place", c_double * 3),
+        ("normal", c_double * 3),
+        ("impulse", c_double),
+        ("other", c_uint32),
+        ("distance", c_double),
+    ]
 
 
 class lmn_mesh_desc(Structure):
@@ -644,6 +776,8 @@ class lmn_look_desc(Structure):
 
 # What the macros LMN_…_INIT make.
 STANDARDS: dict[type, Callable[[], Any]] = {
+    lmn_activity_desc: lambda: lmn_activity_desc(sizeof(lmn_activity_desc), LMN_ACTIVITY_SEQUENCE, None, 0, None, 0, LMN_FIT_START, 1, 2, None, 0),
+    lmn_constraint_desc: lambda: lmn_constraint_desc(sizeof(lmn_constraint_desc), None, 0, 0, LMN_PROPERTY_TRANSLATION, LMN_TIME_MAP_CONSTANT, False, (0, 0, 0,), None, 0, None, LMN_CURVE_CATMULL_ROM, False, False, (0, 0, 0,), (0, 0, 0,), False, (0, 0, 0,), (0, 0, 0,), (0, 0, 0,), 0, 0.7, (0, 0, 0,), 1, 0, 360, 0, 0, 0, (0, 0, 0,), lmn_behaviour_fn(), None, lmn_behaviour_release_fn()),
     lmn_mesh_desc: lambda: lmn_mesh_desc(sizeof(lmn_mesh_desc), None, None, None, None, None, None, None, 0, None, 0, None, 0, 0),
     lmn_material_desc: lambda: lmn_material_desc(sizeof(lmn_material_desc), None, (1, 1, 1, 1,), 0, 0, False),
     lmn_camera_desc: lambda: lmn_camera_desc(sizeof(lmn_camera_desc), None, False, 30, 1),
@@ -666,6 +800,21 @@ STANDARDS: dict[type, Callable[[], Any]] = {
 }
 
 FUNCTIONS = {
+    "lmn_behaviour_add": (c_int, [c_void_p, POINTER(lmn_activity_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_behaviour_set": (c_int, [c_void_p, c_uint32, POINTER(lmn_activity_desc), POINTER(lmn_error)]),
+    "lmn_behaviour_add_constraint": (c_int, [c_void_p, POINTER(lmn_constraint_desc), POINTER(c_uint32), POINTER(lmn_error)]),
+    "lmn_behaviour_set_constraint": (c_int, [c_void_p, c_uint32, POINTER(lmn_constraint_desc), POINTER(lmn_error)]),
+    "lmn_behaviour_play": (c_int, [c_void_p, POINTER(c_uint32), c_size_t, POINTER(lmn_error)]),
+    "lmn_behaviour_count": (c_size_t, [c_void_p]),
+    "lmn_behaviour_root_at": (c_uint32, [c_void_p, c_size_t]),
+    "lmn_dynamics_create": (c_int, [c_void_p, c_char_p, POINTER(c_void_p), POINTER(lmn_error)]),
+    "lmn_dynamics_destroy": (None, [POINTER(c_void_p)]),
+    "lmn_dynamics_duration": (c_double, [c_void_p]),
+    "lmn_dynamics_lifetime_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_lifetime)]),
+    "lmn_dynamics_of_node": (c_int, [c_void_p, c_uint32, c_double, c_double, POINTER(c_uint32), c_size_t, POINTER(c_size_t), POINTER(c_size_t), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_dynamics_point": (c_int, [c_void_p, c_uint32, POINTER(c_double), c_double, POINTER(lmn_point_state), POINTER(lmn_error)]),
+    "lmn_dynamics_trajectory": (c_int, [c_void_p, c_uint32, POINTER(c_double), c_double, c_double, c_double, POINTER(lmn_point_state), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
+    "lmn_dynamics_contacts": (c_int, [c_void_p, c_uint32, c_double, c_double, c_double, POINTER(lmn_contact), c_size_t, POINTER(c_size_t), POINTER(lmn_error)]),
     "lmn_scene_add_mesh": (c_int, [c_void_p, POINTER(lmn_mesh_desc), POINTER(c_uint32), POINTER(lmn_error)]),
     "lmn_scene_set_mesh": (c_int, [c_void_p, c_uint32, POINTER(lmn_mesh_desc), POINTER(lmn_error)]),
     "lmn_scene_set_positions": (c_int, [c_void_p, c_uint32, POINTER(c_float), POINTER(c_float), c_size_t, POINTER(lmn_error)]),
@@ -687,6 +836,7 @@ FUNCTIONS = {
     "lmn_scene_end_changes": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_depict": (c_int, [c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_depict_desc), POINTER(c_void_p), POINTER(lmn_error)]),
     "lmn_depict_clear": (c_int, [c_void_p, POINTER(lmn_error)]),
+    "lmn_look_add_sign_rules": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_depiction_at": (c_bool, [c_size_t, POINTER(lmn_depiction_info)]),
     "lmn_depiction_reference": (c_void_p, []),
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),

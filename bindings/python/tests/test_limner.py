@@ -154,6 +154,54 @@ class Pictures(unittest.TestCase):
         self.assertEqual(done, [limner.draw(BOX, **SMALL).png()] * 3)
 
 
+class Behaviours(unittest.TestCase):
+    def setUp(self):
+        self.scene = limner.Scene.from_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+        self.box = self.scene.node_of_part(1)
+        self.behaviour = limner.Behaviour(self.scene)
+
+    def test_made_and_told(self):
+        b = self.behaviour
+        fall = b.constrain(self.box, "bounce", start=(0, 4, 0), floor_height=0.5, duration=2)
+        turn = b.constrain(self.box, "linear", property="rotation", values=[0, 90], about=(0, 1, 0), duration=1)
+        way = b.constrain(self.box, "linear", values=[[0, 0, 0], [3, 0, 0]], times=[0, 3])
+        b.play(b.table((b.sequence(fall, b.reverse(way)), 0), (turn, 1, 4), (b.event("pow", self.box), 2)))
+        dynamics = limner.Dynamics(self.scene)
+        self.assertEqual(dynamics.duration, 5)
+        self.assertEqual([row["property"] for row in dynamics.lifetimes], ["translation", "translation", "rotation", None])
+        self.assertAlmostEqual(dynamics.point(self.box, 0.5)["position"][1], 4 - 9.81 / 8)
+        self.assertAlmostEqual(dynamics.point(self.box, 3)["position"][0], 2)
+        self.assertGreater(len(dynamics.trajectory(self.box, 0, 5, 0.01)), 10)
+        hit = dynamics.contacts(self.box, 0, 1.9, 0.1)[0]
+        self.assertAlmostEqual(hit["time_s"], (2 * 3.5 / 9.81) ** 0.5)
+        self.assertEqual(hit["other"], 0)
+        self.assertNotEqual(limner.draw(self.scene, time=0.5, fit_time=True, **SMALL).png(), limner.draw(self.scene, time=2.5, fit_time=True, **SMALL).png())
+
+    def test_functions(self):
+        b = self.behaviour
+        b.play(b.constrain(self.box, "callback", function=lambda seconds: (seconds, 0, 0), duration=2))
+        self.assertAlmostEqual(limner.Dynamics(self.scene).point(self.box, 1.5)["position"][0], 1.5)
+        wrong = b.constrain(self.box, "callback", function=lambda seconds: 1 / 0, duration=2)
+        with self.assertRaises(ZeroDivisionError):
+            b.play(wrong)
+        self.assertAlmostEqual(limner.Dynamics(self.scene).point(self.box, 1.5)["position"][0], 1.5)
+
+    def test_mistakes(self):
+        b = self.behaviour
+        for action, words in [
+            (lambda: b.constrain(self.box, "jump"), "bounce"),
+            (lambda: b.constrain(99, "fall", duration=1), "no node 99"),
+            (lambda: b.constrain(self.box, "constant", values=[1, 2], duration=1), "3"),
+            (lambda: b.constrain(self.box, "fall"), "duration"),
+            (lambda: b.constrain(self.box, "fall", duration=1, bounciness=2), "restitution"),
+            (lambda: b.sequence(), "empty"),
+            (lambda: b.play(7), "no activity 7"),
+        ]:
+            with self.subTest(words=words), self.assertRaises(limner.UsageError) as caught:
+                action()
+            self.assertIn(words, str(caught.exception))
+
+
 class Mistakes(unittest.TestCase):
     def test_kinds(self):
         cases = [

@@ -1,0 +1,37 @@
+/* Where something that moves meets something, and what it meets: an instant at which its velocity changes at once
+ * (behaviour/inspect.h), and the surface that is there then. */
+#ifndef LIMNER_CONTACT_CONTACT_H
+#define LIMNER_CONTACT_CONTACT_H
+
+#include "behaviour/inspect.h"
+#include "pose/moment.h"
+
+typedef struct contact {
+    impact  hit;   /* its place is where it touches: its outermost place against the normal, its origin without any */
+    int32_t other; /* the node whose surface is there; NONE: nothing is near */
+    double  distance; /* of that surface from the place */
+} contact;
+
+/* The parts below a node, and all others that are shown: what it can meet. A flag a part each; free with mem_free.
+ * *reach is how near a surface has to be to be met: a tenth of its radius, since round things have flat faces. Errors:
+ * LMN_MEMORY. */
+typedef struct contact_sides {
+    bool  *own, *others;
+    double reach, radius;
+} contact_sides;
+lmn_status contact_sides_find(contact_sides *out, const lmn_scene *scene, int32_t node_index, lmn_error *error);
+void       contact_sides_release(contact_sides *s);
+
+/* Those of a node and all below it in from … to whose speed is `least` or more, in order, but for those by which it
+ * sets off or stops with nothing near: whoever moves it has done that. `clips` has what is laid out in the schedule as
+ * clips of the scene. Free *out with mem_free. Errors: as of schedule_trajectory and pose_create. */
+lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const moment *clips, int32_t node_index,
+                         double from, double to, double least, lmn_error *error);
+
+/* Lays out what happens: the clips that are named (as moment_find has it), or else the scene's behaviour, or without
+ * one what plays by itself. `clips` gets them. Errors: of moment_find, schedule_create. Release `out` also after one.
+ */
+lmn_status schedule_of_moment(schedule *out, moment *clips, const lmn_scene *scene, const char *names,
+                              lmn_error *error);
+
+#endif

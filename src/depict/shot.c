@@ -1,0 +1,53 @@
+/* A camera on its way. */
+#include "depict/shot.h"
+
+#include <string.h>
+
+#include "base/error.h"
+
+lmn_status shot_open(shot *out, const depict_job *j, const expression *e, double focus, lmn_error *error)
+{
+    const lmn_scene *s = j->scene;
+    int32_t          own = e->target;
+    memset(out, 0, sizeof *out);
+    while (own != NONE && s->nodes[own].camera == NONE)
+        own = scene_next_node(s, e->target, own);
+    if (own == NONE)
+        return error_set(error, LMN_USAGE, "'%s' is for cameras; '%.80s' has none", e->row->characteristic,
+                         s->nodes[e->target].name ? s->nodes[e->target].name : "the target");
+    out->node = own;
+    out->camera = &s->cameras[s->nodes[own].camera];
+    out->aspect = j->camera.aspect;
+    lmn_status status = way_open(&out->way, s, own, &j->when, error);
+    if (status != LMN_OK)
+        return status;
+    mat4 world = way_world(&out->way, fmin(fmax(e->now, e->from), e->to));
+    out->focus = focus > 0 ? focus : vector3_distance(&world.m[12], j->camera.target) / 5;
+    if (!(out->focus > 0))
+        out->focus = j->size / 5;
+    return LMN_OK;
+}
+
+void shot_release(shot *s)
+{
+    way_release(&s->way);
+}
+
+void shot_point(const shot *s, double seconds, double x, double y, double out[3])
+{
+    const mat4   world = way_world(&s->way, seconds);
+    const double half = s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus;
+    double       axes[3][3];
+    for (int k = 0; k < 3; k++) {
+        vector3_copy(axes[k], &world.m[4 * k]);
+        vector3_normalise(axes[k]);
+    }
+    vector3_add(out, &world.m[12], x * half * s->aspect, axes[0]);
+    vector3_add(out, out, y * half, axes[1]);
+    vector3_add(out, out, -s->focus, axes[2]);
+}
+
+double shot_height(const shot *s)
+{
+    return 2 * (s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus);
+}

@@ -1,0 +1,591 @@
+/* GeoJSON (RFC 7946): footprints with heights become buildings, other areas what lies on the ground between them,
+ * lines of roads and rails strips, trees trees. Keys are those of OpenStreetMap's Simple 3D Buildings, and of
+ * cadastres. Degrees become metres around the middle. */
+#define _GNU_SOURCE /* memmem */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "base/memory.h"
+#include "import/city_crs.h"
+#include "import/footprint.h"
+#include "import/geojson.h"
+#include "import/json_scan.h"
+
+enum { RINGS_MAX = 4096, POSITIONS_MAX = 1000000 };
+
+/* The outline and holes of one polygon, or one line. */
+typedef struct rings {
+    double (*positions)[2];
+    size_t *counts;
+    size_t  position_count, position_capacity, ring_count, ring_capacity;
+    double  lowest; /* height, 0 where none is given */
+} rings;
+
+typedef struct geojson_reader {
+    const import_job *job;
+    lmn_scene        *scene;
+    lmn_error        *error;
+    lmn_status        status;
+    city_builder      builder;
+    bool              latitude_first;
+    city_shape        shape;
+    footprint_points  points;
+    rings             rings;
+    city_meshes       tree;
+    uint64_t          guessed_heights, flat_roofs, places;
+    size_t            number;
+} geojson_reader;
+
+typedef struct feature {
+    json_span id, properties, geometry;
+} feature;
+
+static bool no_memory(geojson_reader *r)
+{
+    r->status = error_memory(r->error);
+    return false;
+}
+
+static bool good(geojson_reader *r, const json_scan *s)
+{
+    if (s->wrong && r->status == LMN_OK) {
+        const char *at = (const char *)r->job->file->data;
+        int         line = 1;
+        for (; at < s->wrong_at; at++)
+            line += *at == '\n';
+        r->status = error_in_file(r->error, LMN_FORMAT, r->job->path, line, "%s", s->wrong);
+    }
+    return r->status == LMN_OK;
+}
+
+/* --- positions ------------------------------------------------------------------------------------------ */
+
+typedef void (*position_fn)(geojson_reader *r, const double p[3], void *user);
+
+static void read_position(geojson_reader *r, json_scan *s, position_fn each, void *user)
+{
+    double p[3] = {0, 0, 0};
+    int    k = 0;
+    for (bool more = scan_open(s, '['); more; more = scan_next(s, ']'), k++) {
+        double value = 0;
+        if (scan_number(s, &value) && k < 3)
+            p[k] = value;
+    }
+    if (k >= 2 && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && fabs(p[0]) <= 1e15 && fabs(p[1]) <= 1e15)
+        each(r, p, user);
+    else if (!s->wrong)
+        r->builder.tally.missing_points++;
+}
+
+/* A list of positions. */
+static void read_line(geojson_reader *r, json_scan *s, position_fn each, void *user)
+{
+    if (scan_peek(s) != '[') {
+        scan_skip(s);
+        r->builder.tally.bad_geometry++;
+        return;
+    }
+    for (bool more = scan_open(s, '['); more && r->status == LMN_OK; more = scan_next(s, ']')) {
+        if (scan_peek(s) == '[') {
+            read_position(r, s, each, user);
+        } else {
+            scan_skip(s);
+            r->builder.tally.bad_geometry++;
+        }
+    }
+}
+
+/* Every position at any depth of lists. */
+static void each_position(geojson_reader *r, json_scan *s, int depth, position_fn each, void *user)
+{
+    if (depth > 4 || scan_peek(s) != '[') {
+        scan_skip(s);
+        return;
+    }
+    json_scan inside = *s;
+    if (scan_open(&inside, '[') && scan_peek(&inside) != '[' && scan_peek(&inside) != '{') {
+        read_position(r, s, each, user);
+        return;
+    }
+    for (bool more = scan_open(s, '['); more && r->status == LMN_OK; more = scan_next(s, ']'))
+        each_position(r, s, depth + 1, each, user);
+}
+
+static void keep_position(geojson_reader *r, const double p[3], void *user)
+{
+    rings *k = user;
+    double local[3] = {p[0], p[1], p[2]};
+    city_crs_local(&r->scene->city, r->latitude_first, local);
+    size_t begin = k->position_count - (k->ring_count ? k->counts[k->ring_count - 1] : 0);
+    if (k->position_count > begin) {
+        const double *last = k->positions[k->position_count - 1];
+        if (hypot(last[0] - local[0], last[1] - local[1]) < 1e-3)
+            return;
+    }
+    if (k->position_count >= POSITIONS_MAX) {
+        r->status =
+            error_in_file(r->error, LMN_LIMIT, r->job->path, 0, "a polygon of more than %d corners", POSITIONS_MAX);
+        return;
+    }
+    if (!mem_grow((void **)&k->positions, &k->position_capacity, k->position_count + 1, sizeof *k->positions)) {
+        no_memory(r);
+        return;
+    }
+    k->lowest = k->position_count ? fmin(k->lowest, local[2]) : local[2];
+    memcpy(k->positions[k->position_count++], local, 2 * sizeof *local);
+    k->counts[k->ring_count - 1]++;
+}
+
+static bool begin_ring(geojson_reader *r, rings *k)
+{
+    if (!mem_grow((void **)&k->counts, &k->ring_capacity, k->ring_count + 1, sizeof *k->counts))
+        return no_memory(r);
+    k->counts[k->ring_count++] = 0;
+    return true;
+}
+
+/* Anticlockwise or not: many files do not hold to what RFC 7946 says in section 3.1.6. */
+static void wind(double (*p)[2], size_t count, bool anticlockwise)
+{
+    double area = 0;
+    for (size_t i = 0; i < count; i++)
+        area += p[i][0] * p[(i + 1) % count][1] - p[(i + 1) % count][0] * p[i][1];
+    for (size_t i = 0; i < count / 2 && (area > 0) != anticlockwise; i++)
+        for (int k = 0; k < 2; k++) {
+            double kept = p[i][k];
+            p[i][k] = p[count - 1 - i][k];
+            p[count - 1 - i][k] = kept;
+        }
+}
+
+/* A ring's last position is its first one again; rings without an area are left out, and holes with their outline. */
+static void end_ring(geojson_reader *r, rings *k)
+{
+    size_t *count = &k->counts[k->ring_count - 1], first = k->position_count - *count;
+    while (*count > 1 && hypot(k->positions[first][0] - k->positions[k->position_count - 1][0],
+                               k->positions[first][1] - k->positions[k->position_count - 1][1]) < 1e-3) {
+        k->position_count--;
+        --*count;
+    }
+    if (*count >= 3) {
+        wind(k->positions + first, *count, k->ring_count == 1);
+        return;
+    }
+    k->position_count -= *count;
+    k->ring_count--;
+    r->builder.tally.degenerate++;
+}
+
+static bool read_polygon(geojson_reader *r, json_scan *s)
+{
+    rings *k = &r->rings;
+    bool   outline = true;
+    k->position_count = k->ring_count = 0;
+    if (scan_peek(s) != '[') {
+        scan_skip(s);
+        r->builder.tally.bad_geometry++;
+        return false;
+    }
+    for (bool more = scan_open(s, '['); more && r->status == LMN_OK; more = scan_next(s, ']')) {
+        if (!outline && k->ring_count == 0) {
+            scan_skip(s);
+            continue;
+        }
+        if (!begin_ring(r, k))
+            return false;
+        read_line(r, s, keep_position, k);
+        if (r->status == LMN_OK)
+            end_ring(r, k);
+        outline = false;
+    }
+    return r->status == LMN_OK && k->ring_count > 0;
+}
+
+/* --- objects -------------------------------------------------------------------------------------------- */
+
+static void put_attributes(geojson_reader *r, int32_t node, json_span properties)
+{
+    enum { BYTES_MAX = 4096 };
+    json_scan s = scan_of(properties);
+    for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
+        json_span key = scan_key(&s);
+        bool      text = scan_peek(&s) == '"', null = scan_null(&s);
+        json_span value = null ? (json_span){NULL, 0} : text ? scan_string(&s) : scan_skip(&s);
+        if (null || !value.at || s.wrong || value.size > BYTES_MAX)
+            continue;
+        char *name = span_decode(key), *copy = name ? span_decode(value) : NULL;
+        if (!city_attribute(r->scene, node, name, copy)) {
+            no_memory(r);
+            return;
+        }
+    }
+    good(r, &s);
+}
+
+static char *id_of(geojson_reader *r, const feature *f)
+{
+    static const char *const keys[] = {"@id", "gml_id", "osm_id", "fid", "id", NULL};
+    char                     name[40];
+    json_span                id = f->id.at ? f->id : geojson_property(f->properties, keys);
+    if (id.at && id.size)
+        return span_decode(id);
+    snprintf(name, sizeof name, "feature-%zu", r->number);
+    return mem_copy_text(name);
+}
+
+/* What a feature's shape becomes below its node. */
+static void attach(geojson_reader *r, int32_t node, const geojson_thing *thing)
+{
+    city_meshes meshes = {NULL, 0, 0};
+    if (r->status == LMN_OK && r->shape.face_count) {
+        city_builder_points(&r->builder, r->points.items, r->points.count);
+        r->status = city_make(&r->builder, &r->shape, city_word_of_class(thing->type, strlen(thing->type)),
+                              thing->is_building, &meshes);
+    }
+    if (r->status == LMN_OK && meshes.count)
+        r->status = city_attach(&r->builder, node, &meshes, NULL, true);
+    else
+        r->builder.tally.no_geometry++;
+    mem_free(meshes.items);
+}
+
+static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan *s)
+{
+    if (!read_polygon(r, s))
+        return;
+    const rings *k = &r->rings;
+    footprint    how = thing->body;
+    bool         fits = true;
+    how.base += k->lowest;
+    how.eaves += k->lowest;
+    how.ridge += k->lowest;
+    bool done = true;
+    if (thing->is_building) {
+        done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
+                               &fits);
+        r->flat_roofs += !fits;
+    } else {
+        uint32_t at = (uint32_t)r->points.count;
+        for (size_t i = 0; i < k->position_count && done; i++)
+            done = footprint_add_point(&r->points, k->positions[i][0], k->positions[i][1], how.base);
+        for (size_t ring = 0; ring < k->ring_count && done; ring++) {
+            for (size_t i = 0; i < k->counts[ring] && done; i++)
+                done = city_shape_corner(&r->shape, at++);
+            done = done && city_shape_end_ring(&r->shape);
+        }
+        done = done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+    }
+    if (!done)
+        no_memory(r);
+}
+
+static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s)
+{
+    rings *k = &r->rings;
+    k->position_count = k->ring_count = 0;
+    if (!begin_ring(r, k))
+        return;
+    read_line(r, s, keep_position, k);
+    if (r->status == LMN_OK && k->position_count >= 2 && thing->width > 0 &&
+        !footprint_strip(&r->shape, &r->points, (const double(*)[2])k->positions, k->position_count, thing->width,
+                         thing->body.base + k->lowest))
+        no_memory(r);
+}
+
+/* A crown of two cones over a trunk, 1 high. */
+static void make_tree(geojson_reader *r)
+{
+    enum { SIDES = 7 };
+    static const double heights[3] = {0.22, 0.45, 1}, radius = 0.3;
+    city_shape          kept = r->shape;
+    footprint_points    points = {NULL, 0, 0};
+    bool                done = true;
+    memset(&r->shape, 0, sizeof r->shape);
+    for (int i = 0; i < SIDES && done; i++)
+        done = footprint_add_point(&points, radius * cos(6.283185307179586 * i / SIDES),
+                                   radius * sin(6.283185307179586 * i / SIDES), heights[1]);
+    done = done && footprint_add_point(&points, 0, 0, heights[0]) && footprint_add_point(&points, 0, 0, heights[2]);
+    for (uint32_t i = 0; i < 2 * SIDES && done; i++) {
+        uint32_t a = i % SIDES, b = (a + 1) % SIDES, end = i < SIDES ? SIDES + 1 : SIDES;
+        done = city_shape_corner(&r->shape, i < SIDES ? a : b) && city_shape_corner(&r->shape, i < SIDES ? b : a) &&
+               city_shape_corner(&r->shape, end) && city_shape_end_ring(&r->shape) &&
+               city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+    }
+    static const char type[] = "SolitaryVegetationObject";
+    if (done) {
+        city_builder_points(&r->builder, points.items, points.count);
+        r->status = city_make(&r->builder, &r->shape, city_word_of_class(type, sizeof type - 1), true, &r->tree);
+    } else {
+        no_memory(r);
+    }
+    mem_free(points.items);
+    city_shape_release(&r->shape);
+    r->shape = kept;
+}
+
+static void keep_place(geojson_reader *r, const double p[3], void *user)
+{
+    double *out = user;
+    memcpy(out, p, 3 * sizeof *out);
+    city_crs_local(&r->scene->city, r->latitude_first, out);
+}
+
+static void put_tree(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
+{
+    double at[3] = {NAN, 0, 0}, high = thing->body.ridge;
+    read_position(r, s, keep_place, at);
+    if (!isfinite(at[0]))
+        return;
+    if (!r->tree.count)
+        make_tree(r);
+    mat4 place = {{high, 0, 0, 0, 0, high, 0, 0, 0, 0, high, 0, at[0], at[1], at[2], 1}};
+    if (r->status == LMN_OK)
+        r->status = city_attach(&r->builder, node, &r->tree, &place, true);
+}
+
+static void put_feature(geojson_reader *r, const feature *f)
+{
+    json_span     type = {NULL, 0}, coordinates = {NULL, 0};
+    geojson_thing thing;
+    if (!f->geometry.at || f->geometry.at[0] != '{') {
+        r->builder.tally.no_geometry++;
+        return;
+    }
+    json_scan s = scan_of(f->geometry);
+    for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
+        json_span key = scan_key(&s);
+        if (span_is(key, "type"))
+            type = scan_string(&s);
+        else if (span_is(key, "coordinates"))
+            coordinates = scan_skip(&s);
+        else
+            scan_skip(&s);
+    }
+    if (!good(r, &s))
+        return;
+    bool point = span_is(type, "Point"), line = span_is(type, "LineString"), lines = span_is(type, "MultiLineString");
+    bool area = span_is(type, "Polygon"), areas = span_is(type, "MultiPolygon");
+    if (!coordinates.at || (!point && !line && !lines && !area && !areas)) {
+        r->builder.tally.unknown_types++;
+        return;
+    }
+    geojson_understand(&thing, f->properties, point, line || lines);
+    if (thing.is_nothing) {
+        r->places++;
+        return;
+    }
+    r->guessed_heights += thing.guessed;
+    int32_t node = city_object(&r->builder, id_of(r, f), thing.type, strlen(thing.type));
+    if (node == NONE) {
+        r->status = r->status == LMN_OK ? error_memory(r->error) : r->status;
+        return;
+    }
+    put_attributes(r, node, f->properties);
+    city_shape_clear(&r->shape);
+    r->points.count = 0;
+    s = scan_of(coordinates);
+    if (point) {
+        put_tree(r, node, &thing, &s);
+        return;
+    }
+    if (area)
+        add_polygon(r, &thing, &s);
+    else if (line)
+        add_line(r, &thing, &s);
+    else if (scan_peek(&s) == '[')
+        for (bool more = scan_open(&s, '['); more && r->status == LMN_OK; more = scan_next(&s, ']')) {
+            if (areas)
+                add_polygon(r, &thing, &s);
+            else
+                add_line(r, &thing, &s);
+        }
+    if (good(r, &s))
+        attach(r, node, &thing);
+}
+
+/* --- the file ------------------------------------------------------------------------------------------- */
+
+static feature read_feature(json_scan *s)
+{
+    feature f = {{NULL, 0}, {NULL, 0}, {NULL, 0}};
+    for (bool more = scan_open(s, '{'); more; more = scan_next(s, '}')) {
+        json_span key = scan_key(s);
+        if (span_is(key, "id"))
+            f.id = scan_peek(s) == '"' ? scan_string(s) : scan_skip(s);
+        else if (span_is(key, "properties"))
+            f.properties = scan_skip(s);
+        else if (span_is(key, "geometry"))
+            f.geometry = scan_skip(s);
+        else
+            scan_skip(s);
+    }
+    if (f.properties.at && f.properties.at[0] != '{')
+        f.properties = (json_span){NULL, 0};
+    return f;
+}
+
+typedef struct extent {
+    double low[3], high[3];
+} extent;
+
+static void widen(geojson_reader *r, const double p[3], void *user)
+{
+    extent *e = user;
+    (void)r;
+    for (int k = 0; k < 3; k++) {
+        e->low[k] = fmin(e->low[k], p[k]);
+        e->high[k] = fmax(e->high[k], p[k]);
+    }
+}
+
+static void find_place(geojson_reader *r, json_span features)
+{
+    extent    e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    json_scan s = scan_of(features);
+    for (bool more = scan_open(&s, '['); more && r->status == LMN_OK; more = scan_next(&s, ']')) {
+        if (scan_peek(&s) != '{') {
+            scan_skip(&s);
+            continue;
+        }
+        feature f = read_feature(&s);
+        if (!f.geometry.at || f.geometry.at[0] != '{')
+            continue;
+        json_scan g = scan_of(f.geometry);
+        for (bool next = scan_open(&g, '{'); next; next = scan_next(&g, '}'))
+            if (span_is(scan_key(&g), "coordinates"))
+                each_position(r, &g, 0, widen, &e);
+            else
+                scan_skip(&g);
+        good(r, &g);
+    }
+    city_facts *facts = &r->scene->city;
+    if (!good(r, &s) || !(e.high[0] >= e.low[0]))
+        return;
+    r->builder.tally.missing_points = 0; /* counted again when they are read */
+    facts->geographic = city_crs_is_geographic(facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84", e.low, e.high,
+                                               &r->latitude_first);
+    /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
+    r->latitude_first = false;
+    city_choose_origin(facts, e.low, e.high);
+}
+
+static void read_features(geojson_reader *r, json_span features)
+{
+    json_scan s = scan_of(features);
+    for (bool more = scan_open(&s, '['); more && r->status == LMN_OK; more = scan_next(&s, ']')) {
+        r->number++;
+        if (scan_peek(&s) != '{') {
+            scan_skip(&s);
+            r->builder.tally.bad_geometry++;
+            continue;
+        }
+        feature f = read_feature(&s);
+        if (!s.wrong)
+            put_feature(r, &f);
+        if (r->number % 1024 == 0 && r->status == LMN_OK)
+            r->status = import_progress(r->job, 0.2 + 0.6 * (double)(s.at - features.at) / (double)features.size,
+                                        "raising buildings", r->error);
+    }
+    good(r, &s);
+}
+
+/* {"type": "name", "properties": {"name": "urn:…"}}, of 2008. */
+static void read_crs(geojson_reader *r, json_span crs)
+{
+    if (!crs.at || crs.at[0] != '{')
+        return;
+    json_scan s = scan_of(crs);
+    for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
+        json_span key = scan_key(&s), value = scan_skip(&s);
+        if (!span_is(key, "properties") || value.at[0] != '{')
+            continue;
+        static const char *const keys[] = {"name", NULL};
+        json_span                name = geojson_property(value, keys);
+        mem_free(r->scene->city.crs);
+        r->scene->city.crs = name.at ? span_decode(name) : NULL;
+    }
+    good(r, &s);
+}
+
+static void read_document(geojson_reader *r)
+{
+    json_scan s = {.at = (const char *)r->job->file->data,
+                   .end = (const char *)r->job->file->data + r->job->file->size};
+    json_span features = {NULL, 0}, crs = {NULL, 0};
+    if (r->job->file->size >= 3 && memcmp(s.at, "\xEF\xBB\xBF", 3) == 0)
+        s.at += 3;
+    for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
+        json_span key = scan_key(&s);
+        if (span_is(key, "features") && scan_peek(&s) == '[')
+            features = scan_skip(&s);
+        else if (span_is(key, "crs"))
+            crs = scan_skip(&s);
+        else
+            scan_skip(&s);
+    }
+    if (!good(r, &s))
+        return;
+    if (!features.at) {
+        r->status = error_in_file(r->error, LMN_FORMAT, r->job->path, 0, "'features' is missing");
+        error_hint(r->error, "a GeoJSON model is a FeatureCollection");
+        return;
+    }
+    read_crs(r, crs);
+    find_place(r, features);
+    if (r->status == LMN_OK)
+        read_features(r, features);
+}
+
+static void tell(geojson_reader *r)
+{
+    city_facts *facts = &r->scene->city;
+    bool        done = (!r->guessed_heights || city_add(facts, CITY_REPAIRED, "guessed-heights", r->guessed_heights)) &&
+                (!r->flat_roofs || city_add(facts, CITY_REPAIRED, "flat-roofs", r->flat_roofs)) &&
+                (!r->places || city_add(facts, CITY_SKIPPED, "points", r->places));
+    if (!done)
+        no_memory(r);
+}
+
+static lmn_status read_geojson(const import_job *job, lmn_error *error)
+{
+    geojson_reader *r = mem_calloc(1, sizeof *r);
+    if (!r)
+        return error_memory(error);
+    r->job = job;
+    r->scene = job->scene;
+    r->error = error;
+    r->status = city_builder_open(&r->builder, job, error);
+    if (r->status == LMN_OK)
+        read_document(r);
+    if (r->status == LMN_OK)
+        tell(r);
+    lmn_status status = city_builder_close(&r->builder, r->status);
+    city_shape_release(&r->shape);
+    mem_free(r->points.items);
+    mem_free(r->rings.positions);
+    mem_free(r->rings.counts);
+    mem_free(r->tree.items);
+    mem_free(r);
+    return status;
+}
+
+static bool recognises(const file_data *file)
+{
+    const char *at = (const char *)file->data;
+    size_t      size = file->size < 4096 ? file->size : 4096;
+    size_t      first = 0;
+    while (first < size && strchr("\xEF\xBB\xBF \n\r\t", at[first]) && at[first])
+        first++;
+    return first < size && at[first] == '{' && memmem(at, file->size, "\"FeatureCollection\"", 19);
+}
+
+const import_format import_geojson = {
+    .name = "GeoJSON",
+    .endings = ".geojson .json",
+    .up = 'z',
+    .recognises = recognises,
+    .read = read_geojson,
+};

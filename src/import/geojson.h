@@ -1,0 +1,20 @@
+/* Inside the import folder: what the properties of a GeoJSON feature say that it is. */
+#ifndef LIMNER_IMPORT_GEOJSON_H
+#define LIMNER_IMPORT_GEOJSON_H
+
+#include "import/footprint.h"
+#include "import/json_scan.h"
+
+typedef struct geojson_thing {
+    const char *type;                             /* class of CityGML: "Building", "Road" … */
+    bool        is_building, is_nothing, guessed; /* guessed: nobody says how high it is */
+    double      width;                            /* of lines, m */
+    footprint   body;                             /* heights over the ground; of trees `ridge` */
+} geojson_thing;
+
+/* The bytes of the first of these properties (NULL at the end) that is there, without quotes; at NULL: none is. */
+json_span geojson_property(json_span properties, const char *const *keys);
+
+void geojson_understand(geojson_thing *out, json_span properties, bool point, bool line);
+
+#endif

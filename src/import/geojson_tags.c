@@ -1,0 +1,156 @@
+/* Heights, roofs and classes from properties. Of OpenStreetMap: the wiki's pages "Simple 3D Buildings" (height,
+ * min_height, building:levels, roof:shape, roof:height, roof:levels) and "Map features". */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/geojson.h"
+
+#define STOREY 3.0 /* m, as Simple 3D Buildings takes it */
+
+json_span geojson_property(json_span properties, const char *const *keys)
+{
+    json_span found = {NULL, 0};
+    size_t    best = (size_t)-1;
+    if (!properties.at || properties.at[0] != '{')
+        return found;
+    json_scan s = scan_of(properties);
+    for (bool more = scan_open(&s, '{'); more; more = scan_next(&s, '}')) {
+        json_span key = scan_key(&s);
+        bool      text = scan_peek(&s) == '"', null = scan_null(&s);
+        json_span value = null ? (json_span){NULL, 0} : text ? scan_string(&s) : scan_skip(&s);
+        for (size_t i = 0; keys[i] && i < best && value.at && value.size; i++)
+            if (span_is(key, keys[i])) {
+                found = value;
+                best = i;
+            }
+    }
+    return found;
+}
+
+static json_span property(json_span properties, const char *key)
+{
+    const char *const keys[] = {key, NULL};
+    return geojson_property(properties, keys);
+}
+
+/* Metres; a unit behind it is left out, but for feet. NAN: none is said. */
+static double number_of(json_span value)
+{
+    char   text[32], *end;
+    size_t size = value.size < sizeof text - 1 ? value.size : sizeof text - 1;
+    if (!value.at)
+        return NAN;
+    memcpy(text, value.at, size);
+    text[size] = '\0';
+    double number = strtod(text, &end);
+    if (end == text || !isfinite(number))
+        return NAN;
+    while (*end == ' ')
+        end++;
+    return *end == '\'' || strcmp(end, "ft") == 0 ? number * 0.3048 : number;
+}
+
+static bool is_among(json_span value, const char *const *words)
+{
+    for (size_t i = 0; value.at && words[i]; i++)
+        if (span_is(value, words[i]))
+            return true;
+    return false;
+}
+
+static roof_form roof_of(json_span shape)
+{
+    return span_is(shape, "gabled")                                    ? ROOF_GABLED
+           : span_is(shape, "hipped") || span_is(shape, "half-hipped") ? ROOF_HIPPED
+           : span_is(shape, "pyramidal")                               ? ROOF_PYRAMIDAL
+           : span_is(shape, "mansard") || span_is(shape, "gambrel")    ? ROOF_MANSARD
+                                                                       : ROOF_FLAT;
+}
+
+static void understand_building(geojson_thing *out, json_span properties)
+{
+    static const char *const heights[] = {"height", "building:height", "measuredHeight", "Height", "HEIGHT", NULL};
+    static const char *const storeys[] = {"building:levels", "storeysAboveGround", "levels", "num_floors", NULL};
+    static const char *const bases[] = {"min_height", "building:min_height", NULL};
+    double                   high = number_of(geojson_property(properties, heights)),
+           levels = number_of(geojson_property(properties, storeys)),
+           base = number_of(geojson_property(properties, bases)), roof = number_of(property(properties, "roof:height")),
+           roof_levels = number_of(property(properties, "roof:levels"));
+    out->type = "Building";
+    out->is_building = true;
+    out->body.roof = roof_of(property(properties, "roof:shape"));
+    if (!(roof > 0))
+        roof = out->body.roof == ROOF_FLAT ? 0 : roof_levels > 0 ? roof_levels * STOREY : STOREY;
+    out->guessed = !(high > 0) && !(levels > 0);
+    /* A stated height is that of the roof's top; storeys end at the eaves. */
+    double eaves = high > 0 ? fmax(high - roof, 0.3 * high) : (levels > 0 ? levels : 2) * STOREY;
+    out->body.base = base > 0 ? base : 0;
+    out->body.eaves = fmax(fmin(eaves, 5000), out->body.base + 0.1);
+    out->body.ridge = out->body.roof == ROOF_FLAT && high > 0 ? fmax(fmin(high, 5000), out->body.eaves)
+                                                              : out->body.eaves + (high > 0 ? high - eaves : roof);
+}
+
+static double width_of_road(json_span kind)
+{
+    static const struct {
+        const char *kind;
+        double      metres;
+    } rows[] = {{"motorway", 14},   {"trunk", 12},  {"primary", 11},      {"secondary", 9}, {"tertiary", 8},
+                {"residential", 6}, {"service", 4}, {"footway", 2},       {"path", 1.5},    {"cycleway", 2.5},
+                {"pedestrian", 5},  {"steps", 2},   {"living_street", 5}, {"track", 3}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (span_is(kind, rows[i].kind))
+            return rows[i].metres;
+    return 5;
+}
+
+/* What lies on the ground: a little higher each, so that none flickers through another. */
+static void understand_ground(geojson_thing *out, json_span properties, bool line)
+{
+    static const char *const waters[] = {"water", "bay", "reservoir", "basin", "riverbank", NULL};
+    static const char *const greens[] = {
+        "park",    "garden",     "pitch",    "golf_course",       "playground",    "grass", "forest", "meadow",
+        "orchard", "vineyard",   "cemetery", "recreation_ground", "village_green", "wood",  "scrub",  "grassland",
+        "heath",   "allotments", NULL};
+    json_span natural = property(properties, "natural"), landuse = property(properties, "landuse"),
+              leisure = property(properties, "leisure"), way = property(properties, "highway"),
+              rail = property(properties, "railway"), stream = property(properties, "waterway");
+    double wide = number_of(property(properties, "width"));
+    if (way.at || rail.at) {
+        out->type = rail.at ? "Railway" : "Road";
+        out->width = wide > 0 ? wide : rail.at ? 3.5 : width_of_road(way);
+        out->body.base = 0.06;
+    } else if (stream.at || is_among(natural, waters) || is_among(landuse, waters) ||
+               property(properties, "water").at) {
+        out->type = "WaterBody";
+        out->width = wide > 0 ? wide : span_is(stream, "river") ? 20 : span_is(stream, "canal") ? 10 : 3;
+        out->body.base = 0.02;
+    } else if (is_among(natural, greens) || is_among(landuse, greens) || is_among(leisure, greens)) {
+        out->type = "PlantCover";
+        out->body.base = 0.03;
+    } else {
+        out->type = "LandUse";
+        out->is_nothing = line;
+    }
+}
+
+void geojson_understand(geojson_thing *out, json_span properties, bool point, bool line)
+{
+    static const char *const buildings[] = {"building",           "building:part",  "height",
+                                            "building:height",    "measuredHeight", "building:levels",
+                                            "storeysAboveGround", "roof:shape",     NULL};
+    *out = (geojson_thing){.type = "LandUse"};
+    if (point) {
+        double high = number_of(property(properties, "height"));
+        out->type = "SolitaryVegetationObject";
+        out->body.ridge = high > 0 && high < 200 ? high : 8;
+        out->is_nothing = !span_is(property(properties, "natural"), "tree");
+        return;
+    }
+    json_span building = geojson_property(properties, buildings);
+    if (!line && building.at && !span_is(building, "no"))
+        understand_building(out, properties);
+    else
+        understand_ground(out, properties, line);
+}

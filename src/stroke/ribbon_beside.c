@@ -1,0 +1,62 @@
+/* How much room a hand has beside a line. Where lines run side by side, as in grilles and façades, a hand that drew
+ * each several times would make one grey of them: it draws them nearer to the true line, fewer times, and stops at
+ * corners.
+ */
+#include <math.h>
+
+#include "stroke/ribbon_private.h"
+
+enum { SAMPLES_MOST = 24 };
+static const float samples_apart = 6;     /* on paper */
+static const float alongside = 0.85f;     /* cosine: lines that turn by more cross */
+static const float none = 0.12f, all = 1; /* of the reach: nearer, there is no room; farther, lines do not matter */
+
+/* The distance to a segment that runs along a direction beside a position; INFINITY: it does not. */
+static float distance_beside(const stroke_point *a, const stroke_point *b, float x, float y, const float way[2])
+{
+    float dx = b->x - a->x, dy = b->y - a->y, square = dx * dx + dy * dy;
+    float length = sqrtf(square), t = square > 0 ? ((x - a->x) * dx + (y - a->y) * dy) / square : -1;
+    if (!(t >= 0 && t <= 1) || fabsf(dx * way[0] + dy * way[1]) < alongside * length)
+        return INFINITY;
+    return fabsf((x - a->x) * dy - (y - a->y) * dx) / length;
+}
+
+static float nearest_beside(const ribbon_job *job, const segment_grid *g, uint32_t own, const stroke_point *at,
+                            const float way[2], float reach)
+{
+    float nearest = reach;
+    int   cells[4];
+    if (!segment_grid_box(g, at, at, reach, cells))
+        return reach;
+    for (int row = cells[1]; row <= cells[3]; row++)
+        for (int column = cells[0]; column <= cells[2]; column++) {
+            size_t cell = (size_t)row * (size_t)g->columns + (size_t)column;
+            for (uint32_t i = g->starts[cell]; i < g->starts[cell + 1]; i++) {
+                const stroke_point *a = &job->strokes->points[g->items[i].point];
+                if (g->items[i].stroke != own)
+                    nearest = fminf(nearest, distance_beside(a, a + 1, at->x, at->y, way));
+            }
+        }
+    return nearest;
+}
+
+float hand_room(const ribbon_job *job, const segment_grid *grid, uint32_t own, const stroke_point *points,
+                uint32_t count, float reach)
+{
+    float length = count > 1 ? points[count - 1].arc - points[0].arc : 0, sum = 0;
+    int   samples = (int)fminf(fmaxf(length / samples_apart, 1), SAMPLES_MOST);
+    if (!grid->items || !(reach > 0) || !(length > 0) || !isfinite(length))
+        return 1;
+    for (int i = 0, k = 0; i < samples; i++) {
+        float arc = points[0].arc + length * ((float)i + 0.5f) / (float)samples;
+        while ((uint32_t)k + 2 < count && points[k + 1].arc < arc)
+            k++;
+        const stroke_point *a = &points[k], *b = a + 1;
+        float               piece = hypotf(b->x - a->x, b->y - a->y),
+              t = b->arc > a->arc ? fminf(fmaxf((arc - a->arc) / (b->arc - a->arc), 0), 1) : 0;
+        stroke_point at = {.x = a->x + t * (b->x - a->x), .y = a->y + t * (b->y - a->y)};
+        float        way[2] = {piece > 0 ? (b->x - a->x) / piece : 0, piece > 0 ? (b->y - a->y) / piece : 0};
+        sum += nearest_beside(job, grid, own, &at, way, reach);
+    }
+    return fminf(fmaxf((sum / ((float)samples * reach) - none) / (all - none), 0), 1);
+}

@@ -1,0 +1,220 @@
+/* Contacts: when, where and how hard something meets something, against what is known of it, and what that is. */
+#include <math.h>
+
+#include <jansson.h>
+
+#include "contact/contact.h"
+#include "contact/surface.h"
+#include "import_support.h"
+#include "info/info.h"
+
+static lmn_scene *scene_of(const char *nodes, const char *behaviour)
+{
+    static char text[8192];
+    snprintf(text, sizeof text, "{\"limner_script\": 1, \"nodes\": [%s], \"behaviour\": %s}", nodes, behaviour);
+    return load_or_fail(temp_file("s.json", text, strlen(text)));
+}
+
+static int32_t node_called(const lmn_scene *s, const char *name)
+{
+    for (size_t i = 0; i < s->node_count; i++)
+        if (s->nodes[i].name && strcmp(s->nodes[i].name, name) == 0)
+            return (int32_t)i;
+    fail_msg("no node %s", name);
+    return NONE;
+}
+
+static contact *contacts_of(const lmn_scene *s, const char *name, double least, size_t *count)
+{
+    schedule  laid;
+    moment    clips;
+    contact  *found = NULL;
+    lmn_error error = {0};
+    assert_int_equal(schedule_of_moment(&laid, &clips, s, NULL, NULL), LMN_OK);
+    if (contacts_find(&found, count, &laid, &clips, node_called(s, name), 0, laid.duration, least, &error) != LMN_OK)
+        fail_msg("%s", error.message);
+    schedule_release(&laid);
+    return found;
+}
+
+static void expect(const lmn_scene *s, const contact *c, double seconds, const double place[3], const double normal[3],
+                   double speed, const char *other)
+{
+    assert_true(fabs(c->hit.seconds - seconds) < 1e-6);
+    assert_true(fabs(c->hit.speed - speed) < 1e-4 * speed);
+    for (int k = 0; k < 3; k++) {
+        if (fabs(c->hit.place[k] - place[k]) > 1e-4)
+            fail_msg("place %d: %g, not %g", k, c->hit.place[k], place[k]);
+        assert_true(fabs(c->hit.normal[k] - normal[k]) < 1e-6);
+    }
+    assert_int_equal(c->other, other ? node_called(s, other) : NONE);
+    assert_true(other ? c->distance < 1e-4 : c->distance == 0);
+}
+
+static const double UP[] = {0, 1, 0};
+
+static void test_bounces_are_those_of_the_formulas(void **state)
+{
+    (void)state;
+    lmn_scene *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/balls.json");
+    size_t     count;
+    contact   *found = contacts_of(s, "green", 1, &count);
+    double     speed = sqrt(2 * 9.81 * 3.5), seconds = speed / 9.81;
+    assert_true(count >= 5);
+    for (size_t i = 0; i < 5; i++) {
+        const double place[] = {2 * seconds, 0, 1};
+        expect(s, &found[i], seconds, place, UP, 1.7 * speed, "ground");
+        speed *= 0.7;
+        seconds += 2 * speed / 9.81;
+    }
+    mem_free(found);
+    /* Another one is set off by nobody at 1 s: no contact. */
+    found = contacts_of(s, "red", 0.1, &count);
+    assert_true(count > 0 && fabs(found[0].hit.seconds - 1 - sqrt(2 * 3.5 / 9.81)) < 1e-6);
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+#define WALL(name, x, height, y)                                                                                       \
+    "{\"name\": \"" name "\", \"box\": {\"size\": [0.2, " height ", 4]}, \"translation\": [" x ", " y ", 0]},"
+
+/* Flies over the first wall, against the second, and back; the third one is never reached. */
+static void test_the_second_of_three_walls_is_hit(void **state)
+{
+    (void)state;
+    lmn_scene *s =
+        scene_of(WALL("first", "2", "1", "0.5") WALL("second", "4", "4", "2")
+                     WALL("third", "6", "4",
+                          "2") "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}, \"translation\": [0, 2, 0]}",
+                 "{\"target\": \"ball\", \"linear\": [[0, 2, 0], [3.4, 2, 0], [1.7, 2, 0]], "
+                 "\"times\": [0, 1, 2]}");
+    size_t   count;
+    contact *found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, (const double[]){3.9, 2, 0}, (const double[]){-1, 0, 0}, 5.1, "second");
+    mem_free(found);
+    /* What is hit moves itself: not away, and then away before it is reached. */
+    lmn_scene_destroy(&s);
+    s = scene_of(
+        WALL("wall", "9", "4", "2") "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}, \"translation\": [0, 2, 0]}",
+        "[{\"target\": \"ball\", \"linear\": [[0, 2, 0], [3.4, 2, 0], [1.7, 2, 0]], \"times\": [0, 1, 2]},"
+        "{\"target\": \"wall\", \"linear\": [[6, 2, 0], [2, 2, 0]], \"duration\": 2}]");
+    found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, (const double[]){3.9, 2, 0}, (const double[]){-1, 0, 0}, 5.1, "wall");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+static void test_balls_name_each_other(void **state)
+{
+    (void)state;
+    lmn_scene *s =
+        scene_of("{\"name\": \"a\", \"sphere\": {\"radius\": 0.5}}, {\"name\": \"b\", \"sphere\": {\"radius\": 1}}",
+                 "[{\"target\": \"a\", \"linear\": [[-4, 0, 0], [-0.5, 0, 0], [-2, 0, 0]]"
+                 ", \"times\": [0, 1, 2]},"
+                 "{\"target\": \"b\", \"linear\": [[4, 0, 0], [1, 0, 0], [2, 0, 0]], \"times\": [0, 1, 2]}]");
+    size_t       count;
+    contact     *found = contacts_of(s, "a", 0.1, &count);
+    const double middle[3] = {0, 0, 0};
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, middle, (const double[]){-1, 0, 0}, 5, "b");
+    mem_free(found);
+    found = contacts_of(s, "b", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, middle, (const double[]){1, 0, 0}, 4, "a");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* In mid-air, and by a body that is larger then than it is at rest. */
+static void test_bodies_are_as_they_are_then(void **state)
+{
+    (void)state;
+    static const char ball[] = "{\"name\": \"ground\", \"box\": {\"size\": [9, 1, 9]}, \"translation\": [0, -0.5, 0]},"
+                               "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}}",
+                      flight[] =
+                          "{\"target\": \"ball\", \"linear\": [[0, 4, 0], [0, 1, 0], [0, 2, 0]], \"times\": [0, 1, 2]}";
+    char       both[1024];
+    lmn_scene *s = scene_of(ball, flight);
+    size_t     count;
+    contact   *found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, (const double[]){0, 0.5, 0}, UP, 4, NULL);
+    mem_free(found);
+    lmn_scene_destroy(&s);
+    snprintf(
+        both, sizeof both,
+        "[%s, {\"target\": \"ball\", \"property\": \"scale\", \"linear\": [[1, 1, 1], [3, 3, 3]], \"duration\": 2}]",
+        flight);
+    s = scene_of(ball, both);
+    found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, (const double[]){0, 0, 0}, UP, 4, "ground");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* A box that lands flat touches with all of a face. */
+static void test_faces_touch_in_their_middle(void **state)
+{
+    (void)state;
+    lmn_scene *s = scene_of("{\"name\": \"ground\", \"box\": {\"size\": [9, 1, 9]}, \"translation\": [0, -0.5, 0]},"
+                            "{\"name\": \"crate\", \"box\": {\"size\": [1, 1, 1]}}",
+                            "{\"target\": \"crate\", \"function\": \"bounce\", \"start\": [1, 2, 0], \"floor\": 0.5, "
+                            "\"restitution\": 0.3, \"duration\": 1}");
+    size_t     count;
+    contact   *found = contacts_of(s, "crate", 1, &count);
+    double     speed = sqrt(2 * 9.81 * 1.5);
+    assert_true(count >= 1);
+    expect(s, &found[0], speed / 9.81, (const double[]){1, 0, 0}, UP, 1.3 * speed, "ground");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+static void test_the_document_is_whole_or_none(void **state)
+{
+    (void)state;
+    lmn_scene *s = scene_of(
+        WALL("wall", "4", "4", "2") "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}, \"translation\": [0, 2, 0]}",
+        "{\"target\": \"ball\", \"linear\": [[0, 2, 0], [3.4, 2, 0], [1.7, 2, 0]], "
+        "\"times\": [0, 1, 2]}");
+    char *whole = scene_dynamics_json(s), *again = NULL;
+    assert_non_null(whole);
+    json_t *root = json_loads(whole, 0, NULL), *node, *hit;
+    size_t  i, k, hits = 0;
+    json_array_foreach(json_object_get(root, "nodes"), i, node)
+    {
+        json_array_foreach(json_object_get(node, "contacts"), k, hit)
+        {
+            assert_string_equal(json_string_value(json_object_get(hit, "other")), "wall");
+            assert_int_equal(json_integer_value(json_object_get(hit, "other_node")), node_called(s, "wall") + 1);
+            hits++;
+        }
+    }
+    assert_int_equal(hits, 1);
+    json_decref(root);
+    for (long n = 1; !again; n++) {
+        assert_true(n < 10000);
+        mem_fail_at(n);
+        again = scene_dynamics_json(s);
+        mem_fail_at(0);
+    }
+    assert_string_equal(again, whole);
+    mem_free(again);
+    mem_free(whole);
+    lmn_scene_destroy(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bounces_are_those_of_the_formulas),
+        cmocka_unit_test(test_the_second_of_three_walls_is_hit),
+        cmocka_unit_test(test_balls_name_each_other),
+        cmocka_unit_test(test_bodies_are_as_they_are_then),
+        cmocka_unit_test(test_faces_touch_in_their_middle),
+        cmocka_unit_test(test_the_document_is_whole_or_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
+}
