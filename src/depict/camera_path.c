@@ -32,6 +32,18 @@ static glyph_tense tense_of(const expression *e, double seconds, double slack)
     return fabs(seconds - e->now) <= slack ? GLYPH_PRESENT : seconds < e->now ? GLYPH_PAST : GLYPH_FUTURE;
 }
 
+/* A frame right before a viewer who does not step back: none of its corners is on the page, only bars would be. */
+static bool is_beyond_page(const depict_job *j, const shot *s, double seconds)
+{
+    for (int i = 0; i < 4 && j->fixed_view; i++) {
+        double at[3], page[2];
+        shot_point(s, seconds, corners[i][0], corners[i][1], at);
+        if (page_seen_at(j, at, page) && fabs(page[0]) < j->camera.aspect && fabs(page[1]) < 1)
+            return false;
+    }
+    return j->fixed_view;
+}
+
 /* Four bars around what is seen: the inner corners are those of the view. */
 static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, double seconds, lmn_error *error)
 {
@@ -39,6 +51,8 @@ static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, d
     glyph_mesh           m = {0};
     const double         bar = 2 * (double)v->width;
     uint32_t             vertices[8];
+    if (is_beyond_page(j, s, seconds))
+        return LMN_OK;
     for (int i = 0; i < 8; i++) {
         const double *c = corners[i % 4], out = i < 4 ? 0 : bar;
         double        at[3];
@@ -64,6 +78,8 @@ static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, d
     const camera_values *v = e->values;
     glyph_mesh           m = {0};
     double               points[STEPS + 1][3], widths[STEPS + 1];
+    if (is_beyond_page(j, s, from) && is_beyond_page(j, s, to))
+        return LMN_OK;
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i <= STEPS; i++) {
             shot_point(s, from + (to - from) * i / STEPS, corners[k][0], corners[k][1], points[i]);

@@ -116,55 +116,6 @@ static lmn_status find_focus(inset_stage *s, const depict_job *j, const pose *po
     return status;
 }
 
-/* How deep the stage has to be: for all that the scene has, and the ground behind it. */
-static void find_span(inset_stage *s, const pose *posed)
-{
-    double nearest = INFINITY, farthest = s->focus, at[3], p[3] = {0, 0, 0};
-    for (size_t i = 0; i < posed->part_count; i++)
-        for (int c = 0; c < 8 && !box3_is_empty(posed->part_boxes[i]); c++) {
-            const box3 *b = &posed->part_boxes[i];
-            const vec3 corner = {c & 1 ? b->max.x : b->min.x, c & 2 ? b->max.y : b->min.y, c & 4 ? b->max.z : b->min.z};
-            own_axes(s, &corner, p);
-            nearest = fmin(nearest, fmax(p[2], s->near));
-            farthest = fmax(farthest, p[2]);
-        }
-    p[0] = p[1] = 0;
-    s->squeeze = 1;
-    for (int k = 0; k < 2; k++) {
-        p[2] = k ? (s->far > 0 ? fmin(farthest, s->far) : farthest) : fmin(nearest, s->focus);
-        on_stage(s, p, at);
-        s->span[k] = at[2];
-    }
-    s->span[1] += 0.02 * (s->span[1] - s->span[0]) + 0.02;
-}
-
-lmn_status inset_open(inset_stage *out, const depict_job *j, const pose *p, int32_t camera_node,
-                      const inset_panel *panel, lmn_error *error)
-{
-    const mat4   *world = &p->worlds[camera_node];
-    const camera *c = &p->cameras[j->scene->nodes[camera_node].camera];
-    const double  half =
-        c->orthographic ? (c->half_height > 0 ? c->half_height : 1) : tan((c->fov_y > 0 ? c->fov_y : 0.8) / 2);
-    double axes[3][3];
-    *out = (inset_stage){.panel = *panel, .parallel = c->orthographic, .near = c->near, .far = c->far};
-    out->slope[0] = half * panel->half[0] / panel->half[1];
-    out->slope[1] = half;
-    for (int k = 0; k < 3; k++) {
-        vector3_copy(axes[k], &world->m[4 * k]);
-        vector3_normalise(axes[k]);
-    }
-    out->view = mat4_identity();
-    for (int k = 0; k < 3; k++) {
-        for (int a = 0; a < 3; a++)
-            out->view.m[4 * a + k] = axes[k][a];
-        out->view.m[12 + k] = -vector3_dot(axes[k], &world->m[12]);
-    }
-    lmn_status status = find_focus(out, j, p, error);
-    if (status == LMN_OK)
-        find_span(out, p);
-    return status;
-}
-
 void inset_set_depth(inset_stage *s, const depict_job *j, double back)
 {
     const double slope = j->camera.orthographic ? j->camera.half_height : tan(j->camera.fov_y / 2),
@@ -231,6 +182,7 @@ typedef struct copier {
     const depict_job  *job;
     double (*own)[3]; /* of all vertices, in the camera's axes */
     uint32_t *made;   /* their copies; UINT32_MAX: none yet */
+    double   *depths; /* not NULL: nothing is made, but the nearest and the farthest depth of what is seen widened */
 } copier;
 
 static uint32_t copy_corner(const copier *c, const corner *of)
@@ -257,7 +209,11 @@ static void copy_polygon(const copier *c, const uint32_t *indices, size_t corner
     }
     for (int plane = 0; plane < PLANES && count > 0; plane++, now = !now)
         count = cut_polygon(c->stage, plane, polygons[now], count, polygons[!now]);
-    if (count < 2)
+    for (size_t k = 0; k < count && c->depths; k++) {
+        c->depths[0] = fmin(c->depths[0], polygons[now][k].at[2]);
+        c->depths[1] = fmax(c->depths[1], polygons[now][k].at[2]);
+    }
+    if (count < 2 || c->depths)
         return;
     const uint32_t first = copy_corner(c, &polygons[now][0]);
     uint32_t       last = copy_corner(c, &polygons[now][1]);
@@ -270,22 +226,90 @@ static void copy_polygon(const copier *c, const uint32_t *indices, size_t corner
     }
 }
 
+/* False: out of memory. */
+static bool walk(copier *c, const primitive *from, const vec3 *positions, const mat4 *world)
+{
+    c->own = mem_alloc((from->vertex_count + 1) * sizeof *c->own);
+    c->made = mem_alloc((from->vertex_count + 1) * sizeof *c->made);
+    const bool whole = c->own && c->made;
+    for (uint32_t i = 0; i < from->vertex_count && whole; i++) {
+        const vec3 at = mat4_transform_point(world, positions[i]);
+        own_axes(c->stage, &at, c->own[i]);
+        c->made[i] = UINT32_MAX;
+    }
+    for (size_t i = 0; i + 2 < from->index_count && whole; i += 3)
+        copy_polygon(c, &from->indices[i], 3);
+    for (size_t i = 0; i < from->line_count && from->index_count == 0 && whole; i++)
+        copy_polygon(c, &from->lines[2 * i], 2);
+    mem_free(c->own);
+    mem_free(c->made);
+    return whole;
+}
+
 void inset_copy(glyph_mesh *m, const inset_stage *s, const depict_job *j, const primitive *from, const vec3 *positions,
                 const mat4 *world)
 {
     copier c = {.mesh = m, .stage = s, .job = j};
-    c.own = mem_alloc((from->vertex_count + 1) * sizeof *c.own);
-    c.made = mem_alloc((from->vertex_count + 1) * sizeof *c.made);
-    m->failed = m->failed || !c.own || !c.made;
-    for (uint32_t i = 0; i < from->vertex_count && !m->failed; i++) {
-        const vec3 at = mat4_transform_point(world, positions[i]);
-        own_axes(s, &at, c.own[i]);
-        c.made[i] = UINT32_MAX;
+    m->failed = m->failed || !walk(&c, from, positions, world);
+}
+
+/* --- opening --------------------------------------------------------------------------------------------------------
+ */
+
+/* How deep the stage has to be: for all that is seen, and the paper behind it. */
+static lmn_status find_span(inset_stage *s, const depict_job *j, const pose *posed, lmn_error *error)
+{
+    double depths[2] = {INFINITY, -INFINITY}, at[3], p[3] = {0, 0, 0};
+    copier c = {.stage = s, .job = j, .depths = depths};
+    for (size_t i = 0; i < j->scene->part_count; i++) {
+        const node *n = &j->scene->nodes[j->scene->parts[i].node];
+        const mesh *m = n->mesh == NONE ? NULL : &j->scene->meshes[n->mesh];
+        for (size_t k = 0; m && k < m->primitive_count; k++) {
+            const primitive *from = &m->primitives[k];
+            vec3            *positions = mem_alloc((from->vertex_count + 1) * sizeof *positions);
+            bool             whole = positions != NULL;
+            if (whole)
+                pose_vertices(&posed->parts[i], from, NULL, NULL, from->vertex_count, positions, NULL);
+            for (size_t d = 0; d < node_draw_count(n) && whole; d++) {
+                const mat4 world = pose_instance(posed, i, d);
+                whole = walk(&c, from, positions, &world);
+            }
+            mem_free(positions);
+            if (!whole)
+                return error_memory(error);
+        }
     }
-    for (size_t i = 0; i + 2 < from->index_count && !m->failed; i += 3)
-        copy_polygon(&c, &from->indices[i], 3);
-    for (size_t i = 0; i < from->line_count && from->index_count == 0 && !m->failed; i++)
-        copy_polygon(&c, &from->lines[2 * i], 2);
-    mem_free(c.own);
-    mem_free(c.made);
+    s->squeeze = 1;
+    for (int k = 0; k < 2; k++) {
+        p[2] = k ? fmax(depths[1], s->focus) : fmin(depths[0], s->focus);
+        on_stage(s, p, at);
+        s->span[k] = at[2];
+    }
+    s->span[1] += 0.02 * (s->span[1] - s->span[0]) + 0.02;
+    return LMN_OK;
+}
+
+lmn_status inset_open(inset_stage *out, const depict_job *j, const pose *p, int32_t camera_node,
+                      const inset_panel *panel, lmn_error *error)
+{
+    const mat4   *world = &p->worlds[camera_node];
+    const camera *c = &p->cameras[j->scene->nodes[camera_node].camera];
+    const double  half =
+        c->orthographic ? (c->half_height > 0 ? c->half_height : 1) : tan((c->fov_y > 0 ? c->fov_y : 0.8) / 2);
+    double axes[3][3];
+    *out = (inset_stage){.panel = *panel, .parallel = c->orthographic, .near = c->near, .far = c->far};
+    out->slope[0] = half * panel->half[0] / panel->half[1];
+    out->slope[1] = half;
+    for (int k = 0; k < 3; k++) {
+        vector3_copy(axes[k], &world->m[4 * k]);
+        vector3_normalise(axes[k]);
+    }
+    out->view = mat4_identity();
+    for (int k = 0; k < 3; k++) {
+        for (int a = 0; a < 3; a++)
+            out->view.m[4 * a + k] = axes[k][a];
+        out->view.m[12 + k] = -vector3_dot(axes[k], &world->m[12]);
+    }
+    lmn_status status = find_focus(out, j, p, error);
+    return status == LMN_OK ? find_span(out, j, p, error) : status;
 }

@@ -920,6 +920,11 @@ group_depict() {
     cmp -s again.png in-script.png || complain "what the script says is not what the command line says"
     row 0 '' other.png depict "$script" $small -o other.png --time 1
     cmp -s other.png in-script.png && complain "the command line does not count more than the script"
+    for script in "$examples"/scripts/*.json "$examples"/scripts/changed/*.json; do
+        row 0 '' out.png depict "$script" $small -q -o out.png
+    done
+    row 0 '' out.svg depict "$examples/scripts/crane.json" -q -o out.svg
+    script=$examples/scripts/bounce.json
     sed 's/"time": 2.2/"tine": 2.2/' "$script" > in-bad.json
     row 1 "'tine'" '' depict in-bad.json
     sed 's/"view": "front"/"view": "above"/' "$script" > in-bad.json

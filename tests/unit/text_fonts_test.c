@@ -7,11 +7,9 @@
 
 static void join_words(const text_runs *r, char out[256])
 {
-    out[0] = '\0';
-    for (size_t i = 0; i < r->count; i++) {
-        strcat(out, r->items[i].words);
-        strcat(out, "/");
-    }
+    size_t size = 0;
+    for (size_t i = 0; i < r->count && size < 256; i++)
+        size += (size_t)snprintf(out + size, 256 - size, "%s/", r->items[i].words);
 }
 
 static void check_runs(const char *words, const char *expected)
