@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "depict/page.h"
-#include "depict/shot.h"
+#include "depict/camera_shot.h"
 
 typedef struct camera_values {
     int32_t count;
@@ -33,11 +33,11 @@ static glyph_tense tense_of(const expression *e, double seconds, double slack)
 }
 
 /* A frame right before a viewer who does not step back: none of its corners is on the page, only bars would be. */
-static bool is_beyond_page(const depict_job *j, const shot *s, double seconds)
+static bool is_beyond_page(const depict_job *j, const camera_shot *s, double seconds)
 {
     for (int i = 0; i < 4 && j->fixed_view; i++) {
         double at[3], page[2];
-        shot_point(s, seconds, corners[i][0], corners[i][1], at);
+        camera_shot_point(s, seconds, corners[i][0], corners[i][1], at);
         if (page_seen_at(j, at, page) && fabs(page[0]) < j->camera.aspect && fabs(page[1]) < 1)
             return false;
     }
@@ -45,7 +45,7 @@ static bool is_beyond_page(const depict_job *j, const shot *s, double seconds)
 }
 
 /* Four bars around what is seen: the inner corners are those of the view. */
-static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, double seconds, lmn_error *error)
+static lmn_status put_frame(depict_job *j, const expression *e, const camera_shot *s, double seconds, lmn_error *error)
 {
     const camera_values *v = e->values;
     glyph_mesh           m = {0};
@@ -56,7 +56,7 @@ static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, d
     for (int i = 0; i < 8; i++) {
         const double *c = corners[i % 4], out = i < 4 ? 0 : bar;
         double        at[3];
-        shot_point(s, seconds, c[0] * (1 + out / s->aspect), c[1] * (1 + out), at);
+        camera_shot_point(s, seconds, c[0] * (1 + out / s->aspect), c[1] * (1 + out), at);
         vertices[i] = glyph_vertex(&m, at);
     }
     for (int i = 0; i < 4; i++) {
@@ -71,8 +71,8 @@ static lmn_status put_frame(depict_job *j, const expression *e, const shot *s, d
 }
 
 /* The ways of the corners of all frames. */
-static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, double from, double to, glyph_tense when,
-                            lmn_error *error)
+static lmn_status put_rails(depict_job *j, const expression *e, const camera_shot *s, double from, double to,
+                            glyph_tense when, lmn_error *error)
 {
     enum { STEPS = 96 };
     const camera_values *v = e->values;
@@ -82,8 +82,8 @@ static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, d
         return LMN_OK;
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i <= STEPS; i++) {
-            shot_point(s, from + (to - from) * i / STEPS, corners[k][0], corners[k][1], points[i]);
-            widths[i] = 0.4 * (double)v->width * shot_height(s);
+            camera_shot_point(s, from + (to - from) * i / STEPS, corners[k][0], corners[k][1], points[i]);
+            widths[i] = 0.4 * (double)v->width * camera_shot_height(s);
         }
         glyph_put_ribbon(&m, j, &(glyph_ribbon){(const double(*)[3])points, widths, STEPS + 1});
     }
@@ -92,7 +92,7 @@ static lmn_status put_rails(depict_job *j, const expression *e, const shot *s, d
     return status;
 }
 
-static lmn_status put_frames(depict_job *j, const expression *e, const shot *s, lmn_error *error)
+static lmn_status put_frames(depict_job *j, const expression *e, const camera_shot *s, lmn_error *error)
 {
     const camera_values *v = e->values;
     lmn_status           status = LMN_OK;
@@ -104,8 +104,8 @@ static lmn_status put_frames(depict_job *j, const expression *e, const shot *s, 
 static lmn_status camera_path_depict(depict_job *j, const expression *e, lmn_error *error)
 {
     const camera_values *v = e->values;
-    shot                 s;
-    lmn_status           status = shot_open(&s, j, e, (double)v->focus, error);
+    camera_shot          s;
+    lmn_status           status = camera_shot_open(&s, j, e, (double)v->focus, error);
     const double         split = fmin(fmax(e->now, e->from), e->to);
     if (status == LMN_OK)
         status = put_frames(j, e, &s, error);
@@ -113,22 +113,23 @@ static lmn_status camera_path_depict(depict_job *j, const expression *e, lmn_err
         status = put_rails(j, e, &s, e->from, split, GLYPH_PAST, error);
     if (status == LMN_OK && split < e->to)
         status = put_rails(j, e, &s, split, e->to, GLYPH_FUTURE, error);
-    shot_release(&s);
+    camera_shot_release(&s);
     return status;
 }
 
 /* From the middle of one frame to that of the next. */
-static lmn_status put_flow(depict_job *j, const expression *e, const shot *s, double from, double to, lmn_error *error)
+static lmn_status put_flow(depict_job *j, const expression *e, const camera_shot *s, double from, double to,
+                           lmn_error *error)
 {
     enum { STEPS = 32 };
     const camera_values *v = e->values;
     glyph_mesh           m = {0};
     double               points[STEPS + 1][3];
     for (int i = 0; i <= STEPS; i++)
-        shot_point(s, from + (to - from) * i / STEPS, 0, 0, points[i]);
+        camera_shot_point(s, from + (to - from) * i / STEPS, 0, 0, points[i]);
     const glyph_tense when = from >= e->now ? GLYPH_FUTURE : GLYPH_PAST;
     glyph_put_arrow(&m, j, (const double(*)[3])points, STEPS + 1,
-                    &(arrow_style){.width = 1.2 * (double)v->width * shot_height(s), .tail = 0.5, .head = 2.4});
+                    &(arrow_style){.width = 1.2 * (double)v->width * camera_shot_height(s), .tail = 0.5, .head = 2.4});
     lmn_status status =
         glyph_put(j, &m, &(glyph_label){"flow-arrow", e->target, when, depict_tint(when, v->colour)}, error);
     glyph_mesh_release(&m);
@@ -138,14 +139,14 @@ static lmn_status put_flow(depict_job *j, const expression *e, const shot *s, do
 static lmn_status shot_flow_depict(depict_job *j, const expression *e, lmn_error *error)
 {
     const camera_values *v = e->values;
-    shot                 s;
-    lmn_status           status = shot_open(&s, j, e, (double)v->focus, error);
+    camera_shot          s;
+    lmn_status           status = camera_shot_open(&s, j, e, (double)v->focus, error);
     const double         step = (e->to - e->from) / (v->count - 1);
     if (status == LMN_OK)
         status = put_frames(j, e, &s, error);
     for (int i = 0; i + 1 < v->count && status == LMN_OK; i++)
         status = put_flow(j, e, &s, e->from + step * i, e->from + step * (i + 1), error);
-    shot_release(&s);
+    camera_shot_release(&s);
     return status;
 }
 

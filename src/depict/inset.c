@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "depict/inset.h"
-#include "depict/shot.h"
+#include "depict/camera_shot.h"
 
 typedef struct inset_values {
     int32_t corner;
@@ -36,7 +36,7 @@ typedef struct inset {
     depict_job       *job;
     const expression *e;
     inset_stage       stage;
-    shot              shot;
+    camera_shot       shot;
     double            seconds;
     glyph_tense       when;
 } inset;
@@ -173,7 +173,7 @@ static lmn_status put_leader(inset *i, colour tint, lmn_error *error)
     const inset_panel  *p = &i->stage.panel;
     double              at[3], to[2], from[2], points[2][3], widths[2];
     glyph_mesh          m = {0};
-    shot_point(&i->shot, i->seconds, 0, 0, at);
+    camera_shot_point(&i->shot, i->seconds, 0, 0, at);
     if (!v->leader || !page_seen_at(j, at, to) ||
         (fabs(to[0] - p->middle[0]) < p->half[0] && fabs(to[1] - p->middle[1]) < p->half[1]))
         return LMN_OK;
@@ -219,7 +219,7 @@ static lmn_status inset_depict(depict_job *j, const expression *e, lmn_error *er
     }
     const double apart = i.seconds - j->when.seconds;
     i.when = fabs(apart) < 1e-6 ? GLYPH_PRESENT : apart < 0 ? GLYPH_PAST : GLYPH_FUTURE;
-    lmn_status status = shot_open(&i.shot, j, e, focus_of_frames(j, e), error);
+    lmn_status status = camera_shot_open(&i.shot, j, e, focus_of_frames(j, e), error);
     if (status == LMN_OK)
         status = inset_place(&panel, j, (inset_corner)v->corner, rim, error);
     if (status == LMN_OK)
@@ -230,7 +230,7 @@ static lmn_status inset_depict(depict_job *j, const expression *e, lmn_error *er
         inset_set_depth(&i.stage, j, back_of_panel(j));
         status = put_all(&i, p, error);
     }
-    shot_release(&i.shot);
+    camera_shot_release(&i.shot);
     return status;
 }
 

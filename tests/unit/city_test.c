@@ -599,10 +599,11 @@ static void test_data(void **state)
     static const struct {
         const char *file;
         size_t      buildings, triangles, turned;
-    } cases[] = {{"delft.city.json", 160, 36269, 0},
-                 {"rotterdam_subset.city.json", 16, 622, 0},
-                 {"zurich_subset_lod2.city.json", 49, 5138, 5},
-                 {"nyc-da4.city.json", 16665, 400887, 67692}};
+        double      area; /* of the file's polygons by Newell's formula, worked out elsewhere; 0: not known */
+    } cases[] = {{"delft.city.json", 160, 36269, 0, 77526.0884},
+                 {"rotterdam_subset.city.json", 16, 622, 0, 10636.2778},
+                 {"zurich_subset_lod2.city.json", 49, 5138, 5, 62309.8438},
+                 {"nyc-da4.city.json", 16665, 400887, 67692, 0}};
     const char *folder = data_folder();
     for (size_t i = 0; folder && i < COUNT(cases); i++) {
         char path[1200];
@@ -611,6 +612,9 @@ static void test_data(void **state)
         assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "Building"), cases[i].buildings);
         assert_int_equal(lmn_scene_info_of(s).triangles, cases[i].triangles);
         assert_int_equal(city_counted(&s->city, CITY_REPAIRED, "turned-faces"), cases[i].turned);
+        double volume, area = measure(s, NULL, &volume);
+        if (cases[i].area > 0 && fabs(area / cases[i].area - 1) > 2e-4)
+            fail_msg("%s: area %.3f, not %.3f", cases[i].file, area, cases[i].area);
         lmn_scene_destroy(&s);
     }
 }

@@ -1,11 +1,11 @@
 /* A camera on its way. */
-#include "depict/shot.h"
+#include "depict/camera_shot.h"
 
 #include <string.h>
 
 #include "base/error.h"
 
-lmn_status shot_open(shot *out, const depict_job *j, const expression *e, double focus, lmn_error *error)
+lmn_status camera_shot_open(camera_shot *out, const depict_job *j, const expression *e, double focus, lmn_error *error)
 {
     const lmn_scene *s = j->scene;
     int32_t          own = e->target;
@@ -28,12 +28,12 @@ lmn_status shot_open(shot *out, const depict_job *j, const expression *e, double
     return LMN_OK;
 }
 
-void shot_release(shot *s)
+void camera_shot_release(camera_shot *s)
 {
     way_release(&s->way);
 }
 
-void shot_point(const shot *s, double seconds, double x, double y, double out[3])
+void camera_shot_point(const camera_shot *s, double seconds, double x, double y, double out[3])
 {
     const mat4   world = way_world(&s->way, seconds);
     const double half = s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus;
@@ -47,7 +47,7 @@ void shot_point(const shot *s, double seconds, double x, double y, double out[3]
     vector3_add(out, out, -s->focus, axes[2]);
 }
 
-double shot_height(const shot *s)
+double camera_shot_height(const camera_shot *s)
 {
     return 2 * (s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus);
 }
