@@ -8,6 +8,7 @@
 #include "annotate/annotate_private.h"
 #include "base/memory.h"
 #include "export/export.h"
+#include "scene/city.h"
 #include "scene/content.h"
 
 enum { HEIGHTS = 24, SIDES = 3 };
@@ -25,22 +26,36 @@ typedef struct label_list {
     int32_t *of_node; /* per node of the scene: its label; NONE: none yet */
 } label_list;
 
-static const node *find_owner(const lmn_scene *scene, int32_t at, const char *key, int32_t *index, const char **text)
+/* Is the node a kind of surface of what is above it ("roof", "wall"), which has the name that people know? */
+static bool is_surface(const node *n)
 {
-    for (; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
-        const node *n = &scene->nodes[at];
-        *index = at;
-        if (strcmp(key, "name") == 0 && n->name && n->name[0]) {
-            *text = n->name;
-            return n;
-        }
-        for (size_t i = 0; i < n->attribute_count; i++)
-            if (strcmp(n->attributes[i].key, key) == 0 && n->attributes[i].value && n->attributes[i].value[0]) {
-                *text = n->attributes[i].value;
-                return n;
-            }
-    }
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, CITY_SURFACE_KEY) == 0 && n->attributes[i].value && n->name)
+            return strcmp(n->attributes[i].value, n->name) == 0;
+    return false;
+}
+
+static const char *stated_by(const node *n, const char *key)
+{
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, key) == 0 && n->attributes[i].value && n->attributes[i].value[0])
+            return n->attributes[i].value;
     return NULL;
+}
+
+/* The nearest node on the way to the root that states the text; without a stated name, what nodes are called. */
+static bool find_owner(const lmn_scene *scene, int32_t from, const char *key, int32_t *index, const char **text)
+{
+    bool names = strcmp(key, "name") == 0;
+    for (int called = 0; called < (names ? 2 : 1); called++)
+        for (int32_t at = from; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
+            const node *n = &scene->nodes[at];
+            *index = at;
+            *text = !called ? stated_by(n, key) : !is_surface(n) && n->name && n->name[0] ? n->name : NULL;
+            if (*text)
+                return true;
+        }
+    return false;
 }
 
 /* Several parts below one node that states the text share its label. */

@@ -74,7 +74,7 @@ static const param params[] = {
                            "front of it; how light they are stays."),
     PARAM_TEXT_ROW(scene_values, datum, .example = "height",
                    .doc = "An attribute that files state about parts, shown as their colour: a ramp for numbers, a "
-                          "colour each for words."),
+                          "colour each for words. A height that is not stated is that of the part's top."),
     PARAM_PALETTE_ROW(scene_values, datum_palette,
                       .def_palette = {5,
                                       {{0.98f, 0.92f, 0.75f, 1},

@@ -12,7 +12,8 @@
 
 typedef struct reading {
     const scene_values *how;
-    const char        **values; /* per part, lent; NULL: it has none, or is not drawn */
+    const char        **values;       /* per part, lent; NULL: none is stated, or it is not drawn */
+    double             *part_numbers; /* per part; NAN: it has none */
     size_t              count, known;
     bool                numbers; /* all of them are */
     double              least, most;
@@ -25,24 +26,36 @@ static bool read_number(const char *text, double *out)
     return end != text && *end == '\0' && isfinite(*out);
 }
 
-static void read_values(reading *r, const lmn_scene *scene, const bool *selected)
+/* How high a part's top lies over the lowest place of all: what there is where no height is stated. */
+static double height_of(const pose *posed, size_t part)
 {
+    box3 own = posed->part_boxes[part];
+    bool z = posed->scene->up == 'z';
+    return box3_is_empty(own) ? NAN
+                              : (double)(z ? own.max.z : own.max.y) - (double)(z ? posed->box.min.z : posed->box.min.y);
+}
+
+static void read_values(reading *r, const pose *posed, const bool *selected)
+{
+    const lmn_scene *scene = posed->scene;
+    const char      *key = r->how->datum.text;
+    bool             measures = strcmp(key, "height") == 0 || strcmp(key, "measuredHeight") == 0;
     r->numbers = r->how->datum_words.text[0] == '\0';
     r->least = INFINITY;
     r->most = -INFINITY;
     for (size_t i = 0; i < r->count; i++) {
-        double      number;
-        const char *value = selected[i] ? scene_attribute_of(scene, scene->parts[i].node, r->how->datum.text) : NULL;
+        const char *value = selected[i] ? scene_attribute_of(scene, scene->parts[i].node, key) : NULL;
         r->values[i] = value && value[0] ? value : NULL;
-        if (!r->values[i])
-            continue;
-        r->known++;
-        if (!read_number(value, &number)) {
+        r->part_numbers[i] = NAN;
+        if (r->values[i] && !read_number(r->values[i], &r->part_numbers[i])) {
+            r->part_numbers[i] = NAN;
             r->numbers = false;
-            continue;
+        } else if (!r->values[i] && measures && selected[i] && i < posed->part_count) {
+            r->part_numbers[i] = height_of(posed, i);
         }
-        r->least = fmin(r->least, number);
-        r->most = fmax(r->most, number);
+        r->known += r->values[i] || !isnan(r->part_numbers[i]);
+        r->least = fmin(r->least, r->part_numbers[i]);
+        r->most = fmax(r->most, r->part_numbers[i]);
     }
     if (r->how->datum_from < r->how->datum_to) {
         r->least = (double)r->how->datum_from;
@@ -60,8 +73,10 @@ static colour colour_at(const palette *p, double at)
     return (colour){a->r + f * (b->r - a->r), a->g + f * (b->g - a->g), a->b + f * (b->b - a->b), 1};
 }
 
-static void add_number(datum *d, double value, colour c, size_t parts)
+/* `fine`: what hardly counts, so that legends have round numbers. */
+static void add_number(datum *d, double value, double fine, colour c, size_t parts)
 {
+    value = fine > 0 ? round(value / fine) * fine : value;
     datum_entry *e = &d->entries[d->entry_count++];
     *e = (datum_entry){.colour = c, .part_count = parts};
     snprintf(e->text, sizeof e->text, "%.6g", value);
@@ -71,18 +86,18 @@ static void add_number(datum *d, double value, colour c, size_t parts)
 static void show_numbers(datum *d, const reading *r)
 {
     const palette *p = &r->how->datum_palette;
-    double         range = r->most - r->least;
+    double         range = r->most - r->least, fine = range > 0 ? pow(10, floor(log10(range)) - 2) : 0;
     int            classes = r->how->datum_classes < DATUM_ENTRIES_MAX ? r->how->datum_classes : DATUM_ENTRIES_MAX;
     d->is_ramp = classes == 0;
     for (int k = 0; k < (classes ? classes : 5); k++) {
         double at = classes ? (double)k / classes : k / 4.0;
-        add_number(d, r->least + at * range, colour_at(p, classes > 1 ? (double)k / (classes - 1) : at), 0);
+        add_number(d, r->least + at * range, fine, colour_at(p, classes > 1 ? (double)k / (classes - 1) : at), 0);
         if (!(range > 0))
             break;
     }
     for (size_t i = 0; i < r->count; i++) {
-        double value;
-        if (!r->values[i] || !read_number(r->values[i], &value))
+        double value = r->part_numbers[i];
+        if (isnan(value))
             continue;
         double at = range > 0 ? fmin(fmax((value - r->least) / range, 0), 1) : 0;
         if (classes) {
@@ -162,7 +177,7 @@ static void show_words(datum *d, const reading *r)
     }
 }
 
-lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *values, const bool *selected,
+lmn_status datum_make(datum *out, const pose *posed, const scene_values *values, const bool *selected,
                       size_t part_count, warnings *warnings, lmn_error *error)
 {
     reading r = {.how = values, .count = part_count};
@@ -170,14 +185,16 @@ lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *va
     if (!values->datum.text[0])
         return LMN_OK;
     r.values = mem_calloc(part_count, sizeof *r.values);
+    r.part_numbers = mem_calloc(part_count, sizeof *r.part_numbers);
     out->colours = mem_calloc(part_count, sizeof *out->colours);
-    if (!r.values || !out->colours) {
+    if (!r.values || !r.part_numbers || !out->colours) {
         mem_free(r.values);
+        mem_free(r.part_numbers);
         return error_memory(error);
     }
     out->name = values->datum.text;
     out->other = values->datum_other;
-    read_values(&r, scene, selected);
+    read_values(&r, posed, selected);
     /* What a surface is, files of cities say and looks for cities ask of any model. */
     if (r.known == 0 && strcmp(values->datum.text, "surface") != 0)
         warnings_add(warnings, WARNING_NO_MATCH, "no part that is drawn has the attribute '%s' (scene.datum)",
@@ -192,6 +209,7 @@ lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *va
             out->other_count++;
         }
     mem_free(r.values);
+    mem_free(r.part_numbers);
     return LMN_OK;
 }
 

@@ -7,7 +7,7 @@
 #include "base/colour.h"
 #include "base/warnings.h"
 #include "light/light.h"
-#include "scene/scene.h"
+#include "pose/pose.h"
 
 enum { DATUM_ENTRIES_MAX = 16, DATUM_TEXT_MAX = 64 };
 
@@ -27,9 +27,10 @@ typedef struct datum {
     size_t      entry_count, other_count; /* parts without a value */
 } datum;
 
-/* Of the parts that are drawn. Warns where none of them has the attribute. Errors: LMN_MEMORY. Release it also after
+/* Of the parts that are drawn. Heights ("height", "measuredHeight") that nobody states are those of the parts' tops
+ * over the lowest place of all. Warns where none of them has the attribute. Errors: LMN_MEMORY. Release it also after
  * one. */
-lmn_status datum_make(datum *out, const lmn_scene *scene, const scene_values *values, const bool *selected,
+lmn_status datum_make(datum *out, const pose *posed, const scene_values *values, const bool *selected,
                       size_t part_count, warnings *warnings, lmn_error *error);
 void       datum_release(datum *d);
 

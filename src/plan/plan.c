@@ -638,7 +638,7 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
         return status;
     share_parts(out);
     warn_of_idle_rules(out, options->parts_only && pose->ghost_count > 0, warnings);
-    status = datum_make(&out->datum, out->scene, out->look->wide[KIND_SCENE].values, out->selected, out->part_count,
+    status = datum_make(&out->datum, out->pose, out->look->wide[KIND_SCENE].values, out->selected, out->part_count,
                         warnings, error);
     return status == LMN_OK && !options->parts_only ? plan_figures(out, options, warnings, error) : status;
 }

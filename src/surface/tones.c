@@ -48,7 +48,7 @@ static const param params[] = {
                      .doc = "Colour of windows in the lightest tone."),
     PARAM_FLOAT_ROW(tones, occupancy, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "facade",
                     .doc = "Fraction of the windows behind which there is light."),
-    PARAM_COLOUR_ROW(tones, lit, .def_colour = {1, 0.86f, 0.5f, 1}, .as_light = true, .only_if = "facade",
+    PARAM_COLOUR_ROW(tones, lit, .def_colour = {1, 0.86f, 0.5f, 1}, .as_light = true, .only_if = "facade&occupancy",
                      .doc = "Their colour, in any tone."),
     PARAM_FLOAT_ROW(tones, frame, .def = 0.5, .min = 0, .max = 12, .soft_max = 1.5, .unit = UNIT_PT,
                     .only_if = "facade", .doc = "Width of the line around windows and doors; 0: none."),

@@ -134,6 +134,42 @@ static void uses_differ(void)
     }
 }
 
+/* Lines around windows: as much dark as their outlines are long, and none where they are 0 wide. */
+static void windows_have_frames(void)
+{
+    const char *model = building("plain", 21, 15, "");
+    double      dark[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        char more[200];
+        snprintf(more, sizeof more,
+                 "\"facade\":\"industrial\",\"glass\":\"#ffffff\",\"frame\":\"%dpx\",\"frame_colour\":\"%s\"",
+                 k ? 2 : 0, k == 2 ? "#808080" : "#000000");
+        shot s;
+        char look[1400];
+        snprintf(look, sizeof look,
+                 "{\"version\":2,\"name\":\"f\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{"
+                 "\"select\":\"*\",\"surface\":{\"technique\":\"tones\",\"palette\":[\"#ffffff\",\"#ffffff\"],\"tint\":"
+                 "0,%s},"
+                 "\"lines\":\"none\"}]}",
+                 more);
+        if (!shot_take(&s, model, look, NULL, &front))
+            continue;
+        for (int i = 0; i < SIDE * SIDE; i++)
+            dark[k] += s.id[i] ? 1 - s.picture[4 * i] / 255.0 : 0;
+        if (k == 1) {
+            /* 5 storeys of 4 windows: each (0.76 · 21 / 4) by (0.34 · 3) units, lines of 2 px. */
+            double a[2], b[2];
+            shot_on_page(&s, dvec_of(0, 0, 0), a);
+            shot_on_page(&s, dvec_of(1, 0, 0), b);
+            double unit = b[0] - a[0], outline = 20 * 2 * (0.76 * 21 / 4 + 0.34 * 3) * unit;
+            check_near("C07", dark[1] / (2 * outline), 1, 0.06, "dark of frames over the length of outlines");
+        }
+        shot_release(&s);
+    }
+    check_at_most("C07", dark[0], 1, "dark pixels of frames of no width");
+    check_near("C07", dark[2] / fmax(dark[1], 1), 127.0 / 255, 0.03, "grey frames over black ones");
+}
+
 /* Lit windows are the given share of a high house. */
 static void occupancy_is_counted(void)
 {
@@ -327,8 +363,13 @@ static void depth_cue(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"storeys", storeys_and_bays},           {"uses", uses_differ},     {"occupancy", occupancy_is_counted},
-        {"calm", far_facades_are_calm},          {"tones", only_its_tones}, {"cue", depth_cue},
+        {"storeys", storeys_and_bays},
+        {"uses", uses_differ},
+        {"frames", windows_have_frames},
+        {"occupancy", occupancy_is_counted},
+        {"calm", far_facades_are_calm},
+        {"tones", only_its_tones},
+        {"cue", depth_cue},
         {"shadows", shadows_are_where_rays_say},
     };
     int status = check_main(argc, argv, "city", cases, sizeof cases / sizeof *cases);

@@ -70,6 +70,11 @@ static const struct {
     {"motion", "squash", "the fox is not stopped while it runs; unit.deform_test has a ball that is"},
     {"motion", "vibration", "no limb swings to and fro within the exposure; analytic.traces has a ball that does"},
     {"motion", "vibration_apart", "likewise"},
+    {"surface", "frame", "windows are too small here to have frames; analytic.city has some that do"},
+    {"surface", "frame_colour", "likewise"},
+    {"finish", "label_size", "nothing is written here; unit.annotate_test has labels"},
+    {"finish", "legend", "no datum is shown here; unit.annotate_test has one"},
+    {"finish", "scale_bar", "it needs a parallel projection; unit.annotate_test has one"},
     {"motion", "shadows", "the looks here have no shadows; engine.streaks_test has some"},
 };
 

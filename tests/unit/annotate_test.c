@@ -241,6 +241,62 @@ static void labels_say_which(void **state)
     lmn_scene_destroy(&scene);
 }
 
+static void labels_are_as_large_as_asked_for(void **state)
+{
+    (void)state;
+    lmn_scene    *scene = scene_of_buildings();
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    double        high[2];
+    desc.width = desc.height = 512;
+    for (int k = 0; k < 2; k++) {
+        lmn_look *look = look_of("\"datum\":\"use\"",
+                                 k ? "\"labels\":\"name\",\"label_size\":16" : "\"labels\":\"name\",\"label_size\":8");
+        char     *svg = svg_of(scene, look, &desc);
+        written   list[BOXES_MAX];
+        assert_true(read_annotations(svg, list, BOXES_MAX) > 0);
+        high[k] = list[0].box[3] - list[0].box[1];
+        free(svg);
+        lmn_look_destroy(&look);
+    }
+    assert_float_equal((float)high[1], (float)(2 * high[0]), 1e-2f);
+    lmn_scene_destroy(&scene);
+}
+
+/* Heights that nobody states are there all the same, and surfaces of buildings are called like these. */
+static void what_is_not_stated(void **state)
+{
+    (void)state;
+    lmn_scene    *scene = scene_of_buildings();
+    lmn_look     *look = look_of("\"datum\":\"height\"", "\"legend\":true,\"labels\":\"name\"");
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    lmn_error     error = {0};
+    desc.width = desc.height = 512;
+    uint32_t nodes[BUILDINGS]; /* first: parts get other numbers when nodes come */
+    for (uint32_t n = 0; n < BUILDINGS; n++)
+        nodes[n] = lmn_scene_node_of_part(scene, n + 1);
+    for (uint32_t n = 1; n <= BUILDINGS; n++) {
+        uint32_t      wall;
+        lmn_node_desc below = LMN_NODE_DESC_INIT;
+        below.parent = nodes[n - 1];
+        below.name = "wall";
+        below.mesh = n;
+        assert_int_equal(lmn_scene_add_node(scene, &below, &wall, &error), LMN_OK);
+        assert_int_equal(lmn_scene_set_attribute(scene, wall, "surface", "wall", &error), LMN_OK);
+    }
+    char   *svg = svg_of(scene, look, &desc);
+    written list[BOXES_MAX];
+    size_t  count = read_annotations(svg, list, BOXES_MAX), houses = 0;
+    assert_non_null(find_text(list, count, "height"));
+    assert_null(find_text(list, count, "no value"));
+    assert_null(find_text(list, count, "wall"));
+    for (size_t i = 0; i < count; i++)
+        houses += strncmp(list[i].text, "house", 5) == 0;
+    assert_true(houses > 5);
+    free(svg);
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&scene);
+}
+
 static void legends_say_what_colours_mean(void **state)
 {
     (void)state;
@@ -335,6 +391,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(labels_keep_clear),
         cmocka_unit_test(labels_say_which),
+        cmocka_unit_test(labels_are_as_large_as_asked_for),
+        cmocka_unit_test(what_is_not_stated),
         cmocka_unit_test(legends_say_what_colours_mean),
         cmocka_unit_test(needles_point_north),
         cmocka_unit_test(bars_are_as_long_as_they_say),
