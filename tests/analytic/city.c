@@ -1,5 +1,5 @@
 /* Illustrative city models: few tones a building, facades that tell storeys, use and occupancy, and a depth cue that
- * leaves light alone. Nienhaus 2005, section 4.8; rows C04 to C07. */
+ * leaves light alone. Nienhaus 2005, section 4.8; rows C04 to C07, C10. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -302,6 +302,56 @@ static void shadows_are_where_rays_say(void)
     shape_release(&s);
 }
 
+/* Row C10: what is known about a building is its colour, of the ramp's or the word's; a change of the datum changes it.
+ */
+static void data_are_colours(void)
+{
+    static const struct {
+        const char *scene;
+        int         red[3]; /* of three buildings: 1900, 2000, and one without a year */
+    } rows[] = {
+        {"\"datum\":\"year\",\"datum_palette\":[\"#200000\",\"#e00000\"],\"datum_other\":\"#800000\"",
+         {0x20, 0xe0, 0x80}},
+        {"\"datum\":\"year\",\"datum_palette\":[\"#200000\",\"#e00000\"],\"datum_other\":\"none\"", {0x20, 0xe0, 0xff}},
+        {"\"datum\":\"year\",\"datum_palette\":[\"#200000\",\"#e00000\"],\"datum_from\":1900,\"datum_to\":2100",
+         {0x20, 0x80, 0xd9}},
+        {"\"datum\":\"use\",\"datum_palette\":[\"#100000\",\"#900000\"],\"datum_words\":\"shop|bank,home\"",
+         {0x90, 0x10, 0x10}},
+    };
+    const char *path = check_path("data.json");
+    FILE       *file = fopen(path, "w");
+    if (!file)
+        return;
+    fprintf(file, "{\"limner_script\":1,\"nodes\":[");
+    static const char *const facts[] = {"\"year\":\"1900\",\"use\":\"home\"", "\"year\":\"2000\",\"use\":\"shop\"",
+                                        "\"use\":\"bank\""};
+    for (int i = 0; i < 3; i++)
+        fprintf(file,
+                "%s{\"name\":\"b%d\",\"box\":{\"size\":[4,8,4]},\"translation\":[%d,8,0],\"colour\":\"#ff0000\","
+                "\"attributes\":{%s}}",
+                i ? "," : "", i, 4 + 8 * i, facts[i]);
+    fprintf(file, "]}");
+    fclose(file);
+    for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
+        char look[700];
+        snprintf(
+            look, sizeof look,
+            "{\"version\":2,\"name\":\"f\",\"doc\":\"x.\",\"scene\":{%s},\"rules\":[{\"select\":\"*\",\"surface\":{"
+            "\"technique\":\"tones\",\"palette\":[\"#ffffff\",\"#ffffff\"]},\"lines\":\"none\"}]}",
+            rows[row].scene);
+        shot s;
+        if (!shot_take(&s, path, look, NULL, &front))
+            continue;
+        for (int i = 0; i < 3; i++) {
+            double at[2];
+            shot_on_page(&s, dvec_of(4 + 8 * i, 8, 2), at);
+            check_near("C10", s.picture[4 * ((int)at[1] * SIDE + (int)at[0])], rows[row].red[i], 1,
+                       "row %zu: colour of building %d", row, i);
+        }
+        shot_release(&s);
+    }
+}
+
 static double luminance_of(const uint8_t *c)
 {
     return 0.2126 * picture_linear(c[0]) + 0.7152 * picture_linear(c[1]) + 0.0722 * picture_linear(c[2]);
@@ -366,6 +416,7 @@ int main(int argc, char **argv)
         {"storeys", storeys_and_bays},
         {"uses", uses_differ},
         {"frames", windows_have_frames},
+        {"data", data_are_colours},
         {"occupancy", occupancy_is_counted},
         {"calm", far_facades_are_calm},
         {"tones", only_its_tones},
