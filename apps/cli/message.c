@@ -134,6 +134,9 @@ void progress_begin(progress *p, bool quiet)
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
+    *p = (progress){.shown = !quiet && isatty(STDERR_FILENO), .label = "", .last_permille = -1};
+    if (guarded)
+        return; /* one guard watches the whole command, however many works it has */
     guarded = sem_init(&wake, 0, 0) == 0 && pthread_create(&guard_thread, NULL, guard, NULL) == 0;
     if (!guarded)
         action.sa_flags |= (int)SA_RESETHAND; /* a second signal ends the command at once then */
@@ -142,7 +145,6 @@ void progress_begin(progress *p, bool quiet)
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
         if (sigaction(signals[i], NULL, &before) == 0 && (signals[i] != SIGHUP || before.sa_handler != SIG_IGN))
             sigaction(signals[i], &action, NULL);
-    *p = (progress){.shown = !quiet && isatty(STDERR_FILENO), .label = "", .last_permille = -1};
 }
 
 void progress_end(void)

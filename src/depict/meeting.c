@@ -23,6 +23,19 @@ static lmn_status near_any(surface_place *out, bool *met, const depict_job *j, c
     return status;
 }
 
+lmn_status meeting_touches(bool *out, const depict_job *j, const depict_target *t, const depict_impact *impact,
+                           lmn_error *error)
+{
+    const pose   *posed = NULL;
+    surface_place there;
+    double        at[3];
+    *out = false;
+    lmn_status status = impact_contact(at, j, t, impact, error);
+    if (status == LMN_OK)
+        status = depict_pose(&posed, j, impact->time, error);
+    return status == LMN_OK ? near_any(&there, out, j, t, posed, at, error) : status;
+}
+
 lmn_status meeting_place(double out[3], bool *met, const depict_job *j, const depict_target *t, int32_t partner,
                          const depict_impact *impact, lmn_error *error)
 {

@@ -9,4 +9,8 @@
 lmn_status meeting_place(double out[3], bool *met, const depict_job *j, const depict_target *t, int32_t partner,
                          const depict_impact *impact, lmn_error *error);
 
+/* Is anything else where a target's velocity changes at once? What only changes its mind touches nothing. */
+lmn_status meeting_touches(bool *out, const depict_job *j, const depict_target *t, const depict_impact *impact,
+                           lmn_error *error);
+
 #endif

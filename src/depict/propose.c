@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
+#include "depict/meeting.h"
 #include "depict/depict_private.h"
 #include "depict/groups.h"
 
@@ -78,6 +79,21 @@ static double angle_between(const mat4 *a, const mat4 *b)
     return acos(fmin(fmax((trace - 1) / 2, -1), 1));
 }
 
+/* Of the changes of velocity those where it touches something. */
+static lmn_status count_touches(mover *m, const proposal *p, const depict_target *t, const depict_impact *impacts,
+                                lmn_error *error)
+{
+    lmn_status status = LMN_OK;
+    size_t     touches = 0, told = m->impacts < IMPACTS_TOLD ? m->impacts : IMPACTS_TOLD;
+    for (size_t i = 0; i < told && status == LMN_OK; i++) {
+        bool touched = false;
+        status = meeting_touches(&touched, &p->job, t, &impacts[i], error);
+        touches += touched;
+    }
+    m->impacts = touches;
+    return status;
+}
+
 static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
 {
     enum { STEPS = 48 };
@@ -108,6 +124,8 @@ static lmn_status measure(mover *m, const proposal *p, lmn_error *error)
         for (size_t i = 0; i < t.part_count; i++)
             m->figure = m->figure || (t.parts[i] && p->job.scene->nodes[p->job.scene->parts[i].node].skin != NONE);
         status = target_impacts(impacts, IMPACTS_TOLD, &m->impacts, &t, p->from, p->to, error);
+        if (status == LMN_OK)
+            status = count_touches(m, p, &t, impacts, error);
         m->weight = m->length + m->radius * (fmin(m->turned, 6) + fabs(log(m->scaled)) + (m->figure ? 1 : 0));
     }
     target_release(&t);
@@ -326,7 +344,7 @@ static lmn_status tell(const proposal *p, const mover *m, lmn_error *error)
     else if (m->figure)
         status = tell_figure(p, m, ways, error);
     if (m->impacts && !m->figure && !turns)
-        propose(p, m, "collision", "its velocity changes at once; times", (double)m->impacts);
+        propose(p, m, "collision", "it touches something and its velocity changes at once; times", (double)m->impacts);
     if (turns)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
     if (m->scaled > 1.15)

@@ -19,9 +19,9 @@ static const float section_least = 4;    /* nearer to each other corners part no
 static const float crowded_from = 0.5f;  /* fraction of crowded samples, of a feature and from corner to corner */
 /* Of the hidden lines of a wholly hidden body so much is drawn, of one that is seen, of a small one, such as a bolt,
  * and of a part: of what no visible line stands for. */
-static const float  body_from[2] = {0.6f, 0.4f}, small_from = 0.8f, part_from = 0.6f;
+static const float  body_from[2] = {0.6f, 0.12f}, small_from = 0.8f, part_from = 0.6f;
 static const float  small_body = 208;   /* on paper */
-static const float  body_least = 0.25f; /* … and of all of them */
+static const float  body_least = 0.08f; /* … and of all of them */
 static const float  island_least = 30;  /* on paper: what is smaller and wholly hidden is left out */
 static const float  least_apart = 0.5f; /* on paper */
 static const float  longest = 1e6f;     /* of a segment that anybody draws, pixels */
@@ -306,8 +306,10 @@ static void judge_body(gap_list *out, crowd_grid *g, const hidden_run *runs, siz
     take_out_all(out, runs, count);
 }
 
-/* What is there many times, such as joists and bolts, is drawn for most of them or for none. */
-static void judge_part(gap_list *out, crowd_grid *g, const hidden_run *runs, size_t count, sample_list *list)
+/* What is there many times, such as joists and bolts, is drawn for most of them or for none. A part that is all there
+ * is (`alone`), as files of one mesh have it, is no such thing: its bodies stand for themselves. */
+static void judge_part(gap_list *out, crowd_grid *g, const hidden_run *runs, size_t count, bool alone,
+                       sample_list *list)
 {
     body_tally tally = {0};
     size_t     before = g->count;
@@ -316,7 +318,7 @@ static void judge_part(gap_list *out, crowd_grid *g, const hidden_run *runs, siz
             end++;
         judge_body(out, g, runs + i, end - i, list, &tally);
     }
-    if (tally.kept >= part_from * tally.open)
+    if (alone || tally.kept >= part_from * tally.open)
         return;
     grid_take_back(g, before);
     take_out_all(out, runs, count);
@@ -338,7 +340,7 @@ void ribbon_find_crowds(gap_list *out, const ribbon_job *job)
     for (size_t i = 0, end; i < runs.count && !g.failed && !list.failed && !out->failed; i = end) {
         for (end = i + 1; end < runs.count && runs.items[end].part == runs.items[i].part;)
             end++;
-        judge_part(out, &g, runs.items + i, end - i, &list);
+        judge_part(out, &g, runs.items + i, end - i, end - i == runs.count, &list);
     }
     out->failed = out->failed || g.failed || list.failed;
     mem_free(runs.items);

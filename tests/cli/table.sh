@@ -911,6 +911,10 @@ group_depict() {
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain
+    # A film of all that happens, by a command that reads the scene twice and ends.
+    echo '{"limner_script": 1, "nodes": [{"name": "b", "box": {"size": [1, 1, 1]}, "translation": [0, 3, 0]}],' \
+        '"behaviour": {"target": "b", "function": "bounce", "floor": 0.5, "duration": 0.25}}' > in-short.json
+    row 0 '' sim.webp simulate in-short.json $small -q -o sim.webp
     # A script says what is told of it, and how it is seen.
     local script=$examples/scripts/bounce.json
     row 0 '' bounce.png depict "$script" $small --explain

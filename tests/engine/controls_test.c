@@ -62,7 +62,8 @@ static void draw(const fixture *f, const char *name, const lmn_look *look, uint8
     lmn_drawing  *drawing = NULL;
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     desc.width = desc.height = SIDE;
-    desc.dpi = DPI;
+    /* On a page of 14 cm hidden lines crowd so that none is left: those of the pump are drawn on one of 27. */
+    desc.dpi = scene_for(f, name) == f->pump ? DPI / 2 : DPI;
     if (tells_of_motion(name)) {
         desc.time_s = 1;
         desc.view = LMN_VIEW_RIGHT;
