@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "plan/unit.h"
 #include "vector/vector_private.h"
 #include "fuzz.h"
 #include "look/look.h"
@@ -109,7 +110,7 @@ void fuzz_sheet(const uint8_t *bytes, size_t size)
         vector_parse_page(words[0], paper, &error);
         vector_parse_scale(words[1], &scale, &error);
         if (scene)
-            vector_parse_unit(words[2], scene, &mm, &unit, &stated, &error);
+            unit_find(words[2], scene, &mm, &unit, &stated, &error);
         vector_parse_views(words[3], views, &count, &error);
         scene_free(scene);
     }
