@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/city.h"
+#include "scene/content.h"
 
 typedef enum condition_type {
     CONDITION_NAME,
@@ -293,17 +294,10 @@ static bool material_matches(const condition *c, const lmn_scene *scene, const n
     return false;
 }
 
-/* The nearest node on the way to the root that states the key decides: what a file says about an assembly holds for
- * its parts. */
 static bool attribute_matches(const condition *c, const lmn_scene *scene, int32_t at)
 {
-    for (; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
-        const node *n = &scene->nodes[at];
-        for (size_t i = 0; i < n->attribute_count; i++)
-            if (strcmp(n->attributes[i].key, c->key) == 0)
-                return !c->pattern || value_matches(c, n->attributes[i].value ? n->attributes[i].value : "");
-    }
-    return false;
+    const char *value = scene_attribute_of(scene, at, c->key);
+    return value && (!c->pattern || value_matches(c, value));
 }
 
 static bool condition_holds(const condition *c, const lmn_scene *scene, size_t part_index)

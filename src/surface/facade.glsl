@@ -1,5 +1,7 @@
 /* Windows and doors of a wall, without a picture of them. Nienhaus 2005, section 4.8: facade elements composed for each building from sets of texture
  * coordinates, which tell storeys, use and occupancy; row C07. Bays and storeys divide a wall evenly, so none is cut off at its ends. */
+#include "gpu/hash.glsl"
+
 uniform ivec2 u_building; /* storeys, 0 where nobody says; use (src/plan/building.h) */
 
 const int FACADE_AUTO = 1, FACADE_OFFICE = 3, FACADE_INDUSTRIAL = 4;
@@ -32,13 +34,6 @@ vec4 window_of(ivec2 cell, ivec2 cells, uint wall)
     return vec4(0.28, 0.3, 0.72, 0.84);
 }
 
-uint mixed_bits(uint n)
-{
-    n = (n ^ (n >> 16)) * 0x7FEB352Du;
-    n = (n ^ (n >> 15)) * 0x846CA68Bu;
-    return n ^ (n >> 16);
-}
-
 /* Fraction of a pixel of this size around a place that a rectangle covers. */
 float covered(vec4 rectangle, vec2 at, vec2 pixel)
 {
@@ -58,8 +53,8 @@ vec3 with_facade(vec3 shade, vec3 tone)
     float keeps = clamp((1.0 / max(pixel.x, pixel.y) - 3.0) / 4.0, 0.0, 1.0);
     vec2 cell = floor(along), at = along - cell;
     /* One number a wall: what interpolation leaves of its last bits is rounded off. */
-    uint wall = mixed_bits(uint(round(64.0 * v_wall.z)) * 977u + uint(round(64.0 * v_wall.w)));
-    uint window = mixed_bits(wall + uint(int(cell.x) + 4096) * 8191u + uint(int(cell.y) + 4096));
+    uint wall = hash_of(uvec3(round(64.0 * v_wall.zw), 0.0), 0u);
+    uint window = hash_of(uvec3(ivec3(cell, 1)), wall);
     vec4 opening = window_of(ivec2(cell), ivec2(cells), wall);
     vec4 around = opening + vec4(-1.0, -1.0, 1.0, 1.0) * (u_frame * pixel.xyxy);
     bool there = opening.z > opening.x;
