@@ -222,21 +222,23 @@ LMN_API lmn_status lmn_dynamics_trajectory(const lmn_dynamics *dynamics, uint32_
                                            double from_s, double to_s, double tolerance, lmn_point_state *states,
                                            size_t capacity, size_t *count, lmn_error *error);
 
-/* Where something that moves meets something: its velocity changes at once. */
+/* Where something that moves hits something: it comes on towards a surface, and its velocity changes at once so that it
+ * does not go through. */
 typedef struct lmn_contact {
     double   time_s;
     double   place[3];  /* where it touches, in the world */
     double   normal[3]; /* the way that it is pushed, unit */
     double   impulse;   /* of a unit mass: how much its velocity changes, lengths a second */
-    uint32_t other;     /* the node whose surface it meets there; 0: nothing is near, whatever stopped it */
+    uint32_t other;     /* the node whose surface it meets there; 0: nothing is there */
     double   distance;  /* how far that surface is from `place`; 0 without one */
 } lmn_contact;
 
 /* Contacts of a node, with all below it, whose impulse is `least` or more, 0 or above, in order of time: whose surface
- * is met is looked for among all parts that are not its own, as they are then. Where it only sets off or stops with
- * nothing near, whoever moves it has done that, and it is no contact. At most `capacity` are written, and
- * *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be where the
- * animation puts it). */
+ * is met is looked for among all parts that are not its own, as they are then. Where no surface
+ * is, there is a contact only where it is thrown back while one pull draws it on before and behind, as by a floor that
+ * is not in the scene: corners of sampled curves are none. What has no surface has no contacts. At most `capacity` are
+ * written, and *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be
+ * where the animation puts it). */
 LMN_API lmn_status lmn_dynamics_contacts(const lmn_dynamics *dynamics, uint32_t node, double from_s, double to_s,
                                          double least, lmn_contact *contacts, size_t capacity, size_t *count,
                                          lmn_error *error);

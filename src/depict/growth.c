@@ -70,7 +70,9 @@ static void put_growth_arrow(glyph_mesh *m, const depict_job *j, const expressio
 {
     const growth_values *v = e->values;
     const double         before = outline_at(&ends[0], angle), after = outline_at(&ends[1], angle);
-    const double         inner = (double)v->inner * fmin(before, after), outer = fmax(before, after);
+    const double         outer = fmax(before, after);
+    /* What comes from nothing, or vanishes, leaves room in the middle for the heads. */
+    const double inner = fmax((double)v->inner * fmin(before, after), 0.15 * outer);
     /* Heads, 2.6 breadths across, must not lie on those beside them. */
     const double room = full_turn / v->count * (outward ? outer * 0.8 : inner * 1.4) / 2.6 * 0.8,
                  width = fmin((double)v->width * t->radius, room);

@@ -491,7 +491,8 @@ static void proposals_follow_from_the_motion(void **state)
     tell_or_fail(scene, NULL, 1, &json);
     assert_non_null(strstr(json, "\"path\""));
     assert_non_null(strstr(json, "\"still\""));
-    assert_null(strstr(json, "ground")); /* it does not move */
+    assert_null(strstr(json, "\"target\": \"ground\"")); /* it does not move */
+    assert_non_null(strstr(json, "\"partner\": \"ground\""));
     assert_null(strstr(json, "turnaround"));
     lmn_text_free(json);
     tell_or_fail(still, NULL, 0.5, &json);
