@@ -165,6 +165,11 @@ LMN_API lmn_status lmn_behaviour_set_constraint(lmn_scene *scene, uint32_t activ
  * moves loses its matrix: it has translation, rotation and scale from then on. */
 LMN_API lmn_status lmn_behaviour_play(lmn_scene *scene, const uint32_t *activities, size_t count, lmn_error *error);
 
+/* Takes back what lmn_behaviour_play, or a script, has said: nothing of the behaviour plays any longer, and the
+ * animation "behaviour" is no longer there, so that those behind it in the scene have numbers that are smaller by one.
+ * Activities stay, and can be played again. Where nothing plays nothing happens. */
+LMN_API lmn_status lmn_behaviour_stop(lmn_scene *scene, lmn_error *error);
+
 /* How many activities a scene has, its scripts' too, and those that begin at 0 (index from 0 on; 0 beyond them). */
 LMN_API size_t   lmn_behaviour_count(const lmn_scene *scene);
 LMN_API uint32_t lmn_behaviour_root_at(const lmn_scene *scene, size_t index);

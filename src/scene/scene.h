@@ -256,6 +256,8 @@ camera    *scene_append_camera(lmn_scene *scene);
 light     *scene_append_light(lmn_scene *scene);
 skin      *scene_append_skin(lmn_scene *scene);
 animation *scene_append_animation(lmn_scene *scene);
+/* Those behind it get numbers that are smaller by one. */
+void scene_remove_animation(lmn_scene *scene, size_t index);
 
 /* Appends `child` as the last child of `parent` (both indices; parent NONE makes a root, which needs no call). */
 void scene_link_child(lmn_scene *scene, int32_t parent, int32_t child);
