@@ -320,9 +320,9 @@ static void shapes_are_told_by_their_shape(void **state)
     static const struct {
         const char *node, *told;
     } rows[] = {
-        {"{\"box\": {\"size\": [1, 1, 1]}}", NULL}, /* all corners are as far from the middle */
+        {"{\"name\": \"thing\", \"box\": {\"size\": [1, 1, 1]}}", NULL}, /* all corners are as far from the middle */
         {"{\"name\": \"ball\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
-        {"{\"sphere\": {\"radius\": 1}}", "ball"},
+        {"{\"name\": \"thing\", \"sphere\": {\"radius\": 1}}", "ball"},
         {"{\"name\": \"ball\", \"sphere\": {\"radius\": 1}}", "ball"},
         {"{\"name\": \"ball_ctrl_l\", \"translation\": [1, 0, 0]}", NULL},
         {"{\"name\": \"ball_l\", \"translation\": [1, 0, 0]}", NULL}, /* of the foot */
@@ -347,6 +347,17 @@ static void shapes_are_told_by_their_shape(void **state)
     }
 }
 
+/* Its middle box is finely cut: corners and edges of a box are not as far from its middle as faces. */
+static void boxes_are_no_balls(void **state)
+{
+    (void)state;
+    lmn_scene *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/box-animated.glb");
+    for (size_t i = 0; i < s->node_count; i++)
+        if (semantics_of(s, (int32_t)i))
+            fail_msg("node %zu is a %s", i, semantics_of(s, (int32_t)i));
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -363,6 +374,7 @@ int main(void)
         cmocka_unit_test(controls_in_names_are_shown),
         cmocka_unit_test(long_ways_have_few_dashes),
         cmocka_unit_test(shapes_are_told_by_their_shape),
+        cmocka_unit_test(boxes_are_no_balls),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
