@@ -30,6 +30,7 @@ typedef struct depict_job {
     uint32_t               seed;
     warnings              *warnings;
     depict_poses          *poses;       /* kept; lent */
+    letterings            *letterings;  /* kept with the scene; lent */
     const expression_list *expressions; /* all that are told; lent, NULL: none */
     struct glyph          *glyphs;      /* made so far; owned */
     size_t                 glyph_count, glyph_capacity;

@@ -271,6 +271,7 @@ void scene_free(lmn_scene *s)
         animation_release(&s->animations[i]);
     mem_free(s->animations);
     behaviour_free(s->behaviour);
+    letterings_release(&s->letterings);
     city_release(&s->city);
     for (size_t i = 0; i < s->file_count; i++)
         mem_free(s->files[i]);

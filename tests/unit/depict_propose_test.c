@@ -4,6 +4,7 @@
 
 #include "behaviour/inspect.h"
 #include "depict_support.h"
+#include "info/info.h"
 #include "scene/behaviour.h"
 
 static lmn_scene *scene_of(const char *nodes, const char *behaviour)
@@ -312,6 +313,60 @@ static void long_ways_have_few_dashes(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* --- faces -------------------------------------------------------------------------------------------------------- */
+
+/* What `info` says of the face of a node called so, in a model. */
+static void face_of(const char *path, const char *name, double gaze[3], double forward[2])
+{
+    lmn_scene    *s = load_or_fail(path);
+    char         *text = scene_dynamics_json(s);
+    json_t       *root = json_loads(text, 0, NULL);
+    size_t        i;
+    const json_t *n, *face = NULL;
+    json_array_foreach(json_object_get(root, "nodes"), i, n)
+    {
+        const char *own = json_string_value(json_object_get(n, "node"));
+        face = own && strcmp(own, name) == 0 ? json_object_get(n, "face") : face;
+    }
+    assert_non_null(face);
+    double head[3], mouth[3], eyes[2][3];
+    for (size_t k = 0; k < 3; k++) {
+        gaze[k] = json_number_value(json_array_get(json_object_get(face, "gaze"), k));
+        head[k] = json_number_value(json_array_get(json_object_get(face, "head"), k));
+        mouth[k] = json_number_value(json_array_get(json_object_get(face, "mouth"), k));
+        for (size_t e = 0; e < 2; e++)
+            eyes[e][k] = json_number_value(json_array_get(json_array_get(json_object_get(face, "eyes"), e), k));
+    }
+    vector3_add(mouth, mouth, -1, head);
+    vector3_mix(eyes[0], eyes[0], eyes[1], 0.5);
+    vector3_add(eyes[0], eyes[0], -1, head);
+    forward[0] = vector3_dot(mouth, gaze);
+    forward[1] = vector3_dot(eyes[0], gaze);
+    json_decref(root);
+    mem_free(text);
+    lmn_scene_destroy(&s);
+}
+
+/* When its clip begins the fox has its head turned far to its right and somewhat down; its muzzle is 20 long. */
+static void faces_are_told(void **state)
+{
+    (void)state;
+    double gaze[3], forward[2];
+    face_of(LIMNER_SOURCE_DIR "/examples/fox.glb", "fox", gaze, forward);
+    assert_true(gaze[0] < -0.7 && gaze[1] < 0 && gaze[2] > 0.3);
+    assert_true(forward[0] > 8 && forward[0] < 30 && forward[1] > 8);
+    /* A figure of nodes, whose eyes are named; it leans forward a little. */
+    face_of(LIMNER_SOURCE_DIR "/examples/scripts/runner.json", "figure", gaze, forward);
+    assert_true(gaze[2] > 0.95 && forward[0] > 0.05);
+    const char *data = data_folder();
+    char        path[1200];
+    if (!data)
+        return;
+    snprintf(path, sizeof path, "%s/gltf/animated/knight/knight.gltf", data);
+    face_of(path, "knight", gaze, forward); /* on guard: he looks ahead, although his skull's bone does not */
+    assert_true(gaze[2] > 0.98 && forward[0] > 0.1);
+}
+
 /* --- what things are ---------------------------------------------------------------------------------------------- */
 
 static void shapes_are_told_by_their_shape(void **state)
@@ -373,6 +428,7 @@ int main(void)
         cmocka_unit_test(other_clips_are_named),
         cmocka_unit_test(controls_in_names_are_shown),
         cmocka_unit_test(long_ways_have_few_dashes),
+        cmocka_unit_test(faces_are_told),
         cmocka_unit_test(shapes_are_told_by_their_shape),
         cmocka_unit_test(boxes_are_no_balls),
     };
