@@ -99,12 +99,12 @@ static void settle_time(const lmn_scene *scene, lmn_draw_desc *desc, const lmn_d
 }
 
 /* What could not be told, for who looks at a picture that tells little. */
-static void print_notes(const char *json)
+static void print_warnings(const char *json)
 {
     json_t       *root = json_loads(json, 0, NULL);
     size_t        i;
-    const json_t *note;
-    json_array_foreach(json_object_get(root, "notes"), i, note) message_note("%s", json_string_value(note));
+    const json_t *text;
+    json_array_foreach(json_object_get(root, "warnings"), i, text) message_warning(json_string_value(text), 1);
     json_decref(root);
 }
 
@@ -125,7 +125,7 @@ int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions,
     }
     free(text);
     if (json && !quiet)
-        print_notes(json);
+        print_warnings(json);
     if (status == EXIT_DONE && explain)
         return print_and_free(json);
     lmn_text_free(json);

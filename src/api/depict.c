@@ -76,14 +76,14 @@ static lmn_status find_expressions(expression_list *out, json_t **reasons, const
     return status;
 }
 
-/* {"expressions", "reasons", "notes"} as text; NULL when memory is gone. */
+/* {"expressions", "reasons", "warnings"} as text; NULL when memory is gone. */
 static char *told_json(const expression_list *list, json_t *reasons, const warnings *said, const lmn_scene *scene)
 {
-    json_t *notes = json_array();
+    json_t *texts = json_array();
     for (size_t i = 0; i < said->count; i++)
-        json_array_append_new(notes, json_string(said->items[i].text));
+        json_array_append_new(texts, json_string(said->items[i].text));
     return value_text(
-        json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons, "notes", notes));
+        json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons, "warnings", texts));
 }
 
 lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,

@@ -48,13 +48,13 @@ static double number_of(const json_t *e, const char *key)
     return json_number_value(json_object_get(e, key));
 }
 
-static bool notes_say(const json_t *told, const char *words)
+static bool warnings_say(const json_t *told, const char *words)
 {
     size_t        i;
-    const json_t *note;
-    json_array_foreach(json_object_get(told, "notes"), i, note)
+    const json_t *text;
+    json_array_foreach(json_object_get(told, "warnings"), i, text)
     {
-        if (strstr(json_string_value(note), words))
+        if (strstr(json_string_value(text), words))
             return true;
     }
     return false;
@@ -203,13 +203,13 @@ static void lights_that_move_have_ways(void **state)
     lmn_scene *s = scene_of(nodes, "{\"target\": \"lamp\", \"linear\": [[-3, 3, 0], [3, 3, 0]], \"duration\": 2}");
     json_t    *told = told_of(s, NULL, 1);
     assert_non_null(expression_of(told, "path", "lamp"));
-    assert_int_equal(json_array_size(json_object_get(told, "notes")), 0);
+    assert_int_equal(json_array_size(json_object_get(told, "warnings")), 0);
     json_decref(told);
     lmn_scene_destroy(&s);
     s = scene_of(nodes, "{\"target\": \"lamp\", \"property\": \"intensity\", \"linear\": [1, 9], \"duration\": 2}");
     told = told_of(s, NULL, 1);
     assert_int_equal(json_array_size(json_object_get(told, "expressions")), 0);
-    assert_true(notes_say(told, "'lamp', a light, changes"));
+    assert_true(warnings_say(told, "'lamp', a light, changes"));
     json_decref(told);
     lmn_scene_destroy(&s);
 }
@@ -235,25 +235,25 @@ static void ways_that_go_back_lie_beside_each_other(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- notes -------------------------------------------------------------------------------------------------------- */
+/* --- warnings -------------------------------------------------------------------------------------------------------- */
 
 static void what_is_not_told_is_said(void **state)
 {
     (void)state;
     lmn_scene *s = scene_of(CRATE("stage"), "");
     json_t    *told = told_of(s, NULL, 0);
-    assert_true(notes_say(told, "nothing in the scene is animated"));
+    assert_true(warnings_say(told, "nothing in the scene is animated"));
     assert_true(json_is_array(json_object_get(told, "reasons")));
     json_decref(told);
     lmn_scene_destroy(&s);
     s = scene_of(CRATE("stage"), "{\"target\": \"stage\", \"linear\": [[0, 0, 0], [0.01, 0, 0]], \"duration\": 2}");
     told = told_of(s, NULL, 1);
-    assert_true(notes_say(told, "'stage' hardly moves"));
+    assert_true(warnings_say(told, "'stage' hardly moves"));
     json_decref(told);
     lmn_scene_destroy(&s);
     s = scene_of(CRATE("stage"), "{\"target\": \"stage\", \"linear\": [[0, 0, 0], [9, 0, 0]], \"duration\": 2}");
     told = told_of(s, NULL, 1);
-    assert_int_equal(json_array_size(json_object_get(told, "notes")), 0);
+    assert_int_equal(json_array_size(json_object_get(told, "warnings")), 0);
     json_decref(told);
     /* Where expressions are given there are no reasons, and the list of them is empty. */
     char         *json = NULL;
@@ -274,11 +274,11 @@ static void other_clips_are_named(void **state)
     animation *first = &s->animations[0];
     first->channel_count = 0; /* nothing of it is left */
     json_t *told = told_of(s, "1", 0);
-    assert_true(notes_say(told, "moves nothing that can be seen"));
-    assert_true(notes_say(told, "'Survey'") && notes_say(told, "--clip: 2 'Walk', 3 'Run'"));
+    assert_true(warnings_say(told, "moves nothing that can be seen"));
+    assert_true(warnings_say(told, "'Survey'") && warnings_say(told, "--clip: 2 'Walk', 3 'Run'"));
     json_decref(told);
     told = told_of(s, "Run", 0.5);
-    assert_false(notes_say(told, "--clip"));
+    assert_false(warnings_say(told, "--clip"));
     json_decref(told);
     first->channel_count = 0;
     scene_free(s);
