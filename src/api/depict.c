@@ -82,8 +82,8 @@ static char *told_json(const expression_list *list, json_t *reasons, const warni
     json_t *texts = json_array();
     for (size_t i = 0; i < said->count; i++)
         json_array_append_new(texts, json_string(said->items[i].text));
-    return value_text(
-        json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons, "warnings", texts));
+    return value_text(json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons,
+                                "warnings", texts));
 }
 
 lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,

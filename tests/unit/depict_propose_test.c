@@ -124,13 +124,35 @@ static void limbs_are_what_is_seen(void **state)
     const json_t *e = expression_of(told, "path", NULL);
     assert_non_null(e);
     assert_string_equal(json_string_value(json_object_get(e, "target")), "blade");
+    assert_true(json_is_true(json_object_get(e, "tip")) && json_is_true(json_object_get(e, "before")));
     json_decref(told);
-    /* The arrow is of the blade's tip, (0.15, 1, 0.15) at its farthest, and before all. */
-    double           front[3] = {0, 0, 0};
-    const primitive *arrow = glyph_at(s, "arrow", "future", 0);
-    assert_non_null(arrow);
-    position(arrow, 0, front);
-    assert_true(front[2] > 0.5);
+    lmn_scene_destroy(&s);
+}
+
+#define TIP_FAR 2.00249843945 /* of (0.1, 2) */
+
+/* Of a blade that turns about its grip, 2 below its tip; and before all that the scene has where it is wanted. */
+static void tips_go_farther_than_middles(void **state)
+{
+    (void)state;
+    lmn_scene *s =
+        scene_of("{\"name\": \"grip\"}, {\"name\": \"blade\", \"parent\": \"grip\", \"box\": {\"size\": [0.2, 2, "
+                 "0.2]}, \"translation\": [0, 1, 0]}, {\"name\": \"wall\", \"box\": {\"size\": [9, 9, 1]}, "
+                 "\"translation\": [0, 0, 3]}",
+                 SWINGS("grip", "90"));
+    static const struct {
+        const char *said;
+        double      far, front; /* from the grip; towards the viewer */
+    } rows[] = {{"", 1, 0}, {", \"tip\": true", TIP_FAR, 0.1}, {", \"tip\": true, \"before\": true", TIP_FAR, 3.5}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char   text[200];
+        double at[3];
+        snprintf(text, sizeof text, "[{\"target\": \"grip\", \"depict\": \"path\", \"now\": 2%s}]", rows[i].said);
+        tell_at(s, 2, text);
+        ribbon_point(glyph_at(s, "arrow", "past", 0), 0, at);
+        assert_near(hypot(at[0], at[1]), rows[i].far, 0.01);
+        assert_true(i < 2 ? fabs(fabs(at[2]) - rows[i].front) < 0.01 : at[2] > rows[i].front);
+    }
     lmn_scene_destroy(&s);
 }
 
@@ -235,7 +257,8 @@ static void ways_that_go_back_lie_beside_each_other(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* --- warnings -------------------------------------------------------------------------------------------------------- */
+/* --- warnings --------------------------------------------------------------------------------------------------------
+ */
 
 static void what_is_not_told_is_said(void **state)
 {
@@ -419,6 +442,7 @@ int main(void)
         cmocka_unit_test(pulses_grow_or_shrink_as_they_do_now),
         cmocka_unit_test(what_changes_its_shape_is_seen_before_and_behind),
         cmocka_unit_test(limbs_are_what_is_seen),
+        cmocka_unit_test(tips_go_farther_than_middles),
         cmocka_unit_test(the_knight_swings_his_sword),
         cmocka_unit_test(cameras_on_things_leave_them_things),
         cmocka_unit_test(cameras_that_zoom_or_turn_are_told),
