@@ -146,10 +146,21 @@ static bool is_near(const vec3 *a, const vec3 *b, float within)
     return fabsf(a->x - b->x) <= within && fabsf(a->y - b->y) <= within && fabsf(a->z - b->z) <= within;
 }
 
-/* Takes out what is where it is now: it is seen there already. */
-static void leave_moved(glyph_mesh *m, const vec3 *now, float within)
+/* Right behind what is seen now, on the same lines of sight. */
+static void step_back(const depict_job *j, glyph_mesh *m)
 {
-    size_t kept = 0;
+    for (size_t i = 0; i < m->position_count; i++) {
+        double at[3] = {(double)m->positions[i].x, (double)m->positions[i].y, (double)m->positions[i].z};
+        depict_lift(j, at, -5e-4 * j->size);
+        m->positions[i] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
+    }
+}
+
+/* Takes out what is where it is now, as it is seen there already; was there any? */
+static bool leave_moved(glyph_mesh *m, const vec3 *now, float within)
+{
+    const size_t index_count = m->index_count, line_count = m->line_count;
+    size_t       kept = 0;
     for (size_t i = 0; i + 2 < m->index_count; i += 3) {
         bool moved = false;
         for (size_t k = i; k < i + 3; k++)
@@ -166,6 +177,7 @@ static void leave_moved(glyph_mesh *m, const vec3 *now, float within)
             m->lines[kept++] = m->lines[i + 1];
         }
     m->line_count = kept;
+    return m->index_count < index_count || m->line_count < line_count;
 }
 
 /* The target as it is now, beside which others are seen. */
@@ -201,8 +213,8 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
     m.position_count = from->vertex_count;
     m.index_count = from->index_count;
     m.line_count = 2 * (size_t)from->line_count;
-    if (!m.failed && there)
-        leave_moved(&m, there, now->within);
+    if (!m.failed && there && leave_moved(&m, there, now->within))
+        step_back(j, &m); /* what is left may lie in faces that are seen now */
     mem_free(there);
     lmn_status status = glyph_put(j, &m, label, error);
     glyph_mesh_release(&m);
@@ -370,7 +382,7 @@ static lmn_status stills(depict_job *j, const expression *e, bool bends, lmn_err
     const double  push = status == LMN_OK && bends ? strongest_push(e, &t) : 0;
     if (status == LMN_OK)
         status = times_find(&times, e, &t, error);
-    present now = {.within = (float)(0.02 * t.radius)};
+    present now = {.within = (float)(0.04 * t.radius)};
     for (int i = 0; i < times.count && status == LMN_OK; i++) { /* now is the first one */
         shape_change change;
         status = change_find(&change, e, &t, times.at[i], usual, error);

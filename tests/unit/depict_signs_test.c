@@ -409,6 +409,29 @@ static void words_stand_in_lines(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* Letters lie before their star, and its two halves before each other, even where the scene reaches behind the eye. */
+static void layers_keep_their_order(void **state)
+{
+    (void)state;
+    for (int near = 0; near < 2; near++) {
+        lmn_scene    *scene = bounce_scene(0);
+        lmn_draw_desc draw = seen_at(1.5);
+        draw.orthographic = false;
+        draw.eye_given = true;
+        vector3_copy(draw.eye, (const double[]){2, 1, near ? 1.2 : 30});
+        vector3_copy(draw.target, (const double[]){2, 1, 0});
+        vector3_set(draw.up, 0, 1, 0);
+        tell_as(scene, &draw, "[{\"target\": \"ball\", \"depict\": \"collision\"}]", NULL);
+        double star[3], inner[3], noise[3];
+        position(sign_at(scene, "star", 0), 0, star);
+        position(sign_at(scene, "star", 1), 0, inner);
+        position(sign_at(scene, "noise", 0), 0, noise);
+        if (!(inner[2] > star[2] + 1e-4 && noise[2] > inner[2] + 1e-4))
+            fail_msg("%s: star %g, inner %g, noise %g", near ? "near" : "far", star[2], inner[2], noise[2]);
+        lmn_scene_destroy(&scene);
+    }
+}
+
 /* Lines are kept with the scene: what is told again sets no letters, and draws the same. */
 static void letters_are_set_once(void **state)
 {
@@ -993,6 +1016,7 @@ int main(void)
         cmocka_unit_test(arrows_end_at_the_outline),
         cmocka_unit_test(balloons_end_at_the_mouth),
         cmocka_unit_test(words_stand_in_lines),
+        cmocka_unit_test(layers_keep_their_order),
         cmocka_unit_test(letters_are_set_once),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
