@@ -4,11 +4,12 @@
 
 #include "scene/scene.h"
 
-/* Does any? Its own part, and with `moved` (a flag a node; NULL: none) those below it that nothing between moves. */
-bool node_carries(const lmn_scene *scene, int32_t node_index, const bool *moved);
+/* Does any, a part of its own or vertices? */
+bool node_carries(const lmn_scene *scene, int32_t node_index);
 
-/* The place of it that is farthest from the node's origin, in the node's axes, of vertices that follow it more than all
- * others: where a limb ends. The origin where there is none. */
-void node_tip(const lmn_scene *scene, int32_t node_index, const bool *moved, double out[3]);
+/* Of all nodes that a flag says to move by themselves: does any, which they do also of parts below them that nothing
+ * between moves; and the place of it that is farthest from the node's origin, in the node's axes, of vertices that
+ * follow it more than all others: where a limb ends. Arrays of an element a node, 0 before. */
+void node_tips(double (*tips)[3], bool *carried, const lmn_scene *scene, const bool *moved);
 
 #endif

@@ -86,7 +86,7 @@ static bool is_helper(const lmn_scene *scene, int32_t node_index)
     const char              *name = scene->nodes[node_index].name;
     for (size_t i = 0; name && i < sizeof words / sizeof *words; i++)
         if (has_word(name, words[i]))
-            return !node_carries(scene, node_index, NULL);
+            return !node_carries(scene, node_index);
     return false;
 }
 

@@ -339,6 +339,7 @@ void movers_release(mover_list *l)
 typedef struct limbs {
     const depict_job *j;
     const bool       *moved;
+    bool             *carried;
     double (*tips)[3], (*last)[3], *gone;
     pose posed;
     bool is_posed;
@@ -390,7 +391,7 @@ static void take_farthest(int32_t *out, double *length, limbs *l, int32_t node)
                 best = (int32_t)i;
         if (best == NONE)
             return;
-        if (is_of(s, best, node) && node_carries(s, best, l->moved)) {
+        if (is_of(s, best, node) && l->carried[best]) {
             *out = best;
             *length = l->gone[best];
             return;
@@ -405,15 +406,15 @@ lmn_status mover_limb(int32_t *out, double *length, const depict_job *j, int32_t
     enum { MOMENTS = 16 };
     const lmn_scene *s = j->scene;
     limbs            l = {.j = j, .moved = depict_moved_nodes(s, &j->when)};
+    l.carried = mem_calloc(s->node_count + 1, sizeof *l.carried);
     l.tips = mem_calloc(s->node_count + 1, sizeof *l.tips);
     l.last = mem_calloc(s->node_count + 1, sizeof *l.last);
     l.gone = mem_calloc(s->node_count + 1, sizeof *l.gone);
-    lmn_status status = l.moved && l.tips && l.last && l.gone ? LMN_OK : error_memory(error);
+    lmn_status status = l.moved && l.carried && l.tips && l.last && l.gone ? LMN_OK : error_memory(error);
     *out = NONE;
     *length = 0;
-    for (size_t i = 0; i < s->node_count && status == LMN_OK; i++)
-        if (l.moved[i])
-            node_tip(s, (int32_t)i, l.moved, l.tips[i]);
+    if (status == LMN_OK)
+        node_tips(l.tips, l.carried, s, l.moved);
     for (int k = 0; k <= MOMENTS && status == LMN_OK && to > from; k++)
         status = step_to(&l, from + (to - from) * k / MOMENTS, k == 0, error);
     if (status == LMN_OK)
@@ -421,6 +422,7 @@ lmn_status mover_limb(int32_t *out, double *length, const depict_job *j, int32_t
     if (l.is_posed)
         pose_release(&l.posed);
     mem_free((bool *)l.moved);
+    mem_free(l.carried);
     mem_free(l.tips);
     mem_free(l.last);
     mem_free(l.gone);

@@ -83,12 +83,21 @@ bool *depict_moved_nodes(const lmn_scene *s, const moment *when)
 
 lmn_status target_take_tip(depict_target *t, const depict_job *j, lmn_error *error)
 {
-    bool *moved = depict_moved_nodes(j->scene, &j->when);
-    if (!moved)
+    const size_t count = j->scene->node_count;
+    bool        *moved = depict_moved_nodes(j->scene, &j->when), *carried = mem_calloc(count + 1, sizeof *carried);
+    double(*tips)[3] = mem_calloc(count + 1, sizeof *tips);
+    const bool good = moved && carried && tips;
+    if (good) {
+        moved[t->node] = true; /* it is looked at by itself */
+        node_tips(tips, carried, j->scene, moved);
+        vector3_copy(t->centre, tips[t->node]);
+    }
+    mem_free(moved);
+    mem_free(carried);
+    mem_free(tips);
+    if (!good)
         return error_memory(error);
     way_release(&t->way);
-    node_tip(j->scene, t->node, moved, t->centre);
-    mem_free(moved);
     return way_open(&t->way, j->scene, t->node, &j->when, error);
 }
 
