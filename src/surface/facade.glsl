@@ -2,7 +2,12 @@
  * coordinates, which tell storeys, use and occupancy; row C07. Bays and storeys divide a wall evenly, so none is cut off at its ends. */
 #include "gpu/hash.glsl"
 
-uniform ivec2 u_building; /* storeys, 0 where nobody says; use (src/plan/building.h) */
+/* Storeys, 0 where nobody says; use (src/plan/building.h). */
+#ifdef HAS_FACTS
+#define u_building ivec2(v_own.yz)
+#else
+uniform ivec2 u_building;
+#endif
 
 const int FACADE_AUTO = 1, FACADE_OFFICE = 3, FACADE_INDUSTRIAL = 4;
 const int USE_UNKNOWN = 0;
