@@ -47,15 +47,10 @@ float covered(vec4 rectangle, vec2 at, vec2 pixel)
     return share.x * share.y;
 }
 
-/* `shade` is the wall as it is shown, `tone` what its tone leaves of full light. */
-vec3 with_facade(vec3 shade, vec3 tone)
+/* What is open in a wall near at hand, one by one. `cells`: bays and storeys. */
+vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
 {
-    float storeys = v_wall.z <= 0.0 ? 0.0 : u_building.x > 0 ? float(u_building.x) : round(v_wall.w / u_storey);
-    float bay = facade_style() == FACADE_INDUSTRIAL ? 2.0 * u_bay : u_bay;
-    vec2 cells = vec2(v_wall.z > 0.6 * bay ? max(round(v_wall.z / bay), 1.0) : 0.0, storeys);
     vec2 along = v_wall.xy * cells;
-    vec2 pixel = max(fwidth(v_wall.xy) * cells, vec2(1e-6));
-    float keeps = clamp((1.0 / max(pixel.x, pixel.y) - 3.0) / 4.0, 0.0, 1.0);
     vec2 cell = floor(along), at = along - cell;
     /* One number a wall: what interpolation leaves of its last bits is rounded off. */
     uint wall = hash_of(uvec3(round(64.0 * v_wall.zw), 0.0), 0u);
@@ -67,11 +62,33 @@ vec3 with_facade(vec3 shade, vec3 tone)
     float frame = there && u_frame > 0.0 ? covered(around, at, pixel) - glass : 0.0;
     float occupied = float(window >> 8) / 16777216.0 < u_occupancy ? 1.0 : 0.0;
     vec3 pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, occupied));
-    /* Too small to be seen one by one, windows are the mean of what they are. */
+    return mix(mix(shade, shown(u_frame_colour.rgb), clamp(frame, 0.0, 1.0)), pane, glass);
+}
+
+/* Too small to be seen one by one, windows are the mean of what they are. */
+vec3 windows_far(vec3 shade, vec3 tone, vec2 cells)
+{
+    vec2 along = v_wall.xy * cells, cell = floor(along);
+    bool inside = all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, cells));
     vec4 mean_of = window_of(ivec2(0, 1), ivec2(1, 2), 1u);
-    float area = there ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
-    vec3 mean_pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, u_occupancy));
-    vec3 near = mix(mix(shade, shown(u_frame_colour.rgb), clamp(frame, 0.0, 1.0)), pane, glass);
-    vec3 far = mix(shade, mean_pane, area);
+    float area = inside ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
+    return mix(shade, shown(mix(u_glass.rgb * tone, u_lit.rgb, u_occupancy)), area);
+}
+
+/* `shade` is the wall as it is shown, `tone` what its tone leaves of full light. */
+vec3 with_facade(vec3 shade, vec3 tone)
+{
+    float storeys = v_wall.z <= 0.0 ? 0.0 : u_building.x > 0 ? float(u_building.x) : round(v_wall.w / u_storey);
+    float bay = facade_style() == FACADE_INDUSTRIAL ? 2.0 * u_bay : u_bay;
+    vec2 cells = vec2(v_wall.z > 0.6 * bay ? max(round(v_wall.z / bay), 1.0) : 0.0, storeys);
+    vec2 pixel = max(fwidth(v_wall.xy) * cells, vec2(1e-6));
+    float keeps = clamp((1.0 / max(pixel.x, pixel.y) - 3.0) / 4.0, 0.0, 1.0);
+    /* Loops that run once or not at all: software drivers skip loops, not branches. Roofs have no windows, and of most walls of a town nothing is near, or nothing far. */
+    vec3 near = shade, far = shade;
+    int is_near = cells.x * cells.y > 0.0 && keeps > 0.0 ? 1 : 0, is_far = cells.x * cells.y > 0.0 && keeps < 1.0 ? 1 : 0;
+    for (int once = 0; once < is_near; once++)
+        near = windows_near(shade, tone, cells, pixel);
+    for (int once = 0; once < is_far; once++)
+        far = windows_far(shade, tone, cells);
     return mix(far, near, keeps);
 }
