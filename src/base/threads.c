@@ -57,7 +57,7 @@ static size_t pieces_for(size_t count, size_t smallest)
 void threads_for(size_t count, size_t smallest, threads_fn fn, void *user)
 {
     size_t pieces = pieces_for(count, smallest);
-    piece list[THREADS_MAX];
+    piece  list[THREADS_MAX];
     for (size_t i = 0; i < pieces; i++) {
         size_t begin = count / pieces * i, end = i + 1 == pieces ? count : count / pieces * (i + 1);
         list[i] = (piece){.fn = fn, .user = user, .work = work_current(), .begin = begin, .end = end};

@@ -536,8 +536,10 @@ static bool are_alike(const frame *f, const figure_state *s, const raster_setup 
 static bool rest_alike(frame *f, const draw_item *a, const draw_item *b)
 {
     const float *rows = f->up->part_frame_values;
-    return !rows || memcmp(&rows[PART_FRAME_FLOATS * a->part_index], &rows[PART_FRAME_FLOATS * b->part_index],
-                           PART_FRAME_FLOATS * sizeof *rows) == 0 || !gpu_has_uniform(f->g, "u_rest");
+    return !rows ||
+           memcmp(&rows[PART_FRAME_FLOATS * a->part_index], &rows[PART_FRAME_FLOATS * b->part_index],
+                  PART_FRAME_FLOATS * sizeof *rows) == 0 ||
+           !gpu_has_uniform(f->g, "u_rest");
 }
 
 /* Is the item drawn by the same call as those that are gathered? Peeled layers are drawn part after part, front faces

@@ -159,7 +159,7 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 /* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
  * mesh has as many vertices and indices, and tensors, walls and positions at rest and earlier just where these are
  * given. */
-bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
 
 /* Many small meshes in the same buffers, so that one call draws several: a whole is opened, meshes are said to lie
  * within it, and it is filled. It lasts as long as anything in it; who opened it destroys it, too. `key`: what the

@@ -173,10 +173,13 @@ static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *e
     const lmn_scene *scene = u->pose->scene;
     const node      *n = &scene->nodes[scene->parts[part_index].node];
     const part_pose *pose = &u->pose->parts[part_index];
-    upload_part_job  job = {
-         .part_index = part_index, .mesh = &scene->meshes[n->mesh], .mesh_uses = u->mesh_uses[n->mesh], .pose = pose, .nearer = nearer_of(u, part_index)};
-    upload_mesh *made = pose_part_deforms(pose) ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
-    lmn_status   status = LMN_OK;
+    upload_part_job  job = {.part_index = part_index,
+                            .mesh = &scene->meshes[n->mesh],
+                            .mesh_uses = u->mesh_uses[n->mesh],
+                            .pose = pose,
+                            .nearer = nearer_of(u, part_index)};
+    upload_mesh     *made = pose_part_deforms(pose) ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
+    lmn_status       status = LMN_OK;
     if (make_room(made, job.mesh)) {
         job.meshes = made->primitives;
         job.lapped = made->lapped;

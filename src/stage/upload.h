@@ -72,8 +72,8 @@ typedef struct draw_item {
     size_t         part_index;
     int32_t        material;
     bool           has_uvs, has_uv1, has_colours;
-    building_facts building;                     /* where walls are asked for */
-    bool           has_key; /* its mesh lies in a pack and is drawn here alone: `key` is that of its vertices */
+    building_facts building; /* where walls are asked for */
+    bool           has_key;  /* its mesh lies in a pack and is drawn here alone: `key` is that of its vertices */
     uint32_t       key;
     bool           is_solid;                     /* operands of a solid: nothing of them is drawn as it is */
     size_t         solid;                        /* in the upload's solids */
@@ -113,10 +113,10 @@ typedef struct upload {
     upload_shape   *shapes;  /* per mesh of the scene, and behind them that of the half-spaces of sections */
     upload_corners *corners; /* per mesh of the scene */
     size_t          mesh_count, node_count;
-    upload_pack    *packs;      /* while meshes are made; NULL: none was begun */
-    uint32_t       *mesh_uses;  /* per mesh of the scene: how often it is drawn, 2 for more than once */
-    size_t          key_count;  /* of packed meshes, those of former uploads too */
-    gpu_texture   **textures; /* one per image and colour space: index 2·image + linear */
+    upload_pack    *packs;     /* while meshes are made; NULL: none was begun */
+    uint32_t       *mesh_uses; /* per mesh of the scene: how often it is drawn, 2 for more than once */
+    size_t          key_count; /* of packed meshes, those of former uploads too */
+    gpu_texture   **textures;  /* one per image and colour space: index 2·image + linear */
     size_t          texture_count;
     upload_solid   *solids;
     size_t          solid_count, solid_capacity;

@@ -63,8 +63,8 @@ bool upload_packs(const upload *u, const upload_part_job *job, const gpu_mesh_da
 static bool grow(upload_pack *p, const float *const arrays[ATTRIBUTES], size_t vertices, size_t indices)
 {
     const size_t needed = p->vertex_count + vertices;
-    bool         good = mem_grow((void **)&p->indices, &p->index_capacity, p->index_count + indices, sizeof *p->indices);
-    size_t       capacity = p->vertex_capacity;
+    bool   good = mem_grow((void **)&p->indices, &p->index_capacity, p->index_count + indices, sizeof *p->indices);
+    size_t capacity = p->vertex_capacity;
     good = good && mem_grow((void **)&p->positions, &capacity, needed, 3 * sizeof(float));
     for (int i = 0; i < ATTRIBUTES && good; i++) {
         size_t own = p->vertex_capacity;
