@@ -524,7 +524,7 @@ static bool are_alike(const frame *f, const figure_state *s, const raster_setup 
 {
     if (a == b)
         return true;
-    if (a < 0 || b < 0 || s->figure->textures->by_material)
+    if (a < 0 || b < 0 || (s->figure->textures && s->figure->textures->by_material))
         return false;
     const material *x = &f->plan->scene->materials[a], *y = &f->plan->scene->materials[b];
     return x->base_texture.image < 0 && y->base_texture.image < 0 && x->normal_texture.image < 0 &&
