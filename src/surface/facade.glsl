@@ -47,6 +47,25 @@ float covered(vec4 rectangle, vec2 at, vec2 pixel)
     return share.x * share.y;
 }
 
+/* How much of a pixel bars cover that part a rectangle into so many columns and rows. Panes smaller than this have none. */
+float bars_at(vec4 opening, vec2 panes, vec2 at, vec2 pixel)
+{
+    const float LEAST = 6.0, ALL = 10.0; /* pixels */
+    vec2 size = (opening.zw - opening.xy) / panes, place = (at - opening.xy) / size, off = abs(place - round(place)) * size / pixel;
+    vec2 sides = size / pixel;
+    bvec2 between = lessThan(abs(round(place) - 0.5 * panes), 0.5 * panes - 0.5);
+    vec2 cover = clamp(0.5 * u_bars + 0.5 - off, 0.0, 1.0) * vec2(between) * min(vec2(u_bars), 1.0);
+    return max(cover.x, cover.y) * clamp((min(sides.x, sides.y) - LEAST) / (ALL - LEAST), 0.0, 1.0);
+}
+
+/* Columns and rows of panes. Doors have none. */
+vec2 panes_of(vec4 opening, bool ground)
+{
+    int style = facade_style();
+    return opening.y == 0.0 ? vec2(1.0) : ground && u_ground_storey == GROUND_STOREY_SHOPS ? vec2(3.0, 1.0) : style == FACADE_OFFICE ? vec2(4.0, 1.0)
+         : style == FACADE_INDUSTRIAL ? vec2(5.0, 3.0) : vec2(2.0, 2.0);
+}
+
 /* What is open in a wall near at hand, one by one. `cells`: bays and storeys. */
 vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
 {
@@ -62,6 +81,9 @@ vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
     float frame = there && u_frame > 0.0 ? covered(around, at, pixel) - glass : 0.0;
     float occupied = float(window >> 8) / 16777216.0 < u_occupancy ? 1.0 : 0.0;
     vec3 pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, occupied));
+    int parted = u_bars > 0.0 && glass > 0.0 ? 1 : 0;
+    for (int once = 0; once < parted; once++)
+        pane = mix(pane, shown(u_frame_colour.rgb), bars_at(opening, panes_of(opening, cell.y == 0.0), at, pixel));
     return mix(mix(shade, shown(u_frame_colour.rgb), clamp(frame, 0.0, 1.0)), pane, glass);
 }
 

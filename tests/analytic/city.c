@@ -107,6 +107,27 @@ static void storeys_and_bays(void)
     check_near("C07", windows(narrow, "\"facade\":\"residential\""), 0, 0, "windows where there is no room for one");
 }
 
+/* Bars part windows: panes are spots of glass. Far away they are left out. */
+static void bars_part_windows(void)
+{
+    const char *plain = building("plain", 21, 15, "");
+    const char *wide = "\"bars\":4,\"frame_colour\":\"#ffffff\"";
+    static const struct {
+        const char *facade;
+        double      storey;
+        int         panes;
+    } rows[] = {{"residential", 7.5, 5 * 4 + 1}, {"office", 7.5, 6 * 4}, {"industrial", 15, 2 * 15}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char more[200];
+        snprintf(more, sizeof more, "\"facade\":\"%s\",\"storey\":%g,\"bay\":7,%s", rows[i].facade, rows[i].storey,
+                 wide);
+        check_near("C07", windows(plain, more), rows[i].panes, 0, "panes of %s windows", rows[i].facade);
+    }
+    char thin[200];
+    snprintf(thin, sizeof thin, "\"facade\":\"residential\",\"storey\":1,\"bay\":1,%s", wide);
+    check_near("C07", windows(plain, thin), 15 * 21, 0, "windows with panes too small for bars");
+}
+
 /* Uses are told apart by how much of a wall is glass: each the area that its openings have. */
 static void uses_differ(void)
 {
@@ -416,6 +437,7 @@ int main(int argc, char **argv)
         {"storeys", storeys_and_bays},
         {"uses", uses_differ},
         {"frames", windows_have_frames},
+        {"bars", bars_part_windows},
         {"data", data_are_colours},
         {"occupancy", occupancy_is_counted},
         {"calm", far_facades_are_calm},
