@@ -66,6 +66,9 @@ vec2 panes_of(vec4 opening, bool ground)
          : style == FACADE_INDUSTRIAL ? vec2(5.0, 3.0) : vec2(2.0, 2.0);
 }
 
+/* Width of a frame, of the shorter side of its window. */
+const float FRAME_MOST = 0.1;
+
 /* What is open in a wall near at hand, one by one. `cells`: bays and storeys. */
 vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
 {
@@ -75,7 +78,10 @@ vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
     uint wall = hash_of(uvec3(round(64.0 * v_wall.zw), 0.0), 0u);
     uint window = hash_of(uvec3(ivec3(cell, 1)), wall);
     vec4 opening = window_of(ivec2(cell), ivec2(cells), wall);
-    vec4 around = opening + vec4(-1.0, -1.0, 1.0, 1.0) * (u_frame * pixel.xyxy);
+    /* Of small windows frames are finer, lest they grow into each other. */
+    vec2 sides = (opening.zw - opening.xy) / pixel;
+    float frame_width = min(u_frame, FRAME_MOST * min(sides.x, sides.y));
+    vec4 around = opening + vec4(-1.0, -1.0, 1.0, 1.0) * (frame_width * pixel.xyxy);
     bool there = opening.z > opening.x;
     float glass = there ? covered(opening, at, pixel) : 0.0;
     float frame = there && u_frame > 0.0 ? covered(around, at, pixel) - glass : 0.0;
