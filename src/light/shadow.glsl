@@ -10,22 +10,34 @@ float lit_once(vec3 eye, vec3 normal)
     return step(at.z, texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
 }
 
+/* How the depth of a flat surface rises over the map, for each texel to the right and up. */
+vec2 shadow_slope(vec3 normal)
+{
+    vec3 right = vec3(u_shadow_from_eye[0].x, u_shadow_from_eye[1].x, u_shadow_from_eye[2].x), up = vec3(u_shadow_from_eye[0].y, u_shadow_from_eye[1].y, u_shadow_from_eye[2].y),
+         away = vec3(u_shadow_from_eye[0].z, u_shadow_from_eye[1].z, u_shadow_from_eye[2].z);
+    float facing = dot(away, normal) / dot(away, away);
+    vec2 turned = vec2(dot(right, normal) / dot(right, right), dot(up, normal) / dot(up, up));
+    return -turned * u_shadow_texel.x / (facing < 0.0 ? min(facing, -1e-6) : max(facing, 1e-6));
+}
+
 /* The mean of comparisons over three texels by three, of which a pixel of the page has four by four: the border of a shadow has no steps on the page,
- * and what is finer than a pixel is a tone. */
+ * and what is finer than a pixel is a tone. Each is made with the surface's own plane. */
 float lit_fraction(vec3 eye, vec3 normal, vec3 light)
 {
-    /* Off the surface by as much as it can rise as far away as is looked. */
+    /* Off the surface by as much as a texel of it can rise. */
     float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
-    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 2.5 * slope)), 1.0)).xyz;
-    vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low;
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 1.5 * slope)), 1.0)).xyz;
+    vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low, rise = shadow_slope(normal);
     ivec2 position = ivec2(low) - 1, last = textureSize(t_shadow, 0) - 1;
-    float depth = min(at.z, 1.0), sum = 0.0; /* beyond all that throws shadows, where nothing is nothing is in the way */
+    float sum = 0.0;
     vec4 across = vec4(1.0 - fraction.x, 1.0, 1.0, fraction.x), along = vec4(1.0 - fraction.y, 1.0, 1.0, fraction.y);
+    vec4 depths = at.z + rise.x * (vec4(-1.0, 0.0, 1.0, 2.0) - fraction.x);
     for (int row = 0; row < 4; row++) {
         vec4 nearest;
         for (int column = 0; column < 4; column++)
             nearest[column] = texelFetch(t_shadow, clamp(position + ivec2(column, row), ivec2(0), last), 0).r;
-        sum += along[row] * dot(step(vec4(depth), nearest), across);
+        /* Beyond all that throws shadows, where nothing is nothing is in the way. */
+        sum += along[row] * dot(step(min(depths + rise.y * (float(row - 1) - fraction.y), 1.0), nearest), across);
     }
     return sum / 9.0;
 }
