@@ -14,7 +14,9 @@
 #include "import/geojson.h"
 #include "import/json_scan.h"
 
-enum { RINGS_MAX = 4096, POSITIONS_MAX = 1000000 };
+enum { POSITIONS_MAX = 1000000 };
+
+#define STRAIGHT 5e-3 /* m */
 
 /* The outline and holes of one polygon, or one line. */
 typedef struct rings {
@@ -35,7 +37,7 @@ typedef struct geojson_reader {
     footprint_points  points;
     rings             rings;
     city_meshes       tree;
-    uint64_t          guessed_heights, flat_roofs, places;
+    uint64_t          guessed_heights, flat_roofs, other_roofs, places;
     size_t            number;
 } geojson_reader;
 
@@ -161,6 +163,24 @@ static void wind(double (*p)[2], size_t count, bool anticlockwise)
         }
 }
 
+/* Corners on the straight way between their neighbours, and back and forth on it, are none: roofs would have an edge
+ * there. */
+static void straighten(rings *k, size_t first)
+{
+    size_t *count = &k->counts[k->ring_count - 1], kept = 0;
+    double(*p)[2] = k->positions + first;
+    for (size_t i = 0; i < *count; i++) {
+        const double *a = p[kept ? kept - 1 : *count - 1], *b = p[i], *c = p[(i + 1) % *count];
+        double        x = c[0] - a[0], y = c[1] - a[1], length = hypot(x, y);
+        double        off = length > 0 ? fabs(x * (b[1] - a[1]) - y * (b[0] - a[0])) / length : 0;
+        bool          straight = off < STRAIGHT && *count - (i - kept) > 3;
+        if (!straight)
+            memmove(p[kept++], b, sizeof *p);
+    }
+    k->position_count -= *count - kept;
+    *count = kept;
+}
+
 /* A ring's last position is its first one again; rings without an area are left out, and holes with their outline. */
 static void end_ring(geojson_reader *r, rings *k)
 {
@@ -171,6 +191,7 @@ static void end_ring(geojson_reader *r, rings *k)
         --*count;
     }
     if (*count >= 3) {
+        straighten(k, first);
         wind(k->positions + first, *count, k->ring_count == 1);
         return;
     }
@@ -258,15 +279,16 @@ static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan
         return;
     const rings *k = &r->rings;
     footprint    how = thing->body;
-    bool         fits = true;
+    roof_made    made = ROOF_AS_ASKED;
     how.base += k->lowest;
     how.eaves += k->lowest;
     how.ridge += k->lowest;
     bool done = true;
     if (thing->is_building) {
         done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
-                               &fits);
-        r->flat_roofs += !fits;
+                               &made);
+        r->flat_roofs += made == ROOF_MADE_FLAT;
+        r->other_roofs += made == ROOF_OTHERWISE;
     } else {
         uint32_t at = (uint32_t)r->points.count;
         for (size_t i = 0; i < k->position_count && done; i++)
@@ -544,6 +566,7 @@ static void tell(geojson_reader *r)
     city_facts *facts = &r->scene->city;
     bool        done = (!r->guessed_heights || city_add(facts, CITY_REPAIRED, "guessed-heights", r->guessed_heights)) &&
                 (!r->flat_roofs || city_add(facts, CITY_REPAIRED, "flat-roofs", r->flat_roofs)) &&
+                (!r->other_roofs || city_add(facts, CITY_REPAIRED, "other-roofs", r->other_roofs)) &&
                 (!r->places || city_add(facts, CITY_SKIPPED, "points", r->places));
     if (!done)
         no_memory(r);

@@ -61,11 +61,31 @@ static bool is_among(json_span value, const char *const *words)
 
 static roof_form roof_of(json_span shape)
 {
-    return span_is(shape, "gabled")                                    ? ROOF_GABLED
-           : span_is(shape, "hipped") || span_is(shape, "half-hipped") ? ROOF_HIPPED
-           : span_is(shape, "pyramidal")                               ? ROOF_PYRAMIDAL
-           : span_is(shape, "mansard") || span_is(shape, "gambrel")    ? ROOF_MANSARD
-                                                                       : ROOF_FLAT;
+    static const struct {
+        const char *word;
+        roof_form   form;
+    } rows[] = {{"gabled", ROOF_GABLED},        {"hipped", ROOF_HIPPED},       {"half-hipped", ROOF_HIPPED},
+                {"side_hipped", ROOF_HIPPED},   {"saltbox", ROOF_GABLED},      {"pyramidal", ROOF_PYRAMIDAL},
+                {"cone", ROOF_PYRAMIDAL},       {"mansard", ROOF_MANSARD},     {"mansard-flat", ROOF_MANSARD_FLAT},
+                {"gambrel", ROOF_GAMBREL},      {"skillion", ROOF_SKILLION},   {"lean_to", ROOF_SKILLION},
+                {"double_saltbox", ROOF_GABLED}, {"half_hipped", ROOF_HIPPED}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (span_is(shape, rows[i].word))
+            return rows[i].form;
+    return ROOF_FLAT;
+}
+
+/* Degrees from north, or a wind: N, NNE, NE … */
+static void read_direction(footprint *body, json_span value)
+{
+    static const char *const winds[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                        "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+    double                   degrees = number_of(value);
+    for (int i = 0; i < 16; i++)
+        if (value.at && span_is(value, winds[i]))
+            degrees = 22.5 * i;
+    body->has_direction = isfinite(degrees);
+    body->direction = body->has_direction ? degrees * 0.017453292519943295 : 0;
 }
 
 static void understand_building(geojson_thing *out, json_span properties)
@@ -80,6 +100,7 @@ static void understand_building(geojson_thing *out, json_span properties)
     out->type = "Building";
     out->is_building = true;
     out->body.roof = roof_of(property(properties, "roof:shape"));
+    read_direction(&out->body, property(properties, "roof:direction"));
     if (!(roof > 0))
         roof = out->body.roof == ROOF_FLAT ? 0 : roof_levels > 0 ? roof_levels * STOREY : STOREY;
     out->guessed = !(high > 0) && !(levels > 0);
