@@ -32,7 +32,6 @@ typedef struct geojson_reader {
     lmn_error        *error;
     lmn_status        status;
     city_builder      builder;
-    bool              latitude_first;
     city_shape        shape;
     footprint_points  points;
     rings             rings;
@@ -120,7 +119,7 @@ static void keep_position(geojson_reader *r, const double p[3], void *user)
 {
     rings *k = user;
     double local[3] = {p[0], p[1], p[2]};
-    city_crs_local(&r->scene->city, r->latitude_first, local);
+    city_crs_local(&r->scene->city, false, local);
     size_t begin = k->position_count - (k->ring_count ? k->counts[k->ring_count - 1] : 0);
     if (k->position_count > begin) {
         const double *last = k->positions[k->position_count - 1];
@@ -352,7 +351,7 @@ static void keep_place(geojson_reader *r, const double p[3], void *user)
 {
     double *out = user;
     memcpy(out, p, 3 * sizeof *out);
-    city_crs_local(&r->scene->city, r->latitude_first, out);
+    city_crs_local(&r->scene->city, false, out);
 }
 
 static void put_tree(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
@@ -487,10 +486,9 @@ static void find_place(geojson_reader *r, json_span features)
     if (!good(r, &s) || !(e.high[0] >= e.low[0]))
         return;
     r->builder.tally.missing_points = 0; /* counted again when they are read */
-    facts->geographic = city_crs_is_geographic(facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84", e.low, e.high,
-                                               &r->latitude_first);
+    const char *name = facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84";
     /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
-    r->latitude_first = false;
+    city_crs_understand(facts, name, e.low, e.high, NULL);
     city_choose_origin(facts, e.low, e.high);
 }
 

@@ -27,27 +27,25 @@ static void strips_are_mitred(void **state)
 
 static lmn_scene *load_town(void)
 {
-    /* Around Munich: 0.001 degrees are 74.4 m east and 111.2 m north. */
+    /* East of Munich, on the meridian that it is projected on: 0.001 degrees are 74.4 m east and 111.2 m north. */
     static const char text[] =
         "{\"type\":\"FeatureCollection\",\"features\":["
         "{\"type\":\"Feature\",\"id\":\"way/1\",\"properties\":{\"building\":\"house\",\"height\":\"12 "
         "m\",\"roof:shape\":"
-        "\"gabled\",\"roof:height\":3,\"name\":\"Rathaus\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[11."
-        "575,"
-        "48.137],[11.5752,48.137],[11.5752,48.1371],[11.575,48.1371],[11.575,48.137]]]}},"
+        "\"gabled\",\"roof:height\":3,\"name\":\"Rathaus\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[12.,"
+        "48.137],[12.0002,48.137],[12.0002,48.1371],[12.,48.1371],[12.,48.137]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"building\":\"yes\",\"building:levels\":\"4\"},\"geometry\":{\"type\":"
-        "\"MultiPolygon\",\"coordinates\":[[[[11.576,48.137],[11.576,48.1371],[11.5762,48.1371],[11.5762,48.137],[11."
-        "576,"
+        "\"MultiPolygon\",\"coordinates\":[[[[12.001,48.137],[12.001,48.1371],[12.0012,48.1371],[12.0012,48.137],[12.001,"
         "48.137]]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"highway\":\"residential\"},\"geometry\":{\"type\":\"LineString\","
-        "\"coordinates\":[[11.574,48.1368],[11.577,48.1368]]}},"
+        "\"coordinates\":[[11.999,48.1368],[12.001,48.1368]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"natural\":\"water\"},\"geometry\":{\"type\":\"Polygon\","
         "\"coordinates\":[[["
-        "11.574,48.138],[11.577,48.138],[11.577,48.139],[11.574,48.138]]]}},"
+        "11.999,48.138],[12.002,48.138],[12.002,48.139],[11.999,48.138]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"natural\":\"tree\",\"height\":\"7\"},\"geometry\":{\"type\":\"Point\","
-        "\"coordinates\":[11.575,48.1365]}},"
+        "\"coordinates\":[12.,48.1365]}},"
         "{\"type\":\"Feature\",\"properties\":{\"shop\":\"bakery\"},\"geometry\":{\"type\":\"Point\",\"coordinates\":["
-        "11.575,48.1365]}}]}";
+        "12.,48.1365]}}]}";
     return load_or_fail(temp_file("town.geojson", text, sizeof text - 1));
 }
 
