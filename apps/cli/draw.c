@@ -26,7 +26,8 @@ typedef struct draw_values {
     option_vector eye, target, up;
     option_number fov, fit, time, seed, samples, dpi;
     int           view, up_axis, angle;
-    const char   *lod;
+    const char   *lod, *terrain;
+    option_number populate;
     word_list     defines;
     bool        orthographic, quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
     job_values  job;
@@ -109,6 +110,8 @@ static const option options[] = {
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
     LOD_OPTION(AT(lod)),
+    TERRAIN_OPTION(AT(terrain)),
+    POPULATE_OPTION(AT(populate)),
     {"page", 0, OPTION_TEXT, AT(page), "PAGE",
      "Size of the paper: A4, A3-landscape, letter or 210x120mm. Pictures have --dpi pixels an inch of it, or --size in "
      "all. "
@@ -788,7 +791,8 @@ static int draw_scene(session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
     double                start = now_ms();
-    const program_options programs = {&s->values->defines, s->values->strict, s->values->lod};
+    const program_options programs = {&s->values->defines, s->values->strict, s->values->lod, s->values->terrain,
+                                      s->values->populate.value};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;
@@ -841,7 +845,7 @@ static int run_as(const word_list *inputs, const draw_values *v, bool depicts)
     if (status == EXIT_DONE)
         status = check_output(&s, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL, NULL, 0});
     if (status == EXIT_DONE)
         status = load_look(&s);
     if (status == EXIT_DONE && v->samples.given && s.format.vectors && !lmn_look_needs_pixels(s.look))
@@ -911,7 +915,7 @@ static int find_whole(char *out, size_t size, const word_list *inputs, const dra
     lmn_scene            *scene = NULL;
     progress              bar;
     lmn_task             *task = NULL;
-    const program_options programs = {&v->defines, v->strict, v->lod};
+    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
     double                duration = 0;
     progress_begin(&bar, true);
     int status = check_programs(inputs, &programs);

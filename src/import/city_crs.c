@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -108,6 +109,15 @@ void city_crs_understand(city_facts *facts, const char *name, double low[3], dou
         }
     }
     facts->geographic = facts->geographic || facts->web;
+}
+
+void city_crs_plane_name(const char *name, char *out, size_t size)
+{
+    long code = name ? epsg_code(name) : 0;
+    if (code > 0)
+        snprintf(out, size, "EPSG:%ld", code);
+    else
+        snprintf(out, size, "%s", name ? name : "");
 }
 
 void city_crs_local(const city_facts *facts, bool latitude_first, double p[3])

@@ -14,4 +14,8 @@ void city_crs_understand(city_facts *facts, const char *name, double low[3], dou
  * all files whose origins have the same one. */
 void city_crs_local(const city_facts *facts, bool latitude_first, double p[3]);
 
+/* What PROJ may call the system of the plane: "EPSG:28992" of "urn:ogc:def:crs,crs:EPSG::28992,crs:EPSG::5709"; "":
+ * unknown. */
+void city_crs_plane_name(const char *name, char *out, size_t size);
+
 #endif

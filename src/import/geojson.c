@@ -13,6 +13,7 @@
 #include "import/footprint.h"
 #include "import/geojson.h"
 #include "import/json_scan.h"
+#include "import/terrain.h"
 
 enum { POSITIONS_MAX = 1000000 };
 
@@ -32,8 +33,8 @@ typedef struct geojson_reader {
     lmn_error        *error;
     lmn_status        status;
     city_builder      builder;
-    city_shape        shape;
-    footprint_points  points;
+    city_shape        shape, flat; /* flat: one area or strip before it lies on the terrain */
+    footprint_points  points, flat_points;
     rings             rings;
     city_meshes       tree;
     uint64_t          guessed_heights, flat_roofs, other_roofs, places;
@@ -247,7 +248,7 @@ static void put_attributes(geojson_reader *r, int32_t node, json_span properties
 
 static char *id_of(geojson_reader *r, const feature *f)
 {
-    static const char *const keys[] = {"@id", "gml_id", "osm_id", "fid", "id", NULL};
+    static const char *const keys[] = {"@id", "gml_id", "osm_id", "osm_way_id", "fid", "id", NULL};
     char                     name[40];
     json_span                id = f->id.at ? f->id : geojson_property(f->properties, keys);
     if (id.at && id.size)
@@ -272,6 +273,34 @@ static void attach(geojson_reader *r, int32_t node, const geojson_thing *thing)
     mem_free(meshes.items);
 }
 
+static void begin_flat(geojson_reader *r)
+{
+    city_shape_clear(&r->flat);
+    r->flat_points.count = 0;
+}
+
+/* What lies on the ground goes to the object's shape: as it is, or along the terrain, where the slope between two
+ * surfaces asks for more room than a level one does. */
+static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
+{
+    const city_shape *flat = &r->flat;
+    uint32_t          first = (uint32_t)r->points.count;
+    if (r->builder.terrain)
+        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base, &r->shape,
+                             &r->points);
+    bool done = true;
+    for (size_t i = 0; i < r->flat_points.count && done; i++) {
+        vec3 p = r->flat_points.items[i];
+        done = footprint_add_point(&r->points, (double)p.x, (double)p.y, (double)p.z);
+    }
+    for (size_t ring = 0, i = 0; ring < flat->ring_count && done; ring++) {
+        for (; i < flat->rings[ring] && done; i++)
+            done = city_shape_corner(&r->shape, first + flat->corners[i]);
+        done = done && city_shape_end_ring(&r->shape);
+    }
+    return done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+}
+
 static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan *s)
 {
     if (!read_polygon(r, s))
@@ -279,9 +308,12 @@ static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan
     const rings *k = &r->rings;
     footprint    how = thing->body;
     roof_made    made = ROOF_AS_ASKED;
-    how.base += k->lowest;
-    how.eaves += k->lowest;
-    how.ridge += k->lowest;
+    double       ground = r->builder.terrain
+                              ? terrain_lowest(r->builder.terrain, (const double(*)[2])k->positions, k->counts[0])
+                              : k->lowest;
+    how.base += ground;
+    how.eaves += ground;
+    how.ridge += ground;
     bool done = true;
     if (thing->is_building) {
         done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
@@ -289,15 +321,17 @@ static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan
         r->flat_roofs += made == ROOF_MADE_FLAT;
         r->other_roofs += made == ROOF_OTHERWISE;
     } else {
-        uint32_t at = (uint32_t)r->points.count;
+        begin_flat(r);
+        uint32_t at = (uint32_t)r->flat_points.count;
         for (size_t i = 0; i < k->position_count && done; i++)
-            done = footprint_add_point(&r->points, k->positions[i][0], k->positions[i][1], how.base);
+            done = footprint_add_point(&r->flat_points, k->positions[i][0], k->positions[i][1],
+                                       thing->body.base + k->lowest);
         for (size_t ring = 0; ring < k->ring_count && done; ring++) {
             for (size_t i = 0; i < k->counts[ring] && done; i++)
-                done = city_shape_corner(&r->shape, at++);
-            done = done && city_shape_end_ring(&r->shape);
+                done = city_shape_corner(&r->flat, at++);
+            done = done && city_shape_end_ring(&r->flat);
         }
-        done = done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+        done = done && city_shape_end_face(&r->flat, NONE, CITY_NO_WORD, 0) && lay_flat(r, thing);
     }
     if (!done)
         no_memory(r);
@@ -310,9 +344,12 @@ static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s
     if (!begin_ring(r, k))
         return;
     read_line(r, s, keep_position, k);
-    if (r->status == LMN_OK && k->position_count >= 2 && thing->width > 0 &&
-        !footprint_strip(&r->shape, &r->points, (const double(*)[2])k->positions, k->position_count, thing->width,
-                         thing->body.base + k->lowest))
+    if (r->status != LMN_OK || k->position_count < 2 || !(thing->width > 0))
+        return;
+    begin_flat(r);
+    if (!footprint_strip(&r->flat, &r->flat_points, (const double(*)[2])k->positions, k->position_count, thing->width,
+                         thing->body.base + k->lowest) ||
+        !lay_flat(r, thing))
         no_memory(r);
 }
 
@@ -362,6 +399,8 @@ static void put_tree(geojson_reader *r, int32_t node, const geojson_thing *thing
         return;
     if (!r->tree.count)
         make_tree(r);
+    if (r->builder.terrain)
+        at[2] = terrain_height(r->builder.terrain, at[0], at[1]);
     mat4 place = {{high, 0, 0, 0, 0, high, 0, 0, 0, 0, high, 0, at[0], at[1], at[2], 1}};
     if (r->status == LMN_OK)
         r->status = city_attach(&r->builder, node, &r->tree, &place, true);
@@ -556,6 +595,8 @@ static void read_document(geojson_reader *r)
     read_crs(r, crs);
     find_place(r, features);
     if (r->status == LMN_OK)
+        r->status = city_builder_terrain(&r->builder);
+    if (r->status == LMN_OK)
         read_features(r, features);
 }
 
@@ -585,6 +626,8 @@ static lmn_status read_geojson(const import_job *job, lmn_error *error)
         tell(r);
     lmn_status status = city_builder_close(&r->builder, r->status);
     city_shape_release(&r->shape);
+    city_shape_release(&r->flat);
+    mem_free(r->flat_points.items);
     mem_free(r->points.items);
     mem_free(r->rings.positions);
     mem_free(r->rings.counts);

@@ -23,6 +23,7 @@ typedef struct city_facts {
     bool        web;       /* geographic, but the file has Mercator's projection of it */
     double      metres[2]; /* of the file's unit in the plane, and of its heights; 0: one */
     double      origin[3];
+    double      low[2], high[2]; /* of what the file has, in coordinates of the scene */
     char       *crs; /* as the file calls it; NULL: it does not say */
     city_count *counts;
     size_t      count_count, count_capacity;
