@@ -6,12 +6,12 @@
 #include <string.h>
 
 typedef struct info_values {
-    bool        json, dynamics, strict;
-    const char *lod, *terrain;
+    bool          json, dynamics, strict;
+    const char   *lod, *terrain;
     option_number populate;
-    int         up_axis;
-    word_list   defines;
-    task_values task;
+    int           up_axis;
+    word_list     defines;
+    task_values   task;
 } info_values;
 
 static const option options[] = {

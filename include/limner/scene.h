@@ -56,8 +56,8 @@ typedef struct lmn_load_desc {
      * raster of heights (GeoTIFF, HGT, ESRI's ASCII grid), read with GDAL, that lies below the model: footprints and
      * what is between them are put on it. NULL: none. Since 0.1. */
     const char *terrain;
-    /* Of footprints alone; refused with others: how densely people, cars, lamps and trees are put along roads, 1 as in an
-     * ordinary town, up to 4. 0: only those in the file. Since 0.1. */
+    /* Of footprints alone; refused with others: how densely people, cars, lamps and trees are put along roads, 1 as in
+     * an ordinary town, up to 4. 0: only those in the file. Since 0.1. */
     double populate;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \

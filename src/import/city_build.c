@@ -595,7 +595,8 @@ void city_extent(double (*points)[3], size_t count, double low[3], double high[3
 /* `at` in the file's unit. */
 static void widen_place(city_facts *facts, const double at[2])
 {
-    double p[2] = {(at[0] - facts->origin[0]) * city_metres(facts, 0), (at[1] - facts->origin[1]) * city_metres(facts, 0)};
+    double p[2] = {(at[0] - facts->origin[0]) * city_metres(facts, 0),
+                   (at[1] - facts->origin[1]) * city_metres(facts, 0)};
     if (facts->geographic) {
         double zero[2], meridian = city_meridian(facts->origin[0]);
         city_plane(facts->origin[0], facts->origin[1], meridian, zero);

@@ -23,7 +23,7 @@ typedef struct knee_point {
 typedef struct sloper {
     raiser     *r;
     skeleton    s;
-    uint32_t   *points;  /* of nodes */
+    uint32_t   *points; /* of nodes */
     knee_point *knees;
     uint32_t   *next; /* a knee point: the one behind it around the level top; numbers in `knees` */
     size_t      knee_count, knee_capacity, next_capacity;

@@ -1,5 +1,5 @@
-/* GeoPackages, shapefiles, OpenStreetMap's extracts, and rasters of heights: a child with GDAL in it gets their bytes and
- * those of the files beside them, and nothing else. Footprints come back as GeoJSON, rasters as terrain. */
+/* GeoPackages, shapefiles, OpenStreetMap's extracts, and rasters of heights: a child with GDAL in it gets their bytes
+ * and those of the files beside them, and nothing else. Footprints come back as GeoJSON, rasters as terrain. */
 #define _GNU_SOURCE /* memmem */
 #include "import/geodata.h"
 
@@ -43,8 +43,10 @@ static lmn_status put_beside(fence_bytes *request, const import_job *job, const 
 {
     static const struct {
         const char *ending, *others[6];
-    } rows[] = {{".shp", {".shx", ".dbf", ".prj", ".cpg", NULL}}, {".tif", {".tfw", ".prj", NULL}},
-                {".tiff", {".tfw", ".prj", NULL}},                {".asc", {".prj", NULL}}};
+    } rows[] = {{".shp", {".shx", ".dbf", ".prj", ".cpg", NULL}},
+                {".tif", {".tfw", ".prj", NULL}},
+                {".tiff", {".tfw", ".prj", NULL}},
+                {".asc", {".prj", NULL}}};
     char       ending[16], other[300];
     lmn_status status = LMN_OK;
     file_ending(name, ending, sizeof ending);
@@ -85,7 +87,8 @@ lmn_status geodata_ask(const import_job *job, geodata_question question, const g
         fence_put_text(&request, system);
     }
     if (status == LMN_OK)
-        status = fence_call_prepared(answer, geodata_answer, geodata_prepare, "the reader of this format", &request, error);
+        status =
+            fence_call_prepared(answer, geodata_answer, geodata_prepare, "the reader of this format", &request, error);
     mem_free(request.bytes);
     if (status != LMN_OK)
         error_file(error, job->path);

@@ -55,10 +55,10 @@ static void open_database(const geodata_library *g)
     g->OSRSetFromUserInput(first, names[0]);
     for (size_t i = 1; i < sizeof names / sizeof *names; i++) {
         gdal_handle other = g->OSRNewSpatialReference(NULL);
-        gdal_handle way = g->OSRSetFromUserInput(other, names[i]) == 0 ? g->OCTNewCoordinateTransformation(other, first)
-                                                                       : NULL;
-        double      x = 500000, y = 5000000;
-        int         good;
+        gdal_handle way =
+            g->OSRSetFromUserInput(other, names[i]) == 0 ? g->OCTNewCoordinateTransformation(other, first) : NULL;
+        double x = 500000, y = 5000000;
+        int    good;
         if (way) {
             g->OCTTransformEx(way, 1, &x, &y, NULL, &good);
             g->OCTDestroyCoordinateTransformation(way);

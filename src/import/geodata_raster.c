@@ -43,8 +43,8 @@ static bool open_raster(const geodata_child *c, raster *r)
     r->offset = known && isfinite(r->offset) ? r->offset : 0;
     const char *unit = g->GDALGetRasterUnitType(r->band);
     r->metres = unit && (strcmp(unit, "ft") == 0 || strcmp(unit, "foot") == 0 || strcmp(unit, "feet") == 0) ? 0.3048
-                : unit && strncmp(unit, "US survey", 9) == 0                                                ? 1200.0 / 3937
-                                                                                                            : 1;
+                : unit && strncmp(unit, "US survey", 9) == 0 ? 1200.0 / 3937
+                                                             : 1;
     return true;
 }
 
@@ -79,8 +79,8 @@ lmn_status geodata_extent_of(const geodata_child *c)
 }
 
 /* The posts as columns and rows of the raster, in place: x and y, and whether each is any. */
-static lmn_status find_cells(const geodata_child *c, const raster *r, const char *system, double *x, double *y, int *good,
-                             size_t count)
+static lmn_status find_cells(const geodata_child *c, const raster *r, const char *system, double *x, double *y,
+                             int *good, size_t count)
 {
     const geodata_library *g = c->library;
     gdal_handle            own = g->GDALGetSpatialRef(c->data), from = g->OSRNewSpatialReference(NULL), way = NULL;
@@ -89,7 +89,8 @@ static lmn_status find_cells(const geodata_child *c, const raster *r, const char
     if (system[0] && to) {
         g->OSRSetAxisMappingStrategy(to, 0);
         if (g->OSRSetFromUserInput(from, system) != 0) {
-            status = error_set(c->error, LMN_UNSUPPORTED, "the model's coordinate system \"%.100s\" is not known", system);
+            status =
+                error_set(c->error, LMN_UNSUPPORTED, "the model's coordinate system \"%.100s\" is not known", system);
         } else {
             g->OSRSetAxisMappingStrategy(from, 0);
             g->OSRStripVertical(from);
@@ -110,8 +111,8 @@ static lmn_status find_cells(const geodata_child *c, const raster *r, const char
         double a = x[i], b = y[i];
         x[i] = r->to_cell[0] + a * r->to_cell[1] + b * r->to_cell[2] - 0.5;
         y[i] = r->to_cell[3] + a * r->to_cell[4] + b * r->to_cell[5] - 0.5;
-        good[i] = good[i] && isfinite(x[i]) && isfinite(y[i]) && x[i] >= -0.5 && y[i] >= -0.5 && x[i] <= r->width - 0.5 &&
-                  y[i] <= r->height - 0.5;
+        good[i] = good[i] && isfinite(x[i]) && isfinite(y[i]) && x[i] >= -0.5 && y[i] >= -0.5 &&
+                  x[i] <= r->width - 0.5 && y[i] <= r->height - 0.5;
     }
     if (way)
         g->OCTDestroyCoordinateTransformation(way);
@@ -141,7 +142,8 @@ static lmn_status read_cells(const geodata_child *c, raster *r, const double *x,
     r->columns = (int)fmin(ceil(high[0]) + 1, r->width - 1) - r->left + 1;
     r->rows = (int)fmin(ceil(high[1]) + 1, r->height - 1) - r->top + 1;
     if ((double)r->columns * r->rows > CELLS_MAX)
-        return error_set(c->error, LMN_LIMIT, "the part of the terrain below the model has more than %d posts", CELLS_MAX);
+        return error_set(c->error, LMN_LIMIT, "the part of the terrain below the model has more than %d posts",
+                         CELLS_MAX);
     r->cells = mem_calloc((size_t)r->columns * (size_t)r->rows, sizeof *r->cells);
     if (!r->cells)
         return error_memory(c->error);
@@ -167,7 +169,8 @@ static float height_at(const raster *r, double x, double y)
     y -= r->top;
     int    column = (int)floor(x), row = (int)floor(y);
     double u = x - column, v = y - row;
-    double h[4] = {cell(r, column, row), cell(r, column + 1, row), cell(r, column, row + 1), cell(r, column + 1, row + 1)};
+    double h[4] = {cell(r, column, row), cell(r, column + 1, row), cell(r, column, row + 1),
+                   cell(r, column + 1, row + 1)};
     double all = (h[0] * (1 - u) + h[1] * u) * (1 - v) + (h[2] * (1 - u) + h[3] * u) * v;
     if (isfinite(all))
         return (float)all;

@@ -13,7 +13,7 @@
 #include "import/footprint.h"
 #include "import/geojson.h"
 #include "import/json_scan.h"
-#include "import/terrain.h"
+#include "import/street.h"
 
 enum { POSITIONS_MAX = 1000000 };
 
@@ -36,7 +36,8 @@ typedef struct geojson_reader {
     city_shape        shape, flat; /* flat: one area or strip before it lies on the terrain */
     footprint_points  points, flat_points;
     rings             rings;
-    city_meshes       tree;
+    city_meshes       props[PROPS];
+    street           *street; /* NULL: nobody asks for more than the file has */
     uint64_t          guessed_heights, flat_roofs, other_roofs, places;
     size_t            number;
 } geojson_reader;
@@ -173,7 +174,7 @@ static void straighten(rings *k, size_t first)
         const double *a = p[kept ? kept - 1 : *count - 1], *b = p[i], *c = p[(i + 1) % *count];
         double        x = c[0] - a[0], y = c[1] - a[1], length = hypot(x, y);
         double        off = length > 0 ? fabs(x * (b[1] - a[1]) - y * (b[0] - a[0])) / length : 0;
-        bool          straight = off < STRAIGHT && *count - (i - kept) > 3;
+        bool          straight = off<STRAIGHT          &&* count - (i - kept)> 3;
         if (!straight)
             memmove(p[kept++], b, sizeof *p);
     }
@@ -318,9 +319,12 @@ static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan
     if (thing->is_building) {
         done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
                                &made);
+        done = done && (!r->street || street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]));
         r->flat_roofs += made == ROOF_MADE_FLAT;
         r->other_roofs += made == ROOF_OTHERWISE;
     } else {
+        if (r->street && strcmp(thing->type, "WaterBody") == 0)
+            done = street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]);
         begin_flat(r);
         uint32_t at = (uint32_t)r->flat_points.count;
         for (size_t i = 0; i < k->position_count && done; i++)
@@ -351,37 +355,9 @@ static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s
                          thing->body.base + k->lowest) ||
         !lay_flat(r, thing))
         no_memory(r);
-}
-
-/* A crown of two cones over a trunk, 1 high. */
-static void make_tree(geojson_reader *r)
-{
-    enum { SIDES = 7 };
-    static const double heights[3] = {0.22, 0.45, 1}, radius = 0.3;
-    city_shape          kept = r->shape;
-    footprint_points    points = {NULL, 0, 0};
-    bool                done = true;
-    memset(&r->shape, 0, sizeof r->shape);
-    for (int i = 0; i < SIDES && done; i++)
-        done = footprint_add_point(&points, radius * cos(6.283185307179586 * i / SIDES),
-                                   radius * sin(6.283185307179586 * i / SIDES), heights[1]);
-    done = done && footprint_add_point(&points, 0, 0, heights[0]) && footprint_add_point(&points, 0, 0, heights[2]);
-    for (uint32_t i = 0; i < 2 * SIDES && done; i++) {
-        uint32_t a = i % SIDES, b = (a + 1) % SIDES, end = i < SIDES ? SIDES + 1 : SIDES;
-        done = city_shape_corner(&r->shape, i < SIDES ? a : b) && city_shape_corner(&r->shape, i < SIDES ? b : a) &&
-               city_shape_corner(&r->shape, end) && city_shape_end_ring(&r->shape) &&
-               city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
-    }
-    static const char type[] = "SolitaryVegetationObject";
-    if (done) {
-        city_builder_points(&r->builder, points.items, points.count);
-        r->status = city_make(&r->builder, &r->shape, city_word_of_class(type, sizeof type - 1), true, &r->tree);
-    } else {
+    if (r->status == LMN_OK && r->street && strcmp(thing->type, "Road") == 0 &&
+        !street_add_road(r->street, (const double(*)[2])k->positions, k->position_count, thing->width, thing->cars))
         no_memory(r);
-    }
-    mem_free(points.items);
-    city_shape_release(&r->shape);
-    r->shape = kept;
 }
 
 static void keep_place(geojson_reader *r, const double p[3], void *user)
@@ -391,19 +367,24 @@ static void keep_place(geojson_reader *r, const double p[3], void *user)
     city_crs_local(&r->scene->city, false, out);
 }
 
-static void put_tree(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
+static void put_prop(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
 {
-    double at[3] = {NAN, 0, 0}, high = thing->body.ridge;
+    double at[3] = {NAN, 0, 0}, size = thing->body.ridge, c = size * cos(thing->heading),
+           n = size * sin(thing->heading);
+    city_meshes *meshes = &r->props[thing->prop];
     read_position(r, s, keep_place, at);
     if (!isfinite(at[0]))
         return;
-    if (!r->tree.count)
-        make_tree(r);
+    if (!meshes->count)
+        r->status = prop_make(&r->builder, thing->prop, meshes);
     if (r->builder.terrain)
         at[2] = terrain_height(r->builder.terrain, at[0], at[1]);
-    mat4 place = {{high, 0, 0, 0, 0, high, 0, 0, 0, 0, high, 0, at[0], at[1], at[2], 1}};
+    mat4 place = {{c, n, 0, 0, -n, c, 0, 0, 0, 0, size, 0, at[0], at[1], at[2], 1}};
     if (r->status == LMN_OK)
-        r->status = city_attach(&r->builder, node, &r->tree, &place, true);
+        r->status = city_attach(&r->builder, node, meshes, &place, true);
+    if (r->status == LMN_OK && r->street &&
+        !street_add_thing(r->street, at[0], at[1], prop_room_of(thing->prop).radius))
+        no_memory(r);
 }
 
 static void put_feature(geojson_reader *r, const feature *f)
@@ -448,7 +429,7 @@ static void put_feature(geojson_reader *r, const feature *f)
     r->points.count = 0;
     s = scan_of(coordinates);
     if (point) {
-        put_tree(r, node, &thing, &s);
+        put_prop(r, node, &thing, &s);
         return;
     }
     if (area)
@@ -596,8 +577,13 @@ static void read_document(geojson_reader *r)
     find_place(r, features);
     if (r->status == LMN_OK)
         r->status = city_builder_terrain(&r->builder);
+    double density = r->job->desc ? r->job->desc->populate : 0;
+    if (r->status == LMN_OK && density > 0 && !(r->street = street_new()))
+        no_memory(r);
     if (r->status == LMN_OK)
         read_features(r, features);
+    if (r->status == LMN_OK && r->street)
+        r->status = street_populate(r->street, &r->builder, density);
 }
 
 static void tell(geojson_reader *r)
@@ -631,7 +617,9 @@ static lmn_status read_geojson(const import_job *job, lmn_error *error)
     mem_free(r->points.items);
     mem_free(r->rings.positions);
     mem_free(r->rings.counts);
-    mem_free(r->tree.items);
+    for (int i = 0; i < PROPS; i++)
+        mem_free(r->props[i].items);
+    street_free(r->street);
     mem_free(r);
     return status;
 }

@@ -1,8 +1,8 @@
 /* The moving outline is simulated event by event: an edge has no length any more, or a corner that points inwards
  * reaches an edge and splits what is there. Towns are full of right angles, where many events happen in one place at
  * one time. They are not told apart by rules but kept from happening: corners are first moved by some ten millionths of
- * the size, by chance that depends on nothing but their numbers, so that each event is alone. What comes out is checked as a whole
- * (skeleton_check.c), and tried again with other chance where it is not right. */
+ * the size, by chance that depends on nothing but their numbers, so that each event is alone. What comes out is checked
+ * as a whole (skeleton_check.c), and tried again with other chance where it is not right. */
 #include "import/skeleton.h"
 
 #include <math.h>

@@ -47,8 +47,7 @@ static bool is_inside(const double (*ring)[2], size_t count, const double at[2])
     bool inside = false;
     for (size_t i = 0, j = count - 1; i < count; j = i++)
         if ((ring[i][1] > at[1]) != (ring[j][1] > at[1]) &&
-            at[0] <
-                (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
+            at[0] < (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
             inside = !inside;
     return inside;
 }
@@ -75,11 +74,12 @@ bool skeleton_is_simple(const double (*positions)[2], const uint32_t *ends, cons
     for (size_t k = 0; k < rings; k++)
         total += (uint32_t)counts[k];
     for (uint32_t i = 0; i < total; i++) {
-        if (is_spike(positions, ends, i) || hypot(positions[i][0] - positions[ends[i]][0],
-                                                  positions[i][1] - positions[ends[i]][1]) == 0)
+        if (is_spike(positions, ends, i) ||
+            hypot(positions[i][0] - positions[ends[i]][0], positions[i][1] - positions[ends[i]][1]) == 0)
             return false;
         for (uint32_t k = i + 1; k < total; k++)
-            if (ends[i] != k && ends[k] != i && touch(positions[i], positions[ends[i]], positions[k], positions[ends[k]]))
+            if (ends[i] != k && ends[k] != i &&
+                touch(positions[i], positions[ends[i]], positions[k], positions[ends[k]]))
                 return false;
     }
     return are_nested(positions, counts, rings);

@@ -70,7 +70,8 @@ static lmn_status ask_extent(const import_job *job, geodata_extent *out, char *s
     return error_in_file(error, LMN_FORMAT, job->path, 0, "the raster does not say where it lies");
 }
 
-/* How far apart posts are: as in the raster, but not more of them than can be drawn, nor so few that all is one plane. */
+/* How far apart posts are: as in the raster, but not more of them than can be drawn, nor so few that all is one plane.
+ */
 static void lay_grid(terrain *t, const city_facts *city, double native)
 {
     double sides[2], longer;
@@ -87,8 +88,8 @@ static void lay_grid(terrain *t, const city_facts *city, double native)
 
 static lmn_status ask_heights(const import_job *job, terrain *t, const frame *f, lmn_error *error)
 {
-    geodata_grid grid = {f->origin[0] + t->low[0] / f->metres, f->origin[1] + t->low[1] / f->metres, t->step / f->metres,
-                         t->columns, t->rows};
+    geodata_grid grid = {f->origin[0] + t->low[0] / f->metres, f->origin[1] + t->low[1] / f->metres,
+                         t->step / f->metres, t->columns, t->rows};
     size_t       count = (size_t)t->columns * t->rows;
     fence_bytes  answer;
     lmn_status   status = geodata_ask(job, GEODATA_HEIGHTS, &grid, f->system, &answer, error);
@@ -145,7 +146,8 @@ static lmn_status load(terrain *t, const import_job *job, const city_facts *city
         return status;
     find_frame(&f, city);
     if (!f.system[0] && extent.geographic) {
-        error_in_file(error, LMN_USAGE, job->path, 0, "the model does not name its coordinate system, and the terrain is in degrees");
+        error_in_file(error, LMN_USAGE, job->path, 0,
+                      "the model does not name its coordinate system, and the terrain is in degrees");
         error_hint(error, "give the model a coordinate system, or terrain that is in the model's");
         return LMN_USAGE;
     }
@@ -197,7 +199,8 @@ double terrain_height(const terrain *t, double x, double y)
     u -= column;
     v -= row;
     const float *h = t->heights + (size_t)row * t->columns + column, *above = h + t->columns;
-    return u >= v ? h[0] + u * (h[1] - h[0]) + v * (above[1] - h[1]) : h[0] + v * (above[0] - h[0]) + u * (above[1] - above[0]);
+    return u >= v ? h[0] + u * (h[1] - h[0]) + v * (above[1] - h[1])
+                  : h[0] + v * (above[0] - h[0]) + u * (above[1] - above[0]);
 }
 
 double terrain_lowest(const terrain *t, const double (*ring)[2], size_t count)
@@ -208,7 +211,8 @@ double terrain_lowest(const terrain *t, const double (*ring)[2], size_t count)
         const double *a = ring[i], *b = ring[(i + 1) % count];
         int           steps = 1 + (int)fmin(2 * hypot(b[0] - a[0], b[1] - a[1]) / t->step, STEPS_MAX);
         for (int k = 0; k < steps; k++)
-            lowest = fmin(lowest, terrain_height(t, a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps));
+            lowest =
+                fmin(lowest, terrain_height(t, a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps));
     }
     return isfinite(lowest) ? lowest : 0;
 }

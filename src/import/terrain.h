@@ -1,12 +1,12 @@
-/* Inside the import folder: terrain from rasters of heights (geodata.h), as a grid around a city's origin, and what lies
- * on it. Nienhaus 2005, section 4.8; row C02. */
+/* Inside the import folder: terrain from rasters of heights (geodata.h), as a grid around a city's origin, and what
+ * lies on it. Nienhaus 2005, section 4.8; row C02. */
 #ifndef LIMNER_IMPORT_TERRAIN_H
 #define LIMNER_IMPORT_TERRAIN_H
 
 #include "import/footprint.h"
 
-/* Posts at low + step · (column, row), in the scene's coordinates. Each cell is two triangles, which meet along the line
- * from its first to its last post. */
+/* Posts at low + step · (column, row), in the scene's coordinates. Each cell is two triangles, which meet along the
+ * line from its first to its last post. */
 typedef struct terrain {
     double   low[2], step;
     uint32_t columns, rows;

@@ -178,7 +178,8 @@ bool terrain_drape(const terrain *t, const city_shape *flat, const vec3 *flat_po
                 in.p[k][0] = (double)p.x;
                 in.p[k][1] = (double)p.y;
             }
-            area = (in.p[1][0] - in.p[0][0]) * (in.p[2][1] - in.p[0][1]) - (in.p[2][0] - in.p[0][0]) * (in.p[1][1] - in.p[0][1]);
+            area = (in.p[1][0] - in.p[0][0]) * (in.p[2][1] - in.p[0][1]) -
+                   (in.p[2][0] - in.p[0][0]) * (in.p[1][1] - in.p[0][1]);
             if (area < 0)
                 for (int k = 0; k < 2; k++) {
                     double kept = in.p[1][k];

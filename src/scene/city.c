@@ -87,8 +87,9 @@ void city_plane(double longitude, double latitude, double meridian, double out[2
 {
     const double degree = 3.14159265358979323846 / 180, a = 6378137, f = 1 / 298.257223563;
     const double n = f / (2 - f), n2 = n * n, n3 = n2 * n, n4 = n2 * n2;
-    const double alpha[] = {n / 2 - 2 * n2 / 3 + 5 * n3 / 16 + 41 * n4 / 180, 13 * n2 / 48 - 3 * n3 / 5 + 557 * n4 / 1440,
-                            61 * n3 / 240 - 103 * n4 / 140, 49561 * n4 / 161280};
+    const double alpha[] = {n / 2 - 2 * n2 / 3 + 5 * n3 / 16 + 41 * n4 / 180,
+                            13 * n2 / 48 - 3 * n3 / 5 + 557 * n4 / 1440, 61 * n3 / 240 - 103 * n4 / 140,
+                            49561 * n4 / 161280};
     const double mean = a / (1 + n) * (1 + n2 / 4 + n4 / 64), root = 2 * sqrt(n) / (1 + n);
     /* What lies on the other side of the earth has no place here. */
     double across = fmax(-60, fmin(60, remainder(longitude - meridian, 360))) * degree;
@@ -144,17 +145,20 @@ typedef enum word {
     LAND,
     TERRAIN,
     FURNITURE,
+    PERSON,
+    VEHICLE,
     BRIDGE,
     TUNNEL,
     WORDS
 } word;
 
 const char *const city_words[] = {
-    [ROOF] = "roof",           [WALL] = "wall",     [GROUND] = "ground", [CLOSURE] = "closure",
-    [CEILING] = "ceiling",     [FLOOR] = "floor",   [WINDOW] = "window", [DOOR] = "door",
-    [INTERIOR] = "interior",   [WATER] = "water",   [ROAD] = "road",     [RAIL] = "rail",
-    [VERGE] = "verge",         [PLANT] = "plant",   [LAND] = "land",     [TERRAIN] = "terrain",
-    [FURNITURE] = "furniture", [BRIDGE] = "bridge", [TUNNEL] = "tunnel", [WORDS] = NULL};
+    [ROOF] = "roof",           [WALL] = "wall",     [GROUND] = "ground",   [CLOSURE] = "closure",
+    [CEILING] = "ceiling",     [FLOOR] = "floor",   [WINDOW] = "window",   [DOOR] = "door",
+    [INTERIOR] = "interior",   [WATER] = "water",   [ROAD] = "road",       [RAIL] = "rail",
+    [VERGE] = "verge",         [PLANT] = "plant",   [LAND] = "land",       [TERRAIN] = "terrain",
+    [FURNITURE] = "furniture", [PERSON] = "person", [VEHICLE] = "vehicle", [BRIDGE] = "bridge",
+    [TUNNEL] = "tunnel",       [WORDS] = NULL};
 
 const size_t city_word_count = WORDS;
 
@@ -201,6 +205,8 @@ static const struct {
     {"BreaklineRelief", TERRAIN},
     {"RasterRelief", TERRAIN},
     {"CityFurniture", FURNITURE},
+    {"Person", PERSON},
+    {"Vehicle", VEHICLE},
     {"Bridge", BRIDGE},
     {"BridgePart", BRIDGE},
     {"BridgeInstallation", BRIDGE},

@@ -24,7 +24,7 @@ typedef struct city_facts {
     double      metres[2]; /* of the file's unit in the plane, and of its heights; 0: one */
     double      origin[3];
     double      low[2], high[2]; /* of what the file has, in coordinates of the scene */
-    char       *crs; /* as the file calls it; NULL: it does not say */
+    char       *crs;             /* as the file calls it; NULL: it does not say */
     city_count *counts;
     size_t      count_count, count_capacity;
 } city_facts;
@@ -47,7 +47,7 @@ bool city_offset(const city_facts *into, const city_facts *from, double out[3]);
 void   city_plane(double longitude, double latitude, double meridian, double out[2]);
 double city_meridian(double longitude);
 /* Mercator's projection of the web to longitude and latitude. */
-void city_web_degrees(double p[2]);
+void                 city_web_degrees(double p[2]);
 static inline double city_metres(const city_facts *f, int of_heights)
 {
     return f->metres[of_heights] > 0 ? f->metres[of_heights] : 1;

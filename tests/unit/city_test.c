@@ -423,8 +423,9 @@ static void test_units(void **state)
 {
     (void)state;
 #define SQUARE(crs, x0, y0, x1, y1)                                                                                    \
-    "{\"type\":\"CityJSON\",\"version\":\"1.1\",\"metadata\":{\"referenceSystem\":\"" crs "\"},\"CityObjects\":"          \
-    "{\"a\":{\"type\":\"LandUse\",\"geometry\":[{\"type\":\"MultiSurface\",\"lod\":\"1\",\"boundaries\":[[[0,1,2,3]]]}]}}," \
+    "{\"type\":\"CityJSON\",\"version\":\"1.1\",\"metadata\":{\"referenceSystem\":\"" crs "\"},\"CityObjects\":"       \
+    "{\"a\":{\"type\":\"LandUse\",\"geometry\":[{\"type\":\"MultiSurface\",\"lod\":\"1\",\"boundaries\":[[[0,1,2,3]]]" \
+    "}]}},"                                                                                                            \
     "\"vertices\":[[" x0 "," y0 ",20],[" x1 "," y0 ",20],[" x1 "," y1 ",20],[" x0 "," y1 ",20]]}"
     static const struct {
         const char *text;
@@ -453,12 +454,10 @@ static void test_units(void **state)
 static void test_plane(void **state)
 {
     (void)state;
-    static const double rows[][5] = {{11.575, 48.137, 12, -31631.6820183, 5333748.2234670},
-                                     {139.7, 35.6, 141, -117805.1310226, 3941938.6112385},
-                                     {-73.97, 40.78, -75, 86947.4425617, 4516652.3850884},
-                                     {7.4, 43.73, 6, 112797.1474066, 4844775.4842252},
-                                     {179.5, -17.5, 180, -53100.2724258, -1935712.8280996},
-                                     {4.36, 52.0, 3, 93399.9877364, 5764217.1270925}};
+    static const double rows[][5] = {
+        {11.575, 48.137, 12, -31631.6820183, 5333748.2234670}, {139.7, 35.6, 141, -117805.1310226, 3941938.6112385},
+        {-73.97, 40.78, -75, 86947.4425617, 4516652.3850884},  {7.4, 43.73, 6, 112797.1474066, 4844775.4842252},
+        {179.5, -17.5, 180, -53100.2724258, -1935712.8280996}, {4.36, 52.0, 3, 93399.9877364, 5764217.1270925}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         double p[2];
         city_plane(rows[i][0], rows[i][1], rows[i][2], p);
@@ -676,7 +675,8 @@ int main(void)
         cmocka_unit_test(test_semantics),     cmocka_unit_test(test_levels_of_detail),
         cmocka_unit_test(test_templates),     cmocka_unit_test(test_lines_and_points),
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_origins),       cmocka_unit_test(test_degrees), cmocka_unit_test(test_units), cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_origins),       cmocka_unit_test(test_degrees),
+        cmocka_unit_test(test_units),         cmocka_unit_test(test_plane),
         cmocka_unit_test(test_sequence),      cmocka_unit_test(test_packed),
         cmocka_unit_test(test_counted),       cmocka_unit_test(test_crossing),
         cmocka_unit_test(test_refused),       cmocka_unit_test(test_cut_off_and_memory),

@@ -195,11 +195,13 @@ static double unevenness(const city_shape *s, const vec3 *points, size_t face)
     double count = (double)(s->rings[ring] - first);
     for (size_t i = first; i < s->rings[ring]; i++) {
         vec3 p = points[s->corners[i]];
-        middle = (vec3){middle.x + (float)(p.x / count), middle.y + (float)(p.y / count), middle.z + (float)(p.z / count)};
+        middle =
+            (vec3){middle.x + (float)(p.x / count), middle.y + (float)(p.y / count), middle.z + (float)(p.z / count)};
     }
     for (size_t i = first; i < s->rings[ring] && length > 0.02; i++) {
         vec3 p = points[s->corners[i]];
-        worst = fmax(worst, fabs((n[0] * (p.x - middle.x) + n[1] * (p.y - middle.y) + n[2] * (p.z - middle.z)) / length));
+        worst =
+            fmax(worst, fabs((n[0] * (p.x - middle.x) + n[1] * (p.y - middle.y) + n[2] * (p.z - middle.z)) / length));
     }
     return worst;
 }
@@ -286,7 +288,8 @@ static size_t shrinking_areas(const plan *f, double step, double *areas, size_t 
     for (size_t k = 0; k < f->rings; first += f->counts[k++]) {
         contours[k] = (contour){mem_calloc(f->counts[k], sizeof(point2)), f->counts[k]};
         for (size_t i = 0; i < f->counts[k]; i++)
-            contours[k].points[i] = (point2){LARGER * (f->p[first + i][0] - f->p[0][0]), LARGER * (f->p[first + i][1] - f->p[0][1])};
+            contours[k].points[i] =
+                (point2){LARGER * (f->p[first + i][0] - f->p[0][0]), LARGER * (f->p[first + i][1] - f->p[0][1])};
     }
     for (double area = region_area(&r); area > 0 && count < most; area = region_area(&r)) {
         areas[count++] = area / LARGER / LARGER;
