@@ -101,24 +101,27 @@ static uint32_t point_at(draper *d, double x, double y)
     return d->table[slot];
 }
 
+/* However small it is: where one is missing, a pixel may show what is below. */
 static void put_piece(draper *d, const piece *in)
 {
     uint32_t corners[PIECE_MAX];
     int      count = 0;
-    double   area = 0;
-    for (int i = 0; i < in->count; i++) {
-        const double *p = in->p[i], *q = in->p[(i + 1) % in->count];
-        area += (p[0] - in->p[0][0]) * (q[1] - in->p[0][1]) - (q[0] - in->p[0][0]) * (p[1] - in->p[0][1]);
-    }
-    for (int i = 0; i < in->count && area > 1e-6 && d->good; i++) {
+    for (int i = 0; i < in->count && in->count >= 3 && d->good; i++) {
         uint32_t point = point_at(d, in->p[i][0], in->p[i][1]);
         if (count == 0 || (corners[count - 1] != point && corners[0] != point))
             corners[count++] = point;
     }
-    for (int i = 0; i < count && count >= 3 && d->good; i++)
+    double area = 0;
+    for (int i = 1; i + 1 < count && d->good; i++) {
+        vec3 o = d->points->items[corners[0]], p = d->points->items[corners[i]], q = d->points->items[corners[i + 1]];
+        area += ((double)p.x - (double)o.x) * ((double)q.y - (double)o.y) -
+                ((double)q.x - (double)o.x) * ((double)p.y - (double)o.y);
+    }
+    if (!(area > 0))
+        return;
+    for (int i = 0; i < count && d->good; i++)
         d->good = city_shape_corner(d->out, corners[i]);
-    if (count >= 3 && d->good)
-        d->good = city_shape_end_ring(d->out) && city_shape_end_face(d->out, NONE, CITY_NO_WORD, 0);
+    d->good = d->good && city_shape_end_ring(d->out) && city_shape_end_face(d->out, NONE, CITY_NO_WORD, 0);
 }
 
 /* What of a piece lies in the cells of one column. */

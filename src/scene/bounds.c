@@ -169,8 +169,8 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
     return local;
 }
 
-static box3 bounds_at(const lmn_scene *s, const mat4 *worlds, const mat4 *world, int32_t node_index, const float *weights,
-                      posed_vertices *keep)
+static box3 bounds_at(const lmn_scene *s, const mat4 *worlds, const mat4 *world, int32_t node_index,
+                      const float *weights, posed_vertices *keep)
 {
     const node *n = &s->nodes[node_index];
     box3        box = box3_empty();
@@ -181,8 +181,8 @@ static box3 bounds_at(const lmn_scene *s, const mat4 *worlds, const mat4 *world,
     const mesh *m = &s->meshes[n->mesh];
     mat4       *joints = skin_matrices(s, worlds, n->skin);
     for (size_t i = 0; i < m->primitive_count; i++)
-        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], world, joints, weights,
-                                               keep ? &keep[i] : NULL));
+        box =
+            box3_union(box, primitive_bounds(s, n, &m->primitives[i], world, joints, weights, keep ? &keep[i] : NULL));
     mem_free(joints);
     return box;
 }

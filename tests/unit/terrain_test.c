@@ -34,6 +34,39 @@ static void add_ring(city_shape *s, footprint_points *p, const double (*at)[2], 
     assert_true(city_shape_end_ring(s));
 }
 
+static double distance_to(const double a[2], const double b[2], double x, double y)
+{
+    double wx = b[0] - a[0], wy = b[1] - a[1], t = ((x - a[0]) * wx + (y - a[1]) * wy) / (wx * wx + wy * wy);
+    t = fmax(0, fmin(1, t));
+    return hypot(x - a[0] - t * wx, y - a[1] - t * wy);
+}
+
+/* Nothing is open but along the rings. */
+static void check_seams(const city_shape *s, const vec3 *points, const double (*const rings[])[2], const size_t *counts,
+                        size_t ring_count)
+{
+    for (size_t f = 0; f < s->face_count; f++) {
+        size_t first = city_first_corner(s, f), count = s->rings[f] - first;
+        for (size_t i = 0; i < count; i++) {
+            uint32_t a = s->corners[first + i], b = s->corners[first + (i + 1) % count];
+            bool     paired = false, outside = false;
+            for (size_t g = 0; g < s->face_count && !paired; g++) {
+                size_t from = city_first_corner(s, g), many = s->rings[g] - from;
+                for (size_t k = 0; k < many; k++)
+                    paired = paired || (s->corners[from + k] == b && s->corners[from + (k + 1) % many] == a);
+            }
+            double x = ((double)points[a].x + (double)points[b].x) / 2,
+                   y = ((double)points[a].y + (double)points[b].y) / 2;
+            for (size_t r = 0; r < ring_count && !paired; r++)
+                for (size_t k = 0; k < counts[r]; k++)
+                    outside = outside || distance_to(rings[r][k], rings[r][(k + 1) % counts[r]], x, y) < 2e-3;
+            if (!paired && !outside)
+                fail_msg("an open edge at %g, %g, %g long", x, y,
+                         hypot((double)(points[a].x - points[b].x), (double)(points[a].y - points[b].y)));
+        }
+    }
+}
+
 /* An area with a hole: every piece lies on one triangle of the terrain, all together cover what the area covers, and
  * pieces share their corners. */
 static void areas_follow_the_terrain(void **state)
@@ -44,15 +77,17 @@ static void areas_follow_the_terrain(void **state)
     terrain          t = hills(heights, known);
     city_shape       flat = {0}, out = {0};
     footprint_points flat_points = {0}, points = {0};
-    const double     ring[5][2] = {{-31.3, -27.9}, {33.1, -41.7}, {41.9, 12.2}, {3.3, 37.1}, {-44.4, 21.2}};
-    const double     hole[3][2] = {{-5, -5}, {3, 11}, {9, -2}};
-    double           area = 0, expected = 0;
-    add_ring(&flat, &flat_points, ring, 5);
+    /* Some corners lie on lines of the grid, or nearly. */
+    const double ring[7][2] = {{-31.3, -27.9}, {33.1, -41.7},  {41.9, 12.2}, {30.004, 30.0013},
+                               {3.3, 37.1},    {-20.0003, 20}, {-44.4, 21.2}};
+    const double hole[3][2] = {{-5, -5}, {3, 11}, {9, -2}};
+    double       area = 0, expected = 0;
+    add_ring(&flat, &flat_points, ring, 7);
     add_ring(&flat, &flat_points, hole, 3);
     assert_true(city_shape_end_face(&flat, NONE, CITY_NO_WORD, 0));
     assert_true(terrain_drape(&t, &flat, flat_points.items, 0.25, &out, &points));
-    for (size_t i = 0; i < 5; i++)
-        expected += (ring[i][0] * ring[(i + 1) % 5][1] - ring[(i + 1) % 5][0] * ring[i][1]) / 2;
+    for (size_t i = 0; i < 7; i++)
+        expected += (ring[i][0] * ring[(i + 1) % 7][1] - ring[(i + 1) % 7][0] * ring[i][1]) / 2;
     for (size_t i = 0; i < 3; i++)
         expected += (hole[i][0] * hole[(i + 1) % 3][1] - hole[(i + 1) % 3][0] * hole[i][1]) / 2;
     for (size_t i = 0; i < points.count; i++) {
@@ -77,6 +112,30 @@ static void areas_follow_the_terrain(void **state)
         area += n[2] / 2;
     }
     assert_true(fabs(area - expected) < 1e-3 * expected);
+    const double(*const rings[])[2] = {ring, hole};
+    check_seams(&out, points.items, rings, (const size_t[]){7, 3}, 2);
+    city_shape_release(&flat);
+    city_shape_release(&out);
+    mem_free(flat_points.items);
+    mem_free(points.items);
+}
+
+/* A diagonal that passes a post by half a millimetre cuts off a piece that hardly has an area, which must not be
+ * missing. */
+static void tiny_pieces_are_there(void **state)
+{
+    (void)state;
+    float            heights[121];
+    bool             known[121];
+    terrain          t = hills(heights, known);
+    const double     ring[4][2] = {{-23, -11.5}, {20, -30}, {26, 13.0024}, {-18, 31}};
+    city_shape       flat = {0}, out = {0};
+    footprint_points flat_points = {0}, points = {0};
+    add_ring(&flat, &flat_points, ring, 4);
+    assert_true(city_shape_end_face(&flat, NONE, CITY_NO_WORD, 0));
+    assert_true(terrain_drape(&t, &flat, flat_points.items, 0.25, &out, &points));
+    const double(*const rings[])[2] = {ring};
+    check_seams(&out, points.items, rings, (const size_t[]){4}, 1);
     city_shape_release(&flat);
     city_shape_release(&out);
     mem_free(flat_points.items);
@@ -318,13 +377,10 @@ static void mistakes_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(areas_follow_the_terrain),
-        cmocka_unit_test(houses_stand_on_terrain),
-        cmocka_unit_test(rasters_may_be_in_other_systems),
-        cmocka_unit_test(formats_say_the_same),
-        cmocka_unit_test(openstreetmap_has_tags),
-        cmocka_unit_test(without_the_library_it_says_so),
-        cmocka_unit_test(mistakes_are_told),
+        cmocka_unit_test(areas_follow_the_terrain),       cmocka_unit_test(tiny_pieces_are_there),
+        cmocka_unit_test(houses_stand_on_terrain),        cmocka_unit_test(rasters_may_be_in_other_systems),
+        cmocka_unit_test(formats_say_the_same),           cmocka_unit_test(openstreetmap_has_tags),
+        cmocka_unit_test(without_the_library_it_says_so), cmocka_unit_test(mistakes_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
