@@ -186,13 +186,32 @@ static void points_become_what_they_are(void **state)
     lmn_scene_destroy(&s);
 }
 
+static void other_models_are_refused(void **state)
+{
+    (void)state;
+    static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const struct {
+        double     density;
+        lmn_status status;
+    } rows[] = {{1, LMN_USAGE}, {-1, LMN_USAGE}, {4.5, LMN_USAGE}, {NAN, LMN_USAGE}, {0, LMN_OK}};
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        lmn_scene    *scene = NULL;
+        lmn_error     error = {0};
+        lmn_load_desc desc = LMN_LOAD_DESC_INIT;
+        desc.populate = rows[i].density;
+        assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);
+        assert_int_equal(lmn_scene_add_file(scene, temp_file("t.obj", triangle, sizeof triangle - 1), &desc, &error),
+                         rows[i].status);
+        lmn_scene_destroy(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_stands_in_anything),
-        cmocka_unit_test(chance_is_the_same_each_time),
-        cmocka_unit_test(all_is_as_large_as_life),
-        cmocka_unit_test(points_become_what_they_are),
+        cmocka_unit_test(nothing_stands_in_anything), cmocka_unit_test(chance_is_the_same_each_time),
+        cmocka_unit_test(all_is_as_large_as_life),    cmocka_unit_test(points_become_what_they_are),
+        cmocka_unit_test(other_models_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
