@@ -38,8 +38,10 @@ typedef struct geojson_reader {
     rings             rings;
     city_meshes       props[PROPS];
     street           *street; /* NULL: nobody asks for more than the file has */
-    uint64_t          guessed_heights, flat_roofs, other_roofs, places;
-    size_t            number;
+    double (*parts)[3];       /* middles of buildings' parts, by x */
+    size_t   part_count, part_capacity;
+    uint64_t guessed_heights, flat_roofs, other_roofs, places;
+    size_t   number;
 } geojson_reader;
 
 typedef struct feature {
@@ -302,16 +304,53 @@ static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
     return done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
 }
 
+static bool is_inside(const double (*ring)[2], size_t count, const double at[3])
+{
+    bool inside = false;
+    for (size_t i = 0, j = count - 1; i < count; j = i++)
+        if ((ring[i][1] > at[1]) != (ring[j][1] > at[1]) &&
+            at[0] < (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
+            inside = !inside;
+    return inside;
+}
+
+/* Is there a part of the building inside? Then the parts are the building (Simple 3D Buildings). */
+static bool has_parts(const geojson_reader *r)
+{
+    const rings *k = &r->rings;
+    double       low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < k->counts[0]; i++) {
+        low = fmin(low, k->positions[i][0]);
+        high = fmax(high, k->positions[i][0]);
+    }
+    size_t first = 0, end = r->part_count;
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        if (r->parts[middle][0] < low)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (; first < r->part_count && r->parts[first][0] <= high; first++)
+        if (is_inside((const double(*)[2])k->positions, k->counts[0], r->parts[first]))
+            return true;
+    return false;
+}
+
 static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan *s)
 {
     if (!read_polygon(r, s))
         return;
     const rings *k = &r->rings;
-    footprint    how = thing->body;
-    roof_made    made = ROOF_AS_ASKED;
-    double       ground = r->builder.terrain
-                              ? terrain_lowest(r->builder.terrain, (const double(*)[2])k->positions, k->counts[0])
-                              : k->lowest;
+    if (thing->is_building && !thing->is_part && has_parts(r)) {
+        r->builder.tally.coarser++;
+        return;
+    }
+    footprint how = thing->body;
+    roof_made made = ROOF_AS_ASKED;
+    double    ground = r->builder.terrain
+                           ? terrain_lowest(r->builder.terrain, (const double(*)[2])k->positions, k->counts[0])
+                           : k->lowest;
     how.base += ground;
     how.eaves += ground;
     how.ridge += ground;
@@ -482,9 +521,41 @@ static void widen(geojson_reader *r, const double p[3], void *user)
     }
 }
 
+static const extent nowhere = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/* The middle of a building's part, as the file has it. */
+static void keep_part(geojson_reader *r, const feature *f, const extent *own)
+{
+    static const char *const keys[] = {"building:part", NULL};
+    json_span                part = geojson_property(f->properties, keys);
+    if (!part.at || span_is(part, "no") || !(own->high[0] >= own->low[0]))
+        return;
+    if (!mem_grow((void **)&r->parts, &r->part_capacity, r->part_count + 1, sizeof *r->parts)) {
+        no_memory(r);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        r->parts[r->part_count][k] = own->low[k] + (own->high[k] - own->low[k]) / 2;
+    r->part_count++;
+}
+
+static int compare_parts(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void place_parts(geojson_reader *r)
+{
+    for (size_t i = 0; i < r->part_count; i++)
+        city_crs_local(&r->scene->city, false, r->parts[i]);
+    if (r->part_count)
+        qsort(r->parts, r->part_count, sizeof *r->parts, compare_parts);
+}
+
 static void find_place(geojson_reader *r, json_span features)
 {
-    extent    e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    extent    e = nowhere;
     json_scan s = scan_of(features);
     for (bool more = scan_open(&s, '['); more && r->status == LMN_OK; more = scan_next(&s, ']')) {
         if (scan_peek(&s) != '{') {
@@ -494,13 +565,19 @@ static void find_place(geojson_reader *r, json_span features)
         feature f = read_feature(&s);
         if (!f.geometry.at || f.geometry.at[0] != '{')
             continue;
+        extent    own = nowhere;
         json_scan g = scan_of(f.geometry);
         for (bool next = scan_open(&g, '{'); next; next = scan_next(&g, '}'))
             if (span_is(scan_key(&g), "coordinates"))
-                each_position(r, &g, 0, widen, &e);
+                each_position(r, &g, 0, widen, &own);
             else
                 scan_skip(&g);
-        good(r, &g);
+        for (int k = 0; k < 3; k++) {
+            e.low[k] = fmin(e.low[k], own.low[k]);
+            e.high[k] = fmax(e.high[k], own.high[k]);
+        }
+        if (good(r, &g))
+            keep_part(r, &f, &own);
     }
     city_facts *facts = &r->scene->city;
     if (!good(r, &s) || !(e.high[0] >= e.low[0]))
@@ -510,6 +587,7 @@ static void find_place(geojson_reader *r, json_span features)
     /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
     city_crs_understand(facts, name, e.low, e.high, NULL);
     city_choose_origin(facts, e.low, e.high);
+    place_parts(r);
 }
 
 static void read_features(geojson_reader *r, json_span features)
@@ -617,6 +695,7 @@ static lmn_status read_geojson(const import_job *job, lmn_error *error)
     mem_free(r->points.items);
     mem_free(r->rings.positions);
     mem_free(r->rings.counts);
+    mem_free(r->parts);
     for (int i = 0; i < PROPS; i++)
         mem_free(r->props[i].items);
     street_free(r->street);

@@ -10,6 +10,7 @@ typedef struct geojson_thing {
     const char *type;                             /* class of CityGML: "Building", "Road" … */
     bool        is_building, is_nothing, guessed; /* guessed: nobody says how high it is */
     double      width;                            /* of lines, m */
+    bool        is_part;                          /* of a building, which another feature is the outline of */
     bool        cars;                             /* of roads: they are for cars */
     prop_kind   prop;                             /* of points */
     double      heading;                          /* of points: radians from east, anticlockwise */

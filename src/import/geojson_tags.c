@@ -97,7 +97,9 @@ static void understand_building(geojson_thing *out, json_span properties)
            levels = number_of(geojson_property(properties, storeys)),
            base = number_of(geojson_property(properties, bases)), roof = number_of(property(properties, "roof:height")),
            roof_levels = number_of(property(properties, "roof:levels"));
-    out->type = "Building";
+    json_span part = property(properties, "building:part");
+    out->type = part.at ? "BuildingPart" : "Building";
+    out->is_part = part.at && !span_is(part, "no");
     out->is_building = true;
     out->body.roof = roof_of(property(properties, "roof:shape"));
     read_direction(&out->body, property(properties, "roof:direction"));
@@ -139,10 +141,12 @@ static void understand_ground(geojson_thing *out, json_span properties, bool lin
     json_span                natural = property(properties, "natural"), landuse = property(properties, "landuse"),
               leisure = property(properties, "leisure"), way = property(properties, "highway"),
               rail = property(properties, "railway"), stream = property(properties, "waterway");
-    double wide = number_of(property(properties, "width"));
+    json_span tunnel = property(properties, "tunnel");
+    double    wide = number_of(property(properties, "width"));
     if (way.at || rail.at) {
         out->type = rail.at ? "Railway" : "Road";
         out->width = wide > 0 ? wide : rail.at ? 3.5 : width_of_road(way);
+        out->is_nothing = tunnel.at && !span_is(tunnel, "no");
         out->cars = way.at && !is_among(way, paths);
         out->body.base = 0.06;
     } else if (stream.at || is_among(natural, waters) || is_among(landuse, waters) ||

@@ -88,6 +88,43 @@ static void features_become_a_town(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Where parts of a building are there, its outline is not raised; a tunnel is not on the ground. */
+static void parts_are_the_building(void **state)
+{
+    (void)state;
+#define BOX(x0, y0, x1, y1)                                                                                            \
+    "{\"type\":\"Polygon\",\"coordinates\":[[[" x0 "," y0 "],[" x1 "," y0 "],[" x1 "," y1 "],[" x0 "," y1 "],[" x0     \
+    "," y0 "]]]}}"
+    static const char text[] =
+        "{\"type\":\"FeatureCollection\",\"features\":["
+        "{\"properties\":{\"building\":\"yes\",\"height\":30},\"geometry\":" BOX(
+            "0", "0", "40",
+            "20") ","
+                  "{\"properties\":{\"building:part\":\"yes\",\"height\":8},\"geometry\":" BOX(
+                      "0", "0", "20",
+                      "20") ","
+                            "{\"properties\":{\"building:part\":\"yes\",\"min_height\":8,\"height\":12},"
+                            "\"geometry\":" BOX(
+                                "5", "5", "15",
+                                "15") ","
+                                      "{\"properties\":{\"building\":\"yes\",\"height\":5},\"geometry\":" BOX(
+                                          "50", "0", "60",
+                                          "9") ","
+                                               "{\"properties\":{\"highway\":\"primary\",\"tunnel\":\"yes\"},"
+                                               "\"geometry\":{\"type\":\"LineString\",\"coordinates\":"
+                                               "[[0,-10],[90,-10]]}},"
+                                               "{\"properties\":{\"highway\":\"primary\"},\"geometry\":{\"type\":"
+                                               "\"LineString\",\"coordinates\":[[0,-190],[190,-190]]}}]}";
+    lmn_scene     *s = load_or_fail(temp_file("parts.geojson", text, sizeof text - 1));
+    lmn_scene_info info = lmn_scene_info_of(s);
+    assert_float_equal((float)info.bounds_max[2], 12, 1e-4f);
+    assert_int_equal(city_counted(&s->city, CITY_SKIPPED, "coarser-than-parts"), 1);
+    assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "BuildingPart"), 2);
+    assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "Road"), 1);
+    assert_int_equal(city_counted(&s->city, CITY_REPAIRED, "turned-faces"), 0);
+    lmn_scene_destroy(&s);
+}
+
 static void mistakes_are_told_or_counted(void **state)
 {
     (void)state;
@@ -129,6 +166,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strips_are_mitred),
         cmocka_unit_test(features_become_a_town),
+        cmocka_unit_test(parts_are_the_building),
         cmocka_unit_test(mistakes_are_told_or_counted),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
