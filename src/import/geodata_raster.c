@@ -71,8 +71,12 @@ lmn_status geodata_extent_of(const geodata_child *c)
     e.geographic = copy && g->OSRIsGeographic(copy);
     if (copy)
         g->OSRAutoIdentifyEPSG(copy);
+    bool known = copy && g->OSRGetAuthorityCode(copy, NULL) != NULL;
     fence_put(c->answer, &e, sizeof e);
-    fence_put_text(c->answer, geodata_system_name(c, copy, name, sizeof name));
+    /* Names that nobody can look up say nothing; then heights are asked for in the raster's own system. */
+    fence_put_text(c->answer, known          ? geodata_system_name(c, copy, name, sizeof name)
+                              : e.geographic ? "urn:ogc:def:crs:OGC:1.3:CRS84"
+                                             : "");
     if (copy)
         g->OSRDestroySpatialReference(copy);
     return LMN_OK;

@@ -253,7 +253,19 @@ static void rasters_may_be_in_other_systems(void **state)
         assert_float_equal(part_with(s, "wall")->bounds.max.z, 409, 1.5f);
         lmn_scene_destroy(&s);
     }
-    /* Alone it is a model, too. */
+    /* Alone they are models, too, also where the system's name is one that only its maker knows. In the first one
+     * heights are known from 2715000 to where the ninth meridian is. */
+    char *degrees = in_folder("degrees.asc");
+    run("gdal_translate -q -srcwin 500 500 40 40 -of AAIGrid %s %s > /dev/null 2>&1", hgt, degrees);
+    const char *const alone[] = {grid, degrees};
+    for (size_t i = 0; i < COUNT(alone); i++) {
+        if (load(&s, alone[i], NULL, &error) != LMN_OK)
+            fail_msg("%s: %s", alone[i], error.message);
+        assert_int_equal(s->part_count, 1);
+        assert_float_equal(s->parts[0].bounds.max.x - s->parts[0].bounds.min.x, i ? 39 * 62.7f : 2730, i ? 60 : 40);
+        lmn_scene_destroy(&s);
+    }
+    mem_free(degrees);
     assert_int_equal(load(&s, tif, NULL, &error), LMN_OK);
     assert_true(s->part_count == 1 && s->up == 'z');
     assert_string_equal(s->city.crs, "EPSG:2056");
