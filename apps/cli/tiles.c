@@ -7,6 +7,7 @@
 #include "sets.h"
 #include "task.h"
 #include "tile_facts.h"
+#include "viewpoint.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,17 +15,17 @@
 #include <sys/stat.h>
 
 typedef struct tiles_values {
-    const char   *output, *zoom, *look, *select, *cut, *camera, *background;
-    word_list     sets, defines;
-    option_vector eye, target, up;
-    option_number fov, fit, time, seed, samples, dpi;
-    int           view, up_axis, tile;
-    bool          orthographic, resume, strict, lenient, quiet, verbose;
-    job_values    job;
-    task_values   task;
+    const char      *output, *zoom, *look, *select, *cut, *background;
+    word_list        sets, defines;
+    option_number    time, seed, samples, dpi, populate;
+    const char      *lod, *terrain;
+    int              up_axis, tile;
+    bool             resume, strict, lenient, quiet, verbose;
+    viewpoint_values viewpoint;
+    job_values       job;
+    task_values      task;
 } tiles_values;
 
-static const char *const views[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
 static const char *const tile_sizes[] = {"256", "512", NULL};
 
 #define AT(field) offsetof(tiles_values, field)
@@ -45,19 +46,7 @@ static const option options[] = {
      "Pixels an inch, for lengths of looks, which are on paper: the same at all zooms, so that lines keep their width "
      "in pixels. Default: 96.",
      1, 10000},
-    {"view", 0, OPTION_CHOICE, AT(view), "VIEW", "iso, front, back, left, right, top or bottom. Default: iso.",
-     .choices = views},
-    {"eye", 0, OPTION_VECTOR, AT(eye), "X,Y,Z", "Where the viewer is, in the scene's unit."},
-    {"target", 0, OPTION_VECTOR, AT(target), "X,Y,Z", "What the viewer looks at. Default: the scene's middle."},
-    {"up", 0, OPTION_VECTOR, AT(up), "X,Y,Z", "Which way is up in the picture. Default: the scene's up axis."},
-    {"camera", 0, OPTION_TEXT, AT(camera), "NAME", "A camera of the file."},
-    {"ortho", 0, OPTION_FLAG, AT(orthographic), NULL, "Parallel projection."},
-    {"fov", 0, OPTION_NUMBER, AT(fov), "DEG", "Vertical angle of view. Default: 30.", 1, 170},
-    {"fit", 0, OPTION_NUMBER, AT(fit), "FACTOR",
-     "Fraction of the picture that the model fills. With --eye only its direction counts then. Default: 0.9; with "
-     "--eye "
-     "nothing is fitted.",
-     0.01, 10},
+    VIEWPOINT_OPTIONS(tiles_values),
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "Draw the model as it is at this time of its animation.", -1e9,
      1e9},
     {"seed", 0, OPTION_WHOLE, AT(seed), "N", "Seed of everything random. Default: 0.", 0, 4294967295.0},
@@ -65,6 +54,9 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
+    LOD_OPTION(AT(lod)),
+    TERRAIN_OPTION(AT(terrain)),
+    POPULATE_OPTION(AT(populate)),
     {"resume", 0, OPTION_FLAG, AT(resume), NULL, "Draw only tiles that are not there yet."},
     JOB_OPTIONS(tiles_values),
     TASK_OPTIONS(tiles_values),
@@ -96,16 +88,8 @@ typedef struct tiles_run {
 
 /* --- arguments ------------------------------------------------------------------------------------------ */
 
-static int check_camera(const tiles_values *v)
+static int check_values(const tiles_values *v)
 {
-    if (v->orthographic && v->fov.given)
-        return message_usage(NULL, "--ortho and --fov exclude each other");
-    if (v->camera && (v->eye.given || v->view >= 0 || v->fit.given || v->orthographic))
-        return message_usage(NULL, "--camera excludes --eye, --view, --fit and --ortho");
-    if (v->eye.given && v->view >= 0)
-        return message_usage(NULL, "--eye and --view exclude each other");
-    if (!v->eye.given && (v->target.given || v->up.given))
-        return message_usage("add --eye X,Y,Z", "--%s needs --eye", v->target.given ? "target" : "up");
     if (v->quiet && v->verbose)
         return message_usage(NULL, "--quiet and --verbose exclude each other");
     for (int side = 1; side <= 4; side++)
@@ -193,12 +177,6 @@ static void fill_desc(tiles_run *t)
     const tiles_values *v = t->values;
     lmn_draw_desc       d = LMN_DRAW_DESC_INIT;
     lmn_scene_info      info = lmn_scene_info_of(t->scene);
-    if (v->view >= 0)
-        d.view = (lmn_view)v->view;
-    d.camera = v->camera;
-    d.orthographic = v->orthographic;
-    d.fov_deg = v->fov.given ? v->fov.value : d.fov_deg;
-    d.fit = v->fit.given ? v->fit.value : d.fit;
     d.time_s = v->time.given ? v->time.value : d.time_s;
     d.time_given = v->time.given;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
@@ -209,13 +187,7 @@ static void fill_desc(tiles_run *t)
     d.lenient = v->lenient;
     d.progress = report;
     d.progress_user = t;
-    d.eye_given = v->eye.given;
-    d.fit_direction = v->eye.given && v->fit.given;
-    for (int i = 0; i < 3; i++) {
-        d.eye[i] = v->eye.value[i];
-        d.target[i] = v->target.given ? v->target.value[i] : (info.bounds_min[i] + info.bounds_max[i]) / 2;
-        d.up[i] = v->up.given ? v->up.value[i] : i == (info.up == 'z' ? 2 : 1) ? 1 : 0;
-    }
+    viewpoint_fill(&d, &v->viewpoint, &info);
     t->desc = d;
 }
 
@@ -306,7 +278,7 @@ static int pack(tiles_run *t)
 static int draw_all(tiles_run *t, const word_list *inputs)
 {
     const tiles_values   *v = t->values;
-    const program_options programs = {&v->defines, v->strict};
+    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
     int status = scene_of_programs(&t->scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &t->bar);
     if (status != EXIT_DONE)
         return status;
@@ -332,7 +304,9 @@ static int run(const word_list *inputs, const void *values)
     const tiles_values *v = values;
     tiles_run           t = {.values = v};
     lmn_task           *task = NULL;
-    int                 status = check_camera(v);
+    int                 status = viewpoint_check(&v->viewpoint);
+    if (status == EXIT_DONE)
+        status = check_values(v);
     if (status == EXIT_DONE)
         status = job_check(&v->job);
     if (status == EXIT_DONE)
@@ -342,7 +316,7 @@ static int run(const word_list *inputs, const void *values)
     if (status == EXIT_DONE)
         status = find_output(&t, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_options){&v->defines, v->strict});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL, NULL, 0});
     if (status == EXIT_DONE)
         status = load_look(&t);
     if (status == EXIT_DONE && v->job.kind >= 0) {

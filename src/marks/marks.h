@@ -165,6 +165,7 @@ typedef struct flow_options {
     double overlap; /* how far they run on into the next group, at most, in their lengths */
     int    series;  /* 1 … 4: sets of lines that cross */
     float  turn;    /* angle between one set and the next, radians */
+    float  slant;   /* angle of the first set to the field where that was chosen, on flat faces, radians */
     double sag;     /* how far pieces may leave the surface, model units */
     bool   whole;   /* strokes are drawn whole, by their middle (marks_law.c), instead of flowing (marks_flow.c) */
     uint32_t seed;

@@ -32,6 +32,7 @@ typedef struct flow_surface {
     uint32_t           *bodies; /* per triangle: the first one of those that it hangs together with */
     float              *rooms;  /* per triangle: how broad its face is, between creases (streamlines_rooms.c) */
     direction_field     field;
+    double              slant; /* by which directions of flat faces are turned, radians */
 } flow_surface;
 
 /* Errors: LMN_MEMORY. Release also after one. */

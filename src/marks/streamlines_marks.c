@@ -321,6 +321,7 @@ lmn_status marks_streamlines(marks *out, const mark_surface *s, const flow_optio
     if (!(out->area > 0) || !(w->apart > 0))
         return LMN_OK;
     lmn_status status = flow_surface_make(&f, s, error);
+    f.slant = (double)w->slant;
     for (int set = 0; set < w->series && status == LMN_OK; set++)
         status = add_set(out, &f, w, set, error);
     flow_surface_release(&f);

@@ -82,14 +82,30 @@ static bool angle_at(const flow_surface *f, uint32_t triangle, const flat_triang
     return true;
 }
 
+static bool same_tensor(const flow_surface *f, uint32_t a, uint32_t b)
+{
+    return memcmp(direction_field_at(&f->field, &f->mesh, a), direction_field_at(&f->field, &f->mesh, b),
+                  sizeof *f->field.tensors) == 0;
+}
+
+/* Directions of planes were chosen, one for all of it: nothing of the form asks for just these. */
+static double slant_at(const flow_surface *f, uint32_t triangle)
+{
+    return f->slant != 0 && same_tensor(f, 3 * triangle, 3 * triangle + 1) &&
+                   same_tensor(f, 3 * triangle, 3 * triangle + 2)
+               ? f->slant
+               : 0;
+}
+
 static bool direction_at(const flow_surface *f, uint32_t triangle, const flat_triangle *t, const double at[2],
                          double turn, const double like[2], double out[2])
 {
     double angle;
     if (!angle_at(f, triangle, t, at[0], at[1], &angle))
         return false;
-    out[0] = cos(angle + turn);
-    out[1] = sin(angle + turn);
+    angle += turn + slant_at(f, triangle);
+    out[0] = cos(angle);
+    out[1] = sin(angle);
     if (out[0] * like[0] + out[1] * like[1] < 0) {
         out[0] = -out[0];
         out[1] = -out[1];
@@ -139,12 +155,6 @@ static int leave(const flat_triangle *t, const double at[2], const double direct
         }
     }
     return best;
-}
-
-static bool same_tensor(const flow_surface *f, uint32_t a, uint32_t b)
-{
-    return memcmp(direction_field_at(&f->field, &f->mesh, a), direction_field_at(&f->field, &f->mesh, b),
-                  sizeof *f->field.tensors) == 0;
 }
 
 static uint32_t next_corner(uint32_t h)

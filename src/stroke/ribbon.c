@@ -19,7 +19,6 @@ static const float straight_cosine = 0.985f;
 static const float sway_most = 0.05f; /* fraction of a line's length that it may stray */
 static const float crumb = 1.5f;      /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
-static const float hand_reach = 4; /* so many times as far as copies lie apart a hand looks for lines beside its own */
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
 
 /* --- lists of spans and gaps ---------------------------------------------------------------------------- */
@@ -561,11 +560,10 @@ static void draw_pull(builder *b, const line *whole, int number, uint32_t own, c
 {
     const hand_pull    *pull = &b->pulls.items[number];
     const stroke_point *points = &b->pulls.points[pull->first];
-    float               reach = hand_reach * b->job.style->repeat_apart,
-          room = hand_room(&b->job, &b->grid, own, points, pull->count, reach);
-    stroke_style style = hand_style_in(b->job.style, room);
-    float        length = b->pulls.round ? b->pulls.loop : points[pull->count - 1].arc - points[0].arc;
-    int          copies = hand_copies(&style, length, whole->pen);
+    hand_space          space = hand_space_beside(&b->job, &b->grid, own, points, pull->count);
+    stroke_style        style = hand_style_in(b->job.style, space);
+    float               length = b->pulls.round ? b->pulls.loop : points[pull->count - 1].arc - points[0].arc;
+    int                 copies = hand_copies(&style, length, whole->pen);
     for (int copy = 0; copy < copies && copy < REPEATS_MOST; copy++)
         for (int index = 0; index < HAND_PIECES_MOST && !b->failed; index++)
             draw_piece(b, &style, whole, pull, number & 0xffff, copy, index, onward, dashed);

@@ -1,15 +1,17 @@
 /* How much room a hand has beside a line. Where lines run side by side, as in grilles and façades, a hand that drew
  * each several times would make one grey of them: it draws them nearer to the true line, fewer times, and stops at
- * corners.
+ * corners, where their ends would make a hedge.
  */
 #include <math.h>
 
 #include "stroke/ribbon_private.h"
 
 enum { SAMPLES_MOST = 24 };
-static const float samples_apart = 6;     /* on paper */
-static const float alongside = 0.85f;     /* cosine: lines that turn by more cross */
-static const float none = 0.12f, all = 1; /* of the reach: nearer, there is no room; farther, lines do not matter */
+static const float samples_apart = 6; /* on paper */
+static const float alongside = 0.85f; /* cosine: lines that turn by more cross */
+/* So many times as far as copies lie apart, and as lines run on, a hand looks for lines beside its own: those that are
+ * nearer than a fraction of it leave no room. */
+static const float copies_reach = 4, near_least = 0.12f, beyond_reach = 2, far_least = 0.2f;
 
 /* The distance to a segment that runs along a direction beside a position; INFINITY: it does not. */
 static float distance_beside(const stroke_point *a, const stroke_point *b, float x, float y, const float way[2])
@@ -40,13 +42,22 @@ static float nearest_beside(const ribbon_job *job, const segment_grid *g, uint32
     return nearest;
 }
 
-float hand_room(const ribbon_job *job, const segment_grid *grid, uint32_t own, const stroke_point *points,
-                uint32_t count, float reach)
+/* What there is of a distance, 0 … 1. */
+static float share_of(float mean, float reach, float least)
 {
-    float length = count > 1 ? points[count - 1].arc - points[0].arc : 0, sum = 0;
-    int   samples = (int)fminf(fmaxf(length / samples_apart, 1), SAMPLES_MOST);
+    return reach > 0 ? fminf(fmaxf((mean / reach - least) / (1 - least), 0), 1) : 1;
+}
+
+hand_space hand_space_beside(const ribbon_job *job, const segment_grid *grid, uint32_t own, const stroke_point *points,
+                             uint32_t count)
+{
+    const stroke_style *style = job->style;
+    float               near = copies_reach * style->repeat_apart, far = beyond_reach * style->overshoot;
+    float               length = count > 1 ? points[count - 1].arc - points[0].arc : 0, reach = fmaxf(near, far);
+    float               near_sum = 0, far_sum = 0;
+    int                 samples = (int)fminf(fmaxf(length / samples_apart, 1), SAMPLES_MOST);
     if (!grid->items || !(reach > 0) || !(length > 0) || !isfinite(length))
-        return 1;
+        return (hand_space){1, 1};
     for (int i = 0, k = 0; i < samples; i++) {
         float arc = points[0].arc + length * ((float)i + 0.5f) / (float)samples;
         while ((uint32_t)k + 2 < count && points[k + 1].arc < arc)
@@ -56,7 +67,10 @@ float hand_room(const ribbon_job *job, const segment_grid *grid, uint32_t own, c
               t = b->arc > a->arc ? fminf(fmaxf((arc - a->arc) / (b->arc - a->arc), 0), 1) : 0;
         stroke_point at = {.x = a->x + t * (b->x - a->x), .y = a->y + t * (b->y - a->y)};
         float        way[2] = {piece > 0 ? (b->x - a->x) / piece : 0, piece > 0 ? (b->y - a->y) / piece : 0};
-        sum += nearest_beside(job, grid, own, &at, way, reach);
+        float        nearest = nearest_beside(job, grid, own, &at, way, reach);
+        near_sum += fminf(nearest, near);
+        far_sum += fminf(nearest, far);
     }
-    return fminf(fmaxf((sum / ((float)samples * reach) - none) / (all - none), 0), 1);
+    return (hand_space){share_of(near_sum / (float)samples, near, near_least),
+                        share_of(far_sum / (float)samples, far, far_least)};
 }

@@ -21,7 +21,7 @@ static const float straight_most = 0.997f; /* chord over length of what is drawn
 static const float met_fraction = 0.25f;   /* of corners, at which a line ends as it should */
 static const float crowded_pen = 0.85f;    /* lines that yield more are drawn once */
 
-static const float least_apart = 0.2f, least_beyond = 0.3f; /* what is left of both where lines run side by side */
+static const float least_apart = 0.2f; /* what is left where lines run side by side */
 
 /* What is random of a piece. */
 enum {
@@ -160,13 +160,13 @@ int hand_copies(const stroke_style *style, float length, float pen)
     return 1 + (int)((float)(most - 1) * share + 0.5f);
 }
 
-stroke_style hand_style_in(const stroke_style *style, float room)
+stroke_style hand_style_in(const stroke_style *style, hand_space space)
 {
     stroke_style out = *style;
-    out.repeat_apart *= least_apart + (1 - least_apart) * room;
-    out.overshoot *= least_beyond + (1 - least_beyond) * room;
+    out.repeat_apart *= least_apart + (1 - least_apart) * space.copies;
+    out.overshoot *= space.beyond;
     if (style->repeats > 1)
-        out.repeats = 1 + (int32_t)((float)(style->repeats - 1) * room + 0.5f);
+        out.repeats = 1 + (int32_t)((float)(style->repeats - 1) * space.copies + 0.5f);
     return out;
 }
 

@@ -148,11 +148,15 @@ enum { HAND_ROUNDS = 3, HAND_PIECES_MOST = 64 };
 bool hand_draws(const stroke_style *style);
 /* How often it draws a pull of this length, where `pen` is left of the width. */
 int hand_copies(const stroke_style *style, float length, float pen);
-/* How much room there is beside points of a stroke: 0 where others run alongside, 1 where none does within `reach`. */
-float hand_room(const ribbon_job *job, const segment_grid *grid, uint32_t own, const stroke_point *points,
-                uint32_t count, float reach);
+/* How much room there is beside a line, for its copies and for ends that run on: 0 where others run alongside, 1 where
+ * none does. */
+typedef struct hand_space {
+    float copies, beyond;
+} hand_space;
+hand_space hand_space_beside(const ribbon_job *job, const segment_grid *grid, uint32_t own, const stroke_point *points,
+                             uint32_t count);
 /* How it draws where there is so much: nearer to the true line, fewer times, not far beyond corners. */
-stroke_style hand_style_in(const stroke_style *style, float room);
+stroke_style hand_style_in(const stroke_style *style, hand_space space);
 
 /* A pull, or where curves are long a piece of one, as it is drawn once. */
 typedef struct hand_piece {

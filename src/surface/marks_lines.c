@@ -35,6 +35,10 @@ static const param params[] = {
                   .doc = "Sets of lines that cross each other, later ones where it is darker."),
     PARAM_FLOAT_ROW(surface_lines_values, turn, .def = 50, .min = -180, .max = 180, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "series>1", .doc = "Angle between one set of lines and the next."),
+    PARAM_FLOAT_ROW(
+        surface_lines_values, slant, .def = 0, .min = -90, .max = 90, .unit = UNIT_DEGREES, .cpu_only = true,
+        .doc = "Angle between the first set of lines and the longer edges of flat faces; on round ones they "
+               "lie along the form."),
     PARAM_FLOAT_ROW(surface_lines_values, crossed, .def = 0.55, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .only_if = "series>1", .doc = "Darkness from which sets cross."),
     PARAM_FLOAT_ROW(surface_lines_values, room, .toggles = true, .def = 0, .min = 0, .max = 20, .soft_max = 6,
@@ -55,9 +59,9 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const surface_lines_values *v = values;
-    text_append(out, "lines %d %d %.9g %.9g %.9g %.9g %d %.9g", v->common.count, v->common.pattern_seed,
-                (double)v->length, (double)v->uneven, (double)v->groups, (double)v->overlap, v->series,
-                (double)v->turn);
+    text_append(out, "lines %d %d %.9g %.9g %.9g %.9g %d %.9g %.9g", v->common.count, v->common.pattern_seed,
+                (double)v->length, (double)v->uneven, (double)v->groups, (double)v->overlap, v->series, (double)v->turn,
+                (double)v->slant);
 }
 
 /* Levels from lines of which a few go over the whole to the closest; no more of these than a large surface has room
@@ -82,6 +86,7 @@ static lmn_status make(marks *out, const mark_surface *surface, double extent, c
                                              .overlap = (double)v->overlap,
                                              .series = v->series,
                                              .turn = v->turn * (3.14159265f / 180),
+                                             .slant = v->slant * (3.14159265f / 180),
                                              .sag = extent / 3000,
                                              .seed = (uint32_t)v->common.pattern_seed},
                              error);

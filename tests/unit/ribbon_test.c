@@ -893,6 +893,28 @@ static void test_hand_beside_others(void **state)
     }
 }
 
+/* Ends of lines side by side would make a hedge where all of them run on. */
+static void test_no_hedges(void **state)
+{
+    (void)state;
+    float beyond[3];
+    for (int mode = 0; mode < 3; mode++) { /* alone, between two others, and with these farther away */
+        stroke_style style = plain_style();
+        float        apart = mode == 1 ? 6 : 16;
+        style.overshoot = 10;
+        begin();
+        add_line(50, 100, 150, 100, 5, 0);
+        for (int side = -1; side <= 1 && mode > 0; side += 2)
+            add_line(50, 100 + (float)side * apart, 150, 100 + (float)side * apart, 5, 0);
+        ribbon_set r = make(&style);
+        beyond[mode] = end_of(&r, 0)->x - 150;
+        ribbon_set_release(&r);
+    }
+    assert_true(beyond[0] >= 5 && beyond[0] <= 10);
+    assert_true(beyond[1] >= 0 && beyond[1] < 0.15f * beyond[0]);
+    assert_true(beyond[2] > 0.5f * beyond[0] && beyond[2] < 0.95f * beyond[0]);
+}
+
 /* --- hostile -------------------------------------------------------------------------------------------- */
 
 static void everything(stroke_style *style)
@@ -1114,6 +1136,7 @@ int main(void)
                                        cmocka_unit_test(test_pulls),
                                        cmocka_unit_test(test_hostile),
                                        cmocka_unit_test(test_out_of_memory),
-                                       cmocka_unit_test(test_hand_beside_others)};
+                                       cmocka_unit_test(test_hand_beside_others),
+                                       cmocka_unit_test(test_no_hedges)};
     return cmocka_run_group_tests_name("ribbon", tests, NULL, NULL);
 }

@@ -471,6 +471,51 @@ static void the_same_lines_twice(void **state)
     release_shape(&s);
 }
 
+/* The angle between pieces of the first set and an axis, degrees, the greatest and least of those on faces whose
+ * normal is along `z`. */
+static void angles_on(const marks *m, bool flat, double *least, double *most)
+{
+    *least = 90;
+    *most = 0;
+    for (size_t i = 0; i < m->line_count; i++) {
+        const mark_line *l = &m->lines[i];
+        place3           along = from_to(l->a, l->b);
+        double           size = sqrt(product3(along, along));
+        if (l->set != 0 || size == 0 || (fabs((double)l->normal.z) > 0.999) != flat)
+            continue;
+        double angle = acos(fmin(fabs(flat ? along.x : along.z) / size, 1)) * (180 / 3.14159265358979);
+        *least = fmin(*least, angle);
+        *most = fmax(*most, angle);
+    }
+}
+
+/* On a box they lean by the angle that is asked for, on a cylinder they lie as without it. */
+static void slanted_lines_lean_on_flat_faces_alone(void **state)
+{
+    (void)state;
+    primitive cube = shared_cube();
+    for (uint32_t v = 0; v < cube.vertex_count; v++)
+        cube.positions[v] = (vec3){10 * cube.positions[v].x, 4 * cube.positions[v].y, cube.positions[v].z};
+    shape  box = with_normals(cube), tube = with_normals(grid_surface(cylinder_at, 64, 40, true, false, 0.3));
+    double straight[2], leaning[2], round_before[2], round_after[2];
+    for (int slanted = 0; slanted < 2; slanted++) {
+        flow_options options = {
+            .apart = 0.1, .levels = 1, .series = 1, .slant = slanted ? 0.6981317f : 0, .sag = 0.005, .seed = 3};
+        marks m;
+        assert_int_equal(marks_streamlines(&m, &box.surface, &options, NULL), LMN_OK);
+        angles_on(&m, true, slanted ? &leaning[0] : &straight[0], slanted ? &leaning[1] : &straight[1]);
+        surface_marks_release(&m);
+        assert_int_equal(marks_streamlines(&m, &tube.surface, &options, NULL), LMN_OK);
+        angles_on(&m, false, slanted ? &round_after[0] : &round_before[0],
+                  slanted ? &round_after[1] : &round_before[1]);
+        surface_marks_release(&m);
+    }
+    assert_true(straight[1] < 1 && leaning[0] > 39 && leaning[1] < 41); /* to the longer edges: 0, then 40 */
+    assert_true(round_before[0] == round_after[0] && round_before[1] == round_after[1]);
+    release_shape(&box);
+    release_shape(&tube);
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -507,7 +552,7 @@ int main(void)
         cmocka_unit_test(groups_begin_together),       cmocka_unit_test(groups_keep_the_ink),
         cmocka_unit_test(rooms_are_as_broad_as_faces), cmocka_unit_test(width_keeps_the_tone),
         cmocka_unit_test(barely_meshes_have_lines),    cmocka_unit_test(the_same_lines_twice),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(memory_may_run_out),          cmocka_unit_test(slanted_lines_lean_on_flat_faces_alone),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
