@@ -368,7 +368,8 @@ static bool put_row(street *s, row_kind kind, uint32_t number, int side, double 
     walk        w = {(const double(*)[2])s->positions + r->first, r->count, 0, 0};
     double      along = apart * (even ? 0.5 + 0.25 * side : chance(s));
     spot        at;
-    while (walk_to(&w, along, side * (aside + spread * (chance(s) - 0.5)), &at)) {
+    while (s->total < THINGS_MAX && s->refused < 4 * THINGS_MAX &&
+           walk_to(&w, along, side * (aside + spread * (chance(s) - 0.5)), &at)) {
         if (!put_one(s, kind, r, number, side, at))
             return false;
         along += even ? apart : apart * (0.3 + 1.4 * chance(s));
