@@ -63,18 +63,8 @@ static bool find_gable(const skeleton *s, uint32_t edge, uint32_t before, skelet
     return out->time > 0;
 }
 
-/* Does the ridge between the slopes, which leaves a hip's top, go on to the gable? In the slope before the hip its
- * other end is the second node. */
-static bool is_beyond(const skeleton *s, uint32_t before, const skeleton_node *top, const skeleton_node *gable)
-{
-    uint32_t first = skeleton_face_first(s, before);
-    if (s->face_ends[before] < first + 2)
-        return false;
-    const skeleton_node *end = &s->nodes[s->face_nodes[first + 1]];
-    return (end->x - top->x) * (gable->x - top->x) + (end->y - top->y) * (gable->y - top->y) < 0;
-}
-
-/* Faces with one node above their edge are moved out, if the slopes on both sides meet there. The skeleton's nodes are
+/* Faces with one node above their edge are moved out, if the slopes on both sides meet there: on the line of the ridge
+ * that leaves the node, and on the other side of it, for the face is a triangle. The skeleton's nodes are
  * not joined yet, so that three faces meet in each. Returns how many. */
 static size_t raise_gables(sloper *p)
 {
@@ -84,14 +74,13 @@ static size_t raise_gables(sloper *p)
         p->points[s->ends[edge]] = edge; /* the edge before; points are put later */
     for (uint32_t edge = 0; edge < s->corner_count; edge++) {
         uint32_t first = skeleton_face_first(s, edge), before = p->points[edge];
-        if (s->face_ends[edge] != first + 1 || before == s->ends[s->ends[edge]] || p->s.upright[before])
+        if (s->face_ends[edge] != first + 1 || before == s->ends[s->ends[edge]] || s->upright[before])
             continue;
         skeleton_node *top = &s->nodes[s->face_nodes[first]], gable;
-        if (!find_gable(s, edge, before, &gable) || gable.time > GABLE_RISE * top->time ||
-            !is_beyond(s, before, top, &gable))
+        if (!find_gable(s, edge, before, &gable) || gable.time > GABLE_RISE * top->time)
             continue;
         *top = gable;
-        p->s.upright[edge] = true;
+        s->upright[edge] = true;
         count++;
     }
     s->top = 0;
