@@ -1,5 +1,5 @@
-/* Inside the import folder: straight skeletons of outlines with holes, as roofs of one slope have them (Aichholzer,
- * Aurenhammer, Alberts, Gärtner 1995): every edge moves inwards as fast as all others; where the corners between them
+/* Inside the import folder: straight skeletons of outlines with holes, as roofs of one slope have them (Aichholzer
+ * et al. 1995): every edge moves inwards as fast as all others; where the corners between them
  * go are the arcs, and what an edge passes over is its face. */
 #ifndef LIMNER_IMPORT_SKELETON_H
 #define LIMNER_IMPORT_SKELETON_H
