@@ -45,7 +45,8 @@ LMN_API lmn_status lmn_draw_into(lmn_renderer *renderer, const lmn_scene *scene,
 /* --- drawings that stay on the GPU ---------------------------------------------------------------------- */
 
 /* The name of the texture with the picture of a drawing that lmn_draw has made with lmn_draw_desc.textures: it lies on
- * the GPU, and nothing was read back. A GL_TEXTURE_2D, GL_RGBA8, of the drawing's size, with one level, nearest filter
+ * the GPU, and nothing was read back (but where a look writes beside the drawing: labels, legend, north arrow and scale
+ * bar are in it, too). A GL_TEXTURE_2D, GL_RGBA8, of the drawing's size, with one level, nearest filter
  * and clamped edges. It has the bytes of lmn_drawing_pixels, but row 0 is at the bottom, as in OpenGL: encoded as sRGB,
  * which OpenGL is not told, straight alpha. It is the renderer's and is lent: valid in the context that it has adopted,
  * and those that share objects with it, until the renderer draws or picks again or ends; the drawing itself may end

@@ -43,15 +43,21 @@ static void join(pthread_t thread)
     } while (pthread_timedjoin_np(thread, NULL, &until) == ETIMEDOUT);
 }
 
-void threads_for(size_t count, size_t smallest, threads_fn fn, void *user)
+/* How many pieces there is work for. Asking for processors opens a file each time, so small work does not ask. */
+static size_t pieces_for(size_t count, size_t smallest)
 {
+    size_t most = count / (smallest ? smallest : 1);
+    if (most <= 1)
+        return 1;
     long   processors = sysconf(_SC_NPROCESSORS_ONLN);
     size_t pieces = processors < 1 ? 1 : processors > THREADS_MAX ? THREADS_MAX : (size_t)processors;
-    if (smallest == 0)
-        smallest = 1;
-    if (pieces > count / smallest)
-        pieces = count / smallest ? count / smallest : 1;
-    piece list[THREADS_MAX];
+    return pieces < most ? pieces : most;
+}
+
+void threads_for(size_t count, size_t smallest, threads_fn fn, void *user)
+{
+    size_t pieces = pieces_for(count, smallest);
+    piece  list[THREADS_MAX];
     for (size_t i = 0; i < pieces; i++) {
         size_t begin = count / pieces * i, end = i + 1 == pieces ? count : count / pieces * (i + 1);
         list[i] = (piece){.fn = fn, .user = user, .work = work_current(), .begin = begin, .end = end};

@@ -11,6 +11,16 @@
 #include "plan/refuse.h"
 #include "plan/unit.h"
 
+static void swap_rows(uint8_t *pixels, uint8_t *row, size_t stride, int height)
+{
+    for (int y = 0; y < height / 2; y++) {
+        uint8_t *top = pixels + (size_t)y * stride, *bottom = pixels + (size_t)(height - 1 - y) * stride;
+        memcpy(row, top, stride);
+        memcpy(top, bottom, stride);
+        memcpy(bottom, row, stride);
+    }
+}
+
 /* Of a picture that may be larger, the part (from its upper left corner) that the drawing is. */
 static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, const int part[4], lmn_error *error)
 {
@@ -23,17 +33,32 @@ static lmn_status read_pixels(lmn_drawing *d, gpu *g, gpu_texture *picture, cons
         return error_memory(error);
     }
     gpu_read_box(g, picture, (int[]){part[0], height - part[1] - part[3], part[2], part[3]}, d->pixels);
-    for (int y = 0; y < d->height / 2; y++) {
-        uint8_t *top = d->pixels + (size_t)y * stride, *bottom = d->pixels + (size_t)(d->height - 1 - y) * stride;
-        memcpy(row, top, stride);
-        memcpy(top, bottom, stride);
-        memcpy(bottom, row, stride);
-    }
+    swap_rows(d->pixels, row, stride, d->height);
     mem_free(row);
     lmn_status status = gpu_check(g, error);
     return status == LMN_OK && d->annotations.item_count
                ? export_paint(d->pixels, part, width, height, &d->annotations, error)
                : status;
+}
+
+/* Of a drawing that stays on the GPU: what is written beside it is painted by the same hand, so that the texture has
+ * the same bytes. Reading it afterwards adds nothing. */
+static lmn_status paint_picture(lmn_drawing *d, gpu *g, gpu_texture *picture, lmn_error *error)
+{
+    const int  whole[4] = {0, 0, d->width, d->height};
+    size_t     stride = (size_t)d->width * 4;
+    uint8_t   *row = mem_alloc(stride);
+    lmn_status status = row ? read_pixels(d, g, picture, whole, error) : error_memory(error);
+    if (status == LMN_OK) {
+        swap_rows(d->pixels, row, stride, d->height);
+        gpu_target_write(g, picture, whole, d->pixels);
+        sheet_release(&d->annotations);
+        status = gpu_check(g, error);
+    }
+    mem_free(row);
+    mem_free(d->pixels);
+    d->pixels = NULL;
+    return status;
 }
 
 lmn_status drawing_read_back(lmn_drawing *d, lmn_error *error)
@@ -333,6 +358,8 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
                      "layers did not fit into layers.memory and were peeled instead, which takes longer");
     if (status == LMN_OK && drawn->annotated)
         status = lay_annotations(d, s, desc, error);
+    if (status == LMN_OK && d->kept && d->annotations.item_count)
+        status = paint_picture(d, s->renderer->g, s->out, error);
     if (status == LMN_OK && d->kept) {
         d->kept->picture = s->out;
         s->out = NULL;

@@ -158,6 +158,7 @@ static void draw_page(frame *f)
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     memset(f->strokes, 0, sizeof f->strokes);
     memset(&f->traces, 0, sizeof f->traces);
+    facts_open(f);
     shadow_draw(f);
     if (!gpu_failed(f->g))
         visibility_draw(f);
@@ -181,6 +182,8 @@ static void release_page(frame *f)
         gpu_target_release(f->g, f->page_depth);
     gpu_target_release(f->g, f->shadow);
     gpu_target_release(f->g, f->visibility);
+    gpu_target_release(f->g, f->facts);
+    f->facts = NULL;
     f->page = f->page_depth = f->shadow = f->visibility = NULL;
 }
 

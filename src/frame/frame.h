@@ -39,7 +39,8 @@ typedef struct frame {
     gpu_texture
         *seen_depth; /* the same of what is seen through or moves, which the page's leaves out; NULL: there is none */
     int  seen_reach; /* how far ink of that lies beside it, samples */
-    gpu_texture *shadow;        /* depth of what the first light sees; NULL: it throws no shadow */
+    gpu_texture *facts;  /* what is known of parts in packs: facts.c; NULL: there are none, or no page is drawn */
+    gpu_texture *shadow; /* depth of what the first light sees; NULL: it throws no shadow */
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */

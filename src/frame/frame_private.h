@@ -143,6 +143,15 @@ bool         rule_traces_lines(const rule *r);
 bool         pass_applies(kind_id id, const pass *p, const technique_use *use);
 gpu_texture *target_of(const frame *f, const figure_state *s, target t);
 
+/* --- facts.c: what one draw call of many parts looks up --- */
+/* Formats without materials: a light neutral grey. */
+#define RASTER_STANDARD_COLOUR                                                                                         \
+    {                                                                                                                  \
+        0.6f, 0.6f, 0.6f, 1                                                                                            \
+    }
+/* Makes f->facts, where meshes lie in packs. The caller gives it back. */
+void facts_open(frame *f);
+
 /* --- raster.c: the geometry pass --- */
 void raster_figure(frame *f, figure_state *s);                    /* G-buffer, and shade unless deferred */
 void raster_direct(frame *f, figure_state *s);                    /* straight onto the page */

@@ -227,19 +227,25 @@ static void find_map_from_pixel(const frame *f, const mat4 *map, const double pl
     }
 }
 
+/* The plane in eye space: normal, distance along it. */
+static void plane_set(frame *f, double out[4])
+{
+    const ground_plane *ground = &f->ground_plane;
+    const double       *m = f->camera.view.m;
+    out[3] = ground->level;
+    for (int k = 0; k < 3; k++) {
+        out[k] = m[4 * ground->up + k];
+        out[3] += out[k] * m[12 + k];
+    }
+    gpu_set_vec4(f->g, "u_ground_plane", (float[]){(float)out[0], (float)out[1], (float)out[2], (float)out[3]});
+}
+
 /* Uniforms of light/ground.glsl. */
 static void ground_set(frame *f, const view_camera *below, gpu_texture *map)
 {
-    const ground_plane *ground = &f->ground_plane;
     const scene_values *v = values_of(f);
-    const double       *m = f->camera.view.m;
-    double              normal[3], distance = ground->level;
-    for (int k = 0; k < 3; k++) {
-        normal[k] = m[4 * ground->up + k];
-        distance += normal[k] * m[12 + k];
-    }
-    gpu_set_vec4(f->g, "u_ground_plane",
-                 (float[]){(float)normal[0], (float)normal[1], (float)normal[2], (float)distance});
+    double              plane[4];
+    plane_set(f, plane);
     gpu_set_vec2(f->g, "u_ground_tone", v->ground_strength, v->ground_flat ? 1 : 0);
     gpu_set_texture(f->g, "t_ground_map", map, true);
     mat4  position = map_from_eye(f, below);
@@ -247,7 +253,7 @@ static void ground_set(frame *f, const view_camera *below, gpu_texture *map)
     for (int k = 0; k < 16; k++)
         matrix[k] = (float)position.m[k];
     gpu_set_mat4(f->g, "u_ground_from_eye", matrix);
-    find_map_from_pixel(f, &position, (double[]){normal[0], normal[1], normal[2], distance}, from_pixel);
+    find_map_from_pixel(f, &position, plane, from_pixel);
     gpu_set_mat3(f->g, "u_ground_from_pixel", from_pixel);
 }
 
@@ -344,9 +350,78 @@ static bool is_drawn_by(const frame *f, const figure *fig)
            row->on_ground(surface->values, f->ground);
 }
 
+/* Where the shadow that the first light throws can be seen: from the model to where its top's shadow falls. */
+static bool find_cast_pixels(const frame *f, int out[4])
+{
+    const ground_plane *ground = &f->ground_plane;
+    double              towards[3], world[3];
+    if (!f->shadow || !lights_first_direction(f, towards))
+        return false;
+    for (int k = 0; k < 3; k++)
+        world[k] = f->camera.view.m[4 * k] * towards[0] + f->camera.view.m[4 * k + 1] * towards[1] +
+                   f->camera.view.m[4 * k + 2] * towards[2];
+    if (!(world[ground->up] > 1e-3))
+        return false;
+    float  low[3] = {0}, high[3] = {0};
+    double half = (double)values_of(f)->shadow_softness * (3.14159265358979 / 360);
+    for (int axis = 0; axis < 3; axis++) {
+        double range[2], upward[2];
+        range_of(ground->box, axis, range);
+        range_of(ground->box, ground->up, upward);
+        double soft = tan(half) * (upward[1] - ground->level) / (world[ground->up] * world[ground->up]),
+               off = -world[axis] / world[ground->up] * (upward[1] - ground->level);
+        bool level = axis != ground->up;
+        low[axis] = (float)(level ? range[0] + fmin(off, 0) - soft : ground->level);
+        high[axis] = (float)(level ? range[1] + fmax(off, 0) + soft : ground->level);
+    }
+    camera_pixels(&f->camera, (box3){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, f->width, f->height, 2,
+                  out);
+    return true;
+}
+
+/* The first light's shadow on the ground. */
+static void draw_cast(frame *f)
+{
+    const scene_values *v = values_of(f);
+    const colour        c = v->ground_colour;
+    figure              fig = f->plan->figures[0];
+    figure_state        s = {.figure = &fig, .near = f->camera.near, .far = f->camera.far, .ground = true};
+    text                prelude = {0};
+    bool                soft = v->shadow_softness > 0;
+    double              plane[4];
+    if (!find_cast_pixels(f, s.pixels))
+        return;
+    window_clip(f, WINDOW_MARGIN, s.pixels);
+    if (s.pixels[2] <= 0 || s.pixels[3] <= 0)
+        return;
+    stopwatch w = watch_start(&f->profile);
+    text_append(&prelude, "%s%s", soft ? "#define SOFT\n" : "", !soft && v->ground_edge > 0 ? "#define EDGED\n" : "");
+    target_declare(&prelude, &target_rows[TARGET_SHADOW]);
+    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_cast.frag", &prelude);
+    gpu_pass     pass = {.colours = {f->page}, .colour_count = 1};
+    memcpy(pass.scissor, s.pixels, sizeof pass.scissor);
+    if (p && !gpu_failed(f->g)) {
+        gpu_pass_begin(f->g, &pass);
+        gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
+        frame_set_common(f, &s);
+        plane_set(f, plane);
+        gpu_set_float(f->g, "u_ground_strength", v->ground_strength);
+        gpu_set_float(f->g, "u_ground_edge", v->ground_edge);
+        gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
+        gpu_draw_screen(f->g);
+    }
+    watch_stop(&f->profile, w, "scene", "shadow on the ground");
+}
+
 void ground_draw(frame *f)
 {
-    if (!f->ground_plane.there || f->maps || f->plan->figure_count == 0 || values_of(f)->ground_strength <= 0)
+    if (!f->ground_plane.there || f->maps || f->plan->figure_count == 0)
+        return;
+    if (values_of(f)->ground == GROUND_CAST) {
+        draw_cast(f);
+        return;
+    }
+    if (values_of(f)->ground_strength <= 0)
         return;
     figure        fig = f->plan->figures[0];
     ground_square square = square_of(&f->ground_plane);

@@ -30,8 +30,7 @@ static void set_datum(frame *f, const draw_item *item)
 /* The item's material; `capacity` holds it when it is painted in the figure's highlight or a datum's colour. */
 static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *capacity)
 {
-    /* Formats without materials: a light neutral grey. */
-    static const material standard = {.base_colour = {0.6f, 0.6f, 0.6f, 1},
+    static const material standard = {.base_colour = RASTER_STANDARD_COLOUR,
                                       .base_texture = TEXTURE_USE_NONE,
                                       .normal_texture = TEXTURE_USE_NONE,
                                       .normal_scale = 1,
@@ -128,6 +127,7 @@ typedef struct raster_job {
     outputs             at;
     const pass         *inking;       /* lines on top and no complement */
     const bool         *only;         /* per part: all others are left out */
+    camera_bounds       seen;         /* what its pixels show */
     float               enlarge;      /* not 0: surfaces are moved outwards by this many pixels */
     bool                shell;        /* enlarged: no complement, no solids, and only faces that look away */
     bool                peeled;       /* nothing that the layer before had */
@@ -272,8 +272,12 @@ static void set_layers(frame *f, const raster_job *job)
 typedef struct raster_setup {
     const figure_state *owner;
     int32_t             material;
-    bool has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_walls, has_rest, has_past, has_datum, ready;
-    uint32_t triangles; /* drawn so far: orders what coincides */
+    bool has_uvs, has_uv1, has_colours, is_cut, has_field, has_patches, has_walls, has_rest, has_past, has_datum,
+        has_facts, ready;
+    uint32_t         triangles; /* drawn so far: orders what coincides */
+    const draw_item *first;     /* of the items that are gathered for one draw call; NULL: there are none */
+    gpu_mesh       **run;       /* their meshes */
+    size_t           run_count, run_capacity;
 } raster_setup;
 
 /* What programs of the geometry pass get, wherever their surfaces come from. */
@@ -348,15 +352,21 @@ static bool wants_light_map(const raster_job *job, const figure_state *s, const 
                             surface->technique->param_count, surface->values);
 }
 
+/* Are colour, part and building looked up? Where only depth is drawn, nobody asks. */
+static bool uses_facts(const frame *f, const raster_job *job, const figure_state *s, const draw_item *item)
+{
+    return f->facts && item->has_key && !(s->figure->highlight.a > 0) && (job->pass->colour_count || job->node_vectors);
+}
+
 static void set_up(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, raster_setup *last)
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
     bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh), walls = uses_walls(job, s, item);
-    bool datum = shows_datum(f, item);
+    bool datum = shows_datum(f, item), facts = uses_facts(f, job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
         field == last->has_field && patches == last->has_patches && walls == last->has_walls &&
-        datum == last->has_datum && rest == last->has_rest && past == last->has_past)
+        datum == last->has_datum && facts == last->has_facts && rest == last->has_rest && past == last->has_past)
         return;
     material        tinted;
     const material *m = material_of(f, s->figure, item, &tinted);
@@ -369,6 +379,8 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
         text_append(&prelude, "#define HAS_WALLS\n");
     if (rest)
         text_append(&prelude, "#define HAS_REST\n");
+    if (facts)
+        text_append(&prelude, "#define HAS_FACTS\n");
     if (past)
         declare_past(&prelude, f, &job->at);
     if (wants_light_map(job, s, item))
@@ -379,20 +391,22 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
     set_pass(f, job, s, item->material);
     view_set_projection(f->g, &f->camera);
     set_material(f->g, m, t, job->stack != NULL);
-    *last = (raster_setup){.owner = s,
-                           .material = item->material,
-                           .has_uvs = item->has_uvs,
-                           .has_uv1 = item->has_uv1,
-                           .has_colours = item->has_colours,
-                           .is_cut = item->is_cut,
-                           .has_field = field,
-                           .has_patches = patches,
-                           .has_walls = walls,
-                           .has_datum = datum,
-                           .has_rest = rest,
-                           .has_past = past,
-                           .ready = true,
-                           .triangles = last->triangles};
+    if (facts)
+        gpu_set_texture(f->g, "t_facts", f->facts, false);
+    last->owner = s;
+    last->material = item->material;
+    last->has_uvs = item->has_uvs;
+    last->has_uv1 = item->has_uv1;
+    last->has_colours = item->has_colours;
+    last->is_cut = item->is_cut;
+    last->has_field = field;
+    last->has_patches = patches;
+    last->has_walls = walls;
+    last->has_datum = datum;
+    last->has_facts = facts;
+    last->has_rest = rest;
+    last->has_past = past;
+    last->ready = true;
 }
 
 /* The figure among those of the stack that draws a part; NULL: none. */
@@ -482,11 +496,80 @@ static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_i
     return map;
 }
 
+/* Draws what is gathered. */
+static void draw_run(frame *f, raster_setup *last)
+{
+    if (!last->first)
+        return;
+    gpu_draw_meshes(f->g, last->run, last->run_count);
+    for (size_t i = 0; i < last->run_count; i++)
+        last->triangles += gpu_mesh_triangles(last->run[i]);
+    last->run_count = 0;
+    last->first = NULL;
+}
+
+static void gather(frame *f, const draw_item *item, gpu_mesh *drawn, raster_setup *last)
+{
+    if (!mem_grow((void **)&last->run, &last->run_capacity, last->run_count + 1, sizeof *last->run)) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    last->run[last->run_count++] = drawn;
+    if (!last->first)
+        last->first = item;
+}
+
+/* Do two materials differ in nothing but a colour that is looked up? */
+static bool are_alike(const frame *f, const figure_state *s, const raster_setup *last, int32_t a, int32_t b)
+{
+    if (a == b)
+        return true;
+    if (a < 0 || b < 0 || (s->figure->textures && s->figure->textures->by_material))
+        return false;
+    const material *x = &f->plan->scene->materials[a], *y = &f->plan->scene->materials[b];
+    return x->base_texture.image < 0 && y->base_texture.image < 0 && x->normal_texture.image < 0 &&
+           y->normal_texture.image < 0 && x->unlit == y->unlit && x->alpha == y->alpha &&
+           (x->alpha == ALPHA_OPAQUE || (last->has_facts && x->alpha_cutoff == y->alpha_cutoff));
+}
+
+/* Is what the program ties to a part the same for two? */
+static bool rest_alike(frame *f, const draw_item *a, const draw_item *b)
+{
+    const float *rows = f->up->part_frame_values;
+    return !rows ||
+           memcmp(&rows[PART_FRAME_FLOATS * a->part_index], &rows[PART_FRAME_FLOATS * b->part_index],
+                  PART_FRAME_FLOATS * sizeof *rows) == 0 ||
+           !gpu_has_uniform(f->g, "u_rest");
+}
+
+/* Is the item drawn by the same call as those that are gathered? Peeled layers are drawn part after part, front faces
+ * before back faces; what moved has a past of its own. */
+static bool joins(frame *f, const raster_job *job, const figure_state *s, const draw_item *item,
+                  const raster_setup *last)
+{
+    const draw_item *first = last->first;
+    if (!first || !item->has_key || !first->has_key || last->owner != s || (job->stack && !job->node_vectors) ||
+        job->at.velocity >= 0 || !gpu_meshes_together(first->mesh, item->mesh) || first->surface_id != item->surface_id)
+        return false;
+    bool datum = shows_datum(f, item), plain = !item->has_uvs && !item->has_colours;
+    if (uses_facts(f, job, s, item) ? datum != last->has_datum && !plain : job->pass->colour_count || job->node_vectors)
+        return false;
+    return are_alike(f, s, last, first->material, item->material) &&
+           memcmp(&first->world, &item->world, sizeof item->world) == 0 &&
+           s->figure->designated[first->part_index] == s->figure->designated[item->part_index] &&
+           rest_alike(f, first, item);
+}
+
 static void draw_item_of(frame *f, const raster_job *job, const draw_item *item, raster_setup *last)
 {
     const figure_state *s = item->is_solid ? NULL : owner_of(f, job, item);
-    if (!s)
+    if (!s || !(job->enlarge > 0 || camera_bounds_meet(&job->seen, f->up->pose->part_boxes[item->part_index])))
         return;
+    if (joins(f, job, s, item, last)) {
+        gather(f, item, item->mesh, last);
+        return;
+    }
+    draw_run(f, last);
     gpu_texture *light_map = wants_light_map(job, s, item) ? draw_light_map(f, s, item) : NULL;
     if (light_map) {
         gpu_pass again = *job->pass;
@@ -514,8 +597,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
         gpu_set_ivec2(f->g, "u_building", item->building.storeys, (int)item->building.use);
     if (last->has_datum)
         set_datum(f, item);
-    gpu_draw_mesh(f->g, last->has_patches ? item->lapped : item->mesh);
-    last->triangles += gpu_mesh_triangles(item->mesh);
+    gather(f, item, last->has_patches ? item->lapped : item->mesh, last);
 }
 
 /* The current surfaces of a solid part, as a sprite. */
@@ -605,6 +687,7 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
     solid_view    view = frame_solid_view(f);
     here.pass = pass;
     here.view = &view;
+    here.seen = camera_bounds_of(&f->camera, f->width, f->height, pass->scissor);
     job = &here;
     bool *wanted = solids_wanted(f, job);
     if (wanted)
@@ -624,8 +707,12 @@ static void draw_parts(frame *f, const gpu_pass *pass, const raster_job *job)
             gpu_cull_faces(f->g, !by_facing ? GPU_CULL_NONE : round ? GPU_CULL_FRONT : GPU_CULL_BACK);
             for (size_t i = first; i < end && !gpu_failed(f->g); i++)
                 draw_item_of(f, job, &up->items[i], &last);
+            if (by_facing)
+                draw_run(f, &last);
         }
     }
+    draw_run(f, &last);
+    mem_free(last.run);
     gpu_cull_faces(f->g, GPU_CULL_NONE);
     if (wanted)
         draw_solids(f, pass, job, wanted);

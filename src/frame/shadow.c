@@ -153,17 +153,21 @@ void shadow_draw(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
     double              towards[3], back[3];
-    bool                read = is_read(f);
-    if ((!v->shadows && !read) || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
+    bool                read = is_read(f), cast = v->ground == GROUND_CAST && f->ground_plane.there;
+    view_camera         viewer = f->camera;
+    if ((!v->shadows && !read && !cast) || box3_is_empty(f->plan->box) || !lights_first_direction(f, towards))
         return;
     for (int k = 0; k < 3; k++) /* the view's rotation, backwards */
         back[k] = dot(&f->camera.view.m[4 * k], towards);
     scale_to(back, 1);
+    /* The ground is seen before and behind the model, too. */
+    if (cast)
+        camera_set_range(&viewer, f->camera.near * (f->camera.orthographic ? 1 : 0.2), f->camera.far * 2);
     bool      hard = read || !(v->shadow_softness > 0);
     stopwatch w = watch_start(&f->profile);
     frame     light = *f;
     light.camera = f->shadow_camera =
-        camera_of_light(f->plan->box, back, hard && !is_seen_elsewhere(f) ? &f->camera : NULL);
+        camera_of_light(f->plan->box, back, hard && !is_seen_elsewhere(f) ? &viewer : NULL);
     light.width = light.height = side_of(f, !hard);
     light.maps = NULL;
     gpu_texture *depth = frame_acquire_sized(f, TARGET_SHADOW, light.width, light.height);
@@ -171,7 +175,7 @@ void shadow_draw(frame *f)
     if (!gpu_failed(f->g))
         raster_depth_of(&light, depth, f->plan->throws);
     f->shadow = depth;
-    if (v->shadows)
+    if (v->shadows || cast)
         movers_throw_shadows(f);
     watch_stop(&f->profile, w, "scene", "shadow");
 }

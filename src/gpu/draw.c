@@ -257,9 +257,15 @@ static void add_tensors(gpu_mesh *m, const gpu_mesh_data *data)
     }
 }
 
+/* Whose buffers a mesh lies in. */
+static const gpu_mesh *home_of(const gpu_mesh *m)
+{
+    return m->whole ? m->whole : m;
+}
+
 bool gpu_mesh_has_tensors(const gpu_mesh *m)
 {
-    return m && m->has_tensors;
+    return m && home_of(m)->has_tensors;
 }
 
 void gpu_settle(gpu *g)
@@ -270,17 +276,17 @@ void gpu_settle(gpu *g)
 
 bool gpu_mesh_has_walls(const gpu_mesh *m)
 {
-    return m && m->has_walls;
+    return m && home_of(m)->has_walls;
 }
 
 bool gpu_mesh_has_rest(const gpu_mesh *m)
 {
-    return m && m->has_rest;
+    return m && home_of(m)->has_rest;
 }
 
 bool gpu_mesh_has_past(const gpu_mesh *m)
 {
-    return m && m->has_past;
+    return m && home_of(m)->has_past;
 }
 
 static void add_indices(gpu_mesh *m, const gpu_mesh_data *data)
@@ -298,15 +304,54 @@ static void add_indices(gpu_mesh *m, const gpu_mesh_data *data)
     }
 }
 
+gpu_mesh *gpu_mesh_open(gpu *g)
+{
+    gpu_mesh *m = g->failed ? NULL : mem_calloc(1, sizeof *m);
+    if (!m && !g->failed)
+        gpu_fail(g, LMN_MEMORY, "out of memory");
+    if (m)
+        m->users = 1;
+    return m;
+}
+
+gpu_mesh *gpu_mesh_within(gpu *g, gpu_mesh *whole, uint32_t first_index, uint32_t index_count, uint32_t key)
+{
+    gpu_mesh *m = whole ? gpu_mesh_open(g) : NULL;
+    if (!m)
+        return NULL;
+    m->whole = whole;
+    m->first_index = first_index;
+    m->index_count = index_count;
+    m->key = key;
+    whole->users++;
+    return m;
+}
+
+bool gpu_mesh_key(const gpu_mesh *m, uint32_t *key)
+{
+    if (!m || !m->whole)
+        return false;
+    *key = m->key;
+    return true;
+}
+
+bool gpu_meshes_together(const gpu_mesh *a, const gpu_mesh *b)
+{
+    return a && b && a->whole && a->whole == b->whole;
+}
+
 gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
 {
+    gpu_mesh *m = gpu_mesh_open(g);
+    if (m)
+        gpu_mesh_fill(g, m, data);
+    return m;
+}
+
+void gpu_mesh_fill(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
+{
     if (g->failed)
-        return NULL;
-    gpu_mesh *m = mem_calloc(1, sizeof *m);
-    if (!m) {
-        gpu_fail(g, LMN_MEMORY, "out of memory");
-        return NULL;
-    }
+        return;
     m->vertex_count = data->vertex_count;
     m->has_colours = data->colours != NULL;
     glGenVertexArrays(1, &m->array);
@@ -336,7 +381,6 @@ gpu_mesh *gpu_mesh_create(gpu *g, const gpu_mesh_data *data)
     glBindVertexArray(0);
     if (glGetError() == GL_OUT_OF_MEMORY)
         gpu_fail(g, LMN_MEMORY, "the driver has no memory for a mesh of %u vertices", data->vertex_count);
-    return m;
 }
 
 static void rewrite(gpu_mesh *m, int buffer, int components, const void *data)
@@ -349,7 +393,7 @@ static void rewrite(gpu_mesh *m, int buffer, int components, const void *data)
 
 bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
 {
-    if (g->failed || !m || m->vertex_count != data->vertex_count || m->index_count != data->index_count ||
+    if (g->failed || !m || m->whole || m->vertex_count != data->vertex_count || m->index_count != data->index_count ||
         m->glue_count != data->glue_count || m->has_tensors != (data->tensors != NULL) ||
         m->has_walls != (data->walls != NULL) || m->has_rest != (data->rest != NULL) ||
         m->has_past != (data->past[0] != NULL))
@@ -386,14 +430,16 @@ bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data)
 
 void gpu_mesh_destroy(gpu *g, gpu_mesh **m)
 {
-    if (!*m)
-        return;
-    if (!g->gone) {
-        glDeleteVertexArrays(1, &(*m)->array);
-        glDeleteBuffers(GPU_BUFFERS, (*m)->buffers);
-    }
-    mem_free(*m);
+    gpu_mesh *one = *m, *whole = one ? one->whole : NULL;
     *m = NULL;
+    if (!one || --one->users > 0)
+        return;
+    if (!g->gone && !whole) {
+        glDeleteVertexArrays(1, &one->array);
+        glDeleteBuffers(GPU_BUFFERS, one->buffers);
+    }
+    mem_free(one);
+    gpu_mesh_destroy(g, &whole);
 }
 
 uint32_t gpu_mesh_triangles(const gpu_mesh *m)
@@ -401,25 +447,26 @@ uint32_t gpu_mesh_triangles(const gpu_mesh *m)
     return m ? m->index_count / 3 : 0;
 }
 
-static void draw_indices(gpu *g, uint32_t first, uint32_t count)
+/* `before`: triangles of what is drawn that come before these. */
+static void draw_indices(gpu *g, uint32_t first, uint32_t count, uint32_t before)
 {
     if (gpu_has_uniform(g, "u_first_primitive"))
-        gpu_set_uint(g, "u_first_primitive", first / 3);
+        gpu_set_uint(g, "u_first_primitive", before);
     glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(sizeof(uint32_t) * (size_t)first));
     pace_drawn(g, count, 0);
 }
 
-static void draw_range(gpu *g, uint32_t first, uint32_t end)
+static void draw_range(gpu *g, uint32_t first, uint32_t end, uint32_t before)
 {
-    for (uint32_t count; first < end && pace_goes_on(g); first += count) {
+    for (uint32_t count; first < end && pace_goes_on(g); first += count, before += count / 3) {
         count = pace_indices(g, end - first);
-        draw_indices(g, first, count);
+        draw_indices(g, first, count, before);
     }
 }
 
 void gpu_draw_indices(gpu *g, uint32_t count)
 {
-    draw_range(g, 0, count);
+    draw_range(g, 0, count, 0);
     g->draws++;
 }
 
@@ -432,7 +479,7 @@ void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)
         uint32_t end = runs[i][0] + runs[i][1];
         for (next = i + 1; next < count && runs[next][0] == end; next++)
             end += runs[next][1];
-        draw_range(g, runs[i][0], end);
+        draw_range(g, runs[i][0], end, runs[i][0] / 3);
     }
     g->draws++;
 }
@@ -459,12 +506,26 @@ bool gpu_query_any(gpu *g, int query)
 
 void gpu_draw_mesh(gpu *g, gpu_mesh *m)
 {
-    if (g->failed || !g->program || !m)
+    gpu_draw_meshes(g, &m, 1);
+}
+
+void gpu_draw_meshes(gpu *g, gpu_mesh *const *meshes, size_t count)
+{
+    if (g->failed || !g->program || !count || !meshes[0])
         return;
-    glBindVertexArray(m->array);
-    if (!m->has_colours)
+    const gpu_mesh *home = home_of(meshes[0]);
+    uint32_t        before = 0;
+    glBindVertexArray(home->array);
+    if (!home->has_colours)
         glVertexAttrib4f(4, 1, 1, 1, 1);
-    gpu_draw_indices(g, m->index_count);
+    for (size_t i = 0, next; i < count; i = next) {
+        uint32_t first = meshes[i]->first_index, end = first + meshes[i]->index_count;
+        for (next = i + 1; next < count && meshes[next]->first_index == end; next++)
+            end += meshes[next]->index_count;
+        draw_range(g, first, end, before);
+        before += (end - first) / 3;
+    }
+    g->draws++;
 }
 
 void gpu_draw_glue(gpu *g, gpu_mesh *m)
@@ -472,6 +533,6 @@ void gpu_draw_glue(gpu *g, gpu_mesh *m)
     if (g->failed || !g->program || !m || !m->glue_count)
         return;
     glBindVertexArray(m->array);
-    draw_range(g, m->index_count, m->index_count + m->glue_count);
+    draw_range(g, m->index_count, m->index_count + m->glue_count, m->index_count / 3);
     g->draws++;
 }

@@ -159,7 +159,19 @@ void      gpu_mesh_destroy(gpu *g, gpu_mesh **m);
 /* Writes other values into the mesh's buffers; what is NULL stays as it is. False, and nothing is written, unless the
  * mesh has as many vertices and indices, and tensors, walls and positions at rest and earlier just where these are
  * given. */
-bool     gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+bool gpu_mesh_rewrite(gpu *g, gpu_mesh *m, const gpu_mesh_data *data);
+
+/* Many small meshes in the same buffers, so that one call draws several: a whole is opened, meshes are said to lie
+ * within it, and it is filled. It lasts as long as anything in it; who opened it destroys it, too. `key`: what the
+ * data's keys have for its vertices. Such meshes are not rewritten. NULL after an error. */
+gpu_mesh *gpu_mesh_open(gpu *g);
+gpu_mesh *gpu_mesh_within(gpu *g, gpu_mesh *whole, uint32_t first_index, uint32_t index_count, uint32_t key);
+void      gpu_mesh_fill(gpu *g, gpu_mesh *whole, const gpu_mesh_data *data);
+/* The key of a mesh that lies within another one; false for others. */
+bool gpu_mesh_key(const gpu_mesh *m, uint32_t *key);
+/* Do they lie in the same whole? */
+bool gpu_meshes_together(const gpu_mesh *a, const gpu_mesh *b);
+
 uint32_t gpu_mesh_triangles(const gpu_mesh *m);
 bool     gpu_mesh_has_tensors(const gpu_mesh *m);
 bool     gpu_mesh_has_walls(const gpu_mesh *m);
@@ -280,6 +292,8 @@ bool gpu_has_uniform(gpu *g, const char *name);
 void gpu_draw_screen(gpu *g);
 /* Sets the program's uniform u_first_primitive, if it has one, to what gl_PrimitiveID must be raised by. */
 void gpu_draw_mesh(gpu *g, gpu_mesh *m);
+/* One after the other; all in one whole, or a single one. gl_PrimitiveID goes on from each to the next as above. */
+void gpu_draw_meshes(gpu *g, gpu_mesh *const *meshes, size_t count);
 /* Its glue patches alone. */
 void gpu_draw_glue(gpu *g, gpu_mesh *m);
 /* Some of its triangles: runs of indices, first and count. */

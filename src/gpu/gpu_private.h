@@ -47,9 +47,13 @@ typedef struct given_source {
 enum { GPU_BUFFERS = 15 };
 
 struct gpu_mesh {
-    GLuint   array, buffers[GPU_BUFFERS];           /* by attribute, the last for indices */
-    uint32_t index_count, glue_count, vertex_count; /* glue: behind the indices */
-    bool     has_colours, has_tensors, has_walls, has_rest, has_past;
+    GLuint           array, buffers[GPU_BUFFERS];           /* by attribute, the last for indices */
+    uint32_t         index_count, glue_count, vertex_count; /* glue: behind the indices */
+    bool             has_colours, has_tensors, has_walls, has_rest, has_past;
+    struct gpu_mesh *whole;       /* whose buffers it lies in, instead of its own, or NULL */
+    uint32_t         first_index; /* in these */
+    uint32_t         key;         /* with a whole: of its vertices */
+    size_t           users;       /* that hold it: who made it, and what lies in its buffers */
 };
 
 struct gpu_marks {

@@ -9,7 +9,11 @@ in vec2 v_uv1;
 in vec4 v_colour;
 #endif
 
+#ifdef HAS_FACTS
+#define u_base_colour v_own_colour
+#else
 uniform vec4  u_base_colour;
+#endif
 uniform float u_alpha_cutoff; /* fragments below are left out */
 #ifdef HAS_BASE_TEXTURE
 uniform sampler2D t_base;

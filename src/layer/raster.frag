@@ -19,7 +19,11 @@
 layout(location = AT_NORMAL_DEPTH) out vec4 out_normal_depth;
 #endif
 #if defined(AT_ID) || defined(INTO_LISTS) || defined(CUT_FACE) || defined(ENLARGED) || defined(SOLID)
+#ifdef HAS_FACTS
+#define u_part_id v_own.x
+#else
 uniform uint u_part_id;
+#endif
 uniform uint u_surface_id;
 #endif
 #ifdef AT_ID

@@ -20,6 +20,14 @@ layout(location = 8) in vec4 a_wall; /* src/stage/upload_walls.c */
 out vec4 v_wall;
 #endif
 
+#ifdef HAS_FACTS
+/* What is known of the part, by its mesh's key: src/frame/facts.c. */
+layout(location = 5) in uint a_key;
+uniform sampler2D t_facts;
+flat out vec4  v_own_colour;
+flat out uvec3 v_own; /* part, storeys, use */
+#endif
+
 #ifdef HAS_REST
 layout(location = 9) in vec3 a_rest;
 out vec3 v_rest;
@@ -89,6 +97,11 @@ void main()
 #endif
 #ifdef HAS_REST
     v_rest = a_rest;
+#endif
+#ifdef HAS_FACTS
+    ivec2 at = ivec2(int(a_key & 1023u) * 2, int(a_key >> 10));
+    v_own_colour = texelFetch(t_facts, at, 0);
+    v_own = uvec3(texelFetch(t_facts, at + ivec2(1, 0), 0).xyz);
 #endif
     gl_Position = u_projection * eye;
 #ifdef PAST_STEPS

@@ -12,7 +12,7 @@ typedef enum light_source { LIGHTS_STUDIO, LIGHTS_FILE } light_source;
 /* Which tones are drawn as paper and as black: src/plan/tone_range.h. */
 typedef enum tone_range_kind { TONE_RANGE_NONE, TONE_RANGE_AUTO } tone_range_kind;
 /* What a model stands on: src/plan/ground.h. */
-typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT } ground_kind;
+typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT, GROUND_CAST } ground_kind;
 
 /* The parameters, read by src/plan and src/frame when it sets the scene up. */
 typedef struct scene_values {
@@ -23,7 +23,7 @@ typedef struct scene_values {
     bool        shadows;
     float       shadow_softness, occlusion, occlusion_radius;
     int32_t     tone_range, ground;
-    float       ground_strength, ground_reach;
+    float       ground_strength, ground_reach, ground_edge;
     bool        ground_flat;
     colour      ground_colour;
     float       focus, focus_at, focus_depth;

@@ -16,6 +16,10 @@ in vec3 v_field_sides;
 #ifdef HAS_REST
 in vec3 v_rest; /* where it is when nothing has moved, in its part's frame */
 #endif
+#ifdef HAS_FACTS
+flat in vec4  v_own_colour; /* src/layer/raster.vert */
+flat in uvec3 v_own;
+#endif
 #ifdef HAS_WALLS
 in vec4 v_wall; /* src/stage/upload_walls.c */
 #endif

@@ -20,7 +20,7 @@ float lit_fraction(vec3 eye, vec3 normal, vec3 light)
     ivec2 position = ivec2(low), last = textureSize(t_shadow, 0) - 1;
     vec4 nearest = vec4(texelFetch(t_shadow, clamp(position, ivec2(0), last), 0).r, texelFetch(t_shadow, clamp(position + ivec2(1, 0), ivec2(0), last), 0).r,
                         texelFetch(t_shadow, clamp(position + ivec2(0, 1), ivec2(0), last), 0).r, texelFetch(t_shadow, clamp(position + 1, ivec2(0), last), 0).r);
-    vec4 lit = step(vec4(at.z), nearest);
+    vec4 lit = step(vec4(min(at.z, 1.0)), nearest); /* beyond all that throws shadows, where nothing is nothing is in the way */
     return mix(mix(lit.x, lit.y, fraction.x), mix(lit.z, lit.w, fraction.x), fraction.y);
 }
 #endif

@@ -5,7 +5,7 @@
 
 static const char *const source_names[] = {"studio", "file", NULL};
 static const char *const tone_range_names[] = {"none", "auto", NULL};
-static const char *const ground_names[] = {"none", "contact", NULL};
+static const char *const ground_names[] = {"none", "contact", "cast", NULL};
 
 /* Percentages need no bounds to be well-formed. */
 static lmn_status check_cut(const char *text, lmn_error *error)
@@ -46,11 +46,12 @@ static const param params[] = {
                           "that halftones and pencils use all their tones on any model."),
     PARAM_ENUM_ROW(scene_values, ground, .names = ground_names, .cpu_only = true,
                    .doc = "contact: the model stands on a ground, which is darker where it is touched or nearly so; "
-                          "pencils and printed screens draw that, others lay a tone. Not seen from below, nor in "
-                          "sections."),
+                          "pencils and printed screens draw that, others lay a tone. cast: the first light throws "
+                          "the model's shadow there, as soft as shadow_softness, as a tone. Not seen from below, nor "
+                          "in sections."),
     PARAM_FLOAT_ROW(scene_values, ground_strength, .def = 0.55, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .cpu_only = true, .only_if = "ground=contact",
-                    .doc = "How dark the ground is where it is touched."),
+                    .cpu_only = true, .only_if = "ground",
+                    .doc = "How dark the ground is where it is touched, or where no light falls."),
     PARAM_FLOAT_ROW(scene_values, ground_reach, .def = 0.15, .min = 0.005, .max = 1, .soft_min = 0.03, .soft_max = 0.4,
                     .unit = UNIT_FRACTION, .logarithmic = true, .cpu_only = true, .only_if = "ground=contact",
                     .doc = "Height over the ground in which a shadow fades to a third, fraction of the model's "
@@ -58,7 +59,10 @@ static const param params[] = {
     PARAM_BOOL_ROW(scene_values, ground_flat, .def = 0, .cpu_only = true, .only_if = "ground=contact",
                    .doc = "The shadow is one flat tone with a border, instead of one that fades."),
     PARAM_COLOUR_ROW(scene_values, ground_colour, .def_colour = {0.09f, 0.09f, 0.12f, 1}, .cpu_only = true,
-                     .only_if = "ground=contact", .doc = "Colour of the shadow where it is a tone."),
+                     .only_if = "ground", .doc = "Colour of the shadow where it is a tone."),
+    PARAM_FLOAT_ROW(scene_values, ground_edge, .def = 0, .min = 0, .max = 12, .soft_max = 2, .unit = UNIT_PT,
+                    .cpu_only = true, .only_if = "ground=cast",
+                    .doc = "Width of the line along the border of the shadow; 0: none. Soft shadows have none."),
     PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Depth focus: fraction of the ink that lines and strokes lose away from the depth that is "
                            "looked at; the paper stays what it is."),

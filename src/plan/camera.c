@@ -430,6 +430,38 @@ void camera_pixels(const view_camera *c, box3 box, int width, int height, int ma
     }
 }
 
+camera_bounds camera_bounds_of(const view_camera *c, int width, int height, const int pixels[4])
+{
+    enum { MORE = 2 };
+    const mat4    both = mat4_multiply(&c->projection, &c->view);
+    const int     size[2] = {width, height};
+    camera_bounds out;
+    for (int k = 0; k < 2; k++) {
+        bool   whole = pixels[2] <= 0;
+        double low = whole ? 0 : pixels[k], high = whole ? size[k] : pixels[k] + pixels[2 + k];
+        double ends[2] = {2 * (low - MORE) / size[k] - 1, 2 * (high + MORE) / size[k] - 1};
+        for (int i = 0; i < 4; i++) {
+            double across = both.m[4 * i + k], along = both.m[4 * i + 3];
+            out.planes[2 * k][i] = across - ends[0] * along;
+            out.planes[2 * k + 1][i] = ends[1] * along - across;
+        }
+    }
+    return out;
+}
+
+bool camera_bounds_meet(const camera_bounds *b, box3 box)
+{
+    for (int i = 0; i < 4; i++) {
+        const double *p = b->planes[i];
+        double        most = p[3] + p[0] * (double)(p[0] > 0 ? box.max.x : box.min.x) +
+                      p[1] * (double)(p[1] > 0 ? box.max.y : box.min.y) +
+                      p[2] * (double)(p[2] > 0 ? box.max.z : box.min.z);
+        if (most < 0)
+            return false;
+    }
+    return true;
+}
+
 void camera_widen_pixels(int box[4], const int other[4])
 {
     for (int k = 0; k < 2; k++) {

@@ -38,6 +38,15 @@ void camera_depth_range(const view_camera *camera, box3 box, double *nearest, do
  * picture when the box reaches behind the near plane. */
 void camera_pixels(const view_camera *camera, box3 box, int width, int height, int margin, int out[4]);
 
+/* Planes through the eye around a part of the picture. */
+typedef struct camera_bounds {
+    double planes[4][4];
+} camera_bounds;
+/* Around pixels (x, y, width, height from the bottom left; width 0: all of them), and two more on each side. */
+camera_bounds camera_bounds_of(const view_camera *camera, int width, int height, const int pixels[4]);
+/* May anything in the box be seen there? */
+bool camera_bounds_meet(const camera_bounds *bounds, box3 box);
+
 /* Widens a box of pixels by another. */
 void camera_widen_pixels(int box[4], const int other[4]);
 

@@ -23,7 +23,9 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
     } else if (status == LMN_OK) {
         gpu_mesh_data with = upload_data_over_time(v);
         status = upload_glue(u, &with, error);
-        if (status == LMN_OK)
+        if (status == LMN_OK && upload_packs(u, job, &with))
+            status = upload_pack_add(u, g, &job->meshes[i], &with, error);
+        else if (status == LMN_OK)
             job->meshes[i] = upload_mesh_make(g, job, i, &with);
         mem_free((void *)(uintptr_t)with.glue);
     }
@@ -118,6 +120,7 @@ static lmn_status add_whole(upload *u, gpu *g, upload_part_job *job, size_t i, c
     if (u->needs.walls)
         item.building = building_facts_of(u->pose->scene, u->pose->scene->parts[job->part_index].node);
     item.mesh = job->meshes[i];
+    item.has_key = job->mesh_uses == 1 && gpu_mesh_key(item.mesh, &item.key);
     item.lapped = job->lapped[i];
     item.patch_radius = upload_patch_radius(u, p->bounds);
     item.world = *world;
@@ -170,10 +173,13 @@ static lmn_status upload_part(upload *u, gpu *g, size_t part_index, lmn_error *e
     const lmn_scene *scene = u->pose->scene;
     const node      *n = &scene->nodes[scene->parts[part_index].node];
     const part_pose *pose = &u->pose->parts[part_index];
-    upload_part_job  job = {
-         .part_index = part_index, .mesh = &scene->meshes[n->mesh], .pose = pose, .nearer = nearer_of(u, part_index)};
-    upload_mesh *made = pose_part_deforms(pose) ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
-    lmn_status   status = LMN_OK;
+    upload_part_job  job = {.part_index = part_index,
+                            .mesh = &scene->meshes[n->mesh],
+                            .mesh_uses = u->mesh_uses[n->mesh],
+                            .pose = pose,
+                            .nearer = nearer_of(u, part_index)};
+    upload_mesh     *made = pose_part_deforms(pose) ? &u->posed[scene->parts[part_index].node] : &u->meshes[n->mesh];
+    lmn_status       status = LMN_OK;
     if (make_room(made, job.mesh)) {
         job.meshes = made->primitives;
         job.lapped = made->lapped;
@@ -208,7 +214,8 @@ static lmn_status open_upload(upload *out, const pose *pose, const upload_desc *
     out->posed = mem_calloc(scene->node_count, sizeof *out->posed);
     out->shapes = mem_calloc(scene->mesh_count + 1, sizeof *out->shapes);
     out->corners = mem_calloc(scene->mesh_count, sizeof *out->corners);
-    if (!out->textures || !out->meshes || !out->posed || !out->shapes || !out->corners)
+    out->mesh_uses = upload_count_uses(scene);
+    if (!out->textures || !out->meshes || !out->posed || !out->shapes || !out->corners || !out->mesh_uses)
         return error_memory(error);
     out->mesh_count = scene->mesh_count;
     out->node_count = scene->node_count;
@@ -280,6 +287,7 @@ static void take_over(upload *u, upload *earlier, const lmn_scene *scene)
         u->strokes[i] = earlier->strokes[i]; /* these know of which moment and content they are */
         earlier->strokes[i] = NULL;
     }
+    u->key_count = earlier->key_count; /* meshes that are taken over have theirs */
     take_posed(u, earlier, scene);
     for (size_t i = 0; i < smaller(u->mesh_count, earlier->mesh_count); i++) {
         if (earlier->meshes[i].revision == scene->meshes[i].revision) {
@@ -325,6 +333,9 @@ lmn_status upload_create(upload *out, gpu *g, const pose *pose, const upload_des
         else if (status == LMN_OK)
             status = upload_part(out, g, i, error);
     }
+    upload_packs_close(out, g);
+    if (status == LMN_OK)
+        status = gpu_check(g, error);
     drop_former(out->posed, out->node_count, g);
     drop_former(out->meshes, out->mesh_count, g);
     if (status == LMN_OK)
@@ -370,6 +381,7 @@ void upload_release(upload *u, gpu *g)
     upload_solids_release(u, g);
     csg_program_release(&u->program);
     release_corners(u);
+    mem_free(u->mesh_uses);
     mem_free(u->shapes);
     mem_free(u->planes);
     mem_free(u->operands);

@@ -72,7 +72,9 @@ typedef struct draw_item {
     size_t         part_index;
     int32_t        material;
     bool           has_uvs, has_uv1, has_colours;
-    building_facts building;                     /* where walls are asked for */
+    building_facts building; /* where walls are asked for */
+    bool           has_key;  /* its mesh lies in a pack and is drawn here alone: `key` is that of its vertices */
+    uint32_t       key;
     bool           is_solid;                     /* operands of a solid: nothing of them is drawn as it is */
     size_t         solid;                        /* in the upload's solids */
     uint32_t       first_operand, operand_count; /* solids: numbers from first_operand + 1 on */
@@ -84,6 +86,10 @@ typedef struct draw_item {
 
 /* Stores of figures that hide what is behind, of those that are seen through, and of edges that are looked up. */
 enum { STROKES_OPAQUE, STROKES_SEEN_THROUGH, STROKES_LOOKED_UP, STROKE_STORES };
+
+/* Keys of packed meshes are numbers that single precision has exactly. */
+enum { UPLOAD_KEYS_MOST = 1 << 24 };
+typedef struct upload_pack upload_pack;
 
 typedef struct upload {
     uint64_t        revision, identity; /* of the scene */
@@ -107,7 +113,10 @@ typedef struct upload {
     upload_shape   *shapes;  /* per mesh of the scene, and behind them that of the half-spaces of sections */
     upload_corners *corners; /* per mesh of the scene */
     size_t          mesh_count, node_count;
-    gpu_texture   **textures; /* one per image and colour space: index 2·image + linear */
+    upload_pack    *packs;     /* while meshes are made; NULL: none was begun */
+    uint32_t       *mesh_uses; /* per mesh of the scene: how often it is drawn, 2 for more than once */
+    size_t          key_count; /* of packed meshes, those of former uploads too */
+    gpu_texture   **textures;  /* one per image and colour space: index 2·image + linear */
     size_t          texture_count;
     upload_solid   *solids;
     size_t          solid_count, solid_capacity;

@@ -9,6 +9,7 @@
 typedef struct upload_part_job {
     size_t           part_index, instance;
     const mesh      *mesh;
+    uint32_t         mesh_uses; /* how often it is drawn, as the upload has it */
     const part_pose *pose;
     gpu_mesh       **meshes, **lapped; /* per primitive, NULL: not made yet */
     gpu_mesh       **former;           /* per primitive: of another moment; NULL: there are none */
@@ -48,6 +49,16 @@ gpu_mesh *upload_mesh_make(gpu *g, const upload_part_job *job, size_t primitive_
 lmn_status upload_add_piece(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
 bool       upload_add_item(upload *u, const draw_item *item);
 draw_item  upload_item(const upload_part_job *job, size_t primitive_index);
+
+/* --- upload_pack.c --- */
+/* Is the mesh of a part's primitive to lie in a pack? */
+bool upload_packs(const upload *u, const upload_part_job *job, const gpu_mesh_data *data);
+/* Adds it; `out` can be drawn once packs are closed. Errors: LMN_MEMORY, the GPU's. */
+lmn_status upload_pack_add(upload *u, gpu *g, gpu_mesh **out, const gpu_mesh_data *data, lmn_error *error);
+/* Puts on the GPU what is not full yet, and forgets what was gathered. Errors stick to the GPU. */
+void upload_packs_close(upload *u, gpu *g);
+/* Per mesh of the scene; NULL when memory is gone. Free with mem_free. */
+uint32_t *upload_count_uses(const lmn_scene *scene);
 
 /* --- upload_field.c --- */
 /* The mesh with the direction in which it bends, and when wished for once more with patches that cover it (else that

@@ -19,7 +19,7 @@ typedef struct tones {
     palette palette;
     float   tint, bias;
     int32_t facade, ground_storey;
-    float   storey, bay, occupancy, frame;
+    float   storey, bay, occupancy, frame, bars;
     colour  glass, lit, frame_colour;
 } tones;
 
@@ -51,7 +51,11 @@ static const param params[] = {
     PARAM_COLOUR_ROW(tones, lit, .def_colour = {1, 0.86f, 0.5f, 1}, .as_light = true, .only_if = "facade&occupancy",
                      .doc = "Their colour, in any tone."),
     PARAM_FLOAT_ROW(tones, frame, .def = 0.5, .min = 0, .max = 12, .soft_max = 1.5, .unit = UNIT_PT,
-                    .only_if = "facade", .doc = "Width of the line around windows and doors; 0: none."),
+                    .only_if = "facade",
+                    .doc = "Width of the line around windows and doors, a tenth of theirs at most; 0: none."),
+    PARAM_FLOAT_ROW(tones, bars, .def = 0, .min = 0, .max = 12, .soft_max = 1.5, .unit = UNIT_PT, .only_if = "facade",
+                    .doc = "Width of the bars that part windows into panes, once these are large enough to be seen, in "
+                           "the colour of frames; 0: none."),
     PARAM_COLOUR_ROW(tones, frame_colour, .def_colour = {0.16f, 0.16f, 0.19f, 1}, .as_light = true, .only_if = "facade",
                      .doc = "Its colour."),
 };

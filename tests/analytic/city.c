@@ -107,6 +107,27 @@ static void storeys_and_bays(void)
     check_near("C07", windows(narrow, "\"facade\":\"residential\""), 0, 0, "windows where there is no room for one");
 }
 
+/* Bars part windows: panes are spots of glass. Far away they are left out. */
+static void bars_part_windows(void)
+{
+    const char *plain = building("plain", 21, 15, "");
+    const char *wide = "\"bars\":4,\"frame_colour\":\"#ffffff\"";
+    static const struct {
+        const char *facade;
+        double      storey;
+        int         panes;
+    } rows[] = {{"residential", 7.5, 5 * 4 + 1}, {"office", 7.5, 6 * 4}, {"industrial", 15, 2 * 15}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char more[200];
+        snprintf(more, sizeof more, "\"facade\":\"%s\",\"storey\":%g,\"bay\":7,%s", rows[i].facade, rows[i].storey,
+                 wide);
+        check_near("C07", windows(plain, more), rows[i].panes, 0, "panes of %s windows", rows[i].facade);
+    }
+    char thin[200];
+    snprintf(thin, sizeof thin, "\"facade\":\"residential\",\"storey\":1,\"bay\":1,%s", wide);
+    check_near("C07", windows(plain, thin), 15 * 21, 0, "windows with panes too small for bars");
+}
+
 /* Uses are told apart by how much of a wall is glass: each the area that its openings have. */
 static void uses_differ(void)
 {
@@ -141,9 +162,11 @@ static void windows_have_frames(void)
     double      dark[3] = {0};
     for (int k = 0; k < 3; k++) {
         char more[200];
-        snprintf(more, sizeof more,
-                 "\"facade\":\"industrial\",\"glass\":\"#ffffff\",\"frame\":\"%dpx\",\"frame_colour\":\"%s\"",
-                 k ? 2 : 0, k == 2 ? "#808080" : "#000000");
+        snprintf(
+            more, sizeof more,
+            "\"facade\":\"industrial\",\"glass\":\"#ffffff\",\"storey\":15,\"bay\":5.25,\"frame\":\"%dpx\",\"frame_"
+            "colour\":\"%s\"",
+            k ? 2 : 0, k == 2 ? "#808080" : "#000000");
         shot s;
         char look[1400];
         snprintf(look, sizeof look,
@@ -157,17 +180,35 @@ static void windows_have_frames(void)
         for (int i = 0; i < SIDE * SIDE; i++)
             dark[k] += s.id[i] ? 1 - s.picture[4 * i] / 255.0 : 0;
         if (k == 1) {
-            /* 5 storeys of 4 windows: each (0.76 · 21 / 4) by (0.34 · 3) units, lines of 2 px. */
+            /* 1 storey of 2 windows: each (0.76 · 21 / 2) by (0.34 · 15) units, lines of 2 px. */
             double a[2], b[2];
             shot_on_page(&s, dvec_of(0, 0, 0), a);
             shot_on_page(&s, dvec_of(1, 0, 0), b);
-            double unit = b[0] - a[0], outline = 20 * 2 * (0.76 * 21 / 4 + 0.34 * 3) * unit;
+            double unit = b[0] - a[0], outline = 2 * 2 * (0.76 * 21 / 2 + 0.34 * 15) * unit;
             check_near("C07", dark[1] / (2 * outline), 1, 0.06, "dark of frames over the length of outlines");
         }
         shot_release(&s);
     }
     check_at_most("C07", dark[0], 1, "dark pixels of frames of no width");
     check_near("C07", dark[2] / fmax(dark[1], 1), 127.0 / 255, 0.03, "grey frames over black ones");
+    /* Windows six pixels wide: frames as wide as asked for would leave nothing of the wall. */
+    shot              small;
+    static const char crowded[] =
+        "{\"version\":2,\"name\":\"f\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\","
+        "\"surface\":{\"technique\":\"tones\",\"palette\":[\"#ffffff\",\"#ffffff\"],\"tint\":0,\"facade\":"
+        "\"residential\","
+        "\"glass\":\"#ffffff\",\"storey\":1.6,\"bay\":1.6,\"frame\":\"4px\",\"frame_colour\":\"#000000\"},\"lines\":"
+        "\"none\"}]}";
+    if (shot_take(&small, model, crowded, NULL, &front)) {
+        double black = 0, all = 0;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            all += small.id[i] != 0;
+            black += small.id[i] ? 1 - small.picture[4 * i] / 255.0 : 0;
+        }
+        check_at_most("C07", black / fmax(all, 1), 0.2, "share of a wall that frames of small windows take");
+        check_at_least("C07", black / fmax(all, 1), 0.02, "and they are there");
+        shot_release(&small);
+    }
 }
 
 /* Lit windows are the given share of a high house. */
@@ -416,6 +457,7 @@ int main(int argc, char **argv)
         {"storeys", storeys_and_bays},
         {"uses", uses_differ},
         {"frames", windows_have_frames},
+        {"bars", bars_part_windows},
         {"data", data_are_colours},
         {"occupancy", occupancy_is_counted},
         {"calm", far_facades_are_calm},

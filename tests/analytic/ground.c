@@ -351,11 +351,129 @@ static void media_draw_it(void)
     shape_release(&model);
 }
 
+/* --- the shadow that a light throws ---------------------------------------------------------------------- */
+
+enum { CAST_SIDE = 400, UNKNOWN = -1 };
+
+/* A block that stands on the ground. */
+static const double cast_low[3] = {-1, 0, -0.6}, cast_high[3] = {1, 2.4, 0.7};
+
+/* Does the ray from a place hit it? */
+static bool is_kept_off(dvec from, dvec towards)
+{
+    const double at[3] = {from.x, from.y, from.z}, way[3] = {towards.x, towards.y, towards.z};
+    double       enters = 0, leaves = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        double first = (cast_low[k] - at[k]) / way[k], second = (cast_high[k] - at[k]) / way[k];
+        enters = fmax(enters, fmin(first, second));
+        leaves = fmin(leaves, fmax(first, second));
+    }
+    return enters < leaves;
+}
+
+/* Per pixel 1 where the ground lies in shadow, 0 where it is lit, UNKNOWN where it is not seen. */
+static signed char *cast_truth(const shot *s, dvec light)
+{
+    signed char *out = check_alloc((size_t)CAST_SIDE * CAST_SIDE, 1);
+    double       ignored;
+    /* The view turns and shifts alone: its transpose turns back. */
+    const double *m = s->view;
+    const double  back[16] = {m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1};
+    dvec          towards = dmat_apply(back, light, 0, &ignored);
+    for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+        dvec origin, way;
+        shot_ray(s, i % CAST_SIDE + 0.5, i / CAST_SIDE + 0.5, &origin, &way);
+        bool falls = way.y < 0 && !s->id[i];
+        dvec at = falls ? dvec_add(origin, dvec_scale(way, -origin.y / way.y)) : origin;
+        out[i] = (signed char)(falls ? is_kept_off(at, towards) : UNKNOWN);
+    }
+    return out;
+}
+
+/* Is there another answer within so many pixels? */
+static bool is_near_border(const signed char *truth, int at, int reach)
+{
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++) {
+            int column = at % CAST_SIDE + x, row = at / CAST_SIDE + y;
+            if (column >= 0 && row >= 0 && column < CAST_SIDE && row < CAST_SIDE &&
+                truth[row * CAST_SIDE + column] != truth[at])
+                return true;
+        }
+    return false;
+}
+
+static bool shoot_cast(shot *out, const shape *model, const char *more, bool orthographic)
+{
+    char      look[600];
+    shot_view view = {.width = CAST_SIDE,
+                      .height = CAST_SIDE,
+                      .eye = {3, 7, 9},
+                      .target = {1.2, 0, 0},
+                      .up = {0, 1, 0},
+                      .fov_deg = 45,
+                      .orthographic = orthographic};
+    snprintf(
+        look, sizeof look,
+        "{\"version\":2,\"name\":\"f\",\"doc\":\"x.\",\"scene\":{\"ground\":\"cast\",\"ground_colour\":\"#000000\","
+        "\"light_direction\":[-0.7,0.75,0.3],%s},\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\","
+        "\"surface\":\"flat\"}]}",
+        more);
+    return shot_of_shape(out, model, "cast.glb", look, NULL, &view);
+}
+
+/* By rays: where the light does not reach the ground it is dark, elsewhere it is as it was. */
+static void cast_shadows_are_where_rays_say(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3);
+    shape      model = {0};
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        shot hard, soft, edged;
+        int  counts[2] = {0}, wrong = 0, greys[2] = {0}, far_ink = 0, borders = 0, inked = 0;
+        if (!shoot_cast(&hard, &model, "\"ground_strength\":1", orthographic))
+            continue;
+        bool         both = shoot_cast(&soft, &model, "\"ground_strength\":1,\"shadow_softness\":12", orthographic);
+        bool         all = both && shoot_cast(&edged, &model, "\"ground_strength\":0,\"ground_edge\":2", orthographic);
+        signed char *truth = cast_truth(&hard, light);
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE && all; i++) {
+            if (truth[i] == UNKNOWN)
+                continue;
+            int ink = 255 - edged.picture[4 * i];
+            counts[truth[i]]++;
+            greys[0] += hard.picture[4 * i] > 20 && hard.picture[4 * i] < 235;
+            greys[1] += soft.picture[4 * i] > 20 && soft.picture[4 * i] < 235;
+            wrong += (hard.picture[4 * i] < 128) != (truth[i] == 1) && !is_near_border(truth, i, 1);
+            far_ink += ink > 20 && !is_near_border(truth, i, 4);
+            int here = i % CAST_SIDE + 1 < CAST_SIDE && truth[i] + truth[i + 1] == 1 && truth[i] != UNKNOWN &&
+                       truth[i + 1] != UNKNOWN;
+            borders += here;
+            inked += here && (ink > 127 || edged.picture[4 * (i + 1)] < 128);
+        }
+        check_at_least("ground", counts[1], 3000, "pixels of ground in shadow");
+        check_at_most("ground", (double)wrong / fmax(counts[0] + counts[1], 1), 0.0005,
+                      "share that is drawn otherwise");
+        check_at_least("ground", (double)greys[1] / fmax(greys[0], 1), 2,
+                       "grey pixels of a soft shadow over a hard one's");
+        check_at_most("ground", far_ink, 0, "ink of the border's line away from it");
+        check_at_least("ground", borders, 60, "places of the border");
+        check_at_least("ground", (double)inked / fmax(borders, 1), 0.98, "share of them with the line");
+        free(truth);
+        shot_release(&hard);
+        if (both)
+            shot_release(&soft);
+        if (all)
+            shot_release(&edged);
+    }
+    shape_release(&model);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"law", the_law_holds},      {"floating", floating_has_none}, {"nothing", nothing_else_changes},
-        {"flat", flat_has_one_tone}, {"media", media_draw_it},
+        {"flat", flat_has_one_tone}, {"media", media_draw_it},        {"cast", cast_shadows_are_where_rays_say},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -24,7 +24,7 @@ static void check(lmn_status status, const char *what)
 #define DO(call) check(call, #call)
 
 /* Scenes and looks that maps differ by: one figure and several, layers, several line techniques, fields, directions,
- * velocities, solids. A look that begins with { is one. */
+ * velocities, solids, what is written beside a drawing. A look that begins with { is one. */
 typedef struct subject {
     const char *model, *look;
     double      time_s;
@@ -42,6 +42,9 @@ static const char several[] =
     " \"layers\": {\"technique\": \"peel\", \"count\": 3}, \"compose\": \"wire\"}]}";
 static const char    form[] = "{\"version\": 2, \"rules\": [{\"select\": \"*\", \"lines\": \"discontinuity\","
                               " \"surface\": {\"technique\": \"hatch\", \"coordinates\": \"form\"}}]}";
+static const char    written[] = "{\"version\": 2, \"scene\": {\"datum\": \"yearOfConstruction\"},"
+                                 " \"finish\": {\"labels\": \"name\", \"legend\": true, \"north_arrow\": true},"
+                                 " \"rules\": [{\"select\": \"*\", \"surface\": \"tones\"}]}";
 static const subject subjects[] = {
     {"box.glb", "edges", 0, 0},
     {"pump.glb", "line", 0, 0},
@@ -51,6 +54,7 @@ static const subject subjects[] = {
     {"pump.glb", form, 0, BIT(LMN_MAP_DIRECTION)},
     {"pump.glb", several, 0.6, BIT(LMN_MAP_VELOCITY)},
     {"csg/widget.csg", "technical", 0, 0},
+    {"town.geojson", written, 0, 0},
 };
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 

@@ -1,0 +1,75 @@
+/* The shadow that the first light throws on the ground, as a tone; and a line along its border. Nienhaus 2005, section 4.8: shadows with their edges. */
+#include "light/ground_plane.glsl"
+#include "light/shadow.glsl"
+
+uniform float u_ground_strength;
+uniform vec4  u_ground_colour;
+uniform float u_ground_edge;    /* width of the line, pixels */
+uniform vec3  u_shadow_light;   /* towards it, eye space */
+uniform float u_shadow_nearest; /* nothing is nearer to the light */
+uniform float u_cone;           /* half the light's width at distance 1; both in the map's units */
+layout(location = 0) out vec4 out_0;
+
+#ifdef SOFT
+const int  SEARCHED = 24, COMPARED = 48;
+const mat2 GOLDEN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688); /* by the angle that leaves no gaps */
+
+/* How far before a place of the map something is; 0: nothing is. */
+float before(vec3 position, vec2 offset)
+{
+    ivec2 texel = clamp(ivec2((position.xy + offset) / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1);
+    float nearest = texelFetch(t_shadow, texel, 0).r;
+    return nearest < 1.0 ? max(position.z - nearest, 0.0) : 0.0;
+}
+
+/* What is in the way within the cone to the light says how wide the border is (Fernando 2005); then how much of that width is free. */
+float lit_at(vec3 eye)
+{
+    vec3 at = (u_shadow_from_eye * vec4(eye, 1.0)).xyz;
+    float reach = clamp((at.z - u_shadow_nearest) * u_cone, 0.0, 0.25), found = 0.0, sum = 0.0, lit = float(COMPARED);
+    vec2 direction = vec2(1.0, 0.0);
+    for (int i = 0; i < SEARCHED; i++) {
+        float above = before(at, direction * (reach * sqrt((float(i) + 0.5) / float(SEARCHED))));
+        found += above > 1e-5 ? 1.0 : 0.0;
+        sum += above;
+        direction = GOLDEN * direction;
+    }
+    float radius = max(sum / max(found, 1.0) * u_cone, 0.7 * u_shadow_texel.x);
+    int compared = found > 0.0 ? COMPARED : 0;
+    for (int i = 0; i < compared; i++) {
+        lit -= before(at, direction * (radius * sqrt((float(i) + 0.5) / float(COMPARED)))) > 1e-5 ? 1.0 : 0.0;
+        direction = GOLDEN * direction;
+    }
+    return lit / float(COMPARED);
+}
+#else
+float lit_at(vec3 eye)
+{
+    return lit_fraction(eye, u_ground_plane.xyz, u_shadow_light);
+}
+#endif
+
+/* How much of the pixel the line along the border covers. The share of a ring around it that is lit tells how far the border is. */
+float edge_at(vec2 pixel)
+{
+    const int ROUND = 16;
+    float radius = 0.5 * u_ground_edge + 1.0, lit = 0.0;
+    for (int i = 0; i < ROUND; i++) {
+        float angle = 6.2831853 * (float(i) + 0.5) / float(ROUND);
+        vec4 eye = on_ground(pixel + radius * vec2(cos(angle), sin(angle)));
+        lit += eye.w > 0.0 ? lit_at(eye.xyz) : 1.0;
+    }
+    float off = abs(radius * cos(3.14159265 * lit / float(ROUND)));
+    bool border = lit > 0.02 * float(ROUND) && lit < 0.98 * float(ROUND);
+    return border ? clamp(0.5 * u_ground_edge - off + 0.5, 0.0, 1.0) : 0.0;
+}
+
+void main()
+{
+    vec4 eye = on_ground(gl_FragCoord.xy);
+    float shade = eye.w > 0.0 ? u_ground_strength * (1.0 - lit_at(eye.xyz)) : 0.0;
+#ifdef EDGED
+    shade = max(shade, edge_at(gl_FragCoord.xy));
+#endif
+    out_0 = vec4(u_ground_colour.rgb, 1.0) * (u_ground_colour.a * shade);
+}
