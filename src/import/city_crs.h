@@ -10,7 +10,7 @@
 void city_crs_understand(city_facts *facts, const char *name, double low[3], double high[3], bool *latitude_first);
 
 /* A position of the file as the scene has it: metres from the origin. Degrees are projected by Gauss and Krüger's
- * transverse Mercator on the nearest third meridian: within a ten thousandth of true lengths, and one plane for
+ * transverse Mercator on the nearest third meridian: within a two thousandth of true lengths, and one plane for
  * all files whose origins have the same one. */
 void city_crs_local(const city_facts *facts, bool latitude_first, double p[3]);
 
