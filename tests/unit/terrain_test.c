@@ -365,13 +365,14 @@ static void mistakes_are_told(void **state)
     char              package[128] = {0};
     memcpy(package, cut, sizeof cut);
     memcpy(package + 68, "GPKG", 4);
-    lmn_scene *s;
-    lmn_error  error = {0};
-    char      *box = mem_copy_text(temp_file("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 31));
-    char      *model = mem_copy_text(temp_file("village.geojson", village, sizeof village - 1));
-    char      *broken = mem_copy_text(temp_file("broken.gpkg", package, sizeof package));
-    char      *far =
-        mem_copy_text(temp_file("far.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n", 62));
+    static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const char small[] = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n";
+    lmn_scene        *s;
+    lmn_error         error = {0};
+    char             *box = mem_copy_text(temp_file("box.obj", triangle, sizeof triangle - 1));
+    char             *model = mem_copy_text(temp_file("village.geojson", village, sizeof village - 1));
+    char             *broken = mem_copy_text(temp_file("broken.gpkg", package, sizeof package));
+    char             *far = mem_copy_text(temp_file("far.asc", small, sizeof small - 1));
     assert_int_equal(load(&s, box, model, &error), LMN_USAGE);  /* no city */
     assert_int_equal(load(&s, model, box, &error), LMN_FORMAT); /* no raster */
     assert_int_equal(load(&s, model, "/nowhere.tif", &error), LMN_READ);
