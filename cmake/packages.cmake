@@ -31,7 +31,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME limner)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, openscad, limner-doc")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, gdal-bin, openscad, limner-doc")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "draw 3D models the way people draw
 Outlines and hatching, blueprints, sketches, engravings and cartoons of
 glTF, STL, OBJ, PLY and OpenSCAD models, as pictures, as vectors (SVG, PDF

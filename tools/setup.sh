@@ -8,7 +8,7 @@ packages=(build-essential cmake ninja-build pkg-config
           libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
           libpng-dev libjpeg-dev libwebp-dev zlib1g-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
-          libxml2-dev libseccomp-dev libsqlite3-dev
+          libxml2-dev libseccomp-dev libsqlite3-dev gdal-bin
           libcairo2-dev libpango1.0-dev
           xvfb libglfw3-dev libsdl2-dev libgtk-4-dev libadwaita-1-dev
           dbus at-spi2-core gir1.2-atspi-2.0 python3-gi xdotool adwaita-icon-theme desktop-file-utils appstream gettext

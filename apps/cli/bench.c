@@ -121,7 +121,7 @@ static int run(const word_list *inputs, const void *values)
     int status = task_begin(&task, &v->task, &bar);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis),
-                                   &(program_options){&none, false, v->lod}, &bar);
+                                   &(program_options){&none, false, v->lod, NULL, 0}, &bar);
     if (status == EXIT_DONE)
         status = measure(v, scene, &bar, &text);
     lmn_scene_destroy(&scene);

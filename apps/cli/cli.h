@@ -27,6 +27,8 @@ typedef struct program_options {
     const word_list *defines; /* NAME=VALUE */
     bool             strict;
     const char      *lod; /* NULL: the highest */
+    const char      *terrain;
+    double           populate;
 } program_options;
 
 /* "--lod", in every command that reads models. */
@@ -36,6 +38,20 @@ typedef struct program_options {
             "Of city models (CityJSON, CityGML): the most detailed geometry of each object up to this level, such as " \
             "1 "                                                                                                       \
             "or 2.2. Default: the most detailed."                                                                      \
+    }
+/* "--terrain" and "--populate", likewise. */
+#define TERRAIN_OPTION(at)                                                                                             \
+    {                                                                                                                  \
+        "terrain", 0, OPTION_TEXT, at, "FILE",                                                                         \
+            "Of city models and footprints: a raster of heights (.tif, .hgt, .asc) that lies below them, on which "    \
+            "footprints, roads and the like are put. Needs GDAL."                                                      \
+    }
+#define POPULATE_OPTION(at)                                                                                            \
+    {                                                                                                                  \
+        "populate", 0, OPTION_NUMBER, at, "DENSITY",                                                                   \
+            "Of footprints: people, cars, lamps and trees along roads; 1 as in an ordinary town, up to 4. Default: "   \
+            "only those in the file.",                                                                                 \
+            0, 4                                                                                                       \
     }
 int check_programs(const word_list *inputs, const program_options *programs);
 int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,

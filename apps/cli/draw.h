@@ -17,7 +17,8 @@ typedef struct draw_values {
     option_size      size;
     option_number    time, seed, samples, dpi;
     int              up_axis, angle;
-    const char      *lod;
+    const char      *lod, *terrain;
+    option_number    populate;
     word_list        defines;
     bool             quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
     viewpoint_values viewpoint;

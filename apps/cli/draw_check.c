@@ -267,5 +267,6 @@ int draw_check(draw_session *s, const word_list *inputs)
         status = shard_parse(v->job.shard, &s->shard);
     if (status == EXIT_DONE)
         status = check_output(s, inputs);
-    return status == EXIT_DONE ? check_programs(inputs, &(program_options){&v->defines, v->strict, NULL}) : status;
+    return status == EXIT_DONE ? check_programs(inputs, &(program_options){&v->defines, v->strict, NULL, NULL, 0})
+                               : status;
 }

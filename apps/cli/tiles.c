@@ -17,7 +17,8 @@
 typedef struct tiles_values {
     const char      *output, *zoom, *look, *select, *cut, *background;
     word_list        sets, defines;
-    option_number    time, seed, samples, dpi;
+    option_number    time, seed, samples, dpi, populate;
+    const char      *lod, *terrain;
     int              up_axis, tile;
     bool             resume, strict, lenient, quiet, verbose;
     viewpoint_values viewpoint;
@@ -53,6 +54,9 @@ static const option options[] = {
     {"background", 0, OPTION_TEXT, AT(background), "COLOUR|none", "Ground of the picture. Default: the look's."},
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up. Default: the format's.",
      .choices = up_axis_choices},
+    LOD_OPTION(AT(lod)),
+    TERRAIN_OPTION(AT(terrain)),
+    POPULATE_OPTION(AT(populate)),
     {"resume", 0, OPTION_FLAG, AT(resume), NULL, "Draw only tiles that are not there yet."},
     JOB_OPTIONS(tiles_values),
     TASK_OPTIONS(tiles_values),
@@ -274,7 +278,7 @@ static int pack(tiles_run *t)
 static int draw_all(tiles_run *t, const word_list *inputs)
 {
     const tiles_values   *v = t->values;
-    const program_options programs = {&v->defines, v->strict};
+    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
     int status = scene_of_programs(&t->scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &t->bar);
     if (status != EXIT_DONE)
         return status;
@@ -312,7 +316,7 @@ static int run(const word_list *inputs, const void *values)
     if (status == EXIT_DONE)
         status = find_output(&t, inputs);
     if (status == EXIT_DONE)
-        status = check_programs(inputs, &(program_options){&v->defines, v->strict});
+        status = check_programs(inputs, &(program_options){&v->defines, v->strict, NULL, NULL, 0});
     if (status == EXIT_DONE)
         status = load_look(&t);
     if (status == EXIT_DONE && v->job.kind >= 0) {

@@ -52,10 +52,17 @@ typedef struct lmn_load_desc {
     /* Of city models (CityJSON, CityGML) alone; refused with others. "2" or "2.2": the most detailed geometry of each
      * object that is not more detailed than that. NULL: the most detailed. Since 0.1. */
     const char *lod;
+    /* Of models that say where they lie (CityJSON, CityGML, GeoJSON and other footprints) alone; refused with others. A
+     * raster of heights (GeoTIFF, HGT, ESRI's ASCII grid), read with GDAL, that lies below the model: footprints and
+     * what is between them are put on it. NULL: none. Since 0.1. */
+    const char *terrain;
+    /* Of footprints alone; refused with others: how densely people, cars, lamps and trees are put along roads, 1 as in
+     * an ordinary town, up to 4. 0: only those in the file. Since 0.1. */
+    double populate;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0, NULL                                  \
+        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0, NULL, NULL, 0                         \
     }
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */

@@ -61,6 +61,8 @@ lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, c
     if (full->lod && (!text_is_double(full->lod, &lod) || !(lod >= 0)))
         return error_set(error, LMN_USAGE, "%s: `lod` '%.40s' is no level of detail such as 2 or 2.2", caller,
                          full->lod);
+    if (!(full->populate >= 0 && full->populate <= 4))
+        return error_set(error, LMN_USAGE, "%s: `populate` %g is not between 0 and 4", caller, full->populate);
     for (size_t i = 0; i < full->define_count; i++)
         if (!full->defines || !full->defines[i])
             return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,

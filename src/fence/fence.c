@@ -18,7 +18,7 @@
 #include "base/work.h"
 #include "fence/fence_private.h"
 
-enum { POLL_MS = 20, AT_ONCE = 1 << 20, LEAVE_MS = 200, READY_MS = 2000, TRIES = 3 };
+enum { POLL_MS = 20, AT_ONCE = 1 << 20, LEAVE_MS = 200, READY_MS = 2000, PREPARED_MS = 20000, TRIES = 3 };
 
 static const char READY = 'R';
 
@@ -119,12 +119,12 @@ static bool has_memory(void)
 
 /* Never returns. The work around it is the parent's, with callbacks that are not meant for this process; so are
  * allocations that tests make fail: the child serves those after it, too. */
-static void run_child(int channel, size_t address_space)
+static void run_child(int channel, size_t address_space, fence_prepare prepare)
 {
     work_adopt(NULL);
     mem_fail_at(0);
     mem_enter_child();
-    if (fence_lock(channel, address_space) && has_memory() && send_all(&READY, sizeof READY))
+    if (fence_lock(channel, address_space, prepare) && has_memory() && send_all(&READY, sizeof READY))
         while (answer_one())
             ;
     _exit(0);
@@ -167,7 +167,7 @@ static void end_fence(struct fence *f)
     mem_free(f);
 }
 
-static lmn_status start_one(work *around, lmn_error *error)
+static lmn_status start_one(struct fence **out, fence_prepare prepare, lmn_error *error)
 {
     int           ends[2];
     struct fence *f = mem_calloc(1, sizeof *f);
@@ -184,7 +184,7 @@ static lmn_status start_one(work *around, lmn_error *error)
 #endif
     f->child = fork();
     if (f->child == 0)
-        run_child(ends[1], space);
+        run_child(ends[1], space, prepare);
     int problem = errno;
     close(ends[1]);
     f->channel = ends[0];
@@ -193,15 +193,14 @@ static lmn_status start_one(work *around, lmn_error *error)
         return error_set(error, LMN_MEMORY, "cannot start the process for decoders: %s", strerror(problem));
     }
     fcntl(f->channel, F_SETFL, O_NONBLOCK);
-    around->fence = f;
-    around->end_fence = end_fence;
+    *out = f;
     return LMN_OK;
 }
 
 /* Is the child there? False also when the work is to stop. */
-static bool is_ready(const struct fence *f)
+static bool is_ready(const struct fence *f, double patience_ms)
 {
-    double end = clock_ms() + READY_MS;
+    double end = clock_ms() + patience_ms;
     while (clock_ms() < end && work_check(NULL) == LMN_OK) {
         struct pollfd wait = {.fd = f->channel, .events = POLLIN};
         char          byte = 0;
@@ -211,15 +210,15 @@ static bool is_ready(const struct fence *f)
     return false;
 }
 
-static lmn_status start(work *around, lmn_error *error)
+static lmn_status start(struct fence **out, fence_prepare prepare, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     for (int i = 0; i < TRIES && status == LMN_OK; i++) {
-        status = start_one(around, error);
-        if (status != LMN_OK || is_ready(around->fence))
+        status = start_one(out, prepare, error);
+        if (status != LMN_OK || is_ready(*out, prepare ? PREPARED_MS : READY_MS))
             return status;
-        end_fence(around->fence);
-        around->fence = NULL;
+        end_fence(*out);
+        *out = NULL;
         status = work_check(error);
     }
     return status == LMN_OK ? error_set(error, LMN_MEMORY, "the process for decoders does not start") : status;
@@ -352,28 +351,52 @@ static lmn_status receive_answer(exchange *e, fence_bytes *answer, bool *whole)
     return answer->bytes ? LMN_OK : error_memory(e->error);
 }
 
+/* *whole: the child is as it was before and can be asked again. */
+static lmn_status ask(struct fence *f, fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
+                      bool *whole, lmn_error *error)
+{
+    lmn_status     status = LMN_OK;
+    exchange       e = {.fence = f, .what = what, .end_ms = clock_ms() + 1000.0 * LIMIT_IMPORT_SECONDS, .error = error};
+    const question q = {fn, request->size};
+    *whole = send_bytes(&e, &q, sizeof q) && send_bytes(&e, request->bytes, request->size);
+    if (*whole)
+        status = receive_answer(&e, answer, whole);
+    /* Whatever it still does is of no interest. */
+    if (!*whole && status == LMN_OK)
+        status = explain(&e, e.gone ? reap(f) : 0);
+    return status;
+}
+
 static lmn_status call_child(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
                              lmn_error *error)
 {
     work      *around = work_outermost();
-    lmn_status status = around->fence ? LMN_OK : start(around, error);
+    bool       whole;
+    lmn_status status = around->fence ? LMN_OK : start(&around->fence, NULL, error);
     if (status != LMN_OK)
         return status;
+    around->end_fence = end_fence;
     /* A callback that is asked meanwhile may call the library: what that needs decoded goes to a child of its own. */
     struct fence *f = around->fence;
     around->fence = NULL;
-    exchange       e = {.fence = f, .what = what, .end_ms = clock_ms() + 1000.0 * LIMIT_IMPORT_SECONDS, .error = error};
-    const question q = {fn, request->size};
-    bool           whole = send_bytes(&e, &q, sizeof q) && send_bytes(&e, request->bytes, request->size);
-    if (whole)
-        status = receive_answer(&e, answer, &whole);
-    /* Whatever it still does is of no interest. */
-    if (!whole && status == LMN_OK)
-        status = explain(&e, e.gone ? reap(f) : 0);
+    status = ask(f, answer, fn, what, request, &whole, error);
     if (whole && !around->fence)
         around->fence = f;
     else
         end_fence(f);
+    return status;
+}
+
+static lmn_status call_own_child(fence_bytes *answer, fence_fn fn, fence_prepare prepare, const char *what,
+                                 const fence_bytes *request, lmn_error *error)
+{
+    struct fence *f = NULL;
+    bool          whole;
+    lmn_status    status = start(&f, prepare, error);
+    if (status != LMN_OK)
+        return status;
+    status = ask(f, answer, fn, what, request, &whole, error);
+    end_fence(f);
     return status;
 }
 
@@ -383,8 +406,10 @@ static lmn_status call_here(fence_bytes *answer, fence_fn fn, const fence_bytes 
     return status == LMN_OK && answer->failed ? error_memory(error) : status;
 }
 
-static lmn_status call(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, bool here,
-                       lmn_error *error)
+typedef enum where { IN_THIS_PROCESS, IN_THE_CHILD, IN_ITS_OWN } where;
+
+static lmn_status call(fence_bytes *answer, fence_fn fn, fence_prepare prepare, const char *what,
+                       const fence_bytes *request, where runs, lmn_error *error)
 {
     *answer = (fence_bytes){0};
     work own;
@@ -393,7 +418,9 @@ static lmn_status call(fence_bytes *answer, fence_fn fn, const char *what, const
         return error_memory(error);
     if (alone)
         work_begin(&own, NULL, NULL);
-    lmn_status status = here ? call_here(answer, fn, request, error) : call_child(answer, fn, what, request, error);
+    lmn_status status = runs == IN_THIS_PROCESS ? call_here(answer, fn, request, error)
+                        : runs == IN_THE_CHILD  ? call_child(answer, fn, what, request, error)
+                                                : call_own_child(answer, fn, prepare, what, request, error);
     if (alone)
         status = work_end(&own, status, error);
     if (status != LMN_OK) {
@@ -406,11 +433,18 @@ static lmn_status call(fence_bytes *answer, fence_fn fn, const char *what, const
 lmn_status fence_call(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request, lmn_error *error)
 {
     const lmn_task_desc *conditions = work_conditions();
-    return call(answer, fn, what, request, conditions && conditions->in_process, error);
+    bool                 here = conditions && conditions->in_process;
+    return call(answer, fn, NULL, what, request, here ? IN_THIS_PROCESS : IN_THE_CHILD, error);
 }
 
 lmn_status fence_call_always(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
                              lmn_error *error)
 {
-    return call(answer, fn, what, request, false, error);
+    return call(answer, fn, NULL, what, request, IN_THE_CHILD, error);
+}
+
+lmn_status fence_call_prepared(fence_bytes *answer, fence_fn fn, fence_prepare prepare, const char *what,
+                               const fence_bytes *request, lmn_error *error)
+{
+    return call(answer, fn, prepare, what, request, IN_ITS_OWN, error);
 }

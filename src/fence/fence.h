@@ -45,6 +45,12 @@ lmn_status fence_call(fence_bytes *answer, fence_fn fn, const char *what, const 
 lmn_status fence_call_always(fence_bytes *answer, fence_fn fn, const char *what, const fence_bytes *request,
                              lmn_error *error);
 
+/* The same with a library that opens files of its own before it can work (its plugins, tables, other libraries): a
+ * child for this call alone, in which `prepare` runs before it is fenced and before it has the request. */
+typedef void (*fence_prepare)(void);
+lmn_status fence_call_prepared(fence_bytes *answer, fence_fn fn, fence_prepare prepare, const char *what,
+                               const fence_bytes *request, lmn_error *error);
+
 /* How the child is fenced, for people: "seccomp and limits" or "limits". */
 const char *fence_kind(void);
 

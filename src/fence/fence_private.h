@@ -17,7 +17,8 @@
 enum { FENCE_CHANNEL = 3 };
 
 /* In the child: gives up all but the channel, which becomes descriptor FENCE_CHANNEL. `address_space` 0: not
- * limited. */
-bool fence_lock(int channel, size_t address_space);
+ * limited. `prepare`, which may be NULL, runs when everything is closed and nothing is forbidden yet; what it has
+ * opened can be read later on. */
+bool fence_lock(int channel, size_t address_space, fence_prepare prepare);
 
 #endif

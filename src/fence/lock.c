@@ -14,8 +14,10 @@
 
 /* Memory, answering, the clock, and how a process ends. What is not here fails with an error, as do descriptors of
  * files: none is open. */
-static bool forbid_the_rest(void)
+static bool forbid_the_rest(bool prepared)
 {
+    /* Of files that are open already. */
+    static const int reading[] = {SCMP_SYS(pread64), SCMP_SYS(fcntl)};
     static const int allowed[] = {
         SCMP_SYS(read),         SCMP_SYS(readv),
         SCMP_SYS(write),        SCMP_SYS(writev),
@@ -41,6 +43,11 @@ static bool forbid_the_rest(void)
     bool            good = filter != NULL;
     for (size_t i = 0; good && i < sizeof allowed / sizeof *allowed; i++)
         good = seccomp_rule_add(filter, SCMP_ACT_ALLOW, allowed[i], 0) == 0;
+    for (size_t i = 0; good && prepared && i < sizeof reading / sizeof *reading; i++)
+        good = seccomp_rule_add(filter, SCMP_ACT_ALLOW, reading[i], 0) == 0;
+    /* What fstat has become. */
+    good = good && (!prepared || seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(newfstatat), 1,
+                                                  SCMP_A3(SCMP_CMP_EQ, (scmp_datum_t)AT_EMPTY_PATH)) == 0);
     /* Aborting is a signal to oneself; others get none. */
     good = good && seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
                                     SCMP_A0(SCMP_CMP_EQ, (scmp_datum_t)getpid())) == 0;
@@ -49,8 +56,9 @@ static bool forbid_the_rest(void)
     return good;
 }
 #else
-static bool forbid_the_rest(void)
+static bool forbid_the_rest(bool prepared)
 {
+    (void)prepared;
     return true;
 }
 #endif
@@ -80,7 +88,7 @@ static void reset_signals(void)
     sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-bool fence_lock(int channel, size_t address_space)
+bool fence_lock(int channel, size_t address_space, fence_prepare prepare)
 {
     reset_signals();
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -99,6 +107,8 @@ bool fence_lock(int channel, size_t address_space)
     if (close_range(FENCE_CHANNEL + 1, ~0u, 0) != 0)
         for (int i = FENCE_CHANNEL + 1; i < 65536; i++)
             close(i);
+    if (prepare)
+        prepare();
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
 #ifndef FENCE_SANITIZED
@@ -106,5 +116,5 @@ bool fence_lock(int channel, size_t address_space)
 #endif
     if (address_space)
         limit(RLIMIT_AS, address_space);
-    return forbid_the_rest();
+    return forbid_the_rest(prepare != NULL);
 }

@@ -49,12 +49,15 @@ typedef struct city_builder {
     int32_t              plain; /* material */
     city_tally           tally;
     uint64_t             surfaces[64]; /* a word, and behind the last those without one */
+    struct terrain      *terrain;      /* NULL: none, or not read yet */
     struct city_scratch *scratch;
 } city_builder;
 
 lmn_status city_builder_open(city_builder *b, const import_job *job, lmn_error *error);
 /* Puts what was counted into the scene's facts and warnings. */
 lmn_status city_builder_close(city_builder *b, lmn_status status);
+/* Reads the terrain that the caller has named, if he has, once the city's place is known. */
+lmn_status city_builder_terrain(city_builder *b);
 /* Other points from here on, as many. Those of one object at a time are used. */
 void city_builder_points(city_builder *b, const vec3 *points, size_t count);
 

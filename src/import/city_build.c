@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "import/build.h"
 #include "import/city.h"
+#include "import/terrain.h"
 
 typedef struct face_key {
     uint64_t key; /* word, then material */
@@ -531,6 +532,12 @@ lmn_status city_builder_close(city_builder *b, lmn_status status)
 {
     city_scratch *x = b->scratch;
     if (status == LMN_OK)
+        status = city_builder_terrain(b);
+    if (status == LMN_OK && b->terrain)
+        status = terrain_into_scene(b->terrain, b);
+    terrain_free(b->terrain);
+    b->terrain = NULL;
+    if (status == LMN_OK)
         tell_all(b);
     if (!x)
         return status;
@@ -585,6 +592,24 @@ void city_extent(double (*points)[3], size_t count, double low[3], double high[3
         find_middle(points, count, low, high);
 }
 
+/* `at` in the file's unit. */
+static void widen_place(city_facts *facts, const double at[2])
+{
+    double p[2] = {(at[0] - facts->origin[0]) * city_metres(facts, 0),
+                   (at[1] - facts->origin[1]) * city_metres(facts, 0)};
+    if (facts->geographic) {
+        double zero[2], meridian = city_meridian(facts->origin[0]);
+        city_plane(facts->origin[0], facts->origin[1], meridian, zero);
+        city_plane(at[0], at[1], meridian, p);
+        p[0] -= zero[0];
+        p[1] -= zero[1];
+    }
+    for (int k = 0; k < 2; k++) {
+        facts->low[k] = fmin(facts->low[k], p[k]);
+        facts->high[k] = fmax(facts->high[k], p[k]);
+    }
+}
+
 void city_choose_origin(city_facts *facts, const double low[3], const double high[3])
 {
     facts->known = true;
@@ -592,5 +617,13 @@ void city_choose_origin(city_facts *facts, const double low[3], const double hig
         double middle = low[k] + (high[k] - low[k]) / 2, step = facts->geographic && k < 2 ? 1e-4 : 1;
         /* Heights stay what they are, where they are heights. */
         facts->origin[k] = k == 2 && fabs(middle) < 1e5 ? 0 : round(middle / step) * step;
+    }
+    for (int k = 0; k < 2; k++) {
+        facts->low[k] = INFINITY;
+        facts->high[k] = -INFINITY;
+    }
+    for (int corner = 0; corner < 4; corner++) {
+        const double at[2] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1]};
+        widen_place(facts, at);
     }
 }

@@ -212,14 +212,7 @@ static void place(gml_building *b)
     } else {
         return;
     }
-    facts->geographic = city_crs_is_geographic(facts->crs, low, high, &r->latitude_first);
-    if (facts->geographic && r->latitude_first) {
-        const double latitude[2] = {low[0], high[0]};
-        low[0] = low[1];
-        high[0] = high[1];
-        low[1] = latitude[0];
-        high[1] = latitude[1];
-    }
+    city_crs_understand(facts, facts->crs, low, high, &r->latitude_first);
     city_choose_origin(facts, low, high);
     for (size_t i = 0; i < count; i++)
         city_crs_local(facts, r->latitude_first, points[i]);

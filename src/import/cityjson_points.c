@@ -104,14 +104,7 @@ static void place(cityjson_reader *r, const point_list *list, json_span metadata
         return;
     if (list->count)
         city_extent(list->items, list->count, low, high);
-    facts->geographic = city_crs_is_geographic(facts->crs, low, high, &r->latitude_first);
-    if (facts->geographic && r->latitude_first) {
-        double kept[2] = {low[0], high[0]};
-        low[0] = low[1];
-        high[0] = high[1];
-        low[1] = kept[0];
-        high[1] = kept[1];
-    }
+    city_crs_understand(facts, facts->crs, low, high, &r->latitude_first);
     city_choose_origin(facts, low, high);
     r->placed = true;
 }

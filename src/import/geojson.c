@@ -13,8 +13,11 @@
 #include "import/footprint.h"
 #include "import/geojson.h"
 #include "import/json_scan.h"
+#include "import/street.h"
 
-enum { RINGS_MAX = 4096, POSITIONS_MAX = 1000000 };
+enum { POSITIONS_MAX = 1000000 };
+
+#define STRAIGHT 5e-3 /* m */
 
 /* The outline and holes of one polygon, or one line. */
 typedef struct rings {
@@ -30,13 +33,15 @@ typedef struct geojson_reader {
     lmn_error        *error;
     lmn_status        status;
     city_builder      builder;
-    bool              latitude_first;
-    city_shape        shape;
-    footprint_points  points;
+    city_shape        shape, flat; /* flat: one area or strip before it lies on the terrain */
+    footprint_points  points, flat_points;
     rings             rings;
-    city_meshes       tree;
-    uint64_t          guessed_heights, flat_roofs, places;
-    size_t            number;
+    city_meshes       props[PROPS];
+    street           *street; /* NULL: nobody asks for more than the file has */
+    double (*parts)[3];       /* middles of buildings' parts, by x */
+    size_t   part_count, part_capacity;
+    uint64_t guessed_heights, flat_roofs, other_roofs, places;
+    size_t   number;
 } geojson_reader;
 
 typedef struct feature {
@@ -118,7 +123,7 @@ static void keep_position(geojson_reader *r, const double p[3], void *user)
 {
     rings *k = user;
     double local[3] = {p[0], p[1], p[2]};
-    city_crs_local(&r->scene->city, r->latitude_first, local);
+    city_crs_local(&r->scene->city, false, local);
     size_t begin = k->position_count - (k->ring_count ? k->counts[k->ring_count - 1] : 0);
     if (k->position_count > begin) {
         const double *last = k->positions[k->position_count - 1];
@@ -161,6 +166,24 @@ static void wind(double (*p)[2], size_t count, bool anticlockwise)
         }
 }
 
+/* Corners on the straight way between their neighbours, and back and forth on it, are none: roofs would have an edge
+ * there. */
+static void straighten(rings *k, size_t first)
+{
+    size_t *count = &k->counts[k->ring_count - 1], kept = 0;
+    double(*p)[2] = k->positions + first;
+    for (size_t i = 0; i < *count; i++) {
+        const double *a = p[kept ? kept - 1 : *count - 1], *b = p[i], *c = p[(i + 1) % *count];
+        double        x = c[0] - a[0], y = c[1] - a[1], length = hypot(x, y);
+        double        off = length > 0 ? fabs(x * (b[1] - a[1]) - y * (b[0] - a[0])) / length : 0;
+        bool          straight = off<STRAIGHT          &&* count - (i - kept)> 3;
+        if (!straight)
+            memmove(p[kept++], b, sizeof *p);
+    }
+    k->position_count -= *count - kept;
+    *count = kept;
+}
+
 /* A ring's last position is its first one again; rings without an area are left out, and holes with their outline. */
 static void end_ring(geojson_reader *r, rings *k)
 {
@@ -171,6 +194,7 @@ static void end_ring(geojson_reader *r, rings *k)
         --*count;
     }
     if (*count >= 3) {
+        straighten(k, first);
         wind(k->positions + first, *count, k->ring_count == 1);
         return;
     }
@@ -227,7 +251,7 @@ static void put_attributes(geojson_reader *r, int32_t node, json_span properties
 
 static char *id_of(geojson_reader *r, const feature *f)
 {
-    static const char *const keys[] = {"@id", "gml_id", "osm_id", "fid", "id", NULL};
+    static const char *const keys[] = {"@id", "gml_id", "osm_id", "osm_way_id", "fid", "id", NULL};
     char                     name[40];
     json_span                id = f->id.at ? f->id : geojson_property(f->properties, keys);
     if (id.at && id.size)
@@ -252,31 +276,105 @@ static void attach(geojson_reader *r, int32_t node, const geojson_thing *thing)
     mem_free(meshes.items);
 }
 
+static void begin_flat(geojson_reader *r)
+{
+    city_shape_clear(&r->flat);
+    r->flat_points.count = 0;
+}
+
+/* What lies on the ground goes to the object's shape: as it is, or along the terrain, where the slope between two
+ * surfaces asks for more room than a level one does. */
+static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
+{
+    const city_shape *flat = &r->flat;
+    uint32_t          first = (uint32_t)r->points.count;
+    if (r->builder.terrain)
+        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base, &r->shape,
+                             &r->points);
+    bool done = true;
+    for (size_t i = 0; i < r->flat_points.count && done; i++) {
+        vec3 p = r->flat_points.items[i];
+        done = footprint_add_point(&r->points, (double)p.x, (double)p.y, (double)p.z);
+    }
+    for (size_t ring = 0, i = 0; ring < flat->ring_count && done; ring++) {
+        for (; i < flat->rings[ring] && done; i++)
+            done = city_shape_corner(&r->shape, first + flat->corners[i]);
+        done = done && city_shape_end_ring(&r->shape);
+    }
+    return done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+}
+
+static bool is_inside(const double (*ring)[2], size_t count, const double at[3])
+{
+    bool inside = false;
+    for (size_t i = 0, j = count - 1; i < count; j = i++)
+        if ((ring[i][1] > at[1]) != (ring[j][1] > at[1]) &&
+            at[0] < (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
+            inside = !inside;
+    return inside;
+}
+
+/* Is there a part of the building inside? Then the parts are the building (Simple 3D Buildings). */
+static bool has_parts(const geojson_reader *r)
+{
+    const rings *k = &r->rings;
+    double       low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < k->counts[0]; i++) {
+        low = fmin(low, k->positions[i][0]);
+        high = fmax(high, k->positions[i][0]);
+    }
+    size_t first = 0, end = r->part_count;
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        if (r->parts[middle][0] < low)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (; first < r->part_count && r->parts[first][0] <= high; first++)
+        if (is_inside((const double(*)[2])k->positions, k->counts[0], r->parts[first]))
+            return true;
+    return false;
+}
+
 static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan *s)
 {
     if (!read_polygon(r, s))
         return;
     const rings *k = &r->rings;
-    footprint    how = thing->body;
-    bool         fits = true;
-    how.base += k->lowest;
-    how.eaves += k->lowest;
-    how.ridge += k->lowest;
+    if (thing->is_building && !thing->is_part && has_parts(r)) {
+        r->builder.tally.coarser++;
+        return;
+    }
+    footprint how = thing->body;
+    roof_made made = ROOF_AS_ASKED;
+    double    ground = r->builder.terrain
+                           ? terrain_lowest(r->builder.terrain, (const double(*)[2])k->positions, k->counts[0])
+                           : k->lowest;
+    how.base += ground;
+    how.eaves += ground;
+    how.ridge += ground;
     bool done = true;
     if (thing->is_building) {
         done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
-                               &fits);
-        r->flat_roofs += !fits;
+                               &made);
+        done = done && (!r->street || street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]));
+        r->flat_roofs += made == ROOF_MADE_FLAT;
+        r->other_roofs += made == ROOF_OTHERWISE;
     } else {
-        uint32_t at = (uint32_t)r->points.count;
+        if (r->street && strcmp(thing->type, "WaterBody") == 0)
+            done = street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]);
+        begin_flat(r);
+        uint32_t at = (uint32_t)r->flat_points.count;
         for (size_t i = 0; i < k->position_count && done; i++)
-            done = footprint_add_point(&r->points, k->positions[i][0], k->positions[i][1], how.base);
+            done = footprint_add_point(&r->flat_points, k->positions[i][0], k->positions[i][1],
+                                       thing->body.base + k->lowest);
         for (size_t ring = 0; ring < k->ring_count && done; ring++) {
             for (size_t i = 0; i < k->counts[ring] && done; i++)
-                done = city_shape_corner(&r->shape, at++);
-            done = done && city_shape_end_ring(&r->shape);
+                done = city_shape_corner(&r->flat, at++);
+            done = done && city_shape_end_ring(&r->flat);
         }
-        done = done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
+        done = done && city_shape_end_face(&r->flat, NONE, CITY_NO_WORD, 0) && lay_flat(r, thing);
     }
     if (!done)
         no_memory(r);
@@ -289,61 +387,43 @@ static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s
     if (!begin_ring(r, k))
         return;
     read_line(r, s, keep_position, k);
-    if (r->status == LMN_OK && k->position_count >= 2 && thing->width > 0 &&
-        !footprint_strip(&r->shape, &r->points, (const double(*)[2])k->positions, k->position_count, thing->width,
-                         thing->body.base + k->lowest))
+    if (r->status != LMN_OK || k->position_count < 2 || !(thing->width > 0))
+        return;
+    begin_flat(r);
+    if (!footprint_strip(&r->flat, &r->flat_points, (const double(*)[2])k->positions, k->position_count, thing->width,
+                         thing->body.base + k->lowest) ||
+        !lay_flat(r, thing))
         no_memory(r);
-}
-
-/* A crown of two cones over a trunk, 1 high. */
-static void make_tree(geojson_reader *r)
-{
-    enum { SIDES = 7 };
-    static const double heights[3] = {0.22, 0.45, 1}, radius = 0.3;
-    city_shape          kept = r->shape;
-    footprint_points    points = {NULL, 0, 0};
-    bool                done = true;
-    memset(&r->shape, 0, sizeof r->shape);
-    for (int i = 0; i < SIDES && done; i++)
-        done = footprint_add_point(&points, radius * cos(6.283185307179586 * i / SIDES),
-                                   radius * sin(6.283185307179586 * i / SIDES), heights[1]);
-    done = done && footprint_add_point(&points, 0, 0, heights[0]) && footprint_add_point(&points, 0, 0, heights[2]);
-    for (uint32_t i = 0; i < 2 * SIDES && done; i++) {
-        uint32_t a = i % SIDES, b = (a + 1) % SIDES, end = i < SIDES ? SIDES + 1 : SIDES;
-        done = city_shape_corner(&r->shape, i < SIDES ? a : b) && city_shape_corner(&r->shape, i < SIDES ? b : a) &&
-               city_shape_corner(&r->shape, end) && city_shape_end_ring(&r->shape) &&
-               city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
-    }
-    static const char type[] = "SolitaryVegetationObject";
-    if (done) {
-        city_builder_points(&r->builder, points.items, points.count);
-        r->status = city_make(&r->builder, &r->shape, city_word_of_class(type, sizeof type - 1), true, &r->tree);
-    } else {
+    if (r->status == LMN_OK && r->street && strcmp(thing->type, "Road") == 0 &&
+        !street_add_road(r->street, (const double(*)[2])k->positions, k->position_count, thing->width, thing->cars))
         no_memory(r);
-    }
-    mem_free(points.items);
-    city_shape_release(&r->shape);
-    r->shape = kept;
 }
 
 static void keep_place(geojson_reader *r, const double p[3], void *user)
 {
     double *out = user;
     memcpy(out, p, 3 * sizeof *out);
-    city_crs_local(&r->scene->city, r->latitude_first, out);
+    city_crs_local(&r->scene->city, false, out);
 }
 
-static void put_tree(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
+static void put_prop(geojson_reader *r, int32_t node, const geojson_thing *thing, json_scan *s)
 {
-    double at[3] = {NAN, 0, 0}, high = thing->body.ridge;
+    double at[3] = {NAN, 0, 0}, size = thing->body.ridge, c = size * cos(thing->heading),
+           n = size * sin(thing->heading);
+    city_meshes *meshes = &r->props[thing->prop];
     read_position(r, s, keep_place, at);
     if (!isfinite(at[0]))
         return;
-    if (!r->tree.count)
-        make_tree(r);
-    mat4 place = {{high, 0, 0, 0, 0, high, 0, 0, 0, 0, high, 0, at[0], at[1], at[2], 1}};
+    if (!meshes->count)
+        r->status = prop_make(&r->builder, thing->prop, meshes);
+    if (r->builder.terrain)
+        at[2] = terrain_height(r->builder.terrain, at[0], at[1]);
+    mat4 place = {{c, n, 0, 0, -n, c, 0, 0, 0, 0, size, 0, at[0], at[1], at[2], 1}};
     if (r->status == LMN_OK)
-        r->status = city_attach(&r->builder, node, &r->tree, &place, true);
+        r->status = city_attach(&r->builder, node, meshes, &place, true);
+    if (r->status == LMN_OK && r->street &&
+        !street_add_thing(r->street, at[0], at[1], prop_room_of(thing->prop).radius))
+        no_memory(r);
 }
 
 static void put_feature(geojson_reader *r, const feature *f)
@@ -388,7 +468,7 @@ static void put_feature(geojson_reader *r, const feature *f)
     r->points.count = 0;
     s = scan_of(coordinates);
     if (point) {
-        put_tree(r, node, &thing, &s);
+        put_prop(r, node, &thing, &s);
         return;
     }
     if (area)
@@ -441,9 +521,41 @@ static void widen(geojson_reader *r, const double p[3], void *user)
     }
 }
 
+static const extent nowhere = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/* The middle of a building's part, as the file has it. */
+static void keep_part(geojson_reader *r, const feature *f, const extent *own)
+{
+    static const char *const keys[] = {"building:part", NULL};
+    json_span                part = geojson_property(f->properties, keys);
+    if (!part.at || span_is(part, "no") || !(own->high[0] >= own->low[0]))
+        return;
+    if (!mem_grow((void **)&r->parts, &r->part_capacity, r->part_count + 1, sizeof *r->parts)) {
+        no_memory(r);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        r->parts[r->part_count][k] = own->low[k] + (own->high[k] - own->low[k]) / 2;
+    r->part_count++;
+}
+
+static int compare_parts(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void place_parts(geojson_reader *r)
+{
+    for (size_t i = 0; i < r->part_count; i++)
+        city_crs_local(&r->scene->city, false, r->parts[i]);
+    if (r->part_count)
+        qsort(r->parts, r->part_count, sizeof *r->parts, compare_parts);
+}
+
 static void find_place(geojson_reader *r, json_span features)
 {
-    extent    e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    extent    e = nowhere;
     json_scan s = scan_of(features);
     for (bool more = scan_open(&s, '['); more && r->status == LMN_OK; more = scan_next(&s, ']')) {
         if (scan_peek(&s) != '{') {
@@ -453,23 +565,29 @@ static void find_place(geojson_reader *r, json_span features)
         feature f = read_feature(&s);
         if (!f.geometry.at || f.geometry.at[0] != '{')
             continue;
+        extent    own = nowhere;
         json_scan g = scan_of(f.geometry);
         for (bool next = scan_open(&g, '{'); next; next = scan_next(&g, '}'))
             if (span_is(scan_key(&g), "coordinates"))
-                each_position(r, &g, 0, widen, &e);
+                each_position(r, &g, 0, widen, &own);
             else
                 scan_skip(&g);
-        good(r, &g);
+        for (int k = 0; k < 3; k++) {
+            e.low[k] = fmin(e.low[k], own.low[k]);
+            e.high[k] = fmax(e.high[k], own.high[k]);
+        }
+        if (good(r, &g))
+            keep_part(r, &f, &own);
     }
     city_facts *facts = &r->scene->city;
     if (!good(r, &s) || !(e.high[0] >= e.low[0]))
         return;
     r->builder.tally.missing_points = 0; /* counted again when they are read */
-    facts->geographic = city_crs_is_geographic(facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84", e.low, e.high,
-                                               &r->latitude_first);
+    const char *name = facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84";
     /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
-    r->latitude_first = false;
+    city_crs_understand(facts, name, e.low, e.high, NULL);
     city_choose_origin(facts, e.low, e.high);
+    place_parts(r);
 }
 
 static void read_features(geojson_reader *r, json_span features)
@@ -536,7 +654,14 @@ static void read_document(geojson_reader *r)
     read_crs(r, crs);
     find_place(r, features);
     if (r->status == LMN_OK)
+        r->status = city_builder_terrain(&r->builder);
+    double density = r->job->desc ? r->job->desc->populate : 0;
+    if (r->status == LMN_OK && density > 0 && !(r->street = street_new()))
+        no_memory(r);
+    if (r->status == LMN_OK)
         read_features(r, features);
+    if (r->status == LMN_OK && r->street)
+        r->status = street_populate(r->street, &r->builder, density);
 }
 
 static void tell(geojson_reader *r)
@@ -544,6 +669,7 @@ static void tell(geojson_reader *r)
     city_facts *facts = &r->scene->city;
     bool        done = (!r->guessed_heights || city_add(facts, CITY_REPAIRED, "guessed-heights", r->guessed_heights)) &&
                 (!r->flat_roofs || city_add(facts, CITY_REPAIRED, "flat-roofs", r->flat_roofs)) &&
+                (!r->other_roofs || city_add(facts, CITY_REPAIRED, "other-roofs", r->other_roofs)) &&
                 (!r->places || city_add(facts, CITY_SKIPPED, "points", r->places));
     if (!done)
         no_memory(r);
@@ -564,10 +690,15 @@ static lmn_status read_geojson(const import_job *job, lmn_error *error)
         tell(r);
     lmn_status status = city_builder_close(&r->builder, r->status);
     city_shape_release(&r->shape);
+    city_shape_release(&r->flat);
+    mem_free(r->flat_points.items);
     mem_free(r->points.items);
     mem_free(r->rings.positions);
     mem_free(r->rings.counts);
-    mem_free(r->tree.items);
+    mem_free(r->parts);
+    for (int i = 0; i < PROPS; i++)
+        mem_free(r->props[i].items);
+    street_free(r->street);
     mem_free(r);
     return status;
 }

@@ -4,11 +4,16 @@
 
 #include "import/footprint.h"
 #include "import/json_scan.h"
+#include "import/props.h"
 
 typedef struct geojson_thing {
     const char *type;                             /* class of CityGML: "Building", "Road" … */
     bool        is_building, is_nothing, guessed; /* guessed: nobody says how high it is */
     double      width;                            /* of lines, m */
+    bool        is_part;                          /* of a building, which another feature is the outline of */
+    bool        cars;                             /* of roads: they are for cars */
+    prop_kind   prop;                             /* of points */
+    double      heading;                          /* of points: radians from east, anticlockwise */
     footprint   body;                             /* heights over the ground; of trees `ridge` */
 } geojson_thing;
 

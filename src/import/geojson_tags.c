@@ -61,11 +61,31 @@ static bool is_among(json_span value, const char *const *words)
 
 static roof_form roof_of(json_span shape)
 {
-    return span_is(shape, "gabled")                                    ? ROOF_GABLED
-           : span_is(shape, "hipped") || span_is(shape, "half-hipped") ? ROOF_HIPPED
-           : span_is(shape, "pyramidal")                               ? ROOF_PYRAMIDAL
-           : span_is(shape, "mansard") || span_is(shape, "gambrel")    ? ROOF_MANSARD
-                                                                       : ROOF_FLAT;
+    static const struct {
+        const char *word;
+        roof_form   form;
+    } rows[] = {{"gabled", ROOF_GABLED},         {"hipped", ROOF_HIPPED},     {"half-hipped", ROOF_HIPPED},
+                {"side_hipped", ROOF_HIPPED},    {"saltbox", ROOF_GABLED},    {"pyramidal", ROOF_PYRAMIDAL},
+                {"cone", ROOF_PYRAMIDAL},        {"mansard", ROOF_MANSARD},   {"mansard-flat", ROOF_MANSARD_FLAT},
+                {"gambrel", ROOF_GAMBREL},       {"skillion", ROOF_SKILLION}, {"lean_to", ROOF_SKILLION},
+                {"double_saltbox", ROOF_GABLED}, {"half_hipped", ROOF_HIPPED}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (span_is(shape, rows[i].word))
+            return rows[i].form;
+    return ROOF_FLAT;
+}
+
+/* Degrees from north, or a wind: N, NNE, NE … */
+static void read_direction(footprint *body, json_span value)
+{
+    static const char *const winds[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                        "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+    double                   degrees = number_of(value);
+    for (int i = 0; i < 16; i++)
+        if (value.at && span_is(value, winds[i]))
+            degrees = 22.5 * i;
+    body->has_direction = isfinite(degrees);
+    body->direction = body->has_direction ? degrees * 0.017453292519943295 : 0;
 }
 
 static void understand_building(geojson_thing *out, json_span properties)
@@ -77,9 +97,12 @@ static void understand_building(geojson_thing *out, json_span properties)
            levels = number_of(geojson_property(properties, storeys)),
            base = number_of(geojson_property(properties, bases)), roof = number_of(property(properties, "roof:height")),
            roof_levels = number_of(property(properties, "roof:levels"));
-    out->type = "Building";
+    json_span part = property(properties, "building:part");
+    out->type = part.at ? "BuildingPart" : "Building";
+    out->is_part = part.at && !span_is(part, "no");
     out->is_building = true;
     out->body.roof = roof_of(property(properties, "roof:shape"));
+    read_direction(&out->body, property(properties, "roof:direction"));
     if (!(roof > 0))
         roof = out->body.roof == ROOF_FLAT ? 0 : roof_levels > 0 ? roof_levels * STOREY : STOREY;
     out->guessed = !(high > 0) && !(levels > 0);
@@ -113,13 +136,18 @@ static void understand_ground(geojson_thing *out, json_span properties, bool lin
         "park",    "garden",     "pitch",    "golf_course",       "playground",    "grass", "forest", "meadow",
         "orchard", "vineyard",   "cemetery", "recreation_ground", "village_green", "wood",  "scrub",  "grassland",
         "heath",   "allotments", NULL};
-    json_span natural = property(properties, "natural"), landuse = property(properties, "landuse"),
+    static const char *const paths[] = {"footway", "path",      "cycleway", "pedestrian", "steps",
+                                        "track",   "bridleway", "corridor", NULL};
+    json_span                natural = property(properties, "natural"), landuse = property(properties, "landuse"),
               leisure = property(properties, "leisure"), way = property(properties, "highway"),
               rail = property(properties, "railway"), stream = property(properties, "waterway");
-    double wide = number_of(property(properties, "width"));
+    json_span tunnel = property(properties, "tunnel");
+    double    wide = number_of(property(properties, "width"));
     if (way.at || rail.at) {
         out->type = rail.at ? "Railway" : "Road";
         out->width = wide > 0 ? wide : rail.at ? 3.5 : width_of_road(way);
+        out->is_nothing = tunnel.at && !span_is(tunnel, "no");
+        out->cars = way.at && !is_among(way, paths);
         out->body.base = 0.06;
     } else if (stream.at || is_among(natural, waters) || is_among(landuse, waters) ||
                property(properties, "water").at) {
@@ -135,6 +163,45 @@ static void understand_ground(geojson_thing *out, json_span properties, bool lin
     }
 }
 
+/* People, cars and furniture are called by one of these keys; trees by their form, if they have one. */
+static void understand_point(geojson_thing *out, json_span properties)
+{
+    static const char *const keys[] = {"kind", "amenity", "highway", "barrier", "natural", "class", NULL};
+    static const struct {
+        const char *word;
+        prop_kind   kind;
+    } rows[] = {{"person", PROP_PERSON},
+                {"pedestrian", PROP_WALKER},
+                {"walker", PROP_WALKER},
+                {"child", PROP_CHILD},
+                {"car", PROP_CAR},
+                {"van", PROP_VAN},
+                {"bus", PROP_BUS},
+                {"bicycle", PROP_CYCLIST},
+                {"cyclist", PROP_CYCLIST},
+                {"street_lamp", PROP_LAMP},
+                {"lamp", PROP_LAMP},
+                {"bench", PROP_BENCH},
+                {"waste_basket", PROP_BIN},
+                {"bin", PROP_BIN},
+                {"bollard", PROP_BOLLARD},
+                {"tree", PROP_BROAD_TREE},
+                {"line_tree", PROP_LINE_TREE}};
+    json_span word = geojson_property(properties, keys), leaves = property(properties, "leaf_type");
+    double    high = number_of(property(properties, "height")), turn = number_of(property(properties, "direction"));
+    out->is_nothing = true;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && word.at; i++)
+        if (span_is(word, rows[i].word)) {
+            out->prop = rows[i].kind;
+            out->is_nothing = false;
+        }
+    if (out->prop == PROP_BROAD_TREE && span_is(leaves, "needleleaved"))
+        out->prop = PROP_NEEDLE_TREE;
+    out->type = prop_class(out->prop);
+    out->body.ridge = out->prop < PROP_BROAD_TREE ? 1 : high > 0 && high < 200 ? high : 8;
+    out->heading = isfinite(turn) ? (90 - turn) * 0.017453292519943295 : 0;
+}
+
 void geojson_understand(geojson_thing *out, json_span properties, bool point, bool line)
 {
     static const char *const buildings[] = {"building",           "building:part",  "height",
@@ -142,10 +209,7 @@ void geojson_understand(geojson_thing *out, json_span properties, bool point, bo
                                             "storeysAboveGround", "roof:shape",     NULL};
     *out = (geojson_thing){.type = "LandUse"};
     if (point) {
-        double high = number_of(property(properties, "height"));
-        out->type = "SolitaryVegetationObject";
-        out->body.ridge = high > 0 && high < 200 ? high : 8;
-        out->is_nothing = !span_is(property(properties, "natural"), "tree");
+        understand_point(out, properties);
         return;
     }
     json_span building = geojson_property(properties, buildings);

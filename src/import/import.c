@@ -12,9 +12,9 @@
 #include "import/up_axis.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {&import_cityjson, &import_geojson, &import_citygml, &import_gltf,
-                                               &import_ply,      &import_stl,     &import_obj,     &import_bvh,
-                                               &import_csg,      &import_scad,    &import_script,  &import_assimp};
+static const import_format *const formats[] = {
+    &import_cityjson, &import_geojson, &import_citygml, &import_geodata, &import_gltf,   &import_ply,   &import_stl,
+    &import_obj,      &import_bvh,     &import_csg,     &import_scad,    &import_script, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -143,6 +143,13 @@ static lmn_status check_options(const import_format *format, const char *path, c
                       "levels of detail are of city models (CityJSON, CityGML), and this is %s", format->name);
         return LMN_USAGE;
     }
+    bool footprints = format == &import_geojson || format == &import_geodata;
+    if (desc->terrain && !footprints && format != &import_cityjson && format != &import_citygml)
+        return error_in_file(error, LMN_USAGE, path, 0, "terrain is for models of cities, and this is %s",
+                             format->name);
+    if (desc->populate > 0 && !footprints)
+        return error_in_file(error, LMN_USAGE, path, 0, "only footprints and roads are populated, and this is %s",
+                             format->name);
     if (format == &import_scad || (!desc->define_count && !desc->strict))
         return LMN_OK;
     return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s",

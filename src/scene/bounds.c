@@ -169,21 +169,32 @@ static box3 primitive_bounds(const lmn_scene *s, const node *n, const primitive 
     return local;
 }
 
-box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, const float *weights, posed_vertices *keep)
+static box3 bounds_at(const lmn_scene *s, const mat4 *worlds, const mat4 *world, int32_t node_index,
+                      const float *weights, posed_vertices *keep)
 {
     const node *n = &s->nodes[node_index];
     box3        box = box3_empty();
     if (n->solid != NONE)
-        return box3_transform(solid_bounds(&s->solids[n->solid]), &worlds[node_index]);
+        return box3_transform(solid_bounds(&s->solids[n->solid]), world);
     if (n->mesh == NONE)
         return box;
     const mesh *m = &s->meshes[n->mesh];
     mat4       *joints = skin_matrices(s, worlds, n->skin);
     for (size_t i = 0; i < m->primitive_count; i++)
-        box = box3_union(box, primitive_bounds(s, n, &m->primitives[i], &worlds[node_index], joints, weights,
-                                               keep ? &keep[i] : NULL));
+        box =
+            box3_union(box, primitive_bounds(s, n, &m->primitives[i], world, joints, weights, keep ? &keep[i] : NULL));
     mem_free(joints);
     return box;
+}
+
+box3 node_bounds(const lmn_scene *s, const mat4 *worlds, int32_t node_index, const float *weights, posed_vertices *keep)
+{
+    return bounds_at(s, worlds, &worlds[node_index], node_index, weights, keep);
+}
+
+box3 node_bounds_unskinned(const lmn_scene *s, const mat4 *world, int32_t node_index)
+{
+    return bounds_at(s, NULL, world, node_index, NULL, NULL);
 }
 
 box3 part_bounds(const lmn_scene *s, const mat4 *worlds, size_t part_index)

@@ -15,13 +15,16 @@ typedef struct city_count {
     uint64_t   count;
 } city_count;
 
-/* Coordinates of the scene are those of the file less `origin`; of a geographic system (degrees) they are metres east,
- * north and up from it, and the origin is longitude, latitude and height. */
+/* Coordinates of the scene are metres east, north and up from `origin`, which is in the file's unit; of a geographic
+ * system (degrees) it is longitude, latitude and height. */
 typedef struct city_facts {
     bool        known; /* the scene has a place on earth */
     bool        geographic;
+    bool        web;       /* geographic, but the file has Mercator's projection of it */
+    double      metres[2]; /* of the file's unit in the plane, and of its heights; 0: one */
     double      origin[3];
-    char       *crs; /* as the file calls it; NULL: it does not say */
+    double      low[2], high[2]; /* of what the file has, in coordinates of the scene */
+    char       *crs;             /* as the file calls it; NULL: it does not say */
     city_count *counts;
     size_t      count_count, count_capacity;
 } city_facts;
@@ -39,8 +42,16 @@ void city_merge(city_facts *into, city_facts *from);
 /* Where the origin of `from` lies in coordinates of `into`: x, y, z with z up. False: nobody knows, or their systems
  * differ; then all 0. */
 bool city_offset(const city_facts *into, const city_facts *from, double out[3]);
-/* Metres of one degree of longitude and of latitude at a latitude (degrees), on the ellipsoid of WGS 84. */
-void city_degree(double latitude, double metres[2]);
+/* Metres east of a meridian and north of the equator (transverse Mercator, true on the meridian, on the ellipsoid of
+ * WGS 84), of a longitude and latitude in degrees; and the meridian that is taken around a longitude. */
+void   city_plane(double longitude, double latitude, double meridian, double out[2]);
+double city_meridian(double longitude);
+/* Mercator's projection of the web to longitude and latitude. */
+void                 city_web_degrees(double p[2]);
+static inline double city_metres(const city_facts *f, int of_heights)
+{
+    return f->metres[of_heights] > 0 ? f->metres[of_heights] : 1;
+}
 
 /* "roof", "wall" …, NULL at the end. */
 extern const char *const city_words[];

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -25,7 +26,9 @@ typedef struct listing {
     const lmn_scene *scene;
     const char      *prefix;
     uint32_t         first_id;
-    mat4            *worlds;
+    mat4            *worlds; /* of all nodes, for joints may be anywhere; NULL: there are no skins */
+    mat4            *above;  /* without skins: of the node that is listed and those above it, the root's first */
+    const mat4      *position;
     part            *parts;
     size_t           count;
     path_set         seen;
@@ -125,7 +128,7 @@ static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
     return n->ghost == ghost && (lines || node_triangle_count(s, n) > 0);
 }
 
-static bool add_part(listing *l, int32_t index)
+static bool add_part(listing *l, int32_t index, int depth)
 {
     char        fallback[32];
     const char *name = own_name(l->scene, index);
@@ -145,15 +148,37 @@ static bool add_part(listing *l, int32_t index)
     const node *n = &l->scene->nodes[index];
     p->triangles = node_triangle_count(l->scene, n);
     p->lines = n->solid == NONE && n->mesh != NONE ? mesh_line_count(&l->scene->meshes[n->mesh]) : 0;
-    p->bounds = node_bounds(l->scene, l->worlds, index, NULL, NULL);
+    p->bounds = l->worlds ? node_bounds(l->scene, l->worlds, index, NULL, NULL)
+                          : node_bounds_unskinned(l->scene, &l->above[depth], index);
     return true;
+}
+
+static void put_above(listing *l, int32_t index, int depth)
+{
+    mat4 local = node_local_matrix(&l->scene->nodes[index]);
+    if (!l->above)
+        return;
+    if (depth > 0)
+        l->above[depth] = mat4_multiply(&l->above[depth - 1], &local);
+    else
+        l->above[0] = l->position ? mat4_multiply(l->position, &local) : local;
 }
 
 static bool add_tree(listing *l, int32_t root, bool ghosts)
 {
-    for (int32_t n = root; n != NONE; n = scene_next_node(l->scene, root, n))
-        if (is_part(l->scene, n, ghosts) && !add_part(l, n))
+    const node *nodes = l->scene->nodes;
+    int         depth = 0;
+    for (int32_t n = root, last = root; n != NONE; last = n, n = scene_next_node(l->scene, root, n)) {
+        if (n != root && nodes[n].parent == last) {
+            depth++;
+        } else {
+            for (; n != root && nodes[last].parent != nodes[n].parent; last = nodes[last].parent)
+                depth--;
+        }
+        put_above(l, n, depth);
+        if (is_part(l->scene, n, ghosts) && !add_part(l, n, depth))
             return false;
+    }
     return true;
 }
 
@@ -178,13 +203,18 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
         l.seen.capacity *= 2;
     l.seen.entries = mem_calloc(l.seen.capacity, sizeof *l.seen.entries);
     l.parts = mem_calloc(count, sizeof *l.parts);
-    l.worlds = scene_world_matrices(s, NULL);
-    bool good = l.seen.entries && l.parts && l.worlds;
-    for (size_t i = 0; good && position && i < s->node_count; i++)
+    l.position = position;
+    if (s->skin_count)
+        l.worlds = scene_world_matrices(s, NULL);
+    else
+        l.above = mem_alloc((LIMIT_NODE_DEPTH + 2) * sizeof *l.above);
+    bool good = l.seen.entries && l.parts && (l.worlds || l.above);
+    for (size_t i = 0; good && l.worlds && position && i < s->node_count; i++)
         l.worlds[i] = mat4_multiply(position, &l.worlds[i]);
     good = good && add_trees(&l, false) && (ghosts == 0 || add_trees(&l, true));
     mem_free(l.seen.entries);
     mem_free(l.worlds);
+    mem_free(l.above);
     if (!good) {
         parts_release(l.parts, l.count);
         return false;

@@ -289,9 +289,27 @@ static size_t character_length(const char *p, size_t left)
     return 0;
 }
 
+/* As most names are: nothing in them has to be looked at twice. */
+static bool is_plain(const char *bytes, size_t size)
+{
+    bool plain = true;
+    for (size_t i = 0; i < size; i++)
+        plain &= (unsigned char)bytes[i] - 0x20u < 0x5Fu;
+    return plain;
+}
+
 char *scene_clean_name(const char *bytes, size_t size)
 {
-    text t = {0};
+    text  t = {0};
+    char *copy = NULL;
+    if (is_plain(bytes, size)) {
+        copy = mem_alloc(size + 1);
+        if (copy && size)
+            memcpy(copy, bytes, size);
+        if (copy)
+            copy[size] = '\0';
+        return copy;
+    }
     for (size_t i = 0; i < size;) {
         size_t length = character_length(bytes + i, size - i);
         bool   control = length == 1 && ((unsigned char)bytes[i] < 0x20 || bytes[i] == 0x7F);

@@ -326,6 +326,8 @@ typedef struct posed_vertices {
  * for it is left in `keep` (may be NULL), one a primitive of its mesh; the caller frees it with mem_free. */
 box3 node_bounds(const lmn_scene *scene, const mat4 *worlds, int32_t node_index, const float *weights,
                  posed_vertices *keep);
+/* The same at rest, of a scene without skins, where only the node's own matrix is needed. */
+box3 node_bounds_unskinned(const lmn_scene *scene, const mat4 *world, int32_t node_index);
 /* The node after this one, depth first, within the tree below `root`; NONE at the end. */
 int32_t scene_next_node(const lmn_scene *scene, int32_t root, int32_t current);
 

@@ -21,6 +21,7 @@ static const fuzz_target targets[] = {
     {"bvh", fuzz_bvh, NULL},
     {"cityjson", fuzz_cityjson, NULL},
     {"geojson", fuzz_geojson, NULL},
+    {"footprint", fuzz_footprint, NULL},
     {"citygml", fuzz_citygml, NULL},
     {"gzip", fuzz_gzip, NULL},
     {"script", fuzz_script, NULL},

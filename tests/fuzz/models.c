@@ -15,18 +15,21 @@
 #include "info/info.h"
 #include "import/csg.h"
 #include "import/draco.h"
+#include "import/footprint.h"
 #include "import/gunzip.h"
 #include "import/obj.h"
 #include "import/retarget.h"
+#include "import/terrain.h"
 #include "scene/mesh.h"
 
-static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const uint8_t *bytes, size_t size)
+static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const lmn_load_desc *desc, const uint8_t *bytes,
+                          size_t size)
 {
     lmn_scene *scene = scene_new(), *into = scene_new();
     bool       done = false;
     if (scene && into) {
         file_data  file = {.data = bytes, .size = size};
-        import_job job = {.path = path, .file = &file, .scene = scene};
+        import_job job = {.path = path, .file = &file, .scene = scene, .desc = desc};
         lmn_error  error;
         scene->up = into->up = up;
         done = read(&job, &error) == LMN_OK && scene_finish(scene, job.path, &error) == LMN_OK &&
@@ -41,7 +44,7 @@ static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const uin
 
 lmn_scene *fuzz_read_model(fuzz_reader read, char up, const uint8_t *bytes, size_t size)
 {
-    return read_at("/nonexistent/fuzz", read, up, bytes, size);
+    return read_at("/nonexistent/fuzz", read, up, NULL, bytes, size);
 }
 
 /* A few numbers can stand for millions of triangles; with sanitizers these would take all the time. */
@@ -74,9 +77,71 @@ void fuzz_cityjson(const uint8_t *bytes, size_t size)
     use(fuzz_read_model(import_cityjson.read, 'z', bytes, size));
 }
 
+/* As it is, and with people and cars along its roads. */
 void fuzz_geojson(const uint8_t *bytes, size_t size)
 {
+    lmn_load_desc populated = LMN_LOAD_DESC_INIT;
+    populated.populate = 2;
     use(fuzz_read_model(import_geojson.read, 'z', bytes, size));
+    use(read_at("/nonexistent/fuzz", import_geojson.read, 'z', &populated, bytes, size));
+}
+
+/* Every edge of a face is one of another face, the other way round. */
+static bool is_closed(const city_shape *s)
+{
+    for (size_t ring = 0, first = 0; ring < s->ring_count; first = s->rings[ring++])
+        for (size_t i = first; i < s->rings[ring]; i++) {
+            uint32_t a = s->corners[i], b = s->corners[i + 1 < s->rings[ring] ? i + 1 : first];
+            int      back = 0;
+            for (size_t r = 0, f = 0; r < s->ring_count; f = s->rings[r++])
+                for (size_t k = f; k < s->rings[r]; k++)
+                    back += s->corners[k] == b && s->corners[k + 1 < s->rings[r] ? k + 1 : f] == a;
+            if (back != 1)
+                return false;
+        }
+    return true;
+}
+
+/* A footprint and its roof: the form, how fine the grid is that corners lie on, how many corners the first ring has;
+ * then two bytes a corner. Whatever comes of it is closed; an area of terrain is made of it, too. */
+void fuzz_footprint(const uint8_t *bytes, size_t size)
+{
+    enum { CORNERS = 100 };
+    double p[CORNERS][2];
+    size_t counts[2] = {0, 0}, count = size > 3 ? (size - 3) / 2 : 0;
+    count = count < CORNERS ? count : CORNERS;
+    if (count < 3)
+        return;
+    counts[0] = bytes[2] < count ? bytes[2] : count;
+    counts[1] = count - counts[0];
+    if (counts[0] < 3 || counts[1] < 3) {
+        counts[0] = count;
+        counts[1] = 0;
+    }
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 2; k++)
+            p[i][k] =
+                bytes[3 + 2 * i + k] * (bytes[1] % 2 ? 1.0 : 0.0137) + (bytes[1] & 2 ? 1e-4 * (double)(i * i % 7) : 0);
+    city_shape       shape = {0}, draped = {0};
+    footprint_points points = {0}, on = {0};
+    footprint        how = {.roof = (roof_form)(bytes[0] % ROOF_FORMS), .base = 0, .eaves = 5, .ridge = 8};
+    roof_made        made;
+    if (footprint_raise(&shape, &points, &how, (const double(*)[2])p, counts, counts[1] ? 2 : 1, &made) &&
+        made != ROOF_MADE_FLAT && !is_closed(&shape))
+        __builtin_trap();
+    for (size_t i = 0; i < points.count; i++)
+        if (!isfinite(points.items[i].x) || !isfinite(points.items[i].y) || !isfinite(points.items[i].z))
+            __builtin_trap();
+    float   heights[25];
+    bool    known[25];
+    terrain t = {{-10, 3}, 60.5, 5, 5, heights, known, 0};
+    for (int i = 0; i < 25; i++)
+        heights[i] = (float)(i * i % 7);
+    terrain_drape(&t, &shape, points.items, 0.1, &draped, &on);
+    city_shape_release(&shape);
+    city_shape_release(&draped);
+    mem_free(points.items);
+    mem_free(on.items);
 }
 
 void fuzz_citygml(const uint8_t *bytes, size_t size)
@@ -189,7 +254,7 @@ void fuzz_mtl(const uint8_t *bytes, size_t size)
         int  length =
             snprintf(model, sizeof model,
                      "mtllib %d\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n", descriptor);
-        use(read_at("/proc/self/fd/model.obj", import_obj.read, 'y', (const uint8_t *)model, (size_t)length));
+        use(read_at("/proc/self/fd/model.obj", import_obj.read, 'y', NULL, (const uint8_t *)model, (size_t)length));
     }
     close(descriptor);
 }

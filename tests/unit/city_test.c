@@ -401,7 +401,7 @@ static void test_origins(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* Degrees become metres: 0.001° of latitude are 110.95 m at 35°, of longitude 91.29 m. */
+/* Degrees become metres on the plane of the meridian 138, where north is turned by half a degree here. */
 static void test_degrees(void **state)
 {
     (void)state;
@@ -413,9 +413,57 @@ static void test_degrees(void **state)
     lmn_scene_info info = lmn_scene_info_of(s);
     assert_true(s->city.geographic);
     assert_true(fabs(s->city.origin[0] - 139.0005) < 6e-5 && fabs(s->city.origin[1] - 35.0005) < 6e-5);
-    assert_true(fabs(info.bounds_max[0] - info.bounds_min[0] - 91.288) < 0.01);
-    assert_true(fabs(info.bounds_max[1] - info.bounds_min[1] - 110.941) < 0.01);
+    assert_true(fabs(info.bounds_max[0] - info.bounds_min[0] - 92.404) < 0.01);
+    assert_true(fabs(info.bounds_max[1] - info.bounds_min[1] - 111.861) < 0.01);
     lmn_scene_destroy(&s);
+}
+
+/* A square of a thousand feet, twenty feet up, and what the web calls metres. */
+static void test_units(void **state)
+{
+    (void)state;
+#define SQUARE(crs, x0, y0, x1, y1)                                                                                    \
+    "{\"type\":\"CityJSON\",\"version\":\"1.1\",\"metadata\":{\"referenceSystem\":\"" crs "\"},\"CityObjects\":"       \
+    "{\"a\":{\"type\":\"LandUse\",\"geometry\":[{\"type\":\"MultiSurface\",\"lod\":\"1\",\"boundaries\":[[[0,1,2,3]]]" \
+    "}]}},"                                                                                                            \
+    "\"vertices\":[[" x0 "," y0 ",20],[" x1 "," y0 ",20],[" x1 "," y1 ",20],[" x0 "," y1 ",20]]}"
+    static const struct {
+        const char *text;
+        double      side, height;
+    } rows[] = {
+        {SQUARE("urn:ogc:def:crs:EPSG::2263", "980000", "200000", "981000", "201000"), 304.8006, 6.096},
+        {SQUARE("urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::5703", "980000", "200000", "981000", "201000"), 304.8006, 20},
+        {SQUARE("https://www.opengis.net/def/crs/EPSG/0/2222", "700000", "900000", "701000", "901000"), 304.8, 6.096},
+        {SQUARE("urn:ogc:def:crs:EPSG::25832", "500000", "5300000", "501000", "5301000"), 1000, 20},
+        /* At 60 degrees these metres are half as long. */
+        {SQUARE("urn:ogc:def:crs:EPSG::3857", "1001875", "8399237", "1002875", "8400237"), 500.6, 20},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmn_scene     *s = load_text(rows[i].text);
+        lmn_scene_info info = lmn_scene_info_of(s);
+        if (fabs(info.bounds_max[0] - info.bounds_min[0] - rows[i].side) > 0.002 * rows[i].side ||
+            fabs(info.bounds_max[1] - info.bounds_min[1] - rows[i].side) > 0.003 * rows[i].side ||
+            fabs(info.bounds_max[2] - rows[i].height) > 0.001)
+            fail_msg("row %zu: %g by %g, %g up", i, info.bounds_max[0] - info.bounds_min[0],
+                     info.bounds_max[1] - info.bounds_min[1], info.bounds_max[2]);
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* Against PROJ: gdaltransform -s_srs +proj=longlat -t_srs "+proj=tmerc +lon_0=MERIDIAN", both with +ellps=WGS84. */
+static void test_plane(void **state)
+{
+    (void)state;
+    static const double rows[][5] = {
+        {11.575, 48.137, 12, -31631.6820183, 5333748.2234670}, {139.7, 35.6, 141, -117805.1310226, 3941938.6112385},
+        {-73.97, 40.78, -75, 86947.4425617, 4516652.3850884},  {7.4, 43.73, 6, 112797.1474066, 4844775.4842252},
+        {179.5, -17.5, 180, -53100.2724258, -1935712.8280996}, {4.36, 52.0, 3, 93399.9877364, 5764217.1270925}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        double p[2];
+        city_plane(rows[i][0], rows[i][1], rows[i][2], p);
+        if (fabs(p[0] - rows[i][3]) > 1e-4 || fabs(p[1] - rows[i][4]) > 1e-4)
+            fail_msg("row %zu: %.5f, %.5f", i, p[0], p[1]);
+    }
 }
 
 /* --- sequences and packed files ------------------------------------------------------------------------- */
@@ -603,7 +651,7 @@ static void test_data(void **state)
     } cases[] = {{"delft.city.json", 160, 36269, 0, 77526.0884},
                  {"rotterdam_subset.city.json", 16, 622, 0, 10636.2778},
                  {"zurich_subset_lod2.city.json", 49, 5138, 5, 62309.8438},
-                 {"nyc-da4.city.json", 16665, 400887, 67692, 0}};
+                 {"nyc-da4.city.json", 16665, 400882, 67692, 0}};
     const char *folder = data_folder();
     for (size_t i = 0; folder && i < COUNT(cases); i++) {
         char path[1200];
@@ -628,6 +676,7 @@ int main(void)
         cmocka_unit_test(test_templates),     cmocka_unit_test(test_lines_and_points),
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_textures),
         cmocka_unit_test(test_origins),       cmocka_unit_test(test_degrees),
+        cmocka_unit_test(test_units),         cmocka_unit_test(test_plane),
         cmocka_unit_test(test_sequence),      cmocka_unit_test(test_packed),
         cmocka_unit_test(test_counted),       cmocka_unit_test(test_crossing),
         cmocka_unit_test(test_refused),       cmocka_unit_test(test_cut_off_and_memory),

@@ -299,8 +299,8 @@ static void test_degrees(void **state)
                  END);
     lmn_scene_info info = lmn_scene_info_of(s);
     assert_true(s->city.geographic);
-    assert_true(fabs(info.bounds_max[0] - info.bounds_min[0] - 91.288) < 0.01);
-    assert_true(fabs(info.bounds_max[1] - info.bounds_min[1] - 110.941) < 0.01);
+    assert_true(fabs(info.bounds_max[0] - info.bounds_min[0] - 92.404) < 0.01);
+    assert_true(fabs(info.bounds_max[1] - info.bounds_min[1] - 111.861) < 0.01);
     lmn_scene_destroy(&s);
 }
 

@@ -1,127 +1,10 @@
-/* Bodies on footprints are closed, look outwards and hold what they should, whatever the footprint; and what GeoJSON
- * says becomes buildings, roads, water, trees. */
+/* What GeoJSON says becomes buildings, roads, water, trees. */
 #include "field_shapes.h"
 
 #include "import/footprint.h"
 #include "scene/content.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static uint32_t next_random = 1;
-static double   chance(double low, double high)
-{
-    next_random = next_random * 1664525u + 1013904223u;
-    return low + (high - low) * (next_random >> 8) / 16777216.0;
-}
-
-static bool is_paired(const uint32_t (*edges)[2], size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        int same = 0, back = 0;
-        for (size_t k = 0; k < count; k++) {
-            same += edges[k][0] == edges[i][0] && edges[k][1] == edges[i][1];
-            back += edges[k][0] == edges[i][1] && edges[k][1] == edges[i][0];
-        }
-        if (same != 1 || back != 1)
-            return false;
-    }
-    return true;
-}
-
-/* Each edge of a face is one of just one other face, the other way round: closed, manifold, all faces alike. */
-static bool is_closed(const city_shape *s)
-{
-    uint32_t(*edges)[2] = mem_calloc(s->corner_count, sizeof *edges);
-    size_t count = 0, first = 0;
-    for (size_t ring = 0; ring < s->ring_count; first = s->rings[ring++])
-        for (size_t i = first; i < s->rings[ring]; i++, count++) {
-            edges[count][0] = s->corners[i];
-            edges[count][1] = s->corners[i + 1 < s->rings[ring] ? i + 1 : first];
-        }
-    bool closed = is_paired((const uint32_t(*)[2])edges, count);
-    mem_free(edges);
-    return closed && count > 0;
-}
-
-static double volume_of(const city_shape *s, const vec3 *points)
-{
-    double volume = 0;
-    size_t first = 0;
-    for (size_t ring = 0; ring < s->ring_count; first = s->rings[ring++])
-        for (size_t i = first + 1; i + 1 < s->rings[ring]; i++) {
-            vec3 a = points[s->corners[first]], b = points[s->corners[i]], c = points[s->corners[i + 1]];
-            volume += (double)(a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
-                               a.z * (b.x * c.y - b.y * c.x)) /
-                      6;
-        }
-    return volume;
-}
-
-/* A star-shaped outline around 0, maybe with a hole like it. */
-static size_t random_footprint(double (*p)[2], size_t counts[2])
-{
-    size_t rings = chance(0, 1) < 0.3 ? 2 : 1, at = 0;
-    counts[0] = (size_t)chance(3, 12.99);
-    counts[1] = (size_t)chance(3, 8.99);
-    for (size_t k = 0; k < rings; k++)
-        for (size_t i = 0; i < counts[k]; i++) {
-            double angle = (k ? -1 : 1) * 2 * field_pi * ((double)i + chance(0, 0.7)) / (double)counts[k];
-            double radius = k ? chance(1, 2) : chance(6, 20);
-            p[at][0] = radius * cos(angle);
-            p[at++][1] = radius * sin(angle);
-        }
-    return rings;
-}
-
-static void bodies_are_closed(void **state)
-{
-    (void)state;
-    city_shape       shape = {0};
-    footprint_points points = {0};
-    int              pitched = 0;
-    next_random = 1;
-    for (int n = 0; n < 1000; n++) {
-        double    p[32][2];
-        size_t    counts[2], rings = random_footprint(p, counts);
-        footprint how = {(roof_form)(n % 5), chance(0, 5), chance(6, 20), 0};
-        bool      fits;
-        how.ridge = how.eaves + chance(0, 6);
-        city_shape_clear(&shape);
-        points.count = 0;
-        assert_true(footprint_raise(&shape, &points, &how, (const double(*)[2])p, counts, rings, &fits));
-        if (!is_closed(&shape))
-            fail_msg("footprint %d, roof %d", n, (int)how.roof);
-        assert_true(volume_of(&shape, points.items) > 0);
-        pitched += fits && how.roof != ROOF_FLAT;
-    }
-    assert_true(pitched > 100);
-    city_shape_release(&shape);
-    mem_free(points.items);
-}
-
-static void roofs_hold_what_they_should(void **state)
-{
-    (void)state;
-    const double     box[4][2] = {{0, 0}, {10, 0}, {10, 6}, {0, 6}}, turned[4][2] = {{0, 0}, {6, 0}, {6, 10}, {0, 10}};
-    const double     high = 3, below = 60 * 5, top = 0.7 * 0.7 * 60;
-    const double     over[] = {60 * high, 60 * high / 2, high * (6 * 4 / 2.0 + 6 * 6 / 3.0), 60 * high / 3,
-                               high / 3 * (60 + top + sqrt(60 * top))};
-    city_shape       shape = {0};
-    footprint_points points = {0};
-    for (int form = 0; form < 5; form++)
-        for (int t = 0; t < 2; t++) {
-            const size_t    count = 4;
-            const footprint how = {(roof_form)form, 1, 6, 9};
-            bool            fits;
-            city_shape_clear(&shape);
-            points.count = 0;
-            assert_true(footprint_raise(&shape, &points, &how, t ? turned : box, &count, 1, &fits));
-            assert_true(fits);
-            assert_float_equal((float)volume_of(&shape, points.items), (float)(below + over[form]), 1e-3f);
-        }
-    city_shape_release(&shape);
-    mem_free(points.items);
-}
 
 /* A strip is as long and wide as it should be, round a corner, too. */
 static void strips_are_mitred(void **state)
@@ -144,27 +27,26 @@ static void strips_are_mitred(void **state)
 
 static lmn_scene *load_town(void)
 {
-    /* Around Munich: 0.001 degrees are 74.4 m east and 111.2 m north. */
+    /* East of Munich, on the meridian that it is projected on: 0.001 degrees are 74.4 m east and 111.2 m north. */
     static const char text[] =
         "{\"type\":\"FeatureCollection\",\"features\":["
         "{\"type\":\"Feature\",\"id\":\"way/1\",\"properties\":{\"building\":\"house\",\"height\":\"12 "
         "m\",\"roof:shape\":"
-        "\"gabled\",\"roof:height\":3,\"name\":\"Rathaus\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[11."
-        "575,"
-        "48.137],[11.5752,48.137],[11.5752,48.1371],[11.575,48.1371],[11.575,48.137]]]}},"
+        "\"gabled\",\"roof:height\":3,\"name\":\"Rathaus\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[12.,"
+        "48.137],[12.0002,48.137],[12.0002,48.1371],[12.,48.1371],[12.,48.137]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"building\":\"yes\",\"building:levels\":\"4\"},\"geometry\":{\"type\":"
-        "\"MultiPolygon\",\"coordinates\":[[[[11.576,48.137],[11.576,48.1371],[11.5762,48.1371],[11.5762,48.137],[11."
-        "576,"
+        "\"MultiPolygon\",\"coordinates\":[[[[12.001,48.137],[12.001,48.1371],[12.0012,48.1371],[12.0012,48.137],[12."
+        "001,"
         "48.137]]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"highway\":\"residential\"},\"geometry\":{\"type\":\"LineString\","
-        "\"coordinates\":[[11.574,48.1368],[11.577,48.1368]]}},"
+        "\"coordinates\":[[11.999,48.1368],[12.001,48.1368]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"natural\":\"water\"},\"geometry\":{\"type\":\"Polygon\","
         "\"coordinates\":[[["
-        "11.574,48.138],[11.577,48.138],[11.577,48.139],[11.574,48.138]]]}},"
+        "11.999,48.138],[12.002,48.138],[12.002,48.139],[11.999,48.138]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"natural\":\"tree\",\"height\":\"7\"},\"geometry\":{\"type\":\"Point\","
-        "\"coordinates\":[11.575,48.1365]}},"
+        "\"coordinates\":[12.,48.1365]}},"
         "{\"type\":\"Feature\",\"properties\":{\"shop\":\"bakery\"},\"geometry\":{\"type\":\"Point\",\"coordinates\":["
-        "11.575,48.1365]}}]}";
+        "12.,48.1365]}}]}";
     return load_or_fail(temp_file("town.geojson", text, sizeof text - 1));
 }
 
@@ -206,6 +88,43 @@ static void features_become_a_town(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Where parts of a building are there, its outline is not raised; a tunnel is not on the ground. */
+static void parts_are_the_building(void **state)
+{
+    (void)state;
+#define BOX(x0, y0, x1, y1)                                                                                            \
+    "{\"type\":\"Polygon\",\"coordinates\":[[[" x0 "," y0 "],[" x1 "," y0 "],[" x1 "," y1 "],[" x0 "," y1 "],[" x0     \
+    "," y0 "]]]}}"
+    static const char text[] =
+        "{\"type\":\"FeatureCollection\",\"features\":["
+        "{\"properties\":{\"building\":\"yes\",\"height\":30},\"geometry\":" BOX(
+            "0", "0", "40",
+            "20") ","
+                  "{\"properties\":{\"building:part\":\"yes\",\"height\":8},\"geometry\":" BOX(
+                      "0", "0", "20",
+                      "20") ","
+                            "{\"properties\":{\"building:part\":\"yes\",\"min_height\":8,\"height\":12},"
+                            "\"geometry\":" BOX(
+                                "5", "5", "15",
+                                "15") ","
+                                      "{\"properties\":{\"building\":\"yes\",\"height\":5},\"geometry\":" BOX(
+                                          "50", "0", "60",
+                                          "9") ","
+                                               "{\"properties\":{\"highway\":\"primary\",\"tunnel\":\"yes\"},"
+                                               "\"geometry\":{\"type\":\"LineString\",\"coordinates\":"
+                                               "[[0,-10],[90,-10]]}},"
+                                               "{\"properties\":{\"highway\":\"primary\"},\"geometry\":{\"type\":"
+                                               "\"LineString\",\"coordinates\":[[0,-190],[190,-190]]}}]}";
+    lmn_scene     *s = load_or_fail(temp_file("parts.geojson", text, sizeof text - 1));
+    lmn_scene_info info = lmn_scene_info_of(s);
+    assert_float_equal((float)info.bounds_max[2], 12, 1e-4f);
+    assert_int_equal(city_counted(&s->city, CITY_SKIPPED, "coarser-than-parts"), 1);
+    assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "BuildingPart"), 2);
+    assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "Road"), 1);
+    assert_int_equal(city_counted(&s->city, CITY_REPAIRED, "turned-faces"), 0);
+    lmn_scene_destroy(&s);
+}
+
 static void mistakes_are_told_or_counted(void **state)
 {
     (void)state;
@@ -242,37 +161,13 @@ static void mistakes_are_told_or_counted(void **state)
     }
 }
 
-static void memory_may_run_out(void **state)
-{
-    (void)state;
-    const double    box[4][2] = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};
-    const size_t    count = 4;
-    const footprint how = {ROOF_HIPPED, 0, 5, 8};
-    long            n = 1;
-    for (; n < 200; n++) {
-        city_shape       shape = {0};
-        footprint_points points = {0};
-        bool             fits;
-        mem_fail_at(n);
-        bool done = footprint_raise(&shape, &points, &how, box, &count, 1, &fits);
-        mem_fail_at(0);
-        city_shape_release(&shape);
-        mem_free(points.items);
-        if (done)
-            break;
-    }
-    assert_true(n > 3 && n < 200);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_are_closed),
-        cmocka_unit_test(roofs_hold_what_they_should),
         cmocka_unit_test(strips_are_mitred),
         cmocka_unit_test(features_become_a_town),
+        cmocka_unit_test(parts_are_the_building),
         cmocka_unit_test(mistakes_are_told_or_counted),
-        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

@@ -134,6 +134,15 @@ class Pictures(unittest.TestCase):
         self.assertIn("hatch", limner.looks())
         self.assertEqual(limner.version(), c.VERSION)
 
+    def test_towns(self):
+        town = ROOT / "examples" / "town.geojson"
+        empty, full = limner.Scene(town), limner.Scene(town, populate=1)
+        self.assertGreater(len(full.info["parts"]), len(empty.info["parts"]))
+        with self.assertRaises(limner.UsageError):
+            limner.Scene(BOX, populate=1)
+        with self.assertRaises(limner.UsageError):
+            limner.Scene(BOX, terrain=town)
+
     def test_settings(self):
         look = limner.Look("toon")
         look.set("surface.bands", 2)
