@@ -15,7 +15,7 @@ enum { SIDE = 160, DPI = 29, PIXELS = SIDE * SIDE };
 
 typedef struct fixture {
     lmn_renderer *renderer;
-    lmn_scene    *house, *walker, *pump; /* the walker for looks that tell of motion, the pump for hidden lines */
+    lmn_scene    *arm, *walker, *pump; /* the walker for looks that tell of motion, the pump for hidden lines */
 } fixture;
 
 static int set_up(void **state)
@@ -23,8 +23,8 @@ static int set_up(void **state)
     static fixture    f;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
     DO(lmn_renderer_create(&f.renderer, &desc, &error));
-    DO(lmn_scene_create(&f.house, &error));
-    DO(lmn_scene_add_file(f.house, EXAMPLES "/house.glb", NULL, &error));
+    DO(lmn_scene_create(&f.arm, &error));
+    DO(lmn_scene_add_file(f.arm, EXAMPLES "/arm.glb", NULL, &error));
     DO(lmn_scene_create(&f.walker, &error));
     DO(lmn_scene_add_file(f.walker, EXAMPLES "/walker.bvh", NULL, &error));
     DO(lmn_scene_create(&f.pump, &error));
@@ -36,7 +36,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     fixture *f = *state;
-    lmn_scene_destroy(&f->house);
+    lmn_scene_destroy(&f->arm);
     lmn_scene_destroy(&f->walker);
     lmn_scene_destroy(&f->pump);
     lmn_renderer_destroy(&f->renderer);
@@ -54,7 +54,7 @@ static bool tells_of_motion(const char *name)
 
 static const lmn_scene *scene_for(const fixture *f, const char *name)
 {
-    return tells_of_motion(name) ? f->walker : strcmp(name, "technical") == 0 ? f->pump : f->house;
+    return tells_of_motion(name) ? f->walker : strcmp(name, "technical") == 0 ? f->pump : f->arm;
 }
 
 static void draw(const fixture *f, const char *name, const lmn_look *look, uint8_t *out)
@@ -99,12 +99,12 @@ static lmn_look *load(const char *name, const char *control, double value)
     return look;
 }
 
-/* At -1, 0 and 1; and at -0.5 and 0.5 where each step has its law. */
+/* At -1, 0 and 1; weights at -0.5 and 0.5, too. */
 static void check_control(const fixture *f, const char *name, const char *control, const uint8_t *shipped)
 {
     static uint8_t drawn[5][4 * PIXELS];
-    const bool     has_law = strcmp(control, "weight") == 0 || strcmp(control, "darkness") == 0;
-    for (int i = 0; i < 5; i += has_law ? 1 : 2) {
+    const int      step = strcmp(control, "weight") == 0 ? 1 : 2;
+    for (int i = 0; i < 5; i += step) {
         lmn_look *look = i == 2 ? NULL : load(name, control, (i - 2) / 2.0);
         if (look)
             draw(f, name, look, drawn[i]);
@@ -114,13 +114,13 @@ static void check_control(const fixture *f, const char *name, const char *contro
     }
     if (memcmp(drawn[0], drawn[4], sizeof drawn[0]) == 0 || memcmp(drawn[2], drawn[4], sizeof drawn[0]) == 0)
         WRONG("%s: %s does nothing", name, control);
-    for (int i = 1; i < 5; i++) {
-        if (strcmp(control, "weight") == 0 && !(ink(drawn[i]) > ink(drawn[i - 1])))
+    for (int i = step; i < 5; i += step) {
+        if (strcmp(control, "weight") == 0 && !(ink(drawn[i]) > ink(drawn[i - step])))
             WRONG("%s: weight %g has no more ink: %.3f after %.3f", name, (i - 2) / 2.0, ink(drawn[i]),
-                  ink(drawn[i - 1]));
-        if (strcmp(control, "darkness") == 0 && !(mean(drawn[i]) < mean(drawn[i - 1])))
+                  ink(drawn[i - step]));
+        if (strcmp(control, "darkness") == 0 && !(mean(drawn[i]) < mean(drawn[i - step])))
             WRONG("%s: darkness %g is no darker: %.3f after %.3f", name, (i - 2) / 2.0, mean(drawn[i]),
-                  mean(drawn[i - 1]));
+                  mean(drawn[i - step]));
     }
 }
 
