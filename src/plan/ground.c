@@ -32,18 +32,11 @@ static double bottom_of(const pose *posed, size_t part_index, int up)
     return (double)(up == 2 ? low.z : low.y);
 }
 
-/* The parts from `first` on that are one thing: a few that follow each other below one node, as the roof, the walls and
- * the ground of a house do. Many are things of their own. */
-static size_t end_of_thing(const plan *p, size_t first, size_t count)
+/* The surfaces of one building, as importers of cities name them, are one thing: a roof stands on its walls. */
+static bool are_one(const lmn_scene *scene, size_t a, size_t b)
 {
-    enum { SURFACES_MOST = 12 };
-    const lmn_scene *scene = p->scene;
-    int32_t          parent = scene->nodes[scene->parts[first].node].parent;
-    size_t           end = first + 1;
-    while (end < count && end - first <= SURFACES_MOST && parent != NONE &&
-           scene->nodes[scene->parts[end].node].parent == parent)
-        end++;
-    return end - first > SURFACES_MOST ? first + 1 : end;
+    const node *x = &scene->nodes[scene->parts[a].node], *y = &scene->nodes[scene->parts[b].node];
+    return x->parent == y->parent && node_is_surface(x) && node_is_surface(y);
 }
 
 /* Does most of what is drawn stand on the plane? */
@@ -53,7 +46,8 @@ static bool stands_level(const plan *p, const ground_plane *g)
     size_t              count = p->scene->part_count, things = 0, level = 0;
     for (size_t i = 0, end; i < count; i = end) {
         double lowest = INFINITY;
-        end = end_of_thing(p, i, count);
+        for (end = i + 1; end < count && are_one(p->scene, i, end);)
+            end++;
         for (size_t k = i; k < end; k++)
             if (p->selected[k] && !box3_is_empty(p->pose->part_boxes[k]))
                 lowest = fmin(lowest, bottom_of(p->pose, k, g->up));
