@@ -40,14 +40,18 @@ float sky_fraction(surface_point p)
 #endif
 }
 
-/* Sum of the lights' diffuse terms. */
-vec3 diffuse_light(surface_point p)
+/* Sum of the lights' diffuse terms; this fraction of the first one arrives. */
+vec3 diffuse_light_of(surface_point p, float first)
 {
     vec3 sum = vec3(0.0);
-    float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++)
         sum += u_light_colour[i].rgb * (max(dot(p.normal, towards_light(i, p.eye)), 0.0) * (i == 0 ? first : 1.0));
     return sum * sky_fraction(p);
+}
+
+vec3 diffuse_light(surface_point p)
+{
+    return diffuse_light_of(p, unshadowed(p));
 }
 
 /* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */

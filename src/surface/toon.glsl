@@ -20,9 +20,9 @@ float banded(float light, float slope)
     return lower + (upper - lower) * rise - (lower - before) * fall;
 }
 
-float tone_light(surface_point p)
+float tone_light(surface_point p, float first)
 {
-    return min(dot(diffuse_light(p), vec3(0.2126, 0.7152, 0.0722)), 1.0);
+    return min(dot(diffuse_light_of(p, first), vec3(0.2126, 0.7152, 0.0722)), 1.0);
 }
 
 #ifdef SHADED_LATER
@@ -100,14 +100,25 @@ vec4 surface_colour(surface_point p)
     p.albedo.rgb = lifted(around.albedo);
     right.normal = normalize(around.normal + around.across);
     above.normal = normalize(around.normal + around.up);
-    float light = tone_light(p), spot = highlight(p, 40.0);
-    float slope = length(vec2(tone_light(right), tone_light(above)) - light);
-    float spot_slope = length(vec2(highlight(right, 40.0), highlight(above, 40.0)) - spot);
+    float spot = highlight(p, 40.0), spot_slope = length(vec2(highlight(right, 40.0), highlight(above, 40.0)) - spot);
 #else
-    float light = tone_light(p), spot = highlight(p, 40.0);
-    float slope = fwidth(light), spot_slope = fwidth(spot);
+    float spot = highlight(p, 40.0), spot_slope = fwidth(spot);
 #endif
-    float brightness = mix(u_shadow, u_light, u_bands > 1 ? banded(light, slope) : 1.0);
+    /* The border of a hard shadow is that of its own tone, wherever the steps of light are. */
+#ifdef HAS_SOFT_SHADOW
+    float first = unshadowed(p), lit = 1.0;
+#else
+    float first = 1.0, lit = unshadowed(p);
+#endif
+    float light = tone_light(p, first), dark = tone_light(p, 0.0);
+#ifdef SHADED_LATER
+    vec2 others = vec2(tone_light(right, first), tone_light(above, first));
+    vec2 dark_others = vec2(tone_light(right, 0.0), tone_light(above, 0.0));
+    float slope = length(others - light), dark_slope = length(dark_others - dark);
+#else
+    float slope = fwidth(light), dark_slope = fwidth(dark);
+#endif
+    float brightness = mix(u_shadow, u_light, u_bands > 1 ? mix(banded(dark, dark_slope), banded(light, slope), lit) : 1.0);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
     vec3 colour = max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0)) * brightness;
     colour = light_shown_as(min(legible(shown(min(colour, vec3(1.0)))), vec3(1.0)));
