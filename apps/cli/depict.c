@@ -98,7 +98,18 @@ static void settle_time(const lmn_scene *scene, lmn_draw_desc *desc, const lmn_d
     desc->fit_time = false;
 }
 
-int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain)
+/* What could not be told, for who looks at a picture that tells little. */
+static void print_warnings(const char *json)
+{
+    json_t       *root = json_loads(json, 0, NULL);
+    size_t        i;
+    const json_t *text;
+    json_array_foreach(json_object_get(root, "warnings"), i, text) message_warning(json_string_value(text), 1);
+    json_decref(root);
+}
+
+int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain,
+                 bool quiet)
 {
     lmn_depict_desc d = LMN_DEPICT_DESC_INIT;
     lmn_error       error = {0};
@@ -109,9 +120,14 @@ int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions,
     if (status == EXIT_DONE) {
         settle_time(scene, desc, &d);
         d.expressions = text;
-        if (lmn_depict(scene, desc, &d, explain ? &json : NULL, &error) != LMN_OK)
+        if (lmn_depict(scene, desc, &d, &json, &error) != LMN_OK)
             status = message_error(&error);
     }
     free(text);
-    return status == EXIT_DONE && explain ? print_and_free(json) : status;
+    if (json && !quiet)
+        print_warnings(json);
+    if (status == EXIT_DONE && explain)
+        return print_and_free(json);
+    lmn_text_free(json);
+    return status;
 }

@@ -36,7 +36,8 @@ int  depiction_read(depiction *out, const char *path);
 void depiction_release(depiction *d);
 
 /* Puts signs into a scene and brings the description to a time that tells something, unless it has one. Prints what
- * goes wrong; exit status. */
-int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain);
+ * goes wrong and, unless it is to be quiet, what could not be told; exit status. */
+int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions, const char *interval, bool explain,
+                 bool quiet);
 
 #endif

@@ -385,7 +385,8 @@ static int draw_scene(draw_session *s, const char *const *paths, size_t count)
     }
     place_view(s, scene);
     if (status == EXIT_DONE && s->depicts)
-        status = depict_scene(scene, &s->desc, s->values->expressions, s->values->interval, s->values->explain);
+        status = depict_scene(scene, &s->desc, s->values->expressions, s->values->interval, s->values->explain,
+                              s->values->quiet);
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];

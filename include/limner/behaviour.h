@@ -165,6 +165,11 @@ LMN_API lmn_status lmn_behaviour_set_constraint(lmn_scene *scene, uint32_t activ
  * moves loses its matrix: it has translation, rotation and scale from then on. */
 LMN_API lmn_status lmn_behaviour_play(lmn_scene *scene, const uint32_t *activities, size_t count, lmn_error *error);
 
+/* Takes back what lmn_behaviour_play, or a script, has said: nothing of the behaviour plays any longer, and the
+ * animation "behaviour" is no longer there, so that those behind it in the scene have numbers that are smaller by one.
+ * Activities stay, and can be played again. Where nothing plays nothing happens. */
+LMN_API lmn_status lmn_behaviour_stop(lmn_scene *scene, lmn_error *error);
+
 /* How many activities a scene has, its scripts' too, and those that begin at 0 (index from 0 on; 0 beyond them). */
 LMN_API size_t   lmn_behaviour_count(const lmn_scene *scene);
 LMN_API uint32_t lmn_behaviour_root_at(const lmn_scene *scene, size_t index);
@@ -222,21 +227,23 @@ LMN_API lmn_status lmn_dynamics_trajectory(const lmn_dynamics *dynamics, uint32_
                                            double from_s, double to_s, double tolerance, lmn_point_state *states,
                                            size_t capacity, size_t *count, lmn_error *error);
 
-/* Where something that moves meets something: its velocity changes at once. */
+/* Where something that moves hits something: it comes on towards a surface, and its velocity changes at once so that it
+ * does not go through. */
 typedef struct lmn_contact {
     double   time_s;
     double   place[3];  /* where it touches, in the world */
     double   normal[3]; /* the way that it is pushed, unit */
     double   impulse;   /* of a unit mass: how much its velocity changes, lengths a second */
-    uint32_t other;     /* the node whose surface it meets there; 0: nothing is near, whatever stopped it */
+    uint32_t other;     /* the node whose surface it meets there; 0: nothing is there */
     double   distance;  /* how far that surface is from `place`; 0 without one */
 } lmn_contact;
 
 /* Contacts of a node, with all below it, whose impulse is `least` or more, 0 or above, in order of time: whose surface
- * is met is looked for among all parts that are not its own, as they are then. Where it only sets off or stops with
- * nothing near, whoever moves it has done that, and it is no contact. At most `capacity` are written, and
- * *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be where the
- * animation puts it). */
+ * is met is looked for among all parts that are not its own, as they are then. Where no surface
+ * is, there is a contact only where it is thrown back while one pull draws it on before and behind, as by a floor that
+ * is not in the scene: corners of sampled curves are none. What has no surface has no contacts. At most `capacity` are
+ * written, and *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be
+ * where the animation puts it). */
 LMN_API lmn_status lmn_dynamics_contacts(const lmn_dynamics *dynamics, uint32_t node, double from_s, double to_s,
                                          double least, lmn_contact *contacts, size_t capacity, size_t *count,
                                          lmn_error *error);

@@ -87,6 +87,12 @@ class behaviour
         run([&](lmn_error *e) { return lmn_behaviour_play(scene_.get(), activities.data(), activities.size(), e); });
     }
 
+    /* Takes back what play, or a script, has said. */
+    void stop()
+    {
+        run([&](lmn_error *e) { return lmn_behaviour_stop(scene_.get(), e); });
+    }
+
   private:
     struct question {
         value_function value;

@@ -27,10 +27,11 @@ typedef struct lmn_depict_desc {
 
 /* Puts signs into the scene, in place of those of an earlier call: nodes below one called "glyphs", which looks select
  * by [glyph=arrow], [of=NAME] and [when=past]. They turn to the viewer that `draw` places, and tell past and future of
- * its time. Things for which ghost images stand are hidden. `json` (may be NULL) gets {"expressions", "reasons"}: what
- * was told and, where it was chosen, why; free it with lmn_text_free. Errors: LMN_USAGE (an expression, the
- * description), LMN_FORMAT (no JSON), LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. Where memory
- * is missing while those of an earlier call are taken out, changes stay open: lmn_scene_end_changes. */
+ * its time. Things for which ghost images stand are hidden. `json` (may be NULL) gets
+ * {"expressions", "reasons", "warnings"}: what was told, where it was chosen why, and what could not be told and why
+ * not; free it with lmn_text_free. Errors: LMN_USAGE (an expression, the description), LMN_FORMAT (no JSON), LMN_LIMIT,
+ * LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. Where memory is missing while those of an earlier call are
+ * taken out, changes stay open: lmn_scene_end_changes. */
 LMN_API lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
                               lmn_error *error);
 

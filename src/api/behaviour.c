@@ -383,6 +383,14 @@ lmn_status lmn_behaviour_play(lmn_scene *scene, const uint32_t *activities, size
     return status;
 }
 
+lmn_status lmn_behaviour_stop(lmn_scene *scene, lmn_error *error)
+{
+    lmn_status status = content_check_scene(scene, "lmn_behaviour_stop", error);
+    if (status == LMN_OK)
+        behaviour_stop(scene);
+    return status;
+}
+
 size_t lmn_behaviour_count(const lmn_scene *scene)
 {
     return scene && scene->behaviour ? scene->behaviour->node_count : 0;

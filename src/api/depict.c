@@ -52,7 +52,8 @@ static lmn_status complete(lmn_depict_desc *full, const lmn_depict_desc *given, 
 
 /* What is told: as it is given, or as the scene proposes. */
 static lmn_status find_expressions(expression_list *out, json_t **reasons, const lmn_scene *scene,
-                                   const lmn_depict_desc *d, const lmn_draw_desc *draw, lmn_error *error)
+                                   const lmn_depict_desc *d, const lmn_draw_desc *draw, warnings *warnings,
+                                   lmn_error *error)
 {
     moment     when;
     size_t     bad = 0;
@@ -62,7 +63,7 @@ static lmn_status find_expressions(expression_list *out, json_t **reasons, const
     if (!d->expressions) {
         double from = d->interval_given ? d->from_s : 0,
                to = d->interval_given ? d->to_s : moment_duration(&when, scene);
-        return depict_propose(out, reasons, scene, &when, from, to, error);
+        return depict_propose(out, reasons, scene, &when, from, to, warnings, error);
     }
     json_error_t wrong;
     json_t      *array = json_loads(d->expressions, JSON_REJECT_DUPLICATES, &wrong);
@@ -70,8 +71,19 @@ static lmn_status find_expressions(expression_list *out, json_t **reasons, const
         return error_set(error, LMN_FORMAT, "expressions: line %d, column %d: %s", wrong.line, wrong.column,
                          wrong.text);
     status = expressions_read(out, array, scene, &when, &bad, error);
+    *reasons = json_array();
     json_decref(array);
     return status;
+}
+
+/* {"expressions", "reasons", "warnings"} as text; NULL when memory is gone. */
+static char *told_json(const expression_list *list, json_t *reasons, const warnings *said, const lmn_scene *scene)
+{
+    json_t *texts = json_array();
+    for (size_t i = 0; i < said->count; i++)
+        json_array_append_new(texts, json_string(said->items[i].text));
+    return value_text(json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons,
+                                "warnings", texts));
 }
 
 lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
@@ -81,6 +93,7 @@ lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_dep
     lmn_draw_desc   wanted;
     expression_list list = {0};
     json_t         *reasons = NULL;
+    warnings        said = {0};
     if (json)
         *json = NULL;
     if (!scene)
@@ -94,15 +107,16 @@ lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_dep
     work_begin(&w, wanted.progress, wanted.progress_user);
     status = depict_clear(scene, error);
     if (status == LMN_OK)
-        status = find_expressions(&list, &reasons, scene, &full, &wanted, error);
+        status = find_expressions(&list, &reasons, scene, &full, &wanted, &said, error);
     if (status == LMN_OK)
-        status = depict(scene, &list, &wanted, NULL, error);
+        status = depict(scene, &list, &wanted, &said, error);
     if (status == LMN_OK && json) {
-        *json = value_text(json_pack("{s:o,s:O?}", "expressions", expressions_json(&list, scene), "reasons", reasons));
+        *json = told_json(&list, reasons, &said, scene);
         status = *json ? LMN_OK : error_memory(error);
     }
     status = work_end(&w, status, error);
     json_decref(reasons);
+    warnings_release(&said);
     expression_list_release(&list);
     return status;
 }

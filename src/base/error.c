@@ -4,10 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
+
 static void format_into(char *text, size_t size, const char *format, va_list arguments)
 {
     if (vsnprintf(text, size, format, arguments) < 0)
         text[0] = '\0';
+    text_escape_controls(text, size);
 }
 
 static void copy_into(char *text, size_t size, const char *source)

@@ -277,3 +277,28 @@ const char *text_nearest(const char *name, const char *const *candidates, size_t
     }
     return best;
 }
+
+/* Is it a control character that a terminal would act on? Messages may have lines of their own. */
+static bool is_control(const unsigned char *c)
+{
+    return (*c < 0x20 && *c != '\n' && *c != '\t') || *c == 0x7f || (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
+}
+
+void text_escape_controls(char *text, size_t size)
+{
+    static const char digits[] = "0123456789abcdef";
+    for (size_t i = 0; text[i]; i++) {
+        const unsigned char *c = (const unsigned char *)&text[i];
+        const size_t         length = strlen(text + i), taken = *c == 0xc2 ? 2 : 1;
+        const unsigned char  code = c[taken - 1];
+        if (!is_control(c))
+            continue;
+        if (i + 4 + (length - taken) >= size) { /* no room: what is behind it goes */
+            text[i] = '\0';
+            return;
+        }
+        memmove(text + i + 4, text + i + taken, length - taken + 1);
+        memcpy(text + i, (const char[]){'\\', 'x', digits[code >> 4], digits[code & 15]}, 4);
+        i += 3;
+    }
+}

@@ -36,4 +36,8 @@ bool text_is_utf8(const char *bytes, size_t size);
 /* The candidate nearest to `name` by edit distance, or NULL when none is near enough to suggest. */
 const char *text_nearest(const char *name, const char *const *candidates, size_t count);
 
+/* Control characters but line ends and tabs become "\x1b", so that what files have in their names and texts is shown
+ * and not done. `size` is the array's; what has no room is cut off. */
+void text_escape_controls(char *text, size_t size);
+
 #endif

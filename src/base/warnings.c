@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "base/work.h"
 
 enum { WARNINGS_MAX = 256, WARNING_TEXT_SIZE = 512 };
@@ -49,6 +50,7 @@ void warnings_add(warnings *list, warning_code code, const char *format, ...)
     va_start(arguments, format);
     int length = vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    text_escape_controls(message, sizeof message);
     if (!list || length < 0 || !count_again(list, code, message, 1))
         return;
     work_log(LMN_LOG_WARNING, warning_code_text(code), message);

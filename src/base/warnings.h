@@ -23,7 +23,8 @@
     X(WARNING_NO_STROKES, "no-strokes")     /* what has no lines in vector drawings */                                 \
     X(WARNING_PAGE, "page")                 /* what does not fit on a sheet, or is not known for it */                 \
     X(WARNING_UP_AXIS, "up-axis")           /* which way is up was guessed, and not as usual */                        \
-    X(WARNING_UNUSED, "unused")             /* a setting without effect */
+    X(WARNING_UNUSED, "unused")             /* a setting without effect */                                             \
+    X(WARNING_UNTOLD, "untold")             /* what moves and is told by no sign, or by fewer than asked for */
 
 typedef enum warning_code {
 #define X(name, text) name,

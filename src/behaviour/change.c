@@ -77,3 +77,17 @@ lmn_status behaviour_play(lmn_scene *scene, const int32_t *roots, size_t count, 
     }
     return status;
 }
+
+void behaviour_stop(lmn_scene *scene)
+{
+    struct behaviour *b = scene->behaviour;
+    if (!b || b->written == NONE)
+        return;
+    const size_t written = (size_t)b->written;
+    scene_remove_animation(scene, written);
+    for (size_t i = 0; i < b->node_count; i++)
+        b->nodes[i].clip -= b->nodes[i].clip != NONE && (size_t)b->nodes[i].clip > written;
+    b->written = NONE;
+    b->root_count = 0;
+    scene->revision = scene_next_revision();
+}

@@ -13,4 +13,7 @@ lmn_status behaviour_put(lmn_scene *scene, int32_t index, const behaviour_node *
  * is none. Errors: as above. */
 lmn_status behaviour_play(lmn_scene *scene, const int32_t *roots, size_t count, lmn_error *error);
 
+/* Nothing is a root any longer, and the animation that was written is taken out of the scene. */
+void behaviour_stop(lmn_scene *scene);
+
 #endif

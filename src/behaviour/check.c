@@ -52,7 +52,11 @@ static const char *constraint_fault(const lmn_scene *scene, const behaviour_node
     const char *fault = map_fault(scene, n);
     double      own = fault || n->duration >= 0 ? n->duration : map_requirement(&n->map);
     if (!fault && own < 0)
-        fault = "has to be told its duration";
+        fault =
+            n->map.kind == MAP_BOUNCE && n->map.restitution < 1
+                ? "bounces more than hundreds of times: it has to be told its duration, or a restitution of at most "
+                  "0.99"
+                : "has to be told its duration";
     return !fault && !(own > 0) ? "lasts no time" : fault;
 }
 

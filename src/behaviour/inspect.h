@@ -34,7 +34,10 @@ lmn_status schedule_point_at(trajectory_sample *out, const schedule *s, int32_t 
  * motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
 typedef struct impact {
     double seconds, place[3], normal[3], speed;
-    bool   sets_off, stops; /* was it at rest before, is it behind */
+    double before[3], after[3]; /* its velocity */
+    bool   sets_off, stops;     /* was it at rest before, is it behind */
+    double since, until;        /* how long it has moved smoothly before, and does behind */
+    bool   thrown_back;         /* it turns back from a plane to which the same pull draws it before and behind */
 } impact;
 
 /* Those of a node in from … to with a speed of `least` or more, in order; free *out with mem_free. Errors: as of

@@ -20,12 +20,16 @@ void map_defaults(behaviour_map *m, const lmn_scene *scene)
     m->rate = TURN;
 }
 
+/* Of what comes to rest by itself. */
+static const double RESTITUTION_MOST = 0.99;
+
 double map_requirement(const behaviour_map *m)
 {
     if (m->kind == MAP_LINEAR && m->times)
         return m->times[m->value_count - 1];
     if (m->kind == MAP_BOUNCE) {
-        double rest = bounce_rest(m);
+        /* What bounces hundreds of times has to be told for how long. */
+        double rest = m->restitution <= RESTITUTION_MOST ? bounce_rest(m) : -1;
         return isfinite(rest) && rest > 0 ? rest : -1;
     }
     return -1;
@@ -259,8 +263,8 @@ static void even_breaks(double step, double length, bool (*found)(double, void *
             return;
 }
 
-/* The smaller flights of a ball cannot be told from rest. */
-enum { IMPACTS_MAX = 64 };
+/* Flights that are shorter than a millionth of a second cannot be told from rest. */
+enum { IMPACTS_MAX = 100000 };
 
 static void point_breaks(const behaviour_map *m, const curve_table *table, double length, bool (*found)(double, void *),
                          void *user)
@@ -291,7 +295,7 @@ void map_breaks(const behaviour_node *n, const curve_table *table, double length
     case MAP_CALLBACK:
     case MAP_FOLLOW: even_breaks(length / 16, length, found, user); break;
     case MAP_BOUNCE:
-        for (int i = 0; i < (m->restitution >= 1 ? 100000 : IMPACTS_MAX); i++) {
+        for (int i = 0; i < IMPACTS_MAX; i++) {
             double t = bounce_impact(m, i);
             if (!(t < length) || (i > 0 && t - bounce_impact(m, i - 1) < 1e-6) || !found(t, user))
                 break;

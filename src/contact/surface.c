@@ -94,7 +94,8 @@ lmn_status surface_outermost(double out[3], bool *found, const pose *p, const bo
 /* --- nearest -------------------------------------------------------------------------------------------------- */
 
 typedef struct near {
-    const double  *at;
+    const double  *at, *direction;
+    double         tie; /* distances that differ by less are the same */
     surface_place *best;
     bool           found;
 } near;
@@ -109,10 +110,11 @@ static void nearest_on_edge(const double p[3], const double a[3], const double b
     vector3_mix(out, a, b, fmin(fmax(f, 0), 1));
 }
 
-/* Nearest point of a triangle: below the point where that is inside, else on the nearest edge. */
-static void nearest_on_triangle(const double p[3], const double *const c[3], double out[3])
+/* Nearest point of a triangle: below the point where that is inside, else on the nearest edge. Its normal is 0 where
+ * it has no area. */
+static void nearest_on_triangle(const double p[3], const double *const c[3], double out[3], double normal[3])
 {
-    double normal[3], a[3], b[3], to[3], best = INFINITY;
+    double a[3], b[3], to[3], best = INFINITY;
     vector3_add(a, c[1], -1, c[0]);
     vector3_add(b, c[2], -1, c[0]);
     vector3_cross(normal, a, b);
@@ -146,22 +148,33 @@ static bool is_away(const double p[3], const double *const c[3], double within)
     return false;
 }
 
+static bool is_nearer(const near *n, double distance, double facing)
+{
+    if (!n->found)
+        return distance <= n->best->distance;
+    if (fabs(distance - n->best->distance) <= n->tie)
+        return facing > n->best->facing || (facing == n->best->facing && distance < n->best->distance);
+    return distance < n->best->distance;
+}
+
 static void find_nearest(const primitive *from, const double (*vertices)[3], size_t part, void *user)
 {
     near *n = user;
     for (uint32_t i = 0; i + 2 < from->index_count && !work_stopped(); i += 3) {
         const double *const c[3] = {vertices[from->indices[i]], vertices[from->indices[i + 1]],
                                     vertices[from->indices[i + 2]]};
-        double              at[3];
-        if (is_away(n->at, c, n->best->distance))
+        double              at[3], normal[3];
+        if (is_away(n->at, c, n->best->distance + n->tie))
             continue;
-        nearest_on_triangle(n->at, c, at);
-        double distance = vector3_distance(at, n->at);
-        if (distance > n->best->distance || (n->found && distance == n->best->distance))
+        nearest_on_triangle(n->at, c, at, normal);
+        const double distance = vector3_distance(at, n->at),
+                     facing = n->direction ? fabs(vector3_dot(normal, n->direction)) : 1;
+        if (!is_nearer(n, distance, facing))
             continue;
         n->found = true;
         n->best->part = part;
         n->best->distance = distance;
+        n->best->facing = facing;
         vector3_copy(n->best->place, at);
     }
 }
@@ -177,15 +190,15 @@ static double box_distance(const box3 *b, const double p[3])
 }
 
 lmn_status surface_nearest(surface_place *out, bool *found, const pose *p, const bool *parts, const double at[3],
-                           double within, lmn_error *error)
+                           double within, const double direction[3], lmn_error *error)
 {
-    near        n = {at, out, false};
+    near        n = {at, direction, isfinite(within) ? 1e-5 * within : 0, out, false};
     const visit v = {find_nearest, &n};
     lmn_status  status = LMN_OK;
     *out = (surface_place){.distance = within};
     for (size_t i = 0; i < p->scene->part_count && status == LMN_OK; i++)
         /* Boxes are of single precision. */
-        if (parts[i] && box_distance(&p->part_boxes[i], at) <= out->distance * (1 + 1e-5) + 1e-9)
+        if (parts[i] && box_distance(&p->part_boxes[i], at) <= out->distance * (1 + 1e-5) + n.tie + 1e-9)
             status = visit_part(&v, p, i, error);
     *found = n.found;
     return status == LMN_OK ? work_check(error) : status;

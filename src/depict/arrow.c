@@ -3,7 +3,10 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "depict/depict_private.h"
+#include "depict/page.h"
+
+/* More cannot be told from a line on any page. */
+enum { DASHES_MOST = 2000 };
 
 /* --- along a way ----------------------------------------------------------------------------------------------------
  */
@@ -19,12 +22,24 @@ static double course_end(const course *c)
     return c->lengths[c->count - 1];
 }
 
+/* The first point behind the first one that is as far along, or the last one. */
+static size_t course_behind(const course *c, double length)
+{
+    size_t low = 1, high = c->count - 1;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (c->lengths[middle] < length)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 static void course_at(const course *c, double length, double out[3])
 {
-    size_t i = 1;
-    while (i + 1 < c->count && c->lengths[i] < length)
-        i++;
-    double piece = c->lengths[i] - c->lengths[i - 1], f = piece > 0 ? (length - c->lengths[i - 1]) / piece : 0;
+    const size_t i = course_behind(c, length);
+    double       piece = c->lengths[i] - c->lengths[i - 1], f = piece > 0 ? (length - c->lengths[i - 1]) / piece : 0;
     vector3_mix(out, c->points[i - 1], c->points[i], fmin(fmax(f, 0), 1));
 }
 
@@ -32,13 +47,13 @@ static void course_at(const course *c, double length, double out[3])
 static void put_piece(glyph_mesh *m, const depict_job *j, const course *c, double from, double to, double tail,
                       double tip)
 {
-    double(*points)[3] = mem_alloc((c->count + 2) * sizeof *points),
-    *widths = mem_alloc((c->count + 2) * sizeof *widths);
+    const size_t first = course_behind(c, from), last = course_behind(c, to), room = last - first + 3;
+    double(*points)[3] = mem_alloc(room * sizeof *points), *widths = mem_alloc(room * sizeof *widths);
     size_t count = 0;
     m->failed = m->failed || !points || !widths;
-    for (size_t i = 0; i < c->count + 2 && !m->failed; i++) {
-        double at = i == 0 ? from : i == c->count + 1 ? to : c->lengths[i - 1];
-        if (i > 0 && i <= c->count && (at <= from || at >= to))
+    for (size_t i = 0; i < room && !m->failed; i++) {
+        double at = i == 0 ? from : i == room - 1 ? to : c->lengths[first + i - 1];
+        if (i > 0 && i < room - 1 && (at <= from || at >= to))
             continue;
         course_at(c, at, points[count]);
         widths[count++] = tail + (tip - tail) * at / course_end(c);
@@ -68,10 +83,13 @@ void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[
     if (!m->failed && count > 1 && course_end(&c) > 0) {
         double end = fmax(course_end(&c) - style->short_of, course_end(&c) * 0.3);
         double head = fmin(style->head * style->width, end * 0.6), body = end - head;
-        double step = style->dash > 0 ? style->dash + style->gap : body;
-        for (double from = 0; from < body && step > 0 && !m->failed; from += step)
-            put_piece(m, j, &c, from, fmin(from + (style->dash > 0 ? style->dash : body), body),
-                      style->tail * style->width, style->width);
+        double step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
+        if (body > DASHES_MOST * step) { /* nobody could see them */
+            dash *= body / DASHES_MOST / step;
+            step = body / DASHES_MOST;
+        }
+        for (int i = 0; i < DASHES_MOST && i * step < body && step > 0 && !m->failed; i++)
+            put_piece(m, j, &c, i * step, fmin(i * step + dash, body), style->tail * style->width, style->width);
         if (head > 0)
             put_head(m, j, &c, body, end, style->width);
     }
@@ -90,7 +108,8 @@ colour depict_tint(glyph_tense when, colour wanted)
 
 typedef struct path_values {
     int32_t pieces;
-    float   width, head, tail, dash, gap, offset, short_of;
+    float   width, head, tail, dash, gap, offset, aside, short_of;
+    bool    tip, before;
     colour  colour;
 } path_values;
 
@@ -112,11 +131,53 @@ static const param path_params[] = {
                     .unit = UNIT_FRACTION,
                     .doc = "How far it lies above the way of the target's middle, fraction of the radius."),
     PARAM_FLOAT_ROW(
+        path_values, aside, .def = 0, .min = -100, .max = 100, .soft_min = -2, .soft_max = 2, .unit = UNIT_FRACTION,
+        .doc = "How far it lies to the left of the way, as it is seen, fraction of the radius: what goes back "
+               "where it came from lies beside that."),
+    PARAM_FLOAT_ROW(
         path_values, short_of, .def = 1.2, .min = 0, .max = 100, .soft_max = 3, .unit = UNIT_FRACTION,
         .doc = "How far before the way's end it ends, so that a ghost image there leaves the head to be seen; radii."),
+    PARAM_BOOL_ROW(path_values, tip, .def = 0,
+                   .doc = "The way of the place that is farthest from the target's origin, as of a limb's end, instead "
+                          "of its middle's."),
+    PARAM_BOOL_ROW(path_values, before, .def = 0,
+                   .doc = "Before all that the scene has, on the lines of sight through the way, so that nothing hides "
+                          "it."),
     PARAM_COLOUR_ROW(path_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of the arrow; none: grey for the past, red for the future."),
 };
+
+/* Moves points to the left of the way that they make on the page, by as much all along it. */
+static bool shift_aside(const depict_job *j, double (*points)[3], size_t count, double aside)
+{
+    double(*moved)[3] = mem_alloc((count + 1) * sizeof *moved);
+    double left[3] = {0, 0, 0};
+    for (size_t i = 0; i < count && moved; i++) {
+        double along[3], to_eye[3], own[3];
+        vector3_add(along, points[i + 1 < count ? i + 1 : i], -1, points[i > 0 ? i - 1 : 0]);
+        depict_to_eye(j, points[i], to_eye);
+        vector3_cross(own, to_eye, along);
+        if (vector3_normalise(own)) /* where it goes towards the viewer it stays at its side */
+            vector3_copy(left, own);
+        vector3_add(moved[i], points[i], aside, left);
+    }
+    if (moved && count)
+        memcpy(points, moved, count * sizeof *points);
+    mem_free(moved);
+    return moved != NULL;
+}
+
+/* How much smaller things have to be where the way is lifted to, to be seen as large; its points go there. */
+static double lift_before(const depict_job *j, double (*points)[3], size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double far = vector3_distance(points[i], j->camera.eye);
+        depict_lift(j, points[i], depict_front(j, points[i]));
+        sum += j->camera.orthographic || !(far > 0) ? 1 : vector3_distance(points[i], j->camera.eye) / far;
+    }
+    return count ? sum / (double)count : 1;
+}
 
 static lmn_status put_way(depict_job *j, const expression *e, const depict_target *t, double from, double to,
                           glyph_tense when, bool has_head, lmn_error *error)
@@ -124,20 +185,27 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     const path_values *v = e->values;
     trajectory         way;
     glyph_mesh         m = {0};
-    lmn_status         status = way_trajectory(&way, &t->way, t->centre, from, to, t->radius * 0.01, error);
+    double             middle[3];
+    way_point(&t->way, t->centre, fmin(fmax(e->now, from), to), middle);
+    /* Finer than half a pixel of a large page nobody sees it. */
+    const double fine = fmax(t->radius * 0.01, page_height(j, middle) / 4000);
+    lmn_status   status = way_trajectory(&way, &t->way, t->centre, from, to, fine, error);
     double(*points)[3] = status == LMN_OK ? mem_alloc(way.count * sizeof *points) : NULL;
     if (status == LMN_OK && !points)
         status = error_memory(error);
-    const double width = (double)v->width * t->radius;
     for (size_t i = 0; i < way.count && status == LMN_OK; i++)
         vector3_add(points[i], way.samples[i].position, (double)v->offset * t->radius, j->camera.up);
+    if (status == LMN_OK && v->aside != 0 && !shift_aside(j, points, way.count, (double)v->aside * t->radius))
+        status = error_memory(error);
+    const double scale = v->before && status == LMN_OK ? lift_before(j, points, way.count) : 1;
+    const double width = (double)v->width * t->radius * scale;
     if (status == LMN_OK) {
         const arrow_style style = {width,
                                    when == GLYPH_FUTURE ? (double)v->dash * width : 0,
                                    (double)v->gap * width,
                                    when == GLYPH_FUTURE ? 1 : (double)v->tail,
                                    has_head ? (double)v->head : 0,
-                                   has_head && v->pieces == 1 ? (double)v->short_of * t->radius : 0};
+                                   has_head && v->pieces == 1 ? (double)v->short_of * t->radius * scale : 0};
         glyph_put_arrow(&m, j, (const double(*)[3])points, way.count, &style);
         status = glyph_put(j, &m, &(glyph_label){"arrow", e->target, when, depict_tint(when, v->colour)}, error);
     }
@@ -167,7 +235,9 @@ static lmn_status path_depict(depict_job *j, const expression *e, lmn_error *err
 {
     depict_target t;
     lmn_status    status = target_open(&t, j, e->target, error);
-    bool          has_future = e->to > e->now;
+    if (status == LMN_OK && ((const path_values *)e->values)->tip)
+        status = target_take_tip(&t, j, error);
+    bool has_future = e->to > e->now;
     if (status == LMN_OK && e->now > e->from)
         status = put_pieces(j, e, &t, e->from, fmin(e->now, e->to), GLYPH_PAST, !has_future, error);
     if (status == LMN_OK && has_future)

@@ -2,8 +2,8 @@
  * Nienhaus 2005, section 7.9, figures 7-6 and 7-10. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "depict/mouth.h"
 #include "depict/page.h"
+#include "pose/face.h"
 
 typedef struct balloon_values {
     param_words text;
@@ -76,7 +76,7 @@ static void put_thought(glyph_mesh *m, const page_place *p, double half_width, d
 }
 
 /* To the left of the page: −1, to the right: 1. */
-static double side_of(const depict_job *j, const expression *e, const mouth *where)
+static double side_of(const depict_job *j, const expression *e, const face *where)
 {
     const balloon_values *v = e->values;
     double                right[3], up[3];
@@ -87,7 +87,7 @@ static double side_of(const depict_job *j, const expression *e, const mouth *whe
 }
 
 /* Beside and above the head, `side` to the right of it. */
-static void beside_head(const depict_job *j, const expression *e, const mouth *where, double side, const double half[2],
+static void beside_head(const depict_job *j, const expression *e, const face *where, double side, const double half[2],
                         double out[3])
 {
     const balloon_values *v = e->values;
@@ -112,7 +112,7 @@ static double bring_inside(const depict_job *j, double at[3], const double half[
 }
 
 /* At the side that is wanted, or where it would leave the page, at the other one if it has more room there. */
-static void place_balloon(const depict_job *j, const expression *e, const mouth *where, const double half[2],
+static void place_balloon(const depict_job *j, const expression *e, const face *where, const double half[2],
                           double out[3])
 {
     const balloon_values *v = e->values;
@@ -124,7 +124,7 @@ static void place_balloon(const depict_job *j, const expression *e, const mouth 
         vector3_copy(out, other);
 }
 
-static lmn_status put_balloon(depict_job *j, const expression *e, const mouth *where, bool thought, lmn_error *error)
+static lmn_status put_balloon(depict_job *j, const expression *e, const face *where, bool thought, lmn_error *error)
 {
     const balloon_values *v = e->values;
     const double          height = (double)v->size * (j->fixed_view ? page_height(j, where->head) : j->size),
@@ -135,16 +135,16 @@ static lmn_status put_balloon(depict_job *j, const expression *e, const mouth *w
     double                size[2], middle[3], tip[2];
     /* How much room the words need, wherever they are. */
     page_place_at(&place, j, where->head, lift);
-    lmn_status status = glyph_put_lettering(&letters, &place, &words, size, error);
+    lmn_status status = glyph_put_lettering(&letters, j, &place, &words, size, error);
     glyph_mesh_release(&letters);
     const double half[2] = {size[0] * 0.62 + height * 1.1, size[1] * 0.66 + height * 1.1};
     place_balloon(j, e, where, half, middle);
     page_place_at(&behind, j, middle, lift);
     page_place_at(&place, j, middle, lift + 0.2 * height);
     if (status == LMN_OK)
-        status = glyph_put_lettering(&letters, &place, &words, size, error);
+        status = glyph_put_lettering(&letters, j, &place, &words, size, error);
     /* The tip is seen at the mouth. */
-    page_place_at(&place, j, thought ? where->head : where->at, lift);
+    page_place_at(&place, j, thought ? where->head : where->mouth, lift);
     page_offset(&behind, place.at, tip);
     if (thought) { /* outside the head */
         const double f = 1 - fmin(0.6, 1.3 * where->radius / fmax(hypot(tip[0], tip[1]), 1e-9));
@@ -165,10 +165,16 @@ static lmn_status put_balloon(depict_job *j, const expression *e, const mouth *w
 static lmn_status balloon_depict(depict_job *j, const expression *e, bool thought, lmn_error *error)
 {
     depict_target t;
-    mouth         where;
+    face          where;
+    const pose   *p = NULL;
+    double        middle[3];
     lmn_status    status = target_open(&t, j, e->target, error);
     if (status == LMN_OK)
-        status = mouth_find(&where, j, &t, e->now, error);
+        status = depict_pose(&p, j, e->now, error);
+    if (status == LMN_OK) {
+        way_point(&t.way, t.centre, e->now, middle);
+        status = face_find(&where, p, e->target, middle, t.radius, error);
+    }
     if (status == LMN_OK)
         status = put_balloon(j, e, &where, thought, error);
     target_release(&t);

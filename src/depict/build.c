@@ -19,8 +19,12 @@ void depict_lift(const depict_job *j, double at[3], double distance)
 {
     double to_eye[3];
     depict_to_eye(j, at, to_eye);
-    if (!j->camera.orthographic)
-        distance = fmin(distance, 0.8 * vector3_distance(j->camera.eye, at));
+    if (!j->camera.orthographic) {
+        /* Never at the eye, and of two distances the farther one stays before the other. */
+        const double far = vector3_distance(j->camera.eye, at), free = 0.7 * far, rest = 0.2 * far,
+                     over = rest > 0 ? fmax(distance - free, 0) / rest : 0;
+        distance = fmin(distance, free) + rest * over / (1 + over);
+    }
     vector3_add(at, at, distance, to_eye);
 }
 

@@ -30,8 +30,9 @@ lmn_status glyph_put_burst(depict_job *j, const expression *e, const double at[3
         double     size[2];
         page_place_at(&place, j, at, lift + 2 * layer);
         page_turn(&place, 0.16);
-        status = glyph_put_lettering(
-            &m, &place, &(lettering_style){style->text, 12, style->radius * 0.42, style->radius * 1.15}, size, error);
+        status = glyph_put_lettering(&m, j, &place,
+                                     &(lettering_style){style->text, 12, style->radius * 0.42, style->radius * 1.15},
+                                     size, error);
         if (status == LMN_OK)
             status = glyph_put(j, &m, &(glyph_label){"noise", e->target, when, style->letters}, error);
         glyph_mesh_release(&m);

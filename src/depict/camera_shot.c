@@ -4,6 +4,20 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/channel.h"
+
+/* What moves its field of view. */
+static void take_zoom(camera_shot *s, const depict_job *j)
+{
+    const int32_t        index = j->scene->nodes[s->node].camera;
+    const animation_path path = s->camera->orthographic ? PATH_CAMERA_HALF_HEIGHT : PATH_CAMERA_FOV;
+    for (size_t k = 0; k < j->when.clip_count; k++) {
+        const animation *a = &j->scene->animations[j->when.clips[k]];
+        for (size_t c = 0; c < a->channel_count; c++)
+            if (a->channels[c].path == path && a->channels[c].target == index && a->channels[c].key_count > 0)
+                s->zoom = &a->channels[c];
+    }
+}
 
 lmn_status camera_shot_open(camera_shot *out, const depict_job *j, const expression *e, double focus, lmn_error *error)
 {
@@ -21,11 +35,21 @@ lmn_status camera_shot_open(camera_shot *out, const depict_job *j, const express
     lmn_status status = way_open(&out->way, s, own, &j->when, error);
     if (status != LMN_OK)
         return status;
+    take_zoom(out, j);
     mat4 world = way_world(&out->way, fmin(fmax(e->now, e->from), e->to));
     out->focus = focus > 0 ? focus : vector3_distance(&world.m[12], j->camera.target) / 5;
     if (!(out->focus > 0))
         out->focus = j->size / 5;
     return LMN_OK;
+}
+
+/* Half the height of what it sees at the focus. */
+static double half_height(const camera_shot *s, double seconds)
+{
+    double value = s->camera->orthographic ? s->camera->half_height : s->camera->fov_y;
+    if (s->zoom)
+        animation_channel_at(s->zoom, seconds, &value);
+    return s->camera->orthographic ? value : tan(value / 2) * s->focus;
 }
 
 void camera_shot_release(camera_shot *s)
@@ -36,7 +60,7 @@ void camera_shot_release(camera_shot *s)
 void camera_shot_point(const camera_shot *s, double seconds, double x, double y, double out[3])
 {
     const mat4   world = way_world(&s->way, seconds);
-    const double half = s->camera->orthographic ? s->camera->half_height : tan(s->camera->fov_y / 2) * s->focus;
+    const double half = half_height(s, seconds);
     double       axes[3][3];
     for (int k = 0; k < 3; k++) {
         vector3_copy(axes[k], &world.m[4 * k]);

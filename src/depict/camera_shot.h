@@ -5,10 +5,11 @@
 #include "depict/depict_private.h"
 
 typedef struct camera_shot {
-    way           way;
-    int32_t       node;   /* that has the camera */
-    const camera *camera; /* as it is at rest */
-    double        aspect, focus;
+    way                      way;
+    int32_t                  node;   /* that has the camera */
+    const camera            *camera; /* as it is at rest */
+    const animation_channel *zoom;   /* what moves its field of view; NULL: nothing does */
+    double                   aspect, focus;
 } camera_shot;
 
 /* The first camera at the expression's target or below it. What it sees is told of at the distance `focus`; 0: at a

@@ -221,8 +221,12 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
                   lmn_error *error)
 {
     depict_poses poses = {.count = 0};
-    depict_job   j = {
-          .scene = scene, .poses = &poses, .seed = desc->seed, .warnings = warnings, .expressions = expressions};
+    depict_job   j = {.scene = scene,
+                      .poses = &poses,
+                      .letterings = &scene->letterings,
+                      .seed = desc->seed,
+                      .warnings = warnings,
+                      .expressions = expressions};
     j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)

@@ -69,10 +69,10 @@ const char *depict_name_of(const lmn_scene *scene, int32_t node, char numbered[D
 /* What a thing is: its own attribute "semantics", or "camera"; NULL when nothing says so. */
 const char *depict_semantics(const lmn_scene *scene, int32_t node);
 
-/* What is worth telling where nobody says what: `reasons` (may be NULL) gets an array of objects, why. Errors:
- * LMN_MEMORY, LMN_CANCELLED. */
+/* What is worth telling where nobody says what: `reasons` (may be NULL) gets an array of objects, why;
+ * `warnings` (may be NULL) what is told by nothing, and why not. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scene *scene, const moment *when,
-                          double from, double to, lmn_error *error);
+                          double from, double to, warnings *warnings, lmn_error *error);
 
 /* Puts the glyphs of all expressions into the scene, in place of those that it has: nodes below one called "glyphs"
  * with the attributes "glyph" (what it is), "of" (its target), "when" (past, present, future). They face the viewer

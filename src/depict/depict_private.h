@@ -30,6 +30,7 @@ typedef struct depict_job {
     uint32_t               seed;
     warnings              *warnings;
     depict_poses          *poses;       /* kept; lent */
+    letterings            *letterings;  /* kept with the scene; lent */
     const expression_list *expressions; /* all that are told; lent, NULL: none */
     struct glyph          *glyphs;      /* made so far; owned */
     size_t                 glyph_count, glyph_capacity;
@@ -62,11 +63,17 @@ typedef struct depict_target {
     way     way;       /* of the node, or of what carries a skin: its hip */
     double  centre[3]; /* in the way's axes */
     double  radius;    /* of its box, world, at rest */
+    double  reach;     /* half of that box's longest side */
     bool   *parts;     /* per part of the scene */
     size_t  part_count;
 } depict_target;
 lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error);
 void       target_release(depict_target *t);
+/* Its place is that which is farthest from its node's origin, as the end of a limb, instead of its middle. Errors:
+ * LMN_MEMORY. */
+lmn_status target_take_tip(depict_target *t, const depict_job *j, lmn_error *error);
+/* A flag a node: does one of the clips move it by itself? NULL: out of memory. */
+bool *depict_moved_nodes(const lmn_scene *scene, const moment *when);
 
 /* All vertices of its parts in the world at a time; mem_free. NULL: out of memory, or *count is 0. */
 lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const depict_target *t, double seconds,
@@ -74,9 +81,11 @@ lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const
 
 /* When something's velocity changes at once within an interval, most of all: impacts. */
 typedef struct depict_impact {
-    double time, at[3]; /* of the centre */
-    double change[3];   /* of velocity, units a second */
-    double speed;       /* before it */
+    double time, at[3];  /* of the centre */
+    double change[3];    /* of velocity, units a second */
+    double before[3];    /* its velocity before it */
+    double speed;        /* of that */
+    double since, until; /* how long it has gone straight before, and does behind */
 } depict_impact;
 /* Those of a target, in order, at most `most`. *count gets how many. Errors: LMN_MEMORY. */
 lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,

@@ -65,12 +65,17 @@ static double outline_at(const outline *o, double angle)
     return isfinite(nearest) ? nearest : 0;
 }
 
+/* None where hardly anything of the change is. */
 static void put_growth_arrow(glyph_mesh *m, const depict_job *j, const expression *e, const depict_target *t,
-                             const page_place *place, const outline ends[2], double angle, bool outward)
+                             const page_place *place, const outline ends[2], double change, double angle, bool outward)
 {
     const growth_values *v = e->values;
     const double         before = outline_at(&ends[0], angle), after = outline_at(&ends[1], angle);
-    const double         inner = (double)v->inner * fmin(before, after), outer = fmax(before, after);
+    if (fabs(after - before) < 0.2 * change)
+        return;
+    const double outer = fmax(before, after);
+    /* What comes from nothing, or vanishes, leaves room in the middle for the heads. */
+    const double inner = fmax((double)v->inner * fmin(before, after), 0.15 * outer);
     /* Heads, 2.6 breadths across, must not lie on those beside them. */
     const double room = full_turn / v->count * (outward ? outer * 0.8 : inner * 1.4) / 2.6 * 0.8,
                  width = fmin((double)v->width * t->radius, room);
@@ -80,6 +85,17 @@ static void put_growth_arrow(glyph_mesh *m, const depict_job *j, const expressio
         page_point(place, cos(angle) * far, sin(angle) * far, points[i]);
     }
     glyph_put_arrow(m, j, (const double(*)[3])points, 2, &(arrow_style){.width = width, .tail = 0.12, .head = 2.2});
+}
+
+/* How far the two outlines are apart where they are farthest apart. */
+static double largest_change(const outline ends[2])
+{
+    double most = 0;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        const double angle = full_turn * k / DIRECTIONS;
+        most = fmax(most, fabs(outline_at(&ends[1], angle) - outline_at(&ends[0], angle)));
+    }
+    return most;
 }
 
 /* Arrows are where the target is now, of the outlines that it has at the interval's two ends. */
@@ -100,8 +116,9 @@ static lmn_status growth_depict(depict_job *j, const expression *e, bool outward
         way_point(&t.way, t.centre, e->now, middle);
         page_place_at(&place, j, middle, depict_front(j, middle));
     }
+    const double change = status == LMN_OK ? largest_change(ends) : 0;
     for (int i = 0; i < v->count && status == LMN_OK; i++)
-        put_growth_arrow(&m, j, e, &t, &place, ends, full_turn * (i + 0.5) / v->count, outward);
+        put_growth_arrow(&m, j, e, &t, &place, ends, change, full_turn * (i + 0.5) / v->count, outward);
     if (status == LMN_OK)
         status = glyph_put(j, &m, &(glyph_label){outward ? "expand" : "collapse", e->target, GLYPH_PRESENT, v->colour},
                            error);

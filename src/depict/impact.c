@@ -46,6 +46,23 @@ static lmn_status put_impact(depict_job *j, const expression *e, const depict_ta
     return glyph_put_burst(j, e, at, depict_front(j, at), which, &style, when, error);
 }
 
+/* Of what only bends at most of its keys those where it hits something; all where it never does. */
+static lmn_status keep_hits(depict_impact *impacts, size_t *count, const depict_job *j, const depict_target *t,
+                            lmn_error *error)
+{
+    bool       hits[IMPACTS_MOST] = {false};
+    size_t     kept = 0;
+    int32_t    whom;
+    lmn_status status = LMN_OK;
+    for (size_t i = 0; i < *count && status == LMN_OK; i++)
+        status = meeting_touches(&hits[i], &whom, j, t, &impacts[i], error);
+    for (size_t i = 0; i < *count; i++)
+        if (hits[i])
+            impacts[kept++] = impacts[i];
+    *count = kept ? kept : *count;
+    return status;
+}
+
 static lmn_status impact_depict(depict_job *j, const expression *e, lmn_error *error)
 {
     const impact_values *v = e->values;
@@ -56,6 +73,8 @@ static lmn_status impact_depict(depict_job *j, const expression *e, lmn_error *e
     lmn_status           status = target_open(&t, j, e->target, error);
     if (status == LMN_OK)
         status = target_impacts(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
+    if (status == LMN_OK && e->partner == NONE)
+        status = keep_hits(impacts, &count, j, &t, error);
     for (size_t i = 0; i < count && status == LMN_OK; i++)
         strongest = fmax(strongest, vector3_length(impacts[i].change));
     for (size_t i = 0; i < count && status == LMN_OK; i++)

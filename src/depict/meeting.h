@@ -9,8 +9,9 @@
 lmn_status meeting_place(double out[3], bool *met, const depict_job *j, const depict_target *t, int32_t partner,
                          const depict_impact *impact, lmn_error *error);
 
-/* Is anything else where a target's velocity changes at once? What only changes its mind touches nothing. */
-lmn_status meeting_touches(bool *out, const depict_job *j, const depict_target *t, const depict_impact *impact,
-                           lmn_error *error);
+/* Does a target hit anything where its velocity changes at once (contact_is_hit), and whom? What only changes its mind
+ * touches nothing. */
+lmn_status meeting_touches(bool *out, int32_t *other, const depict_job *j, const depict_target *t,
+                           const depict_impact *impact, lmn_error *error);
 
 #endif

@@ -49,9 +49,10 @@ typedef struct lettering_style {
     double      height; /* of a capital */
     double      width;  /* it shrinks until it is no wider; 0: as wide as it is */
 } lettering_style;
-/* `size` gets its breadth and height. Errors: LMN_MEMORY, and those of construct_text. */
-lmn_status glyph_put_lettering(glyph_mesh *m, const page_place *p, const lettering_style *style, double size[2],
-                               lmn_error *error);
+/* `size` gets its breadth and height. Lines that were set before are kept in the job's letterings. Errors: LMN_MEMORY,
+ * and those of construct_text. */
+lmn_status glyph_put_lettering(glyph_mesh *m, const depict_job *j, const page_place *p, const lettering_style *style,
+                               double size[2], lmn_error *error);
 
 /* --- burst.c: what bangs --------------------------------------------------------------------------------------------
  */

@@ -131,21 +131,80 @@ static colour paler(const lmn_scene *s, const primitive *p, const still_values *
     return c;
 }
 
+/* Where a primitive's vertices are in a pose. */
+static void place_vertices(vec3 *out, const pose *p, size_t part, size_t instance, const primitive *from,
+                           const shape_change *change)
+{
+    const mat4 world = pose_instance(p, part, instance);
+    pose_vertices(&p->parts[part], from, NULL, NULL, from->vertex_count, out, NULL);
+    for (uint32_t i = 0; i < from->vertex_count; i++)
+        out[i] = change_apply(change, mat4_transform_point(&world, out[i]));
+}
+
+static bool is_near(const vec3 *a, const vec3 *b, float within)
+{
+    return fabsf(a->x - b->x) <= within && fabsf(a->y - b->y) <= within && fabsf(a->z - b->z) <= within;
+}
+
+/* Right behind what is seen now, on the same lines of sight. */
+static void step_back(const depict_job *j, glyph_mesh *m)
+{
+    for (size_t i = 0; i < m->position_count; i++) {
+        double at[3] = {(double)m->positions[i].x, (double)m->positions[i].y, (double)m->positions[i].z};
+        depict_lift(j, at, -5e-4 * j->size);
+        m->positions[i] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
+    }
+}
+
+/* Takes out what is where it is now, as it is seen there already; was there any? */
+static bool leave_moved(glyph_mesh *m, const vec3 *now, float within)
+{
+    const size_t index_count = m->index_count, line_count = m->line_count;
+    size_t       kept = 0;
+    for (size_t i = 0; i + 2 < m->index_count; i += 3) {
+        bool moved = false;
+        for (size_t k = i; k < i + 3; k++)
+            moved = moved || !is_near(&m->positions[m->indices[k]], &now[m->indices[k]], within);
+        for (size_t k = i; moved && k < i + 3; k++)
+            m->indices[kept++] = m->indices[k];
+    }
+    m->index_count = kept;
+    kept = 0;
+    for (size_t i = 0; i + 1 < m->line_count; i += 2)
+        if (!is_near(&m->positions[m->lines[i]], &now[m->lines[i]], within) ||
+            !is_near(&m->positions[m->lines[i + 1]], &now[m->lines[i + 1]], within)) {
+            m->lines[kept++] = m->lines[i];
+            m->lines[kept++] = m->lines[i + 1];
+        }
+    m->line_count = kept;
+    return m->index_count < index_count || m->line_count < line_count;
+}
+
+/* The target as it is now, beside which others are seen. */
+typedef struct present {
+    const pose  *posed; /* NULL: it is not seen */
+    shape_change change;
+    float        within; /* what is nearer to it is the same */
+} present;
+
 /* A primitive as it is in a pose. */
 static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_t instance, const primitive *from,
-                                const shape_change *change, const glyph_label *label, lmn_error *error)
+                                const shape_change *change, const present *now, const glyph_label *label,
+                                lmn_error *error)
 {
     glyph_mesh m = {0};
     mat4       world = pose_instance(p, part, instance);
     const bool mirrored = mat4_cofactors(&world, (double[9]){0}) < 0;
+    vec3      *there = now->posed ? mem_alloc((from->vertex_count + 1) * sizeof *there) : NULL;
     m.positions = mem_alloc((from->vertex_count + 1) * sizeof *m.positions);
     m.indices = from->index_count ? mem_copy(from->indices, from->index_count * sizeof *m.indices) : NULL;
     m.lines = from->line_count ? mem_copy(from->lines, 2 * (size_t)from->line_count * sizeof *m.lines) : NULL;
-    m.failed = !m.positions || (from->index_count && !m.indices) || (from->line_count && !m.lines);
+    m.failed =
+        !m.positions || (from->index_count && !m.indices) || (from->line_count && !m.lines) || (now->posed && !there);
     if (!m.failed)
-        pose_vertices(&p->parts[part], from, NULL, NULL, from->vertex_count, m.positions, NULL);
-    for (uint32_t i = 0; i < from->vertex_count && !m.failed; i++)
-        m.positions[i] = change_apply(change, mat4_transform_point(&world, m.positions[i]));
+        place_vertices(m.positions, p, part, instance, from, change);
+    if (!m.failed && there)
+        place_vertices(there, now->posed, part, instance, from, &now->change);
     for (uint32_t i = 0; i + 2 < from->index_count && mirrored && !m.failed; i += 3) {
         uint32_t kept = m.indices[i];
         m.indices[i] = m.indices[i + 1];
@@ -154,13 +213,16 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
     m.position_count = from->vertex_count;
     m.index_count = from->index_count;
     m.line_count = 2 * (size_t)from->line_count;
+    if (!m.failed && there && leave_moved(&m, there, now->within))
+        step_back(j, &m); /* what is left may lie in faces that are seen now */
+    mem_free(there);
     lmn_status status = glyph_put(j, &m, label, error);
     glyph_mesh_release(&m);
     return status;
 }
 
 static lmn_status put_still(depict_job *j, const expression *e, const depict_target *t, double seconds,
-                            const shape_change *change, lmn_error *error)
+                            const shape_change *change, present *now, lmn_error *error)
 {
     const still_values *v = e->values;
     const pose         *p = NULL;
@@ -174,6 +236,9 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                                     : GLYPH_FUTURE,
                                  {0}};
     lmn_status          status = depict_pose(&p, j, seconds, error);
+    now->posed = NULL;
+    if (status == LMN_OK && !is_now)
+        status = depict_pose(&now->posed, j, e->now, error);
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
         const int32_t mesh_index = n->mesh;
@@ -183,7 +248,7 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
             const primitive *from = &j->scene->meshes[mesh_index].primitives[k / draws];
             label.sketchy = v->sketchy;
             label.tint = paler(j->scene, from, v, is_now ? 0 : fade);
-            status = put_primitive(j, p, i, k % draws, from, change, &label, error);
+            status = put_primitive(j, p, i, k % draws, from, change, now, &label, error);
         }
     }
     return status;
@@ -317,13 +382,15 @@ static lmn_status stills(depict_job *j, const expression *e, bool bends, lmn_err
     const double  push = status == LMN_OK && bends ? strongest_push(e, &t) : 0;
     if (status == LMN_OK)
         status = times_find(&times, e, &t, error);
-    for (int i = 0; i < times.count && status == LMN_OK; i++) {
+    present now = {.within = (float)(0.04 * t.radius)};
+    for (int i = 0; i < times.count && status == LMN_OK; i++) { /* now is the first one */
         shape_change change;
         status = change_find(&change, e, &t, times.at[i], usual, error);
         if (bends && status == LMN_OK)
             bend_find(&change, e, &t, times.at[i], push);
         if (status == LMN_OK)
-            status = put_still(j, e, &t, times.at[i], &change, error);
+            status = put_still(j, e, &t, times.at[i], &change, &now, error);
+        now.change = i == 0 ? change : now.change;
     }
     target_release(&t);
     return status;

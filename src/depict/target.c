@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "behaviour/carry.h"
 #include "contact/surface.h"
 #include "depict/depict_private.h"
 
@@ -62,7 +63,42 @@ lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lm
     out->radius = box3_is_empty(box) ? j->size * 0.02 : box3_diagonal(box) / (2 * 1.7320508);
     if (!(out->radius > 0))
         out->radius = j->size * 0.02;
+    out->reach = box3_is_empty(box)
+                     ? out->radius
+                     : (double)fmaxf(fmaxf(box.max.x - box.min.x, box.max.y - box.min.y), box.max.z - box.min.z) / 2;
     return way_open(&out->way, s, carrier, &j->when, error);
+}
+
+bool *depict_moved_nodes(const lmn_scene *s, const moment *when)
+{
+    bool *moved = mem_calloc(s->node_count + 1, sizeof *moved);
+    for (size_t k = 0; moved && k < when->clip_count; k++) {
+        const animation *a = &s->animations[when->clips[k]];
+        for (size_t c = 0; c < a->channel_count; c++)
+            if (animation_thing_of(a->channels[c].path) == ANIMATED_NODE)
+                moved[a->channels[c].target] = true;
+    }
+    return moved;
+}
+
+lmn_status target_take_tip(depict_target *t, const depict_job *j, lmn_error *error)
+{
+    const size_t count = j->scene->node_count;
+    bool        *moved = depict_moved_nodes(j->scene, &j->when), *carried = mem_calloc(count + 1, sizeof *carried);
+    double(*tips)[3] = mem_calloc(count + 1, sizeof *tips);
+    const bool good = moved && carried && tips;
+    if (good) {
+        moved[t->node] = true; /* it is looked at by itself */
+        node_tips(tips, carried, j->scene, moved);
+        vector3_copy(t->centre, tips[t->node]);
+    }
+    mem_free(moved);
+    mem_free(carried);
+    mem_free(tips);
+    if (!good)
+        return error_memory(error);
+    way_release(&t->way);
+    return way_open(&t->way, j->scene, t->node, &j->when, error);
 }
 
 void target_release(depict_target *t)
@@ -162,17 +198,18 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
     double       last = -INFINITY;
     for (size_t i = 1; i + 1 < way.count && status == LMN_OK && usual > 0; i++) {
         depict_impact now = {.time = way.samples[i].seconds};
-        double        before[3];
         if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
-        change_at(t, now.time, span, before, now.change);
-        now.speed = vector3_length(before);
+        change_at(t, now.time, span, now.before, now.change);
+        now.speed = vector3_length(now.before);
         /* What only bends hardly turns within so short a time. */
         double turn = vector3_length(now.change);
         if (turn < 0.3 * usual || now.speed < 0.05 * usual)
             continue;
         last = now.time;
         vector3_copy(now.at, way.samples[i].position);
+        now.since = now.time - way.samples[i - 1].seconds;
+        now.until = way.samples[i + 1].seconds - now.time;
         impact_keep(out, most, count, &now);
     }
     if (*count > 1)

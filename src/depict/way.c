@@ -1,5 +1,6 @@
 #include "depict/way.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -18,16 +19,35 @@ static void step_take(way_step *step, const animation_channel *c)
         step->scale = c;
 }
 
-static void take_channels(way *out, const moment *clips)
+static int compare_steps(const void *a, const void *b)
 {
+    const way_step *x = *(const way_step *const *)a, *y = *(const way_step *const *)b;
+    return (x->node > y->node) - (x->node < y->node);
+}
+
+/* Paths may be long, and channels many: steps are found by their nodes. */
+static lmn_status take_channels(way *out, const moment *clips, lmn_error *error)
+{
+    way_step **sorted = mem_alloc((out->count + 1) * sizeof *sorted);
+    if (!sorted)
+        return error_memory(error);
+    for (size_t i = 0; i < out->count; i++)
+        sorted[i] = &out->steps[i];
+    qsort(sorted, out->count, sizeof *sorted, compare_steps);
     for (size_t k = 0; k < clips->clip_count; k++) {
         const animation *a = &out->scene->animations[clips->clips[k]];
-        for (size_t c = 0; c < a->channel_count; c++)
-            for (size_t i = 0; i < out->count; i++)
-                if (animation_thing_of(a->channels[c].path) == ANIMATED_NODE &&
-                    a->channels[c].target == out->steps[i].node && a->channels[c].key_count > 0)
-                    step_take(&out->steps[i], &a->channels[c]);
+        for (size_t c = 0; c < a->channel_count; c++) {
+            const way_step         wanted = {.node = a->channels[c].target}, *key = &wanted;
+            way_step *const *const found =
+                animation_thing_of(a->channels[c].path) == ANIMATED_NODE && a->channels[c].key_count > 0
+                    ? bsearch(&key, sorted, out->count, sizeof *sorted, compare_steps)
+                    : NULL;
+            if (found)
+                step_take(*found, &a->channels[c]);
+        }
     }
+    mem_free(sorted);
+    return LMN_OK;
 }
 
 static const animation_channel *channel_of(const way_step *step, int which)
@@ -47,14 +67,14 @@ lmn_status way_open(way *out, const lmn_scene *scene, int32_t node, const moment
     size_t i = out->count;
     for (int32_t n = node; n != NONE; n = scene->nodes[n].parent)
         out->steps[--i].node = n;
-    take_channels(out, clips);
+    const lmn_status status = take_channels(out, clips, error);
     for (i = 0; i < out->count; i++)
         for (int k = 0; k < 3; k++) {
             const animation_channel *c = channel_of(&out->steps[i], k);
             if (c)
                 out->end = fmax(out->end, (double)c->times[c->key_count - 1]);
         }
-    return LMN_OK;
+    return status;
 }
 
 void way_release(way *w)

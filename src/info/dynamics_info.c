@@ -3,17 +3,20 @@
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "contact/contact.h"
 #include "info/info.h"
+#include "pose/face.h"
 
 /* A document while it is written: once something of it could not be made, there is none. */
 typedef struct writer {
     const lmn_scene *scene;
     const schedule  *s;
     const moment    *clips;
-    bool             failed;
+    pose             begin; /* where all is when clips begin */
+    bool             is_posed, failed;
 } writer;
 
 static void set(writer *w, json_t *object, const char *key, json_t *value)
@@ -142,6 +145,37 @@ static bool is_driven(const schedule *s, const dynamics *d, int32_t index)
     return false;
 }
 
+/* Where a character's face is when clips begin, as far as its nodes name anything of it; NULL: they do not. */
+static json_t *face_json(writer *w, int32_t index)
+{
+    static const char *const names[] = {"head", "mouth", "eyes"};
+    face                     f;
+    moment                   when = *w->clips;
+    when.seconds = 0;
+    if (!w->is_posed)
+        w->failed = pose_create(&w->begin, w->scene, &when, NULL) != LMN_OK || w->failed;
+    w->is_posed = true;
+    if (w->failed || face_find(&f, &w->begin, index, &w->begin.worlds[index].m[12], 0, NULL) != LMN_OK) {
+        w->failed = true;
+        return NULL;
+    }
+    const bool named[] = {f.named_head, f.named_mouth, f.named_eyes};
+    if (!named[0] && !named[1] && !named[2])
+        return NULL;
+    json_t *o = json_object(), *eyes = json_array(), *by = json_array();
+    set(w, o, "head", vector(w, f.head));
+    set(w, o, "mouth", vector(w, f.mouth));
+    for (int i = 0; i < 2; i++)
+        append(w, eyes, vector(w, f.eyes[i]));
+    set(w, o, "eyes", eyes);
+    set(w, o, "gaze", vector(w, f.gaze));
+    for (int i = 0; i < 3; i++)
+        if (named[i])
+            append(w, by, json_string(names[i]));
+    set(w, o, "named", by);
+    return o;
+}
+
 /* Nothing of what is not driven and is nothing. */
 static void put_node(writer *w, json_t *nodes, int32_t index)
 {
@@ -157,6 +191,9 @@ static void put_node(writer *w, json_t *nodes, int32_t index)
             append(w, spans, span_json(w, &w->s->spans[d.spans[i]]));
         set(w, o, "node", text_or_null(w->scene->nodes[index].name));
         set(w, o, "semantics", text_or_null(semantics));
+        json_t *where = semantics && strcmp(semantics, "character") == 0 ? face_json(w, index) : NULL;
+        if (where)
+            set(w, o, "face", where);
         set(w, o, "path", path);
         set(w, o, "constraints", spans);
         if (d.span_count) {
@@ -192,7 +229,7 @@ char *scene_dynamics_json(const lmn_scene *scene)
 {
     schedule   s = {.scene = scene};
     moment     clips;
-    writer     w = {scene, &s, &clips, false};
+    writer     w = {.scene = scene, .s = &s, .clips = &clips};
     char      *out = NULL;
     lmn_status status = schedule_of_moment(&s, &clips, scene, NULL, NULL);
     json_t    *root = status == LMN_OK ? dynamics_json(&w) : NULL;
@@ -202,6 +239,8 @@ char *scene_dynamics_json(const lmn_scene *scene)
         free(dumped);
     }
     json_decref(root);
+    if (w.is_posed)
+        pose_release(&w.begin);
     schedule_release(&s);
     return out;
 }

@@ -248,6 +248,13 @@ static void release_appearance(lmn_scene *s)
     mem_free(s->lights);
 }
 
+void scene_remove_animation(lmn_scene *s, size_t index)
+{
+    animation_release(&s->animations[index]);
+    memmove(&s->animations[index], &s->animations[index + 1], (s->animation_count - index - 1) * sizeof *s->animations);
+    s->animation_count--;
+}
+
 void scene_free(lmn_scene *s)
 {
     if (!s)
@@ -264,6 +271,7 @@ void scene_free(lmn_scene *s)
         animation_release(&s->animations[i]);
     mem_free(s->animations);
     behaviour_free(s->behaviour);
+    letterings_release(&s->letterings);
     city_release(&s->city);
     for (size_t i = 0; i < s->file_count; i++)
         mem_free(s->files[i]);

@@ -7,6 +7,7 @@
 #include "base/warnings.h"
 #include "limner/scene.h"
 #include "scene/city.h"
+#include "scene/letterings.h"
 
 enum { NONE = -1, UV_SETS = 2 };
 
@@ -222,9 +223,10 @@ struct lmn_scene {
     size_t            animation_count, animation_capacity;
     struct solid     *solids; /* scene/solid.h */
     size_t            solid_count, solid_capacity;
-    struct behaviour *behaviour; /* scene/behaviour.h; NULL: none */
-    city_facts        city;      /* where it lies and what of city data it consists of; empty of other models */
-    part             *parts;     /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
+    struct behaviour *behaviour;  /* scene/behaviour.h; NULL: none */
+    letterings        letterings; /* what signs were written with */
+    city_facts        city;       /* where it lies and what of city data it consists of; empty of other models */
+    part             *parts;      /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
     size_t            part_count, ghost_count;
     char            **files; /* paths as they were given, one per merged file */
     size_t            file_count, file_capacity;
@@ -256,6 +258,8 @@ camera    *scene_append_camera(lmn_scene *scene);
 light     *scene_append_light(lmn_scene *scene);
 skin      *scene_append_skin(lmn_scene *scene);
 animation *scene_append_animation(lmn_scene *scene);
+/* Those behind it get numbers that are smaller by one. */
+void scene_remove_animation(lmn_scene *scene, size_t index);
 
 /* Appends `child` as the last child of `parent` (both indices; parent NONE makes a root, which needs no call). */
 void scene_link_child(lmn_scene *scene, int32_t parent, int32_t child);

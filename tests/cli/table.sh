@@ -891,6 +891,11 @@ group_depict() {
     row 0 '' out.png depict "$motion" $small -o out.png --explain -q
     out '"because"'
     out '"path"'
+    # What is not told is said, unless nobody wants to hear it.
+    row 0 'warning: nothing in the scene is animated' out.png depict "$examples/box.glb" $small -o out.png
+    row 0 '' out.png depict "$examples/box.glb" $small -q -o out.png --explain
+    out '"warnings": \['
+    out 'nothing in the scene is animated'
     # What it explains is what it takes, and the same bytes come of it.
     "$limner" depict "$motion" $small -q -o in-first.png --time 1 --explain > in-told.json 2> /dev/null
     row 0 '' out.png depict "$motion" $small -q -o out.png --time 1 --expressions in-told.json

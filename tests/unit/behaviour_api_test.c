@@ -233,6 +233,42 @@ static void test_fits_are_those_asked_for(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* As if nobody had played anything: the file's clip is seen again, and what is played again plays. */
+static void test_playing_can_be_taken_back(void **state)
+{
+    (void)state;
+    lmn_scene        *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/box-animated.glb");
+    lmn_activity_desc desc = LMN_ACTIVITY_DESC_INIT;
+    uint32_t          clip = 0;
+    const double      half = s->animations[0].duration / 4;
+    const uint32_t    moved = (uint32_t)s->animations[0].channels[0].target + 1;
+    assert_int_equal(lmn_behaviour_stop(s, NULL), LMN_OK); /* nothing plays */
+    lmn_dynamics   *d = dynamics_of(s);
+    lmn_point_state before = point_at(d, moved, half), after;
+    lmn_dynamics_destroy(&d);
+    desc.kind = LMN_ACTIVITY_CLIP;
+    desc.clip = "1";
+    assert_int_equal(lmn_behaviour_add(s, &desc, &clip, NULL), LMN_OK);
+    const uint32_t turned = add_group(s, LMN_ACTIVITY_REVERSE, &clip, 1);
+    for (int i = 0; i < 2; i++) {
+        play(s, turned);
+        d = dynamics_of(s);
+        after = point_at(d, moved, half);
+        assert_true(fabs(after.position[1] - before.position[1]) > 1e-3 || fabs(after.velocity[1]) > 1e-3);
+        assert_int_equal(s->animation_count, 2);
+        lmn_dynamics_destroy(&d);
+        assert_int_equal(lmn_behaviour_stop(s, NULL), LMN_OK);
+        assert_int_equal(s->animation_count, 1);
+        assert_int_equal(lmn_behaviour_root_at(s, 0), 0);
+        assert_int_equal(lmn_behaviour_count(s), 2);
+        d = dynamics_of(s);
+        after = point_at(d, moved, half);
+        assert_memory_equal(&after, &before, sizeof after);
+        lmn_dynamics_destroy(&d);
+    }
+    lmn_scene_destroy(&s);
+}
+
 static void test_clips_are_activities(void **state)
 {
     (void)state;
@@ -531,6 +567,7 @@ int main(void)
         cmocka_unit_test(test_modifiers_rewrite_time),
         cmocka_unit_test(test_fits_are_those_asked_for),
         cmocka_unit_test(test_clips_are_activities),
+        cmocka_unit_test(test_playing_can_be_taken_back),
         cmocka_unit_test(test_maps_are_in_the_units_of_the_header),
         cmocka_unit_test(test_cameras_and_lights_are_driven),
         cmocka_unit_test(test_callbacks_are_asked_and_let_go_once),

@@ -203,6 +203,15 @@ static lmn_status restitution(lmn_scene *s, lmn_error *error)
     return play_one(s, &desc, error);
 }
 
+static lmn_status never_at_rest(lmn_scene *s, lmn_error *error)
+{
+    lmn_constraint_desc desc = constant();
+    desc.map = LMN_TIME_MAP_BOUNCE;
+    desc.restitution = 0.999999;
+    desc.duration_s = 0;
+    return play_one(s, &desc, error);
+}
+
 static lmn_status spin_of_place(lmn_scene *s, lmn_error *error)
 {
     lmn_constraint_desc desc = constant();
@@ -294,6 +303,8 @@ static void test_both_ways_refuse_the_same(void **state)
         {BALL "\"linear\": [[0,1,0],[2,2,2]], \"times\": [0, 0], \"duration\": 1}", times_back,
          "do not begin at 0 and increase", NULL},
         {BALL "\"function\": \"bounce\", \"restitution\": 2, \"duration\": 1}", restitution, "outside 0 to 1", NULL},
+        {BALL "\"function\": \"bounce\", \"start\": [0, 5, 0], \"restitution\": 0.999999}", never_at_rest,
+         "told its duration", NULL},
         {BALL "\"function\": \"spin\", \"duration\": 1}", spin_of_place, "property", NULL},
         {BALL "\"function\": \"follow\", \"node\": \"ball\", \"duration\": 1}", follows_itself, "follow itself", NULL},
         {"\"behaviour\": {\"repeat\": {"

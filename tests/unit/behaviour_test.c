@@ -427,10 +427,35 @@ static void test_follower_is_where_the_other_was(void **state)
 
 /* --- inspection ------------------------------------------------------------------------------------------ */
 
+/* D of a node and an interval against the words of its definition, all spans asked one by one. */
+static size_t check_sets(const lmn_scene *s, const schedule *c, int32_t target, double from, double to)
+{
+    dynamics d;
+    size_t   found = 0, depth = 0;
+    assert_int_equal(dynamics_create(&d, c, target, from, to, NULL), LMN_OK);
+    for (int32_t k = target; k != NONE; k = s->nodes[k].parent)
+        depth++;
+    assert_int_equal(d.path_count, depth);
+    for (int32_t k = target; k != NONE; k = s->nodes[k].parent)
+        assert_int_equal(d.path[--depth], k);
+    for (size_t i = 0; i < c->span_count; i++) {
+        bool above = false, meets = c->spans[i].from <= to && from <= c->spans[i].to;
+        for (int32_t k = target; k != NONE; k = s->nodes[k].parent)
+            above = above || c->nodes[c->spans[i].node].target == k;
+        if (above && meets)
+            assert_int_equal(d.spans[found++], i); /* random ends meet no owned instant */
+    }
+    assert_int_equal(d.span_count, found);
+    dynamics_release(&d);
+    return found;
+}
+
+/* P, C, C at a time and C in an interval of 1,000 graphs over random trees of nodes. */
 static void test_dynamics_are_the_brute_force_sets(void **state)
 {
     (void)state;
-    for (uint32_t seed = 0; seed < 200; seed++) {
+    size_t all = 0, now = 0, within = 0;
+    for (uint32_t seed = 0; seed < 1000; seed++) {
         random_source r = random_start(seed, 3);
         lmn_scene    *s = scene_of_nodes(5);
         schedule      c;
@@ -438,25 +463,16 @@ static void test_dynamics_are_the_brute_force_sets(void **state)
             scene_link_child(s, (int32_t)random_below(&r, (size_t)i), i);
         assert_true(behaviour_append_root(s, random_graph(s, &r, 4)));
         assert_int_equal(schedule_create(&c, s, NULL), LMN_OK);
-        double   from = c.duration * random_unit(&r), to = from + (seed % 3 ? c.duration * random_unit(&r) / 4 : 0);
-        int32_t  target = (int32_t)random_below(&r, 5);
-        dynamics d;
-        assert_int_equal(dynamics_create(&d, &c, target, from, to, NULL), LMN_OK);
-        assert_int_equal(d.path[d.path_count - 1], target);
-        assert_int_equal(s->nodes[d.path[0]].parent, NONE);
-        size_t found = 0;
-        for (size_t i = 0; i < c.span_count; i++) {
-            bool above = false, meets = c.spans[i].from <= to && from <= c.spans[i].to;
-            for (int32_t k = target; k != NONE; k = s->nodes[k].parent)
-                above = above || c.nodes[c.spans[i].node].target == k;
-            if (above && meets)
-                assert_int_equal(d.spans[found++], i); /* random ends meet no owned instant */
-        }
-        assert_int_equal(d.span_count, found);
-        dynamics_release(&d);
+        const double  from = c.duration * random_unit(&r), to = from + c.duration * random_unit(&r) / 4;
+        const int32_t target = (int32_t)random_below(&r, 5);
+        all += check_sets(s, &c, target, -INFINITY, INFINITY);
+        now += check_sets(s, &c, target, from, from);
+        within += check_sets(s, &c, target, from, to);
         schedule_release(&c);
         scene_free(s);
     }
+    if (!(now > 400 && within > now && all > within))
+        fail_msg("%zu, %zu, %zu", now, within, all);
 }
 
 static void test_trajectory_is_the_parabola(void **state)

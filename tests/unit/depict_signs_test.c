@@ -5,7 +5,7 @@
 #include "../support/moving_scene.h"
 #include "depict/depict.h"
 #include "depict/depict_private.h"
-#include "depict/mouth.h"
+#include "pose/face.h"
 #include "limner/content.h"
 #include "limner/depict.h"
 
@@ -409,6 +409,65 @@ static void words_stand_in_lines(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* Letters lie before their star, and its two halves before each other, even where the scene reaches behind the eye. */
+static void layers_keep_their_order(void **state)
+{
+    (void)state;
+    for (int near = 0; near < 2; near++) {
+        lmn_scene    *scene = bounce_scene(0);
+        lmn_draw_desc draw = seen_at(1.5);
+        draw.orthographic = false;
+        draw.eye_given = true;
+        vector3_copy(draw.eye, (const double[]){2, 1, near ? 1.2 : 30});
+        vector3_copy(draw.target, (const double[]){2, 1, 0});
+        vector3_set(draw.up, 0, 1, 0);
+        tell_as(scene, &draw, "[{\"target\": \"ball\", \"depict\": \"collision\"}]", NULL);
+        double star[3], inner[3], noise[3];
+        position(sign_at(scene, "star", 0), 0, star);
+        position(sign_at(scene, "star", 1), 0, inner);
+        position(sign_at(scene, "noise", 0), 0, noise);
+        if (!(inner[2] > star[2] + 1e-4 && noise[2] > inner[2] + 1e-4))
+            fail_msg("%s: star %g, inner %g, noise %g", near ? "near" : "far", star[2], inner[2], noise[2]);
+        lmn_scene_destroy(&scene);
+    }
+}
+
+/* Lines are kept with the scene: what is told again sets no letters, and draws the same. */
+static void letters_are_set_once(void **state)
+{
+    (void)state;
+    lmn_scene *scene = speaker_scene(true, true), *other = speaker_scene(true, true);
+    words_height(scene, "\"text\": \"once|twice|once\"");
+    assert_int_equal(scene->letterings.count, 2);
+    assert_int_equal(other->letterings.count, 0);
+    const lettering_line *line = scene->letterings.lines;
+    const uint32_t       *set = line->triangles;
+    const double          height = words_height(scene, "\"text\": \"once|twice|once\"");
+    assert_ptr_equal(scene->letterings.lines[0].triangles, set);
+    assert_int_equal(scene->letterings.count, 2);
+    assert_near(words_height(other, "\"text\": \"once|twice|once\""), height, 0);
+    words_height(scene, "\"text\": \"Thrice\"");
+    assert_int_equal(scene->letterings.count, 3);
+    /* Who never writes the same again does not fill the memory. */
+    for (int i = 0; i < 40; i++) {
+        char text[200] = "\"text\": \"";
+        for (int k = 0; k < 20; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%d|", i * 20 + k);
+        snprintf(text + strlen(text), sizeof text - strlen(text), ".\"");
+        if (i == 0 || i > 37) /* between them lines are put in as they would be */
+            words_height(scene, text);
+        else
+            for (int k = 0; k < 20; k++) {
+                lettering_line own = {.text = mem_copy_text("own")};
+                assert_true(letterings_add(&scene->letterings, &own) != LETTERING_NONE);
+            }
+        assert_true(scene->letterings.count <= 800);
+    }
+    assert_true(scene->letterings.count < 100);
+    lmn_scene_destroy(&scene);
+    lmn_scene_destroy(&other);
+}
+
 static void balloons_end_at_the_mouth(void **state)
 {
     (void)state;
@@ -430,14 +489,18 @@ static void balloons_end_at_the_mouth(void **state)
     lmn_scene_destroy(&scene);
 }
 
-static void look_for_face(mouth *out, const lmn_scene *scene)
+static void look_for_face(face *out, const lmn_scene *scene)
 {
     depict_poses  poses = {.count = 0};
     depict_job    job = {.scene = scene, .poses = &poses, .size = 3};
     depict_target t;
     lmn_error     error = {0};
     assert_int_equal(target_open(&t, &job, depict_find_node(scene, "somebody"), &error), LMN_OK);
-    assert_int_equal(mouth_find(out, &job, &t, 0, &error), LMN_OK);
+    const pose *p = NULL;
+    double      middle[3];
+    way_point(&t.way, t.centre, 0, middle);
+    assert_int_equal(depict_pose(&p, &job, 0, &error), LMN_OK);
+    assert_int_equal(face_find(out, p, t.node, middle, t.radius, &error), LMN_OK);
     target_release(&t);
     depict_poses_release(&poses);
 }
@@ -446,16 +509,16 @@ static void look_for_face(mouth *out, const lmn_scene *scene)
 static void eyes_are_found(void **state)
 {
     (void)state;
-    mouth      face;
+    face       found;
     lmn_scene *scene = speaker_scene(true, false);
-    look_for_face(&face, scene);
-    assert_false(face.named_eyes);
+    look_for_face(&found, scene);
+    assert_false(found.named_eyes);
     for (int i = 0; i < 2; i++) {
-        assert_near(face.eyes[i][0], i ? -0.16 : 0.16, 0.01);
-        assert_near(face.eyes[i][1], 2.4, 0.01);
-        assert_near(face.eyes[i][2], 0.4, 0.01);
+        assert_near(found.eyes[i][0], i ? -0.16 : 0.16, 0.01);
+        assert_near(found.eyes[i][1], 2.4, 0.01);
+        assert_near(found.eyes[i][2], 0.4, 0.01);
     }
-    assert_near(face.gaze[2], 1, 1e-9);
+    assert_near(found.gaze[2], 1, 1e-9);
     lmn_scene_destroy(&scene);
     moving_scene m;
     moving_scene_begin(&m);
@@ -468,10 +531,10 @@ static void eyes_are_found(void **state)
         moving_scene_put_in(&m, joint, 0);
     }
     scene = finish(&m, "eyes");
-    look_for_face(&face, scene);
-    assert_true(face.named_eyes);
+    look_for_face(&found, scene);
+    assert_true(found.named_eyes);
     for (int i = 0; i < 2; i++)
-        assert_near(vector3_distance(face.eyes[i], places[2 - i]), 0, 1e-6);
+        assert_near(vector3_distance(found.eyes[i], places[2 - i]), 0, 1e-6);
     lmn_scene_destroy(&scene);
 }
 
@@ -928,6 +991,7 @@ static void missing_memory_is_said_by_all(void **state)
             lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
             lmn_error       error = {0};
             desc.expressions = n % 2 ? all : NULL;
+            letterings_release(&scene->letterings); /* letters are set anew */
             mem_fail_at(n);
             status = lmn_depict(scene, &draw, &desc, NULL, &error);
             mem_fail_at(0);
@@ -952,6 +1016,8 @@ int main(void)
         cmocka_unit_test(arrows_end_at_the_outline),
         cmocka_unit_test(balloons_end_at_the_mouth),
         cmocka_unit_test(words_stand_in_lines),
+        cmocka_unit_test(layers_keep_their_order),
+        cmocka_unit_test(letters_are_set_once),
         cmocka_unit_test(thoughts_shrink_towards_the_head),
         cmocka_unit_test(frames_are_what_the_camera_sees),
         cmocka_unit_test(eyes_are_found),

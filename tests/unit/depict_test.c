@@ -267,6 +267,89 @@ static void arrows_follow_the_way(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* A viewer who looks askance, and where a page of 1024 pixels shows a place: written anew here. */
+static const double eye[3] = {9, 7, 11}, seen[3] = {2, 1, 0}, page = 1024, fov = 30;
+
+static void on_page(const double at[3], double out[2])
+{
+    double forwards[3], right[3], up[3], to[3];
+    vector3_add(forwards, seen, -1, eye);
+    vector3_normalise(forwards);
+    vector3_cross(right, forwards, (double[3]){0, 1, 0});
+    vector3_normalise(right);
+    vector3_cross(up, right, forwards);
+    vector3_add(to, at, -1, eye);
+    const double scale = page / 2 / (vector3_dot(to, forwards) * tan(fov / 2 * acos(-1) / 180));
+    out[0] = vector3_dot(to, right) * scale;
+    out[1] = vector3_dot(to, up) * scale;
+}
+
+/* How far a place of the page is from the way between two times, as it is seen, in pixels. */
+static double off_way(const double at[2], double from, double to)
+{
+    enum { STEPS = 2000 };
+    double best = INFINITY, last[2] = {0, 0};
+    for (int i = 0; i <= STEPS; i++) {
+        double way[3], now[2];
+        ball_at(from + (to - from) * i / STEPS, way);
+        on_page(way, now);
+        if (i > 0) {
+            const double x = now[0] - last[0], y = now[1] - last[1], length = x * x + y * y,
+                         f = ((at[0] - last[0]) * x + (at[1] - last[1]) * y) / length, g = fmin(fmax(f, 0), 1);
+            best = fmin(best, hypot(at[0] - last[0] - g * x, at[1] - last[1] - g * y));
+        }
+        last[0] = now[0];
+        last[1] = now[1];
+    }
+    return best;
+}
+
+/* The middle of the ribbon that is seen lies within a pixel of the way that is seen, between its vertices, too; and so
+ * does one that is lifted before all. */
+static void arrows_lie_on_the_way_that_is_seen(void **state)
+{
+    (void)state;
+    const double  now = 1.2, end = contact_time() + rise_time();
+    lmn_scene    *scene = ball_scene("page.glb", true);
+    lmn_draw_desc draw = LMN_DRAW_DESC_INIT;
+    draw.eye_given = true;
+    draw.fov_deg = fov;
+    draw.time_given = true;
+    draw.time_s = now;
+    draw.width = draw.height = (uint32_t)page;
+    memcpy(draw.eye, eye, sizeof eye);
+    memcpy(draw.target, seen, sizeof seen);
+    vector3_set(draw.up, 0, 1, 0);
+    for (int before = 0; before < 2; before++) {
+        size_t checked = 0;
+        tell_as(scene, &draw,
+                before ? "[{\"target\": \"ball\", \"depict\": \"path\", \"before\": true}]"
+                       : "[{\"target\": \"ball\", \"depict\": \"path\"}]",
+                NULL);
+        for (int tense = 0; tense < 2; tense++) {
+            const primitive *p = glyph_at(scene, "arrow", tense ? "future" : "past", 0);
+            double           last[2] = {0, 0}, middle[3], at[2];
+            assert_non_null(p);
+            for (uint32_t i = 0; 2 * i + 1 < p->vertex_count; i++) {
+                ribbon_point(p, i, middle);
+                on_page(middle, at);
+                const double halfway[2] = {(at[0] + last[0]) / 2, (at[1] + last[1]) / 2};
+                /* Heads are straight; pieces are near each other, and dashes are not. */
+                const bool is_head = tense && i + 2 >= p->vertex_count / 2,
+                           joined = i > 0 && hypot(at[0] - last[0], at[1] - last[1]) < 12;
+                if (!is_head && off_way(at, 0, end) > 1)
+                    fail_msg("%s %u: %.3g pixels off", tense ? "future" : "past", i, off_way(at, 0, end));
+                if (!is_head && joined && off_way(halfway, 0, end) > 1)
+                    fail_msg("%s behind %u: %.3g pixels off", tense ? "future" : "past", i, off_way(halfway, 0, end));
+                memcpy(last, at, sizeof last);
+                checked++;
+            }
+        }
+        assert_true(checked > 20);
+    }
+    lmn_scene_destroy(&scene);
+}
+
 static void ghosts_are_where_they_were(void **state)
 {
     (void)state;
@@ -491,7 +574,8 @@ static void proposals_follow_from_the_motion(void **state)
     tell_or_fail(scene, NULL, 1, &json);
     assert_non_null(strstr(json, "\"path\""));
     assert_non_null(strstr(json, "\"still\""));
-    assert_null(strstr(json, "ground")); /* it does not move */
+    assert_null(strstr(json, "\"target\": \"ground\"")); /* it does not move */
+    assert_non_null(strstr(json, "\"partner\": \"ground\""));
     assert_null(strstr(json, "turnaround"));
     lmn_text_free(json);
     tell_or_fail(still, NULL, 0.5, &json);
@@ -564,6 +648,7 @@ int main(void)
         cmocka_unit_test(trajectories_are_the_motion),
         cmocka_unit_test(impacts_are_found_where_they_are),
         cmocka_unit_test(arrows_follow_the_way),
+        cmocka_unit_test(arrows_lie_on_the_way_that_is_seen),
         cmocka_unit_test(ghosts_are_where_they_were),
         cmocka_unit_test(split_ways_grow_with_speed),
         cmocka_unit_test(lines_end_at_the_impact_that_is_told),

@@ -46,6 +46,11 @@ CALL(lmn_behaviour_play)
     lmn_behaviour_add(w->scene, &activity_desc, NULL, NULL);
     return lmn_behaviour_play(P(0, w->scene), P(1, one), 1, P(2, &w->error));
 }
+CALL(lmn_behaviour_stop)
+{
+    play_constraint(w);
+    return lmn_behaviour_stop(P(0, w->scene), P(1, &w->error));
+}
 CALL(lmn_behaviour_count)
 {
     play_constraint(w);

@@ -171,6 +171,11 @@ class Behaviour:
         self._scene._check()
         self._call("lmn_behaviour_play", self._scene, (ctypes.c_uint32 * len(activities))(*activities), len(activities))
 
+    def stop(self) -> None:
+        """Takes back what `play`, or a script, has said: nothing of it plays any longer."""
+        self._scene._check()
+        self._call("lmn_behaviour_stop", self._scene)
+
     def _group(self, kind: str, children: Sequence[Child], name: str | None, duration: float, **more: Any) -> int:
         self._scene._check()
         desc = c.STANDARDS[c.lmn_activity_desc]()

@@ -805,6 +805,7 @@ FUNCTIONS = {
     "lmn_behaviour_add_constraint": (c_int, [c_void_p, POINTER(lmn_constraint_desc), POINTER(c_uint32), POINTER(lmn_error)]),
     "lmn_behaviour_set_constraint": (c_int, [c_void_p, c_uint32, POINTER(lmn_constraint_desc), POINTER(lmn_error)]),
     "lmn_behaviour_play": (c_int, [c_void_p, POINTER(c_uint32), c_size_t, POINTER(lmn_error)]),
+    "lmn_behaviour_stop": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_behaviour_count": (c_size_t, [c_void_p]),
     "lmn_behaviour_root_at": (c_uint32, [c_void_p, c_size_t]),
     "lmn_dynamics_create": (c_int, [c_void_p, c_char_p, POINTER(c_void_p), POINTER(lmn_error)]),
