@@ -8,7 +8,6 @@
 #include "annotate/annotate_private.h"
 #include "base/memory.h"
 #include "export/export.h"
-#include "scene/city.h"
 #include "scene/content.h"
 
 enum { HEIGHTS = 24, SIDES = 3 };
@@ -26,15 +25,6 @@ typedef struct label_list {
     int32_t *of_node; /* per node of the scene: its label; NONE: none yet */
 } label_list;
 
-/* Is the node a kind of surface of what is above it ("roof", "wall"), which has the name that people know? */
-static bool is_surface(const node *n)
-{
-    for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, CITY_SURFACE_KEY) == 0 && n->attributes[i].value && n->name)
-            return strcmp(n->attributes[i].value, n->name) == 0;
-    return false;
-}
-
 static const char *stated_by(const node *n, const char *key)
 {
     for (size_t i = 0; i < n->attribute_count; i++)
@@ -51,7 +41,7 @@ static bool find_owner(const lmn_scene *scene, int32_t from, const char *key, in
         for (int32_t at = from; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
             const node *n = &scene->nodes[at];
             *index = at;
-            *text = !called ? stated_by(n, key) : !is_surface(n) && n->name && n->name[0] ? n->name : NULL;
+            *text = !called ? stated_by(n, key) : !node_is_surface(n) && n->name && n->name[0] ? n->name : NULL;
             if (*text)
                 return true;
         }

@@ -26,6 +26,37 @@ static double lowest_of(const fit_body *body, int up)
     return view.middle[up] - reach[1].minus[0];
 }
 
+static double bottom_of(const pose *posed, size_t part_index, int up)
+{
+    vec3 low = posed->part_boxes[part_index].min;
+    return (double)(up == 2 ? low.z : low.y);
+}
+
+/* The surfaces of one building, as importers of cities name them, are one thing: a roof stands on its walls. */
+static bool are_one(const lmn_scene *scene, size_t a, size_t b)
+{
+    const node *x = &scene->nodes[scene->parts[a].node], *y = &scene->nodes[scene->parts[b].node];
+    return x->parent == y->parent && node_is_surface(x) && node_is_surface(y);
+}
+
+/* Does most of what is drawn stand on the plane? */
+static bool stands_level(const plan *p, const ground_plane *g)
+{
+    static const double NEARLY = 0.003, MOST = 0.7; /* of the diagonal; of all things */
+    size_t              count = p->scene->part_count, things = 0, level = 0;
+    for (size_t i = 0, end; i < count; i = end) {
+        double lowest = INFINITY;
+        for (end = i + 1; end < count && are_one(p->scene, i, end);)
+            end++;
+        for (size_t k = i; k < end; k++)
+            if (p->selected[k] && !box3_is_empty(p->pose->part_boxes[k]))
+                lowest = fmin(lowest, bottom_of(p->pose, k, g->up));
+        things += isfinite(lowest);
+        level += lowest <= g->level + NEARLY * g->size;
+    }
+    return (double)level >= MOST * (double)things;
+}
+
 ground_plane ground_find(const plan *p, const view_camera *camera)
 {
     const scene_values *v = p->look->wide[KIND_SCENE].values;
@@ -35,6 +66,7 @@ ground_plane ground_find(const plan *p, const view_camera *camera)
     out.size = box3_diagonal(p->fit.box);
     out.level = lowest_of(&p->fit, out.up);
     out.reach = (double)v->ground_reach * out.size;
-    out.there = isfinite(out.level) && out.size > 0 && is_seen_from_above(camera, out.up, out.level, out.size);
+    out.there = isfinite(out.level) && out.size > 0 && is_seen_from_above(camera, out.up, out.level, out.size) &&
+                (v->ground != GROUND_CAST || stands_level(p, &out));
     return out;
 }

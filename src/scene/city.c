@@ -1,5 +1,7 @@
 #include "scene/city.h"
 
+#include "scene/scene.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -227,4 +229,12 @@ uint8_t city_word_of_class(const char *name, size_t size)
         if (strlen(classes[i].name) == size && memcmp(classes[i].name, name, size) == 0)
             return classes[i].word;
     return CITY_NO_WORD;
+}
+
+bool node_is_surface(const node *n)
+{
+    for (size_t i = 0; i < n->attribute_count; i++)
+        if (strcmp(n->attributes[i].key, CITY_SURFACE_KEY) == 0 && n->attributes[i].value && n->name)
+            return strcmp(n->attributes[i].value, n->name) == 0;
+    return false;
 }

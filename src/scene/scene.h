@@ -338,6 +338,8 @@ size_t scene_part_of_ghost(const lmn_scene *scene, size_t ghost_index);
 
 /* How many times a node's mesh is drawn: its instances, or once. */
 size_t node_draw_count(const node *n);
+/* Is the node a kind of surface of what is above it ("roof", "wall"), which has the name that people know? */
+bool node_is_surface(const node *n);
 /* Does it lie over the picture, which is not fitted to it? Attribute NODE_OVERLAY. */
 #define NODE_OVERLAY "overlay"
 bool node_is_overlay(const node *n);

@@ -97,9 +97,9 @@ vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
 vec3 windows_far(vec3 shade, vec3 tone, vec2 cells)
 {
     vec2 along = v_wall.xy * cells, cell = floor(along);
-    bool inside = all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, cells));
+    vec4 own = window_of(ivec2(cell), ivec2(cells), 1u);
     vec4 mean_of = window_of(ivec2(0, 1), ivec2(1, 2), 1u);
-    float area = inside ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
+    float area = own.z > own.x ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
     return mix(shade, shown(mix(u_glass.rgb * tone, u_lit.rgb, u_occupancy)), area);
 }
 

@@ -469,11 +469,42 @@ static void cast_shadows_are_where_rays_say(void)
     shape_release(&model);
 }
 
+/* Things that stand at different heights would throw their shadows far below themselves. */
+static void cast_shadows_need_a_level(void)
+{
+    for (int lifted = 0; lifted < 2; lifted++) {
+        shape model = {0};
+        shot  got;
+        for (int i = 0; i < 4; i++) {
+            double low = lifted && i > 1 ? 1.5 : 0;
+            char   name[16];
+            snprintf(name, sizeof name, "block%d", i);
+            shape_box(&model, name, dvec_of(1.2 * i - 2, low, -0.3), dvec_of(1.2 * i - 1.6, low + 1, 0.3));
+        }
+        if (shoot_cast(&got, &model, "\"ground_strength\":1", false)) {
+            int dark = 0;
+            for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++)
+                dark += !got.id[i] && got.picture[4 * i] < 128;
+            if (lifted)
+                check_at_most("ground", dark, 0, "pixels of shadow where half of all stands higher");
+            else
+                check_at_least("ground", dark, 500, "pixels of shadow where all stands on one level");
+            shot_release(&got);
+        }
+        shape_release(&model);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"law", the_law_holds},      {"floating", floating_has_none}, {"nothing", nothing_else_changes},
-        {"flat", flat_has_one_tone}, {"media", media_draw_it},        {"cast", cast_shadows_are_where_rays_say},
+        {"law", the_law_holds},
+        {"floating", floating_has_none},
+        {"nothing", nothing_else_changes},
+        {"flat", flat_has_one_tone},
+        {"media", media_draw_it},
+        {"cast", cast_shadows_are_where_rays_say},
+        {"level", cast_shadows_need_a_level},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -72,6 +72,8 @@ static const struct {
     {"motion", "vibration_apart", "likewise"},
     {"surface", "frame", "windows are too small here to have frames; analytic.city has some that do"},
     {"surface", "frame_colour", "likewise"},
+    {"surface", "bars", "likewise"},
+    {"scene", "ground_edge", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "datum_other", "every part has a height; analytic.city has one without a value"},
     {"finish", "label_size", "nothing is written here; unit.annotate_test has labels"},
     {"finish", "legend", "no datum is shown here; unit.annotate_test has one"},
