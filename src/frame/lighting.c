@@ -64,6 +64,8 @@ void shadow_set(frame *f)
         }
     gpu_set_mat4(f->g, "u_shadow_from_eye", matrix);
     double side = gpu_texture_width(f->shadow);
+    gpu_set_float(f->g, "u_shadow_pixel",
+                  (float)(side / (f->camera.projection.m[5] * f->shadow_camera.half_height * f->height)));
     gpu_set_vec2(f->g, "u_shadow_texel", (float)(1 / side), (float)(2 * f->shadow_camera.half_height / side));
     gpu_set_texture(f->g, "t_shadow", f->shadow, false);
     double towards[3], depth = f->shadow_camera.far - f->shadow_camera.near;

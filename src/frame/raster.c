@@ -549,7 +549,8 @@ static bool joins(frame *f, const raster_job *job, const figure_state *s, const 
 {
     const draw_item *first = last->first;
     if (!first || !item->has_key || !first->has_key || last->owner != s || (job->stack && !job->node_vectors) ||
-        job->at.velocity >= 0 || wants_light_map(job, s, item) || !gpu_meshes_together(first->mesh, item->mesh) || first->surface_id != item->surface_id)
+        job->at.velocity >= 0 || wants_light_map(job, s, item) || !gpu_meshes_together(first->mesh, item->mesh) ||
+        first->surface_id != item->surface_id)
         return false;
     bool datum = shows_datum(f, item), plain = !item->has_uvs && !item->has_colours;
     if (uses_facts(f, job, s, item) ? datum != last->has_datum && !plain : job->pass->colour_count || job->node_vectors)

@@ -2,6 +2,7 @@
 #ifdef HAS_SHADOW
 uniform mat4 u_shadow_from_eye;  /* to 0 … 1 in all three */
 uniform vec2 u_shadow_texel;     /* side of a texel: of the map, and in eye space */
+uniform float u_shadow_pixel;    /* side of a pixel of the page, in texels, in perspective at distance 1 */
 
 /* One comparison, for the few positions that nothing better is known of. */
 float lit_once(vec3 eye, vec3 normal)
@@ -20,25 +21,27 @@ vec2 shadow_slope(vec3 normal)
     return -turned * u_shadow_texel.x / (facing < 0.0 ? min(facing, -1e-6) : max(facing, 1e-6));
 }
 
-/* The mean of comparisons over three texels by three, of which a pixel of the page has four by four: the border of a shadow has no steps on the page,
- * and what is finer than a pixel is a tone. Each is made with the surface's own plane. */
+/* The mean of comparisons over the side of a pixel, one texel to three: the border of a shadow has no steps on the page, and what is finer than a pixel is a
+ * tone. */
 float lit_fraction(vec3 eye, vec3 normal, vec3 light)
 {
-    /* Off the surface by as much as a texel of it can rise. */
+    /* Off the surface by as much as a texel of it can rise; what is looked at farther away is so by its plane. */
     float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
     vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 1.5 * slope)), 1.0)).xyz;
-    vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low, rise = shadow_slope(normal);
+    vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low;
     ivec2 position = ivec2(low) - 1, last = textureSize(t_shadow, 0) - 1;
-    float sum = 0.0;
-    vec4 across = vec4(1.0 - fraction.x, 1.0, 1.0, fraction.x), along = vec4(1.0 - fraction.y, 1.0, 1.0, fraction.y);
-    vec4 depths = at.z + rise.x * (vec4(-1.0, 0.0, 1.0, 2.0) - fraction.x);
+    float side = clamp(u_shadow_pixel * (u_perspective > 0.5 ? -eye.z : 1.0), 1.0, 3.0), reach = 0.5 * side + 0.5, sum = 0.0;
+    vec2 rise = shadow_slope(normal) * min(side - 1.0, 1.0);
+    const vec4 steps = vec4(-1.0, 0.0, 1.0, 2.0);
+    vec4 across = clamp(reach - abs(steps - fraction.x), 0.0, 1.0), along = clamp(reach - abs(steps - fraction.y), 0.0, 1.0);
+    vec4 depths = at.z + rise.x * (steps - fraction.x);
     for (int row = 0; row < 4; row++) {
         vec4 nearest;
         for (int column = 0; column < 4; column++)
             nearest[column] = texelFetch(t_shadow, clamp(position + ivec2(column, row), ivec2(0), last), 0).r;
         /* Beyond all that throws shadows, where nothing is nothing is in the way. */
-        sum += along[row] * dot(step(min(depths + rise.y * (float(row - 1) - fraction.y), 1.0), nearest), across);
+        sum += along[row] * dot(step(min(depths + rise.y * (steps[row] - fraction.y), 1.0), nearest), across);
     }
-    return sum / 9.0;
+    return sum / (side * side);
 }
 #endif

@@ -334,7 +334,7 @@ static void shadows_are_where_rays_say(void)
             light_map_shadows(&m, &l, &with, 1, 5);
             light_score score = light_compare(&m);
             check_at_least("C04", score.positions, 5000, "positions compared (%s)", views[i].name);
-            check_at_most("C04", score.far, 0.005, "fraction of them that is lit or in shadow and should not be");
+            check_at_most("C04", score.wrong, 0.005, "fraction of them that is lit or in shadow and should not be");
             light_map_release(&m);
             shot_release(&without);
         }

@@ -181,11 +181,13 @@ light_score light_compare(const light_map *m)
         score.mean += off;
         score.worst = fmax(score.worst, off);
         score.far += off > 0.25;
+        score.wrong += off > 0.5;
         score.positions++;
     }
     if (score.positions) {
         score.mean /= score.positions;
         score.far /= score.positions;
+        score.wrong /= score.positions;
     }
     return score;
 }

@@ -38,6 +38,7 @@ void light_map_release(light_map *m);
 typedef struct light_score {
     double mean, worst; /* difference */
     double far;         /* fraction of positions that are off by more than a quarter */
+    double wrong;       /* … that are lit where they should not be, or the other way round: by more than a half */
     int    positions;
 } light_score;
 light_score light_compare(const light_map *m);
