@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/groups.h"
 #include "light/light.h"
 
 /* Rays that rise or fall by less than this see the plane edge on: 1 degree. */
@@ -26,10 +27,9 @@ static double lowest_of(const fit_body *body, int up)
     return view.middle[up] - reach[1].minus[0];
 }
 
-static double bottom_of(const pose *posed, size_t part_index, int up)
+static double bottom_of(box3 box, int up)
 {
-    vec3 low = posed->part_boxes[part_index].min;
-    return (double)(up == 2 ? low.z : low.y);
+    return (double)(up == 2 ? box.min.z : box.min.y);
 }
 
 /* The surfaces of one building, as importers of cities name them, are one thing: a roof stands on its walls. */
@@ -39,22 +39,64 @@ static bool are_one(const lmn_scene *scene, size_t a, size_t b)
     return x->parent == y->parent && node_is_surface(x) && node_is_surface(y);
 }
 
+enum { TOUCHING_MOST = 256 /* things of which it is looked whether they touch */ };
+static const double NEARLY = 0.003, MOST = 0.7; /* of the diagonal; of all things */
+
+/* What touches is one thing: wheels and what they carry. */
+static void join_touching(uint32_t *links, const box3 *boxes, uint32_t count, float near)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = i + 1; k < count; k++) {
+            box3 wide = {{boxes[i].min.x - near, boxes[i].min.y - near, boxes[i].min.z - near},
+                         {boxes[i].max.x + near, boxes[i].max.y + near, boxes[i].max.z + near}};
+            if (box3_overlap(wide, boxes[k]))
+                group_join(links, i, k);
+        }
+}
+
+/* How many of the groups of things there are, as a fraction, have one that stands. */
+static double share_of_groups(uint32_t *links, const bool *stands, uint32_t count)
+{
+    bool     found[TOUCHING_MOST] = {false};
+    uint32_t groups = 0, level = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t root = group_root(links, i);
+        groups += root == i;
+        level += stands[i] && !found[root];
+        found[root] = found[root] || stands[i];
+    }
+    return groups ? (double)level / groups : 1;
+}
+
 /* Does most of what is drawn stand on the plane? */
 static bool stands_level(const plan *p, const ground_plane *g)
 {
-    static const double NEARLY = 0.003, MOST = 0.7; /* of the diagonal; of all things */
-    size_t              count = p->scene->part_count, things = 0, level = 0;
+    size_t   count = p->scene->part_count, things = 0, level = 0;
+    box3     boxes[TOUCHING_MOST];
+    uint32_t links[TOUCHING_MOST];
+    bool     stands[TOUCHING_MOST];
     for (size_t i = 0, end; i < count; i = end) {
-        double lowest = INFINITY;
+        box3 box = box3_empty();
         for (end = i + 1; end < count && are_one(p->scene, i, end);)
             end++;
         for (size_t k = i; k < end; k++)
-            if (p->selected[k] && !box3_is_empty(p->pose->part_boxes[k]))
-                lowest = fmin(lowest, bottom_of(p->pose, k, g->up));
-        things += isfinite(lowest);
-        level += lowest <= g->level + NEARLY * g->size;
+            if (p->selected[k])
+                box = box3_union(box, p->pose->part_boxes[k]);
+        if (box3_is_empty(box))
+            continue;
+        bool stand = bottom_of(box, g->up) <= g->level + NEARLY * g->size;
+        if (things < TOUCHING_MOST) {
+            boxes[things] = box;
+            links[things] = (uint32_t)things;
+            stands[things] = stand;
+        }
+        things++;
+        level += stand;
     }
-    return (double)level >= MOST * (double)things;
+    if (things > TOUCHING_MOST)
+        return (double)level >= MOST * (double)things;
+    join_touching(links, boxes, (uint32_t)things, (float)(NEARLY * g->size));
+    return share_of_groups(links, stands, (uint32_t)things) >= MOST;
 }
 
 ground_plane ground_find(const plan *p, const view_camera *camera)
