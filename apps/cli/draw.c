@@ -244,8 +244,7 @@ static int worse_of(int a, int b)
     return a > b ? a : b;
 }
 
-/* Would the next input fail for the same reason? A selection or a camera may be missing in this one alone. */
-static bool is_final(int status)
+bool draw_is_final(int status)
 {
     return status == EXIT_GL || status == EXIT_CANCELLED || status == EXIT_INTERNAL;
 }
@@ -403,7 +402,7 @@ static int draw_all(draw_session *s, const word_list *inputs)
     int status = EXIT_DONE;
     if (!name_has_name(s->values->output))
         return draw_scene(s, inputs->items, inputs->count);
-    for (size_t i = 0; i < inputs->count && !is_final(status); i++)
+    for (size_t i = 0; i < inputs->count && !draw_is_final(status); i++)
         status = worse_of(status, progress_cancelled() ? EXIT_CANCELLED : draw_scene(s, &inputs->items[i], 1));
     return status;
 }

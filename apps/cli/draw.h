@@ -48,4 +48,7 @@ int draw_check(draw_session *s, const word_list *inputs);
 /* Draws; with `depicts` signs of what happens, too. Prints what goes wrong; exit status. */
 int draw_run(const word_list *inputs, const draw_values *v, bool depicts);
 
+/* Would the next input fail for the same reason? A selection or a camera may be missing in this one alone. */
+bool draw_is_final(int status);
+
 #endif

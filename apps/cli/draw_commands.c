@@ -3,6 +3,7 @@
 
 #include "cli.h"
 #include "depict.h"
+#include "names.h"
 #include "sets.h"
 
 #include <stdio.h>
@@ -112,28 +113,63 @@ static int run(const word_list *inputs, const void *values)
     return draw_run(inputs, values, false);
 }
 
-/* What a script says counts where the command line says nothing. */
-static int run_depict(const word_list *inputs, const void *values)
+/* What the first of the files that says anything of its still says. Exit status; release it also after one. */
+static int find_depiction(depiction *out, const char **source, const word_list *inputs)
 {
-    draw_values full = *(const draw_values *)values;
-    depiction   d = {.look = NULL};
+    int status = EXIT_DONE;
+    *source = NULL;
+    *out = (depiction){.look = NULL};
+    for (size_t i = 0; i < inputs->count && !*source && status == EXIT_DONE; i++) {
+        depiction_release(out);
+        status = depiction_read(out, inputs->items[i]);
+        if (out->look || out->camera || out->view || out->time.given || out->has_expressions)
+            *source = inputs->items[i];
+    }
+    return status;
+}
+
+/* One still. What a script says counts where the command line says nothing. */
+static int depict_one(const word_list *inputs, const draw_values *values)
+{
+    draw_values full = *values;
+    depiction   d;
+    const char *source;
     bool        viewed = viewpoint_given(&full.viewpoint);
-    if (full.frames)
-        return message_usage("draw one with --time, or a film with `limner simulate`",
-                             "--frames does not go with depict, whose signs tell all times in one still");
-    int status = inputs->count == 1 ? depiction_read(&d, inputs->items[0]) : EXIT_DONE;
+    int         status = find_depiction(&d, &source, inputs);
     full.look = full.look ? full.look : d.look;
     full.viewpoint.camera = viewed ? full.viewpoint.camera : d.camera;
     full.time = full.time.given ? full.time : d.time;
     if (!full.expressions && d.has_expressions)
-        full.expressions = inputs->items[0];
+        full.expressions = source;
     for (int i = 0; d.view && !viewed && viewpoint_names[i]; i++)
         full.viewpoint.view = strcmp(viewpoint_names[i], d.view) == 0 ? i : full.viewpoint.view;
     if (status == EXIT_DONE && d.view && !viewed && full.viewpoint.view < 0)
-        status = message_usage(NULL, "%s: there is no view '%.60s'", inputs->items[0], d.view);
+        status = message_usage(NULL, "%s: there is no view '%.60s'", source, d.view);
     if (status == EXIT_DONE)
         status = draw_run(inputs, &full, true);
     depiction_release(&d);
+    return status;
+}
+
+/* A still of each file is what that file says; the worst of their statuses. */
+static int run_depict(const word_list *inputs, const void *values)
+{
+    const draw_values *v = values;
+    if (v->frames)
+        return message_usage("draw one with --time, or a film with `limner simulate`",
+                             "--frames does not go with depict, whose signs tell all times in one still");
+    if (inputs->count < 2 || !name_has_name(v->output))
+        return depict_one(inputs, v);
+    unsigned long same = name_find_same_stem(inputs->items, inputs->count);
+    if (same)
+        return message_usage("draw them in two runs, or rename one", "%s: another input has the same {name}",
+                             inputs->items[same]);
+    int status = EXIT_DONE;
+    for (size_t i = 0; i < inputs->count && !draw_is_final(status); i++) {
+        const word_list one = {&inputs->items[i], 1};
+        int             each = progress_cancelled() ? EXIT_CANCELLED : depict_one(&one, v);
+        status = each > status ? each : status;
+    }
     return status;
 }
 

@@ -722,7 +722,8 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
     row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.dxf' draw "$box" --look toon -o x.dxf
     row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease"'
-    row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg --set layers.count=1
+    row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg; has x.svg 'class="hidden'
+    row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
     # What has no strokes is said.
     local widget=$examples/csg/widget.csg ending
@@ -929,6 +930,11 @@ group_depict() {
     cmp -s again.png in-script.png || complain "what the script says is not what the command line says"
     row 0 '' other.png depict "$script" $small -o other.png --time 1
     cmp -s other.png in-script.png && complain "the command line does not count more than the script"
+    # Of several stills each is what its own script says, and a bad one leaves the others alone.
+    row 0 '' 'bounce.png box.png' depict "$examples/box.glb" "$script" $small -q -o '{name}.png'
+    cmp -s bounce.png in-script.png || complain "one of several stills is not what its script says"
+    sed 's/"time": 2.2/"tine": 2.2/' "$script" > in-bad.json
+    row 1 "'tine'" bounce.png depict in-bad.json "$script" $small -q -o '{name}.png'
     for script in "$examples"/scripts/*.json "$examples"/scripts/changed/*.json; do
         row 0 '' out.png depict "$script" $small -q -o out.png
     done
