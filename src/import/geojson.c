@@ -13,6 +13,7 @@
 #include "import/footprint.h"
 #include "import/geojson.h"
 #include "import/json_scan.h"
+#include "import/ring.h"
 #include "import/street.h"
 
 enum { POSITIONS_MAX = 1000000 };
@@ -304,16 +305,6 @@ static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
     return done && city_shape_end_face(&r->shape, NONE, CITY_NO_WORD, 0);
 }
 
-static bool is_inside(const double (*ring)[2], size_t count, const double at[3])
-{
-    bool inside = false;
-    for (size_t i = 0, j = count - 1; i < count; j = i++)
-        if ((ring[i][1] > at[1]) != (ring[j][1] > at[1]) &&
-            at[0] < (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
-            inside = !inside;
-    return inside;
-}
-
 /* Is there a part of the building inside? Then the parts are the building (Simple 3D Buildings). */
 static bool has_parts(const geojson_reader *r)
 {
@@ -332,7 +323,7 @@ static bool has_parts(const geojson_reader *r)
             end = middle;
     }
     for (; first < r->part_count && r->parts[first][0] <= high; first++)
-        if (is_inside((const double(*)[2])k->positions, k->counts[0], r->parts[first]))
+        if (ring_has((const double(*)[2])k->positions, k->counts[0], r->parts[first]))
             return true;
     return false;
 }

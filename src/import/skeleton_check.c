@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "import/ring.h"
 #include "import/skeleton.h"
 
 static double turn(const double a[2], const double b[2], const double c[2])
@@ -42,16 +43,6 @@ static double area_of(const double (*p)[2], size_t count)
     return area;
 }
 
-static bool is_inside(const double (*ring)[2], size_t count, const double at[2])
-{
-    bool inside = false;
-    for (size_t i = 0, j = count - 1; i < count; j = i++)
-        if ((ring[i][1] > at[1]) != (ring[j][1] > at[1]) &&
-            at[0] < (ring[j][0] - ring[i][0]) * (at[1] - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
-            inside = !inside;
-    return inside;
-}
-
 /* The outline runs anticlockwise, holes run clockwise and lie in it and not in each other. */
 static bool are_nested(const double (*p)[2], const size_t *counts, size_t rings)
 {
@@ -62,7 +53,7 @@ static bool are_nested(const double (*p)[2], const size_t *counts, size_t rings)
             return false;
         size_t other = 0;
         for (size_t j = 0; j < rings && k > 0; other += counts[j], j++)
-            if (j != k && is_inside(p + other, counts[j], p[first]) != (j == 0))
+            if (j != k && ring_has(p + other, counts[j], p[first]) != (j == 0))
                 return false;
     }
     return true;
