@@ -124,8 +124,9 @@ static char *make_unique(path_set *set, char *path)
 static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 {
     const node *n = &s->nodes[index];
-    bool        lines = n->solid == NONE && n->mesh != NONE && mesh_line_count(&s->meshes[n->mesh]) > 0;
-    return n->ghost == ghost && (lines || node_triangle_count(s, n) > 0);
+    bool        lines = n->solid == NONE && n->mesh != NONE;
+    return n->ghost == ghost &&
+           (node_triangle_count(s, n) > 0 || (lines && mesh_line_count(&s->meshes[n->mesh]) > 0));
 }
 
 static bool add_part(listing *l, int32_t index, int depth)
@@ -194,8 +195,9 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
 {
     size_t count = 0, ghosts = 0;
     for (size_t i = 0; i < s->node_count; i++) {
-        ghosts += is_part(s, (int32_t)i, true);
-        count += is_part(s, (int32_t)i, s->nodes[i].ghost);
+        bool found = is_part(s, (int32_t)i, s->nodes[i].ghost);
+        count += found;
+        ghosts += found && s->nodes[i].ghost;
     }
     listing l = {.scene = s, .prefix = prefix, .first_id = first_id};
     l.seen.capacity = 16;
