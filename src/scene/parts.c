@@ -125,8 +125,7 @@ static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 {
     const node *n = &s->nodes[index];
     bool        lines = n->solid == NONE && n->mesh != NONE;
-    return n->ghost == ghost &&
-           (node_triangle_count(s, n) > 0 || (lines && mesh_line_count(&s->meshes[n->mesh]) > 0));
+    return n->ghost == ghost && (node_triangle_count(s, n) > 0 || (lines && mesh_line_count(&s->meshes[n->mesh]) > 0));
 }
 
 static bool add_part(listing *l, int32_t index, int depth)
