@@ -976,6 +976,7 @@ group_doctor() {
     printf '#!/bin/sh\nPATH=/nosuch exec %s "$@"\n' "$command" > .alone && chmod +x .alone
     row 0 '' '' doctor; out '^  \.mp4 .* no: ffmpeg is missing \(sudo apt-get install ffmpeg\)$'
     limner=$command
+    row 0 '' '' doctor; out '^  GDAL +([0-9]+\.[0-9]+|no: .*gdal-bin)'; out '^  PROJ +([0-9]+\.[0-9]+|no: .*gdal-bin)'
     row 0 '' '' doctor --json; documented .stdout doctor.md
     # An EGL without any vendor is a machine without drivers.
     export __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing

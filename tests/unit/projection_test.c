@@ -180,8 +180,8 @@ static void faces_stay_together(void **state)
         assert_true(fabs(area_of(p) - (40000 + 50 * 0.37)) < 0.5);
         assert_true(p->index_count > 60);
         for (uint32_t i = 0; i < p->index_count; i++) {
-            vec3   a = p->straight[p->indices[i]], b = p->straight[p->indices[i % 3 == 2 ? i - 2 : i + 1]];
-            bool   rim = (a.x == b.x && fabsf(a.x) == 50) || (a.z == 0 && b.z == 0) || (a.z < -399.99f && b.z < -399.99f);
+            vec3 a = p->straight[p->indices[i]], b = p->straight[p->indices[i % 3 == 2 ? i - 2 : i + 1]];
+            bool rim = (a.x == b.x && fabsf(a.x) == 50) || (a.z == 0 && b.z == 0) || (a.z < -399.99f && b.z < -399.99f);
             size_t same = 0;
             for (uint32_t k = 0; k < p->index_count && !rim; k++) {
                 uint32_t from = p->indices[k], to = p->indices[k % 3 == 2 ? k - 2 : k + 1];
