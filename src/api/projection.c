@@ -1,6 +1,8 @@
 /* include/limner/projection.h: checks arguments and forwards. */
 #include "limner/projection.h"
 
+#include <string.h>
+
 #include "api/check_desc.h"
 #include "api/complete.h"
 #include "base/error.h"
@@ -43,18 +45,18 @@ lmn_status lmn_scene_project(lmn_scene **out, const lmn_scene *scene, lmn_draw_d
         status = check(&how, error);
     if (status == LMN_OK)
         status = check_draw_desc(&full, desc, error);
-    if (status == LMN_OK && desc->struct_size < sizeof full)
-        status = error_set(error, LMN_USAGE,
-                           "lmn_scene_project: the description is of an older library and cannot be changed");
     if (status != LMN_OK)
         return status;
     work w;
     work_begin(&w, full.progress, full.progress_user);
     status = project_scene(out, scene, &full, &how, error);
     status = work_end(&w, status, error);
-    if (status == LMN_OK)
-        *desc = full;
-    else
+    if (status == LMN_OK) { /* as much of it as the caller knows */
+        size_t known = desc->struct_size;
+        memcpy(desc, &full, known);
+        desc->struct_size = known;
+    } else {
         lmn_scene_destroy(out);
+    }
     return status;
 }

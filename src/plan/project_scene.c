@@ -174,7 +174,8 @@ static lmn_status bend_all(lmn_scene *to, const projection_map *map, const pose 
     for (size_t i = 0; i < from->node_count && status == LMN_OK; i++)
         status = copy_node(to, &from->nodes[i]) ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < from->part_count && status == LMN_OK; i++)
-        status = bend_part(to, map, p, i, error);
+        if (from->nodes[from->parts[i].node].mesh != NONE)
+            status = bend_part(to, map, p, i, error);
     if (status == LMN_OK && !copy_viewers(to, from, p))
         status = error_memory(error);
     return status == LMN_OK ? scene_finish(to, from->file_count ? from->files[0] : "", error) : status;
@@ -182,19 +183,25 @@ static lmn_status bend_all(lmn_scene *to, const projection_map *map, const pose 
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
 
-static lmn_status check(const lmn_scene *scene, const lmn_draw_desc *desc, lmn_error *error)
+static lmn_status check(const lmn_scene *scene, const lmn_draw_desc *desc, warnings *warned, lmn_error *error)
 {
     if (desc->matrices_given)
         return error_set(error, LMN_UNSUPPORTED, "a projection takes the place of the matrices that are given");
     if (desc->fit_time)
         return error_set(error, LMN_UNSUPPORTED, "a scene that is bent stands still: it cannot be fitted to all times");
-    for (size_t i = 0; i < scene->part_count; i++)
-        if (scene->nodes[scene->parts[i].node].solid != NONE) {
+    for (size_t i = 0; i < scene->part_count; i++) {
+        if (scene->nodes[scene->parts[i].node].solid == NONE)
+            continue;
+        if (desc->lenient) {
+            warnings_add(warned, WARNING_REDUCED, "part '%.100s' is a solid, which cannot be bent, and is left out",
+                         scene->parts[i].name);
+        } else {
             error_in_file(error, LMN_UNSUPPORTED, refuse_file(scene), 0,
                           "part '%.100s' is a solid of set operations, which cannot be bent", scene->parts[i].name);
             error_hint(error, "write it as a mesh first");
             return LMN_UNSUPPORTED;
         }
+    }
     return LMN_OK;
 }
 
@@ -238,7 +245,7 @@ lmn_status project_scene(lmn_scene **out, const lmn_scene *scene, lmn_draw_desc 
     moment         when;
     pose           p = {.scene = NULL};
     view_camera    viewer;
-    lmn_status     status = check(scene, desc, error);
+    lmn_status     status = check(scene, desc, &warned, error);
     if (status == LMN_OK)
         status = time_moment(&when, scene, desc, &warned, error);
     if (status == LMN_OK)
