@@ -34,8 +34,8 @@ typedef struct lmn_projection_desc {
  * as finely as the bend asks for. Light comes from where it does in the copy: in the distance it turns with the ground.
  * `desc` is changed to the view that the copy is to be drawn with. The copy has no animations.
  * Errors: LMN_USAGE (a view from straight above has no distance; panoramas need an eye and a perspective; numbers out
- * of range), LMN_UNSUPPORTED (solids, unless `lenient` leaves them out; matrices; buildings too tall for the bend), LMN_LIMIT, LMN_MEMORY. No GL context
- * needed. */
+ * of range), LMN_UNSUPPORTED (solids, unless `lenient` leaves them out; matrices; buildings too tall for the bend),
+ * LMN_LIMIT, LMN_MEMORY. No GL context needed. */
 LMN_API lmn_status lmn_scene_project(lmn_scene **out, const lmn_scene *scene, lmn_draw_desc *desc,
                                      const lmn_projection_desc *projection, lmn_error *error);
 

@@ -206,12 +206,16 @@ static corner between(const corner *a, const corner *b, double share)
 
 /* A face, or of two corners a line, and where it meets the axis of a round map. */
 typedef struct cut_face {
-    const corner *corners;
-    int           count;
-    double        frames[3][3];
-    corner        axis;
-    bool          has_axis;
+    const corner  *corners;
+    int            count;
+    double         frames[3][3];
+    corner         axis;
+    bool           has_axis;
+    const uint8_t *said; /* of its edges: what the file wants shown; NULL: it does not say */
 } cut_face;
+
+/* Of edges that a cut makes: what edge_visibility says of those of which nothing is said. */
+enum { SAID_NOTHING = 4 };
 
 enum { CUT_CORNERS_MOST = 8 };
 typedef struct cut_polygon {
@@ -282,7 +286,7 @@ static void clip(const projecting *p, const cut_face *f, cut_polygon *polygon, i
     *polygon = out;
 }
 
-static void put_triangle(projecting *p, const uint32_t numbers[3])
+static void put_triangle(projecting *p, const uint32_t numbers[3], const uint8_t said[3])
 {
     projected_primitive *to = p->to;
     if (numbers[0] == numbers[1] || numbers[1] == numbers[2] || numbers[2] == numbers[0])
@@ -292,8 +296,13 @@ static void put_triangle(projecting *p, const uint32_t numbers[3])
     else if (!mem_grow((void **)&to->out.indices, &to->index_capacity, (size_t)to->out.index_count + 3,
                        sizeof *to->out.indices))
         p->status = error_memory(p->error);
+    if (p->status == LMN_OK && said &&
+        !mem_grow((void **)&to->out.edges.values, &to->said_capacity, (size_t)to->out.index_count + 3, 1))
+        p->status = error_memory(p->error);
     if (p->status != LMN_OK)
         return;
+    if (said)
+        memcpy(&to->out.edges.values[to->out.index_count], said, 3);
     memcpy(&to->out.indices[to->out.index_count], numbers, 3 * sizeof *numbers);
     to->out.index_count += 3;
 }
@@ -312,15 +321,33 @@ static void put_line(projecting *p, const uint32_t numbers[2])
     to->out.line_count++;
 }
 
-static void put_polygon(projecting *p, const cut_polygon *polygon)
+/* What is said of the edge of the face that two corners lie on. */
+static uint8_t said_between(const cut_face *f, const placed *a, const placed *b)
+{
+    unsigned shared = a->edges & b->edges;
+    for (int e = 0; e < 3; e++)
+        if (shared & 1u << e)
+            return f->said[e];
+    return SAID_NOTHING;
+}
+
+static void put_polygon(projecting *p, const cut_face *f, const cut_polygon *polygon)
 {
     uint32_t numbers[CUT_CORNERS_MOST];
     for (int k = 0; k < polygon->count && p->status == LMN_OK; k++)
         numbers[k] = add_vertex(p, &polygon->corners[k]);
     if (polygon->count == 2 && p->status == LMN_OK)
         put_line(p, numbers);
-    for (int k = 2; k < polygon->count && p->status == LMN_OK; k++)
-        put_triangle(p, (uint32_t[]){numbers[0], numbers[k - 1], numbers[k]});
+    for (int k = 2; k < polygon->count && p->status == LMN_OK; k++) {
+        const placed *c = polygon->corners;
+        uint8_t       said[3] = {SAID_NOTHING, SAID_NOTHING, SAID_NOTHING};
+        if (f->said) {
+            said[0] = k == 2 ? said_between(f, &c[0], &c[1]) : SAID_NOTHING;
+            said[1] = said_between(f, &c[k - 1], &c[k]);
+            said[2] = k == polygon->count - 1 ? said_between(f, &c[k], &c[0]) : SAID_NOTHING;
+        }
+        put_triangle(p, (uint32_t[]){numbers[0], numbers[k - 1], numbers[k]}, f->said ? said : NULL);
+    }
 }
 
 /* Which piece a corner lies in. */
@@ -374,9 +401,9 @@ static bool is_parted(const cut_face *f)
 }
 
 /* The parts of a face in all pieces that it lies in. */
-static void cut_face_into(projecting *p, const corner *corners, int count)
+static void cut_face_into(projecting *p, const corner *corners, int count, const uint8_t *said)
 {
-    cut_face f = {.corners = corners, .count = count};
+    cut_face f = {.corners = corners, .count = count, .said = said};
     int      first = p->map->pieces, last = -1;
     for (int k = 0; k < count; k++) {
         projection_to_frame(p->map, corners[k].at, f.frames[k]);
@@ -405,7 +432,7 @@ static void cut_face_into(projecting *p, const corner *corners, int count)
         if (high != PROJECTION_NO_PLANE)
             clip(p, &f, &polygon, high, -1, PROJECTION_ON_HIGH);
         if (polygon.count >= count)
-            put_polygon(p, &polygon);
+            put_polygon(p, &f, &polygon);
     }
 }
 
@@ -468,7 +495,10 @@ lmn_status project_primitive(projected_primitive *to, const projection_map *m, c
         for (uint32_t k = 0; k < 3; k++) /* mirrored parts are turned round again */
             c[k] =
                 corner_of(from, positions, normals, world, cofactors, sign, from->indices[i + (sign < 0 ? 2 - k : k)]);
-        cut_face_into(&p, c, 3);
+        uint8_t said[3];
+        for (int k = 0; k < 3 && from->edges.values; k++) /* those of a face that is turned round, too */
+            said[k] = from->edges.values[i + (sign < 0 ? (uint32_t)(4 - k) % 3 : (uint32_t)k)];
+        cut_face_into(&p, c, 3, from->edges.values ? said : NULL);
         if (i % 3072 == 0 && p.status == LMN_OK)
             p.status = work_check(error);
     }
@@ -476,7 +506,7 @@ lmn_status project_primitive(projected_primitive *to, const projection_map *m, c
         corner ends[2];
         for (int k = 0; k < 2; k++)
             ends[k] = corner_of(from, positions, normals, world, cofactors, sign, from->lines[2 * i + (uint32_t)k]);
-        cut_face_into(&p, ends, 2);
+        cut_face_into(&p, ends, 2, NULL);
     }
     return p.status;
 }

@@ -10,7 +10,7 @@
  * LMN_MEMORY, LMN_LIMIT. */
 typedef struct projected_primitive {
     primitive out;
-    size_t    vertex_capacity, index_capacity, line_capacity;
+    size_t    vertex_capacity, index_capacity, line_capacity, said_capacity;
     uint32_t *slots; /* open addressing: vertices by what they are */
     size_t    slot_count;
 } projected_primitive;
