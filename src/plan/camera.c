@@ -141,7 +141,8 @@ static bool find_shadow(mat4 *out, const fit_body *body, const fit_view *view)
     const float           *first = lights.positions[0];
     double                 towards[3], across = 0;
     for (int k = 0; k < 3; k++) {
-        towards[k] = view->right[k] * (double)first[0] + view->up[k] * (double)first[1] - view->forward[k] * (double)first[2];
+        towards[k] =
+            view->right[k] * (double)first[0] + view->up[k] * (double)first[1] - view->forward[k] * (double)first[2];
         across += k == g->up ? 0 : towards[k] * towards[k];
     }
     double rise = fmax(towards[g->up], sqrt(across) / LONGEST_SHADOW);

@@ -18,16 +18,16 @@ typedef struct fit_body {
     const pose     *pose;
     const lmn_look *look; /* whose light throws the shadow; NULL: there is none */
     fit_ground      ground;
-    const bool *fitted;      /* per part, ghosts behind; NULL: nothing */
-    const box3 *ghost_boxes; /* per part: of ghosts, what of them counts */
-    size_t      part_count;
-    box3        box; /* of all that, world axes */
+    const bool     *fitted;      /* per part, ghosts behind; NULL: nothing */
+    const box3     *ghost_boxes; /* per part: of ghosts, what of them counts */
+    size_t          part_count;
+    box3            box; /* of all that, world axes */
 } fit_body;
 
 /* A view's axes, and the slopes of its outermost rays across and up, 0 with parallel rays. */
 typedef struct fit_view {
-    double right[3], up[3], forward[3], middle[3]; /* reaches are measured from the middle */
-    double slope[2];
+    double      right[3], up[3], forward[3], middle[3]; /* reaches are measured from the middle */
+    double      slope[2];
     const mat4 *shadow; /* what takes a position to where its shadow lies; NULL: shadows do not count */
 } fit_view;
 

@@ -72,10 +72,10 @@ static double share_of_groups(uint32_t *links, const bool *stands, uint32_t coun
 static bool stands_level(const plan *p, const fit_ground *g)
 {
     const double near = NEARLY * box3_diagonal(p->fit.box);
-    size_t   count = p->scene->part_count, things = 0, level = 0;
-    box3     boxes[TOUCHING_MOST];
-    uint32_t links[TOUCHING_MOST];
-    bool     stands[TOUCHING_MOST];
+    size_t       count = p->scene->part_count, things = 0, level = 0;
+    box3         boxes[TOUCHING_MOST];
+    uint32_t     links[TOUCHING_MOST];
+    bool         stands[TOUCHING_MOST];
     for (size_t i = 0, end; i < count; i = end) {
         box3 box = box3_empty();
         for (end = i + 1; end < count && are_one(p->scene, i, end);)

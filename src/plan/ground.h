@@ -19,9 +19,9 @@ typedef struct ground_plane {
  * `p->fit.ground`. */
 void ground_settle(plan *p);
 
-/* After that. Not there where the look wants none, where the viewer looks from below or along it, and in sections; for a light's
- * shadow not either where things stand at different heights. What is drawn
- * stands on it by its lowest vertex; what is fitted to all times, by where that comes lowest. */
+/* After that. Not there where the look wants none, where the viewer looks from below or along it, and in sections; for
+ * a light's shadow not either where things stand at different heights. What is drawn stands on it by its lowest vertex;
+ * what is fitted to all times, by where that comes lowest. */
 ground_plane ground_find(const plan *p, const view_camera *camera);
 
 #endif

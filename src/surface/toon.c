@@ -4,8 +4,10 @@
 
 typedef struct toon {
     int32_t bands;
-    float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness;
-    bool    seed_blur;
+    float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness, blacks, feather,
+        spacing;
+    colour ink;
+    bool   seed_blur;
 } toon;
 
 static const param params[] = {
@@ -34,6 +36,16 @@ static const param params[] = {
                     .doc = "No fill is shown darker than this, so that ink stays legible on it."),
     PARAM_FLOAT_ROW(toon, lightness, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Mixes the model's colours towards white: a thin wash of them."),
+    PARAM_FLOAT_ROW(toon, blacks, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What is turned away from the first light is filled with ink: 1 all of it, less what is "
+                           "turned farther; 0 nothing."),
+    PARAM_FLOAT_ROW(toon, feather, .def = 0, .min = 0, .max = 1, .soft_max = 0.5, .unit = UNIT_FRACTION,
+                    .doc = "How far tapering strokes reach from the blacks towards the light, fraction of the way to "
+                           "what faces it."),
+    PARAM_FLOAT_ROW(toon, spacing, .def = 3.5, .min = 0.5, .max = 50, .soft_max = 9, .unit = UNIT_PT,
+                    .only_if = "feather>0", .doc = "Distance of those strokes from each other, at most."),
+    PARAM_COLOUR_ROW(toon, ink, .def_colour = {13 / 255.0F, 11 / 255.0F, 18 / 255.0F, 1}, .only_if = "blacks>0",
+                     .doc = "Ink of the blacks."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
                    .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
                           "border's own distance."),
