@@ -111,16 +111,14 @@ float stripe(float along)
     return strength * (1.0 - abs(2.0 * fract(along) - 1.0));
 }
 
-const float SHADOW_FEATHER = 0.8; /* of the way from the blacks to where strokes end */
-
 /* An inker's blacks: the fraction of the pixel that is ink. Strokes that feather them lie in planes of light: on any form these cross the border of light
- * and shadow at right angles. They keep their distance on the page within a factor of two: where it would grow beyond that, others come between. What the light does not reach has the ends of such strokes at least. */
-float inked(surface_point p, float lit, float slope)
+ * and shadow at right angles. They keep their distance on the page within a factor of two: where it would grow beyond that, others come between. `slope`: how fast the form
+ * turns towards the light here, by a pixel. */
+float inked(surface_point p, float slope)
 {
     vec3 light = towards_light(0, p.eye);
-    float turned = 0.5 + 0.5 * dot(p.normal, light), reach = 0.0, reach_slope = 0.0;
-    turned = mix(min(turned, 0.5 * u_blacks + SHADOW_FEATHER * u_feather), turned, lit);
-    if (turned > 0.5 * u_blacks + u_feather + slope)
+    float beyond = 0.5 + 0.5 * dot(p.normal, light) - 0.5 * u_blacks, reach = 0.0, reach_slope = 0.0;
+    if (beyond > slope + u_feather)
         return 0.0;
     if (u_feather > 0.0) {
         vec3 first = normalize(cross(light, abs(light.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0))), second = cross(light, first);
@@ -133,7 +131,7 @@ float inked(surface_point p, float lit, float slope)
         reach_slope = u_feather * slope_along / pitch * (2.0 - part);
     }
     float width = max(length(vec2(slope, reach_slope)), 1e-4);
-    return clamp((0.5 * u_blacks + reach - turned) / width + 0.5, 0.0, 1.0);
+    return clamp((reach - beyond) / width + 0.5, 0.0, 1.0);
 }
 
 vec4 surface_colour(surface_point p)
@@ -166,7 +164,8 @@ vec4 surface_colour(surface_point p)
 #else
     float slope = fwidth(light), dark_slope = fwidth(dark);
 #endif
-    float brightness = mix(u_shadow, u_light, u_bands > 1 ? mix(banded(dark, dark_slope), banded(light, slope), lit) : 1.0);
+    float tone = u_bands > 1 ? mix(banded(dark, dark_slope), banded(light, slope), lit) : 1.0;
+    vec3 brightness = mix(u_shadow, u_light, tone) * mix(u_shade.rgb, vec3(1.0), tone);
     float grey = dot(p.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
     vec3 colour = max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0)) * brightness;
     colour = light_shown_as(min(legible(shown(min(colour, vec3(1.0)))), vec3(1.0)));
@@ -176,12 +175,14 @@ vec4 surface_colour(surface_point p)
     }
     colour = shown(min(colour, vec3(1.0)));
     if (u_blacks > 0.0 || u_feather > 0.0) {
+        vec3 towards = towards_light(0, p.eye);
 #ifdef SHADED_LATER
-        float turning = 0.5 * length(vec2(dot(right.normal - p.normal, towards_light(0, p.eye)), dot(above.normal - p.normal, towards_light(0, p.eye))));
+        vec2 gradient = 0.5 * vec2(dot(right.normal - p.normal, towards), dot(above.normal - p.normal, towards));
 #else
-        float turning = 0.5 * fwidth(dot(p.normal, towards_light(0, p.eye)));
+        float turned = dot(p.normal, towards);
+        vec2 gradient = 0.5 * vec2(dFdx(turned), dFdy(turned));
 #endif
-        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, first * lit, turning));
+        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, length(gradient)));
     }
     return vec4(colour, 1.0);
 }

@@ -338,6 +338,28 @@ static void flat_faces_stay_flat(void)
     shape_release(&s);
 }
 
+/* The darkest tone has the shade's colour, the lightest the surface's own. */
+static void shade_tints_the_dark(void)
+{
+    uint32_t colours[64];
+    int      pixels[64];
+    shot     s;
+    if (take_ball(&s,
+                  surface_look("{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"saturation\":1,"
+                               "\"shadow\":0.5,\"shade\":\"#8080ff\"}",
+                               "0.8,0.6,0", 0),
+                  NULL)) {
+        check_near("E12", colours_of(&s, colours, pixels, 64), 2, 0, "tones with a shade");
+        for (int k = 0; k < 2; k++) {
+            const uint8_t *c = (const uint8_t *)&colours[k];
+            bool           dark = c[0] < 200;
+            check_near("E12", picture_linear(c[0]) / picture_linear(c[2]), dark ? picture_linear(0x80) : 1, 0.01,
+                       "red of the %s tone beside its blue", dark ? "dark" : "light");
+        }
+    }
+    shot_release(&s);
+}
+
 /* --- An inker's blacks ------------------------------------------------------------------------------------ */
 
 static const double light_of_blacks[3] = {0.8, 0.6, 0};
@@ -427,42 +449,6 @@ static void feathers_taper(void)
             worst = fmax(worst, fabs(ink[k] / pixels[k] - reaching((k - 0.5) / BINS)));
     check_at_most("S1", worst, 0.08, "share of ink on the way from the blacks into the light, beside tapering strokes");
     check_at_most("S1", ink[BINS + 1], 0, "ink in the light");
-}
-
-/* Share of ink in a square of the page around a place, half heights of the picture. */
-static double ink_around(const shot *s, double x, double y, double half)
-{
-    double sum = 0, count = 0, size = 1 / (8 * tan(9 * PI / 180));
-    for (int row = 0; row < 256; row++)
-        for (int column = 0; column < 256; column++)
-            if (fabs((column + 0.5) / 128 - 1 - x * size) < half * size &&
-                fabs(1 - (row + 0.5) / 128 - y * size) < half * size) {
-                sum += ink_at(s, row * 256 + column);
-                count++;
-            }
-    return count > 0 ? sum / count : 0;
-}
-
-/* A block throws its shadow on a wall behind it that faces the light. */
-static void shadows_are_hatched(void)
-{
-    shape s = {0};
-    shot  drawing;
-    char  look[512];
-    shape_box(&s, "wall", dvec_of(-1.2, -1.2, -1), dvec_of(1.2, 1.2, -0.9));
-    shape_box(&s, "block", dvec_of(-0.3, -0.3, 0), dvec_of(0.3, 0.3, 0.2));
-    snprintf(look, sizeof look,
-             "{\"version\":1,\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"0.5,0.3,0.8\","
-             "\"shadows\":true,\"fill\":0},\"rules\":[{\"surface\":{\"technique\":\"toon\",\"bands\":1,\"light\":1,"
-             "\"highlight\":0,\"ink\":\"#000000\",\"blacks\":0.3,\"feather\":0.2,\"spacing\":\"8px\"}}]}");
-    if (shot_of_shape(&drawing, &s, "wall.glb", look, NULL, &front)) {
-        double ink = ink_around(&drawing, -0.56, -0.34, 0.2);
-        check_at_least("S1", ink, reaching(0.85), "share of ink in a shadow on a wall");
-        check_at_most("S1", ink, reaching(0.7), "  and no more than strokes have there");
-        check_near("S1", ink_around(&drawing, 0.7, 0.7, 0.2), 0, 0, "  beside it");
-    }
-    shot_release(&drawing);
-    shape_release(&s);
 }
 
 /* In the middle of the ball's dark border strokes run along the light as the page shows it. */
@@ -706,9 +692,9 @@ int main(int argc, char **argv)
         {"borders", tone_borders},
         {"blur", blur_is_a_box},
         {"flat", flat_faces_stay_flat},
+        {"shade", shade_tints_the_dark},
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
-        {"feathers-shadow", shadows_are_hatched},
         {"feathers-cross", feathers_cross_the_border},
         {"gooch", gooch_ramp},
         {"gooch-lines", gooch_lines},
