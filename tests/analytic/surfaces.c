@@ -338,6 +338,45 @@ static void flat_faces_stay_flat(void)
     shape_release(&s);
 }
 
+/* The lines of a dark floor, and a light plate so close above it that on the page it is hardly a pixel up: none shows
+ * through, and the floor beside it has them all. */
+static void lines_are_hidden_by_what_lies_close(void)
+{
+    const char *look =
+        surface_look("{\"technique\":\"lines\",\"ink\":\"#ff0000\",\"scale\":\"5px\",\"texture\":1}", "0,1,1", 0.5);
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        shot_view view = {.width = 256,
+                          .height = 256,
+                          .eye = {5, 5, 5},
+                          .up = {0, 1, 0},
+                          .orthographic = orthographic,
+                          .fov_deg = 18};
+        shape     s = {0};
+        shot      drawing;
+        int       red[2] = {0}, seen[2] = {0};
+        shape_box(&s, "floor", dvec_of(-1, -0.1, -1), dvec_of(1, 0, 1));
+        for (int k = 0; k < 3; k++)
+            s.parts[0].colour[k] = 0.1f;
+        shape_box(&s, "plate", dvec_of(-0.6, 0.012, -0.6), dvec_of(0.6, 0.014, 0.6));
+        if (shot_of_shape(&drawing, &s, "plates.glb", look, NULL, &view))
+            for (int i = 3 * 256; i < 253 * 256; i++) {
+                /* Whether a line is hidden is asked at its axis: half of its width may stand over an edge. */
+                bool within = drawing.id[i] == drawing.id[i + 3] && drawing.id[i] == drawing.id[i - 3] &&
+                              drawing.id[i] == drawing.id[i + 3 * 256] && drawing.id[i] == drawing.id[i - 3 * 256];
+                if (!within || isinf(drawing.depth[i]) || drawing.normal[i][1] < 0.5f)
+                    continue;
+                int plate = drawing.id[i] == 2;
+                seen[plate]++;
+                red[plate] += drawing.picture[4 * i + 1] < 200;
+            }
+        check_at_least("EX-14", seen[1], 2000, "pixels of a plate above a floor");
+        check_at_most("EX-14", red[1], 0, "  with ink of the floor's lines");
+        check_at_least("EX-14", (double)red[0] / fmax(seen[0], 1), 0.3, "share of the floor beside it that is inked");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
 /* The darkest tone has the shade's colour, the lightest the surface's own. */
 static void shade_tints_the_dark(void)
 {
@@ -693,6 +732,7 @@ int main(int argc, char **argv)
         {"blur", blur_is_a_box},
         {"flat", flat_faces_stay_flat},
         {"shade", shade_tints_the_dark},
+        {"hidden", lines_are_hidden_by_what_lies_close},
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},
