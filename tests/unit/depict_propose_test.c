@@ -317,7 +317,7 @@ static void controls_in_names_are_shown(void **state)
     lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
     lmn_draw_desc   draw = seen_at(1);
     desc.expressions = "[{\"target\": \"a\\u001b[31mb\\u0007\\u009b\", \"depict\": \"path\"}]";
-    assert_int_equal(lmn_depict(s, &draw, &desc, NULL, &error), LMN_USAGE);
+    assert_int_equal(lmn_depict(s, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "a\\x1b[31mb\\x07\\x9b"));
     lmn_scene_destroy(&s);
 }
