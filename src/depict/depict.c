@@ -215,32 +215,31 @@ static void say_without_sign(const depict_job *j, const expression *e)
                  j->nothing[0] ? j->nothing : "nothing of it happens in its interval");
 }
 
-static lmn_status make_one(depict_job *j, const expression *e, bool says, lmn_error *error)
+static lmn_status make_one(depict_job *j, const expression *e, lmn_error *error)
 {
     const size_t before = j->glyph_count;
     j->nothing[0] = '\0';
     lmn_status status = e->row->depict(j, e, error);
     if (status != LMN_OK)
         return expression_blame(e, j->scene, status, error);
-    if (says && j->glyph_count == before)
+    if (j->says && j->glyph_count == before)
         say_without_sign(j, e);
     return LMN_OK;
 }
 
-/* `says`: it is told which expressions have no sign. */
-static lmn_status make_glyphs(depict_job *j, const expression_list *expressions, bool says, lmn_error *error)
+static lmn_status make_glyphs(depict_job *j, const expression_list *expressions, lmn_error *error)
 {
     lmn_status status = LMN_OK;
     for (int last = 0; last < 2; last++)
         for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
             if (expressions->items[i].row->last == (last != 0))
-                status = make_one(j, &expressions->items[i], says, error);
+                status = make_one(j, &expressions->items[i], error);
     return status;
 }
 
 /* Glyphs have room on the page, so that the viewer steps back for them; they are made anew for where it is then. */
 static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressions, const lmn_draw_desc *desc,
-                                 bool says, lmn_error *error)
+                                 lmn_error *error)
 {
     preview    with;
     lmn_status status = preview_open(&with, j, expressions, error);
@@ -248,7 +247,7 @@ static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressio
         status = place_viewer(j, &with.scene, desc, error);
     preview_release(&with);
     glyphs_release(j);
-    return status == LMN_OK ? make_glyphs(j, expressions, says, error) : status;
+    return status == LMN_OK ? make_glyphs(j, expressions, error) : status;
 }
 
 lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
@@ -270,9 +269,11 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     if (status == LMN_OK)
         status = place_viewer(&j, scene, desc, error);
     if (status == LMN_OK)
-        status = make_glyphs(&j, expressions, false, error);
-    for (int pass = 0; pass < PASSES && status == LMN_OK; pass++)
-        status = turn_to_viewer(&j, expressions, desc, pass + 1 == PASSES, error);
+        status = make_glyphs(&j, expressions, error);
+    for (int pass = 0; pass < PASSES && status == LMN_OK; pass++) {
+        j.says = pass + 1 == PASSES;
+        status = turn_to_viewer(&j, expressions, desc, error);
+    }
     depict_poses_release(&poses);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);

@@ -648,6 +648,8 @@ static void expressions_without_signs_are_said(void **state)
         {"[{\"target\": \"ball\", \"depict\": \"explode\"}]", "has no sign: there are no two things below it"},
         {"[{\"target\": \"ball\", \"depict\": \"path\"}, {\"target\": \"ball\", \"depict\": \"split-path\"}]",
          "expression 2, 'split-path' of 'ball', has no sign"},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": 0.001, \"dash\": 0.1, \"gap\": 0.1}]",
+         "dashes; it has 2000, which are longer"},
     };
     lmn_scene *scene = ball_scene("unsaid.glb", true);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
