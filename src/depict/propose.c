@@ -73,12 +73,14 @@ static lmn_status find_patterns(mover *movers, size_t count, const proposal *p, 
 static lmn_status tell_groups(mover *movers, size_t count, const proposal *p, lmn_error *error)
 {
     const lmn_scene *s = p->job.scene;
-    lmn_status       status = LMN_OK;
+    bool            *asked = mem_calloc(s->node_count + 1, sizeof *asked);
+    lmn_status       status = asked ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         mover parent = {.node = s->nodes[movers[i].node].parent, .hit = NONE};
         group g;
-        if (parent.node == NONE || movers[i].grouped || movers[i].camera)
+        if (parent.node == NONE || movers[i].grouped || movers[i].camera || asked[parent.node])
             continue;
+        asked[parent.node] = true;
         status = group_find(&g, &p->job, parent.node, p->from, p->to, error);
         if (status != LMN_OK || g.kind == GROUP_NONE)
             continue;
@@ -89,6 +91,7 @@ static lmn_status tell_groups(mover *movers, size_t count, const proposal *p, lm
         else
             propose(p, &parent, "split-path", "things go together, then part; things", (double)g.things);
     }
+    mem_free(asked);
     return status;
 }
 
