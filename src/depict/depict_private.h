@@ -34,7 +34,6 @@ typedef struct depict_job {
     const expression_list *expressions; /* all that are told; lent, NULL: none */
     struct glyph          *glyphs;      /* made so far; owned */
     size_t                 glyph_count, glyph_capacity;
-    bool                   says;         /* what is made now is drawn: it is said what is not as it was asked for */
     char                   nothing[200]; /* why the expression that is told now has no sign; empty: nobody says */
 } depict_job;
 
