@@ -6,6 +6,7 @@
 #define LIMNER_DEPICT_H
 
 #include "limner/draw.h"
+#include "limner/rules.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -53,6 +54,9 @@ typedef struct lmn_depiction_info {
     size_t      param_count;
 } lmn_depiction_info;
 LMN_API bool lmn_depiction_at(size_t index, lmn_depiction_info *out);
+
+/* The parameters of one of them, as expressions have them; false when there is no such way or parameter. */
+LMN_API bool lmn_depiction_param_at(size_t index, size_t param_index, lmn_param_info *out);
 
 /* All of them with their parameters as a page of Markdown (docs/reference/depictions.md). Free with lmn_text_free.
  * NULL when memory is gone. */

@@ -9,18 +9,34 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "depict/depict.h"
+#include "look/typed.h"
 #include "look/value.h"
 #include "plan/time.h"
 
-bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
+/* NULL: there are fewer. */
+static const depiction *depiction_at(size_t index)
 {
     size_t count = 0;
     while (depictions[count])
         count++;
-    if (index >= count || !out)
+    return index < count ? depictions[index] : NULL;
+}
+
+bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
+{
+    const depiction *d = depiction_at(index);
+    if (!d || !out)
         return false;
-    const depiction *d = depictions[index];
     *out = (lmn_depiction_info){d->characteristic, d->semantics, d->doc, d->param_count};
+    return true;
+}
+
+bool lmn_depiction_param_at(size_t index, size_t param_index, lmn_param_info *out)
+{
+    const depiction *d = depiction_at(index);
+    if (!d || param_index >= d->param_count || !out)
+        return false;
+    typed_info(out, NULL, NULL, &d->params[param_index]);
     return true;
 }
 
