@@ -634,6 +634,23 @@ static void mistakes_are_said(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* An editor finds the parameters of all ways to depict, with what they are set to where nobody says it. */
+static void parameters_are_listed(void **state)
+{
+    (void)state;
+    lmn_depiction_info way;
+    lmn_param_info     p;
+    for (size_t i = 0; lmn_depiction_at(i, &way); i++) {
+        for (size_t k = 0; k < way.param_count; k++) {
+            assert_true(lmn_depiction_param_at(i, k, &p));
+            assert_string_equal(p.key, depictions[i]->params[k].key);
+            assert_true(p.doc[0] && (p.type == LMN_PARAM_TEXT || p.default_text[0]));
+        }
+        assert_false(lmn_depiction_param_at(i, way.param_count, &p));
+    }
+    assert_false(lmn_depiction_param_at(1000, 0, &p));
+}
+
 /* What is asked for and has no sign is said, with why. */
 static void expressions_without_signs_are_said(void **state)
 {
@@ -701,6 +718,7 @@ int main(void)
         cmocka_unit_test(proposals_follow_from_the_motion),
         cmocka_unit_test(mistakes_are_said),
         cmocka_unit_test(expressions_without_signs_are_said),
+        cmocka_unit_test(parameters_are_listed),
         cmocka_unit_test(missing_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
