@@ -36,7 +36,7 @@ lmn_status contact_sides_find(contact_sides *out, const lmn_scene *s, int32_t no
     }
     mem_free(worlds);
     out->radius = box3_is_empty(box) ? 0 : box3_diagonal(box) / (2 * sqrt(3));
-    out->reach = 0.1 * out->radius;
+    out->reach = CONTACT_REACH * out->radius;
     return LMN_OK;
 }
 

@@ -15,9 +15,12 @@ typedef struct contact {
     double  distance; /* of that surface from the place */
 } contact;
 
+/* How near a surface has to be to be met, in radii: round things that are no spheres have flat faces, whose middles lie
+ * so far below them where they have 13 sides. */
+#define CONTACT_REACH 0.03
+
 /* The parts below a node, and all others that are shown: what it can meet. A flag a part each; free with mem_free.
- * *reach is how near a surface has to be to be met: a tenth of its radius, since round things have flat faces. Errors:
- * LMN_MEMORY. */
+ * Errors: LMN_MEMORY. */
 typedef struct contact_sides {
     bool  *own, *others;
     double reach, radius;

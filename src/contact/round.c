@@ -97,6 +97,21 @@ static double face(const round_search *r, const double place[3], double outward[
     return vector3_dot(off, outward);
 }
 
+/* Does a closed surface turn triangle `i` away from the sphere's middle? That leaves it, or was inside. */
+static bool is_turned_away(const round_search *r, uint32_t i)
+{
+    const touch_piece *other = r->pair->other;
+    const double      *c[3];
+    double             a[3], b[3], normal[3], to[3];
+    for (uint32_t k = 0; k < 3; k++)
+        c[k] = other->vertices[other->indices[i + k]];
+    vector3_add(a, c[1], -1, c[0]);
+    vector3_add(b, c[2], -1, c[0]);
+    vector3_cross(normal, a, b);
+    vector3_add(to, r->pair->own->centre, -1, c[0]);
+    return other->outward * vector3_dot(normal, to) < 0;
+}
+
 /* Is there no way along the other's surface, from a place of it, that comes nearer? An edge within a plane is none. */
 static bool is_nearest_around(const round_search *r, const double place[3])
 {
@@ -122,7 +137,8 @@ static lmn_status meet_mesh(touch_places *all, const round_search *r, lmn_error 
             double       at[3], to[3], on[3];
             const double far = nearest_of(r, i, middle, at), off = face(r, at, to, on),
                          along = vector3_dot(to, r->pair->along) * (r->flips ? -1 : 1);
-            if (far > behind && far < nearest && fabs(off) <= r->pair->within && along >= TOUCH_STEEP) {
+            if (far > behind && far < nearest && !is_turned_away(r, i) && fabs(off) <= r->pair->within &&
+                along >= TOUCH_STEEP) {
                 nearest = far;
                 gap = off;
                 vector3_copy(place, at);

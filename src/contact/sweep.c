@@ -50,6 +50,22 @@ static flat_triangle flat_of(const sweep *s, const touch_piece *p, uint32_t firs
     return t;
 }
 
+static void normal_of(const flat_triangle *t, double out[3])
+{
+    double a[3], b[3];
+    vector3_add(a, t->at[1], -1, t->at[0]);
+    vector3_add(b, t->at[2], -1, t->at[0]);
+    vector3_cross(out, a, b);
+}
+
+/* Does it turn its back to what comes? Who leaves something that it was in goes through such faces. */
+static bool is_turned_away(const touch_piece *p, const flat_triangle *t, bool own)
+{
+    double normal[3];
+    normal_of(t, normal);
+    return p->outward * normal[2] * (own ? 1 : -1) < -1e-9 * vector3_length(normal);
+}
+
 static int compare_low(const void *a, const void *b)
 {
     const double x = ((const flat_triangle *)a)->low[0], y = ((const flat_triangle *)b)->low[0];
@@ -77,7 +93,7 @@ static bool list_near(flat_list *out, const sweep *s, const touch_piece *p, cons
     out->items = mem_alloc((p->index_count / 3 + 1) * sizeof *out->items);
     for (uint32_t i = 0; out->items && i + 2 < p->index_count; i += 3) {
         const flat_triangle t = flat_of(s, p, i);
-        bool                away = false;
+        bool                away = is_turned_away(p, &t, p == s->pair->own);
         for (int a = 0; a < 3; a++) {
             const double room = a == 2 ? beyond : s->pair->tie;
             away = away || t.low[a] > high[a] + room || t.high[a] < low[a] - room;
@@ -126,14 +142,6 @@ static bool depth_at(const flat_triangle *t, const double p[3], double *out)
     }
     *out = depth;
     return true;
-}
-
-static void normal_of(const flat_triangle *t, double out[3])
-{
-    double a[3], b[3];
-    vector3_add(a, t->at[1], -1, t->at[0]);
-    vector3_add(b, t->at[2], -1, t->at[0]);
-    vector3_cross(out, a, b);
 }
 
 /* The corners of one with the face of the other. */

@@ -30,6 +30,26 @@ static void take_sphere(touch_piece *out, const sphere *s, const mat4 *world)
     }
 }
 
+/* Which way triangles that close are wound: their areas, as vectors, sum up to nothing, and their volume has a sign. */
+static int outward_of(const touch_piece *p)
+{
+    double sum[3] = {0, 0, 0}, whole = 0, volume = 0;
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        const double *first = p->vertices[p->indices[0]];
+        double        c[3][3], a[3], b[3], area[3];
+        for (int k = 0; k < 3; k++)
+            vector3_add(c[k], p->vertices[p->indices[i + (uint32_t)k]], -1, first);
+        vector3_add(a, c[1], -1, c[0]);
+        vector3_add(b, c[2], -1, c[0]);
+        vector3_cross(area, a, b);
+        vector3_add(sum, sum, 1, area);
+        whole += vector3_length(area);
+        volume += vector3_dot(area, c[0]);
+    }
+    const bool closes = vector3_length(sum) < 1e-5 * whole && fabs(volume) > 1e-9 * whole * sqrt(whole);
+    return !closes ? 0 : volume > 0 ? 1 : -1;
+}
+
 static void take_piece(const surface_piece *seen, void *user)
 {
     piece_list  *l = user;
@@ -49,6 +69,7 @@ static void take_piece(const surface_piece *seen, void *user)
     }
     if (!seen->deformed && sphere_of(&s, seen->from))
         take_sphere(&piece, &s, &seen->world);
+    piece.outward = outward_of(&piece);
     l->items[l->count++] = piece;
 }
 

@@ -10,8 +10,9 @@ typedef struct touch_piece {
     double (*vertices)[3];   /* in the world; owned */
     const uint32_t *indices; /* 3 a triangle; lent */
     uint32_t        vertex_count, index_count;
-    bool            is_sphere;
-    double          centre[3], radii[3][3]; /* then: where the unit sphere's axes go */
+    int    outward; /* by winding: 1 or -1 where its triangles close, so that one side of them is outside; else 0 */
+    bool   is_sphere;
+    double centre[3], radii[3][3]; /* then: where the unit sphere's axes go */
 } touch_piece;
 
 /* A place at which two pieces can touch first. */

@@ -8,7 +8,8 @@
 #include "contact/touch.h"
 #include "scene/content.h"
 
-/* How near a surface is to be that is met without having been named, in radii: as contact/contact.h has it. */
+/* How near a surface is to be that is met without having been named, in radii: what is seen to hit may stop a bit short
+ * of it. */
 static const double REACH = 0.1;
 
 /* How fast a node's surface is at a place, before a time and after it. */

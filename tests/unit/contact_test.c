@@ -278,6 +278,27 @@ static void test_limbs_meet_where_they_have_been_apart(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Doors stop before walls, and thighs swing below a trunk: what comes near, and turns round there, has hit nothing. */
+static void test_what_stops_short_hits_nothing(void **state)
+{
+    (void)state;
+    static const char *const scripts[] = {"door", "runner", "turning"};
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
+        char path[1200];
+        snprintf(path, sizeof path, LIMNER_SOURCE_DIR "/examples/scripts/%s.json", scripts[i]);
+        lmn_scene *s = load_or_fail(path);
+        for (size_t k = 0; k < s->node_count; k++) {
+            size_t   count = 0;
+            contact *found = s->nodes[k].name ? contacts_of(s, s->nodes[k].name, 0, &count) : NULL;
+            if (count)
+                fail_msg("%s: %s has %zu contacts, the first one %g away", scripts[i], s->nodes[k].name, count,
+                         found[0].distance);
+            mem_free(found);
+        }
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* A box that lands flat touches with all of a face. */
 static void test_faces_touch_in_their_middle(void **state)
 {
@@ -530,6 +551,7 @@ int main(void)
         cmocka_unit_test(test_balls_name_each_other),
         cmocka_unit_test(test_bodies_are_as_they_are_then),
         cmocka_unit_test(test_faces_touch_in_their_middle),
+        cmocka_unit_test(test_what_stops_short_hits_nothing),
         cmocka_unit_test(test_what_falls_and_is_thrown_back_has_met_a_floor),
         cmocka_unit_test(test_sampled_falls_meet_the_ground_alone),
         cmocka_unit_test(test_clips_that_hit_nothing_have_no_contacts),
