@@ -266,7 +266,9 @@ bool expressions_save(const char *list, const char *path, lmn_error *error)
     bool    is_script = json_is_object(root) && json_object_get(root, "limner_script"), done = false;
     char   *text = text_of(array, is_script ? "  " : "");
     char   *whole = is_script ? with_expressions(script, text) : g_strconcat(text, "\n", NULL);
-    if (root && !is_script && !json_is_array(root))
+    if (is_script && json_equal(json_object_get(root, "expressions"), array))
+        done = true; /* as they are written there */
+    else if (root && !is_script && !json_is_array(root))
         fail(error, LMN_USAGE, "%s is no script, and no list of expressions: it stays as it is", path);
     else
         done = g_file_set_contents(path, whole, -1, &wrong);

@@ -29,7 +29,8 @@ char *expressions_removed(const char *list, guint index);
 /* The index of the way to depict that an expression names; false: there is none of that name. */
 bool expressions_depiction(const char *list, guint index, size_t *out);
 
-/* Into a script, whose other bytes stay as they are, or a file that has these alone. */
+/* Into a script, whose other bytes stay as they are (all of them, where it has these), or a file that has these alone.
+ */
 bool expressions_save(const char *list, const char *path, lmn_error *error);
 
 #endif

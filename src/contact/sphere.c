@@ -104,7 +104,17 @@ static bool closes(const primitive *p, const sphere *s)
     return fabs(fabs(sum) - 12.566370614359172) < 1e-2;
 }
 
+/* The box of a sphere is nearly a cube: terrains and cities need no closer look. */
+static bool has_even_box(const primitive *p)
+{
+    const double size[3] = {(double)p->bounds.max.x - (double)p->bounds.min.x,
+                            (double)p->bounds.max.y - (double)p->bounds.min.y,
+                            (double)p->bounds.max.z - (double)p->bounds.min.z};
+    return fmin(fmin(size[0], size[1]), size[2]) > 0.7 * fmax(fmax(size[0], size[1]), size[2]);
+}
+
 bool sphere_of(sphere *out, const primitive *p)
 {
-    return p->vertex_count >= 20 && p->index_count >= 60 && fit(out, p) && lies_on(p, out) && closes(p, out);
+    return p->vertex_count >= 20 && p->index_count >= 60 && has_even_box(p) && fit(out, p) && lies_on(p, out) &&
+           closes(p, out);
 }

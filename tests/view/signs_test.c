@@ -76,6 +76,10 @@ static void test_expressions_are_saved_in_scripts(void **state)
     assert_true(g_file_set_contents(path, script, -1, NULL));
     char *list = expressions_of_file(path, &time_s),
          *other = expressions_set(list, 0, "gap", LMN_PARAM_FLOAT, "0.7", &error);
+    assert_true(expressions_save(list, path, &error)); /* nothing is different */
+    char *same = read_text(path);
+    assert_string_equal(same, script);
+    g_free(same);
     assert_true(expressions_save(other, path, &error));
     char *saved = read_text(path);
     assert_true(g_str_has_prefix(saved, begin) && g_str_has_suffix(saved, end));
