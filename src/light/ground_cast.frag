@@ -116,9 +116,10 @@ float strokes_at(vec2 pixel)
     float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel);
     int middle = int(floor(across));
     for (int stroke = middle - 1; stroke <= middle + 1 && fullness > 0.0; stroke++) {
-        float sway = free * (0.3 * of_stroke(stroke, 0x7000) + 0.12 * along_stroke(stroke, 0.06 * along));
-        float breadth = u_ground_strength * min(fullness * (1.15 + 0.15 * of_stroke(stroke, 0x7001)), 1.0);
-        breadth *= 1.0 + 0.25 * free * along_stroke(stroke + 0x1000, 0.11 * along);
+        float sway = free * (0.32 * of_stroke(stroke, 0x7000) + 0.3 * along_stroke(stroke, 0.05 * along));
+        float ends = 1.5 + 0.5 * of_stroke(stroke, 0x7001); /* some run out sooner than others */
+        float breadth = u_ground_strength * clamp(fullness * ends - (ends - 1.0) * free, 0.0, 1.0);
+        breadth *= 1.0 + free * (0.35 * of_stroke(stroke, 0x7002) + 0.45 * along_stroke(stroke + 0x1000, 0.08 * along));
         float inside = 0.5 * breadth - abs(across - float(stroke) - 0.5 - sway);
         covered += clamp(inside * u_ground_hatch + 0.5, 0.0, min(breadth * u_ground_hatch, 1.0));
     }

@@ -511,6 +511,90 @@ static void feathers_cross_the_border(void)
     check_at_most("S1", along / fmax(across, 1), 0.5, "changes of ink along the light beside those across it");
 }
 
+/* --- Watercolour ------------------------------------------------------------------------------------------- */
+
+static bool take_washed(shot *out, bool ball, const char *more, const char *light)
+{
+    shape s = {0};
+    char  surface[300];
+    if (ball)
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
+    else
+        shape_quad(&s, "wall", 20, 0);
+    for (int k = 0; k < 3; k++)
+        s.parts[0].colour[k] = 0.4f;
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"watercolour\",\"pale\":0.5,\"deep\":1.5,\"shade\":\"#8090c0\",\"wander\":0,%s}", more);
+    bool ok = shot_of_shape(out, &s, "wash.glb", surface_look(surface, light, 0), NULL, &front);
+    shape_release(&s);
+    return ok;
+}
+
+/* Light goes through as much pigment as there is: the colour to the power of it, and the shade's once more. */
+static void pigment_takes_light(void)
+{
+    const double own = picture_srgb(0.4) / 255;
+    for (int dark = 0; dark < 2; dark++) {
+        shot s;
+        if (take_washed(&s, false, "\"flow\":0,\"pooling\":0", dark ? "0,0,-1" : "0,0,1"))
+            for (int k = 0; k < 3; k++) {
+                static const double shade[3] = {0x80 / 255.0, 0x90 / 255.0, 0xc0 / 255.0};
+                double              wanted = dark ? pow(own, 1.5) * shade[k] : pow(own, 0.5);
+                check_near("watercolour", s.picture[4 * (128 * 256 + 128) + k] / 255.0, wanted, 0.004,
+                           "channel %d of a wall %s", k, dark ? "without light" : "in full light");
+            }
+        shot_release(&s);
+    }
+}
+
+/* Pigment of a pixel, where there is but one wash. */
+static double pigment_at(const shot *s, int i)
+{
+    return log(fmax(s->picture[4 * i], 1) / 255.0) / log(picture_srgb(0.4) / 255);
+}
+
+/* Where a wash ends there is more of it. */
+static void pigment_pools(void)
+{
+    double sums[3] = {0}, counts[3] = {0};
+    shot   s;
+    if (take_washed(&s, true, "\"washes\":1,\"flow\":0,\"pooling\":0.8,\"pool\":\"4px\",\"smoothing\":\"8px\"",
+                    "0,0,1"))
+        for (int y = 0; y < 256; y++)
+            for (int x = 0; x < 256; x++) {
+                double inside = 128 / (8 * tan(9 * PI / 180)) - hypot(x + 0.5 - 128, y + 0.5 - 128); /* pixels */
+                int    at = inside < 1 ? -1 : inside < 3 ? 0 : inside < 6 ? 1 : inside > 20 ? 2 : -1;
+                if (at >= 0) {
+                    sums[at] += pigment_at(&s, y * 256 + x);
+                    counts[at]++;
+                }
+            }
+    shot_release(&s);
+    for (int k = 0; k < 3; k++)
+        sums[k] /= fmax(counts[k], 1);
+    check_near("watercolour", sums[2], 0.5, 0.01, "pigment in the middle of a ball");
+    check_at_least("watercolour", sums[0], 1.3 * sums[2], "  at its border");
+    check_at_most("watercolour", sums[0], 1.81 * sums[2], "  and no more than it was told to be");
+    check_at_least("watercolour", sums[0], 1.05 * sums[1], "  less farther inside");
+    check_at_least("watercolour", sums[1], 1.03 * sums[2], "  and still more than in the middle");
+}
+
+/* Flow makes it uneven, neither more nor less. */
+static void pigment_flows(void)
+{
+    double sum = 0, squares = 0;
+    shot   s;
+    if (take_washed(&s, false, "\"washes\":1,\"flow\":0.5,\"flow_size\":\"12px\",\"pooling\":0", "0,0,1"))
+        for (int i = 0; i < 256 * 256; i++) {
+            double p = pigment_at(&s, i);
+            sum += p / (256 * 256);
+            squares += p * p / (256 * 256);
+        }
+    shot_release(&s);
+    check_near("watercolour", sum, 0.5, 0.02, "mean pigment where it flows");
+    check_at_least("watercolour", sqrt(fmax(squares - sum * sum, 0)), 0.05, "  how much it differs");
+}
+
 /* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
@@ -736,6 +820,9 @@ int main(int argc, char **argv)
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},
+        {"pigment", pigment_takes_light},
+        {"pools", pigment_pools},
+        {"flows", pigment_flows},
         {"gooch", gooch_ramp},
         {"gooch-lines", gooch_lines},
         {"gooch-apart", gooch_colours_are_apart},

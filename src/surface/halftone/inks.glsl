@@ -13,12 +13,13 @@ const vec3 PRINTED[3] = vec3[3](vec3(0.0, 0.68, 0.92), vec3(0.91, 0.0, 0.58), ve
 
 /* The fraction of the page that each ink covers, black last, for a colour that is to be seen. Inks let through what they should take away from others, so that
  * each gives way to what the two others take already: with screens at angles of their own, what is left of a channel is the product of what each ink leaves
- * (Neugebauer 1937, Demichel 1924). Black stands for what the three have in common, less where that is little, as printers make it: its dots would be coarse
- * in light tones. What no cover gives is as near as the inks come. */
+ * (Neugebauer 1937, Demichel 1924). Black stands for what the three have in common: all of it in greys, whose dots are one screen's, and less in colours, which
+ * it would dirty. What no cover gives is as near as the inks come. */
 vec4 separated(vec3 wanted)
 {
     vec3 taken = 1.0 - wanted;
-    float common_part = min(taken.r, min(taken.g, taken.b)), black = common_part * min(1.4 * common_part, 1.0);
+    float most = max(taken.r, max(taken.g, taken.b)), common_part = min(taken.r, min(taken.g, taken.b));
+    float black = common_part * mix(1.0, 0.7 * common_part, smoothstep(0.0, 0.35, (most - common_part) / max(most, 1e-3)));
     vec3 darkest = 1.0 - u_ink.a * (1.0 - u_ink.rgb); /* stands for black: no tone is darker */
     vec3 left = min(mix(darkest, vec3(1.0), wanted) / max(mix(vec3(1.0), darkest, black), 1e-3), 1.0), cover = 1.0 - left;
     for (int i = 0; i < 5; i++) {
