@@ -127,18 +127,33 @@ guint expressions_count(const char *list)
     return count;
 }
 
+expressions_read *expressions_open(const char *list)
+{
+    return parse(list);
+}
+
+void expressions_close(expressions_read *r)
+{
+    json_decref(r);
+}
+
 char *expressions_get(const char *list, guint index, const char *key)
 {
-    json_t       *array = parse(list);
+    json_t *array = parse(list);
+    char   *out = expressions_member(array, index, key);
+    json_decref(array);
+    return out;
+}
+
+char *expressions_member(const expressions_read *array, guint index, const char *key)
+{
     const json_t *value = json_object_get(json_array_get(array, index), key);
     GString      *out = g_string_new(NULL);
     if (json_is_string(value))
         g_string_append(out, json_string_value(value));
     else if (value)
         append_value(out, value);
-    const bool there = value != NULL;
-    json_decref(array);
-    return g_string_free(out, !there);
+    return g_string_free(out, value == NULL);
 }
 
 static json_t *value_of(lmn_param_type type, const char *text)

@@ -19,6 +19,12 @@ guint expressions_count(const char *list);
 /* A member of an expression as text ("0.5", "true", "#102030"); NULL: it has none. g_free. */
 char *expressions_get(const char *list, guint index, const char *key);
 
+/* The same of a list that is read once, for who asks much. */
+typedef struct json_t expressions_read;
+expressions_read     *expressions_open(const char *list);
+char                 *expressions_member(const expressions_read *r, guint index, const char *key);
+void                  expressions_close(expressions_read *r);
+
 /* Other lists, the caller's. A member is set from text, of the type that it has in expressions; NULL takes it out. NULL
  * with an error when the text is no such value. */
 char *expressions_set(const char *list, guint index, const char *key, lmn_param_type type, const char *value,

@@ -100,21 +100,22 @@ static bool set_option(void *owner, const place *where, const char *key, const c
     return true;
 }
 
-static void show_option(signs *s, control_row *row, guint index, const lmn_param_info *info)
+static void show_option(const expressions_read *r, control_row *row, guint index, const lmn_param_info *info)
 {
-    char       *text = expressions_get(told(s), index, info->key);
+    char       *text = expressions_member(r, index, info->key);
     const char *otherwise = info->default_text;
     control_row_show_text(row, text ? text : otherwise, !text || strcmp(text, otherwise) == 0);
     g_free(text);
 }
 
-static void add_option(signs *s, row_group *g, guint index, const char *kind, const lmn_param_info *info)
+static void add_option(signs *s, row_group *g, const expressions_read *r, guint index, const char *kind,
+                       const lmn_param_info *info)
 {
     const place  where = {index, kind, 0};
     control_row *row = control_row_new(info, &where, set_option, s);
     g_ptr_array_add(g->rows, row);
     adw_expander_row_add_row(ADW_EXPANDER_ROW(g->widget), control_row_widget(row));
-    show_option(s, row, index, info);
+    show_option(r, row, index, info);
 }
 
 /* --- the list ---------------------------------------------------------------------------------------------- */
@@ -158,13 +159,13 @@ static void group_free(void *data)
     g_free(g);
 }
 
-static void add_group(signs *s, guint index)
+static void add_group(signs *s, const expressions_read *r, guint index)
 {
     row_group     *g = g_new0(row_group, 1);
     lmn_param_info info;
-    char       *target = expressions_get(told(s), index, "target"), *depict = expressions_get(told(s), index, "depict");
-    const char *kind = g_intern_string(depict ? depict : "");
-    const bool  known = expressions_depiction(told(s), index, &g->depiction);
+    char          *target = expressions_member(r, index, "target"), *depict = expressions_member(r, index, "depict");
+    const char    *kind = g_intern_string(depict ? depict : "");
+    const bool     known = expressions_depiction(told(s), index, &g->depiction);
     g->rows = g_ptr_array_new_with_free_func(row_free);
     g->widget = adw_expander_row_new();
     adw_preferences_row_set_use_markup(ADW_PREFERENCES_ROW(g->widget), FALSE);
@@ -174,10 +175,10 @@ static void add_group(signs *s, guint index)
     for (size_t i = 0; i < G_N_ELEMENTS(own_params); i++) {
         info = own_params[i];
         info.doc = _(own_params[i].doc);
-        add_option(s, g, index, kind, &info);
+        add_option(s, g, r, index, kind, &info);
     }
     for (size_t i = 0; known && lmn_depiction_param_at(g->depiction, i, &info); i++)
-        add_option(s, g, index, kind, &info);
+        add_option(s, g, r, index, kind, &info);
     gtk_list_box_append(GTK_LIST_BOX(s->list), g->widget);
     g_ptr_array_add(s->groups, g);
     g_free(target);
@@ -187,12 +188,15 @@ static void add_group(signs *s, guint index)
 /* Which expressions there are; their values are shown in the rows that are there. */
 static char *shape_of(const signs *s)
 {
-    GString *out = g_string_new(NULL);
-    for (guint i = 0; i < expressions_count(told(s)); i++) {
-        char *depict = expressions_get(told(s), i, "depict");
+    GString          *out = g_string_new(NULL);
+    const guint       count = expressions_count(told(s));
+    expressions_read *r = expressions_open(told(s));
+    for (guint i = 0; i < count; i++) {
+        char *depict = expressions_member(r, i, "depict");
         g_string_append_printf(out, "%s\n", depict ? depict : "");
         g_free(depict);
     }
+    expressions_close(r);
     return g_string_free(out, FALSE);
 }
 
@@ -202,24 +206,29 @@ static void build(signs *s)
     g_ptr_array_set_size(s->groups, 0);
     while ((child = gtk_widget_get_first_child(s->list)))
         gtk_list_box_remove(GTK_LIST_BOX(s->list), child);
-    for (guint i = 0; i < expressions_count(told(s)); i++)
-        add_group(s, i);
+    const guint       count = expressions_count(told(s));
+    expressions_read *r = expressions_open(told(s));
+    for (guint i = 0; i < count; i++)
+        add_group(s, r, i);
+    expressions_close(r);
 }
 
 static void show_values(signs *s)
 {
+    expressions_read *r = expressions_open(told(s));
     for (guint i = 0; i < s->groups->len; i++) {
         row_group     *g = g_ptr_array_index(s->groups, i);
         lmn_param_info info;
-        char          *target = expressions_get(told(s), i, "target");
+        char          *target = expressions_member(r, i, "target");
         adw_expander_row_set_subtitle(ADW_EXPANDER_ROW(g->widget), target ? target : "");
         g_free(target);
         for (guint k = 0; k < g->rows->len; k++)
             if (k < G_N_ELEMENTS(own_params))
-                show_option(s, g_ptr_array_index(g->rows, k), i, &own_params[k]);
+                show_option(r, g_ptr_array_index(g->rows, k), i, &own_params[k]);
             else if (lmn_depiction_param_at(g->depiction, k - G_N_ELEMENTS(own_params), &info))
-                show_option(s, g_ptr_array_index(g->rows, k), i, &info);
+                show_option(r, g_ptr_array_index(g->rows, k), i, &info);
     }
+    expressions_close(r);
 }
 
 static void refresh(signs *s)
