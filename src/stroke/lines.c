@@ -272,7 +272,7 @@ lmn_status lines_collect(view_lines *out, const stroke_view *v, const stroke_opt
     out->end_count = v->vertex_count;
     crossing_list        own = {0};
     const crossing_list *crossings = !options->intersections ? NULL : v->scene->crossings ? v->scene->crossings : &own;
-    lmn_status           status = crossings == &own ? crossings_find(&own, v->scene, progress, user, error) : LMN_OK;
+    lmn_status status = crossings == &own ? crossings_find(&own, v->scene, parts, progress, user, error) : LMN_OK;
     if (status == LMN_OK && crossings && !collect_crossings(&c, crossings))
         status = error_memory(error);
     for (uint32_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {

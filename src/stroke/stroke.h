@@ -128,8 +128,12 @@ void       stroke_scene_release(stroke_scene *s);
  * stroke_scene_create_keeping leaves them out, as not all who draw edges have views. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status stroke_scene_calm(stroke_scene *s, lmn_error *error);
 /* Finds out where pieces run through each other and keeps it, for scenes that are drawn more than once; else
- * stroke_find does it each time. Errors: LMN_MEMORY, LMN_CANCELLED. */
-lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
+ * stroke_find does it each time. Of these parts (a flag each; NULL: all) alone, and what they run through. Errors:
+ * LMN_MEMORY, LMN_CANCELLED. */
+lmn_status stroke_scene_cross(stroke_scene *s, const bool *parts, size_t part_count, lmn_progress_fn progress,
+                              void *user, lmn_error *error);
+/* Is that there already? */
+bool stroke_scene_has_crossings(const stroke_scene *s, const bool *parts, size_t part_count);
 /* Finds out how surfaces bend and keeps it, for scenes of which more than one view has smooth outlines or lines of
  * form; else stroke_find does it each time. Errors: LMN_MEMORY, LMN_LIMIT, LMN_CANCELLED. */
 lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error);
@@ -138,6 +142,8 @@ lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *us
  * nothing. */
 size_t   stroke_scene_crossing_count(const stroke_scene *s);
 uint32_t stroke_scene_crossing(const stroke_scene *s, size_t index, double ends[2][3], vec3 outward[2]);
+/* The indices of those of an item, ascending; lent. */
+const size_t *stroke_scene_crossings_of(const stroke_scene *s, uint32_t item, size_t *count);
 
 /* --- the view ------------------------------------------------------------------------------------------- */
 

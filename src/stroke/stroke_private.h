@@ -197,14 +197,17 @@ struct crossing_list {
     size_t         count, capacity;
     uint32_t (*beside)[2]; /* pieces, of all in the scene, that nearly coincide, so that one is in front here and the
                               other one there; each pair both ways, ascending */
-    size_t beside_count, beside_capacity;
+    size_t  beside_count, beside_capacity;
+    size_t *first, *order; /* per item, and one more: its first one in `order`, which has their indices */
+    bool   *parts;         /* that were asked for, a flag each; NULL: all */
+    size_t  part_count;
 };
 void crossings_release(crossing_list *c);
 /* So far pieces that nearly coincide may lie in front of each other: fraction of the scene's diagonal. */
 #define BESIDE_LIFT 1.5e-3
-/* All of them, in an order that depends on the scene alone. */
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
-                          lmn_error *error);
+/* All that one of these parts (a flag each; NULL: all) has, in an order that depends on the scene alone. */
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, lmn_progress_fn progress,
+                          void *user, lmn_error *error);
 
 /* --- lines.c --- */
 /* Line edges of one view, before they are chained. */

@@ -902,18 +902,32 @@ group_depict() {
     row 0 '' out.png depict "$motion" $small -q -o out.png --time 1 --expressions in-told.json
     "$limner" depict "$motion" $small -q -o .again.png --time 1 --expressions in-told.json && cmp -s .again.png in-first.png ||
         complain "expressions that were explained draw another picture"
+    local told
+    for told in "$motion" "$examples/box-animated.glb" "$examples/scripts/catapult.json"; do
+        "$limner" depict "$told" $small -q -o in-first.png --explain > in-told.json 2> /dev/null
+        row 0 '' out.png depict "$told" $small -q -o out.png --expressions in-told.json
+        "$limner" depict "$told" $small -q -o .again.png --expressions in-told.json && cmp -s .again.png in-first.png ||
+            complain "expressions that were explained draw another picture"
+    done
     echo "$array" > in-path.json
     row 0 '' out.png depict "$motion" $small -q -o out.png -l line --expressions in-path.json
     row 0 '' out.png depict "$motion" $small -q -o out.png --interval 0.5:1
     row 1 '--interval' '' depict "$motion" --interval 1:0.5
     row 1 '--interval' '' depict "$motion" --interval soon
-    row 1 'none.json' '' depict "$motion" --expressions none.json
+    row 2 '^limner: none.json: No such file' '' depict "$motion" --expressions none.json
     echo '[{"target": "Tail", "depict": "path"}]' > in-path.json
-    row 1 'Tail' '' depict "$motion" --expressions in-path.json
+    row 2 "^limner: in-path.json:1:3: expression 1: .*'Tail'" '' depict "$motion" --expressions in-path.json
     echo '{' > in-path.json
-    row 1 'in-path.json: line' '' depict "$motion" --expressions in-path.json
+    row 2 '^limner: in-path.json:2: ' '' depict "$motion" --expressions in-path.json
     echo '{"a": 1}' > in-path.json
-    row 1 'no expressions' '' depict "$motion" --expressions in-path.json
+    row 2 '^limner: in-path.json:1:1: there are no expressions' '' depict "$motion" --expressions in-path.json
+    row 1 'behind the end of all motion' '' depict "$motion" --interval 50:60
+    echo '[]' > in-path.json
+    row 0 'warning: there are no expressions: nothing is told' out.png depict "$motion" $small -o out.png --expressions in-path.json
+    echo '[{"target": "Hips", "depict": "expand"}]' > in-path.json
+    row 0 "warning: expression 1, 'expand' of 'Hips', has no sign: it is as large" out.png depict "$motion" $small -o out.png --expressions in-path.json
+    printf '{"limner_script": 1, "nodes": [{"name": "b", "sphere": {}}],\n "expressions": [\n  {"target": "b", "depict": "paht"}]}' > in-script.json
+    row 2 "^limner: in-script.json:3:19: expression 1: there is no way to depict 'paht'" '' depict in-script.json
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain

@@ -516,6 +516,11 @@ CALL(lmn_depiction_at)
     lmn_depiction_info info;
     return neutral(!lmn_depiction_at(0, P(0, &info)));
 }
+CALL(lmn_depiction_param_at)
+{
+    lmn_param_info info;
+    return neutral(!lmn_depiction_param_at(0, 0, P(0, &info)));
+}
 CALL(lmn_depiction_reference)
 {
     return freed(w->null ? NULL : lmn_depiction_reference());
