@@ -334,6 +334,23 @@ group_draw() {
     cmp -s in-a.png in-b.png || complain "there are lines on the wall"
 }
 
+group_perspective() {
+    local town=$examples/town.geojson
+    row 0 '' a.png draw "$town" $small -l city --perspective multi -o a.png
+    row 0 '' a.svg draw "$town" -l technical --perspective multi --eye -60,-175,28 --target 0,0,5 -o a.svg
+    row 0 '' a.png draw "$town" $small -l city --perspective panorama --eye 0,0,12 --horizon 360 --set finish.labels=name -o a.png
+    row 1 'panorama needs --eye' '' draw "$town" --perspective panorama -o a.png
+    row 1 'goes with --perspective multi' '' draw "$town" --bend 20 -o a.png
+    row 1 'goes with --perspective panorama' '' draw "$town" --perspective multi --horizon 90 -o a.png
+    row 1 'does not go with --frames' '' draw "$town" --perspective multi --frames 0:3:2 -o 'a-{frame}.png'
+    row 1 'straight above' '' draw "$town" --perspective multi --view top -o a.png
+    row 1 'beyond the zenith' '' draw "$town" --perspective multi --bend 80 -o a.png
+    row 2 'too tall' '' draw "$town" --perspective multi --eye -60,-175,28 --bend 60 --bend-from 0.5 --bend-to 0.55 -o a.png
+    row 1 'cannot bend from' '' draw "$town" --perspective multi --bend-from 0.9 --bend-to 0.1 -o a.png
+
+    row 2 'solid of set operations' '' draw "$examples/csg/widget.csg" --perspective multi -o a.png
+}
+
 group_many() {
     cp "$gear" in-one.stl; cp "$gear" in-two.stl; printf 'solid x\nfacet' > in-bad.stl
     row 0 '' 'p-in-one.png p-in-two.png' draw in-one.stl in-two.stl $small -o 'p-{name}.png'
@@ -990,6 +1007,7 @@ group_doctor() {
     printf '#!/bin/sh\nPATH=/nosuch exec %s "$@"\n' "$command" > .alone && chmod +x .alone
     row 0 '' '' doctor; out '^  \.mp4 .* no: ffmpeg is missing \(sudo apt-get install ffmpeg\)$'
     limner=$command
+    row 0 '' '' doctor; out '^  GDAL +([0-9]+\.[0-9]+|no: .*gdal-bin)'; out '^  PROJ +([0-9]+\.[0-9]+|no: .*gdal-bin)'
     row 0 '' '' doctor --json; documented .stdout doctor.md
     # An EGL without any vendor is a machine without drivers.
     export __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing
