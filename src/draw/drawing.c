@@ -89,23 +89,6 @@ static bool has_strokes(const rule *r)
     return false;
 }
 
-/* Strokes know the meshes of parts as they are in the scene. */
-static lmn_status refuse_strokes(const refusal *r, const session *s)
-{
-    bool solids = false;
-    for (size_t i = 0; i < s->plan.figure_count; i++) {
-        const figure *fig = &s->plan.figures[i];
-        bool          strokes = has_strokes(fig->rule);
-        solids = solids || (strokes && figure_has_solids(&s->plan, fig));
-    }
-    const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
-    lmn_status  status = LMN_OK;
-    if (solids)
-        status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead,
-                        "lines 'strokes' are those of meshes: solids have none");
-    return status;
-}
-
 /* Marks lie on the triangles of parts as they are in the scene. */
 static lmn_status refuse_marks(const refusal *r, const session *s)
 {
@@ -203,8 +186,6 @@ lmn_status drawing_refuse(const session *s, const lmn_scene *scene, const lmn_lo
     if (status == LMN_OK && s->plan.figure_count == 0)
         status = refuse(&refusals, LMN_USAGE, WARNING_NO_MATCH, NULL,
                         "no rule of the look '%s' selects a part: the page stays empty", look->name);
-    if (status == LMN_OK)
-        status = refuse_strokes(&refusals, s);
     if (status == LMN_OK)
         status = refuse_scattered(&refusals, s);
     return status == LMN_OK ? refuse_marks(&refusals, s) : status;

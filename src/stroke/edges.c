@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "stroke/butterfly_mesh.h"
 #include "stroke/drawn.h"
+#include "stroke/solid.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -528,5 +529,6 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->boxes);
     mem_free(m->said);
     edge_refinement_destroy(&m->refinement);
+    edge_solid_destroy(&m->solid);
     memset(m, 0, sizeof *m);
 }

@@ -63,6 +63,7 @@ typedef struct edge_mesh {
     uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
+    struct edge_solid      *solid;      /* stroke/solid.h: the faces are those of its operands; NULL: of a mesh */
     bool                  moves; /* a pose or a call has put it where it is: in the next picture it may be elsewhere */
     struct edge_topology *topology;  /* of its poses, borrowed; NULL: none is kept */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */

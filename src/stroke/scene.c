@@ -6,6 +6,7 @@
 #include "stroke/scene_cut.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
+#include "stroke/solid.h"
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
@@ -184,6 +185,28 @@ static lmn_status add_cut(scene_builder *b, size_t part_index, const mat4 *world
     return put_item(b, part_index, (uint32_t)s->mesh_count++, world, error);
 }
 
+/* What a solid's operations leave, as lines. */
+static lmn_status add_solid(scene_builder *b, size_t part_index, lmn_error *error)
+{
+    const node   *n = &b->scene->nodes[b->scene->parts[part_index].node];
+    stroke_scene *s = b->out;
+    solid_form    form;
+    lmn_status    status = solid_form_create(&form, &b->scene->solids[n->solid], true, error);
+    if (status == LMN_OK && !mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
+        status = error_memory(error);
+    if (status == LMN_OK)
+        status = edge_mesh_create_solid(&s->meshes[s->mesh_count], b->scene, &form, NULL, b->crease_angle, error);
+    solid_form_release(&form);
+    if (status != LMN_OK)
+        return status;
+    uint32_t number = (uint32_t)s->mesh_count++;
+    for (size_t i = 0; i < node_draw_count(n) && status == LMN_OK && s->meshes[number].piece_count; i++) {
+        mat4 world = pose_instance(b->pose, part_index, i);
+        status = put_item(b, part_index, number, &world, error);
+    }
+    return status;
+}
+
 static cut_verdict judge_part(const scene_builder *b, size_t part_index)
 {
     if (!b->section || b->section->cut->cell_count == 0)
@@ -200,6 +223,8 @@ static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error
     cut_verdict part = n->mesh < 0 ? CUT_GONE : judge_part(b, part_index);
     uint32_t    number = UINT32_MAX;
     lmn_status  status = LMN_OK;
+    if (n->solid != NONE)
+        return add_solid(b, part_index, error);
     for (size_t i = 0; i < node_draw_count(n) && part != CUT_GONE && status == LMN_OK; i++) {
         mat4        world = pose_instance(b->pose, part_index, i);
         cut_verdict own = part;

@@ -41,7 +41,7 @@ typedef struct vector_job {
     double                scale; /* 0: as large as fits */
     double                unit_mm;
     bool                  unit_stated;
-    bool                 *stroked; /* per part: drawn by some rule, and no solid */
+    bool                 *stroked; /* per part: drawn by some rule */
     stroke_scene          strokes;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
     double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
@@ -63,16 +63,7 @@ static refusal refusal_of(const vector_job *j, lmn_error *error)
 
 /* --- what is drawn -------------------------------------------------------------------------------------- */
 
-/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they
- * lack. */
-static bool lacks_solids(const vector_job *j, const rule *r)
-{
-    stroke_options options;
-    stroke_style   style;
-    return !j->pixels || vector_rule_strokes(r, &options, &style) || vector_rule_marks(r);
-}
-
-/* Which parts are drawn, by which rules. Solids have no strokes. */
+/* Which parts are drawn, by which rules. Marks lie on triangles, which solids have none of. */
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
@@ -98,15 +89,15 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
     if (status == LMN_OK)
         j->look = j->plan.look;
     for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
-        bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
-        solids += solid && plan_rule(&j->plan, i) && lacks_solids(j, plan_rule(&j->plan, i));
-        j->stroked[i] = plan_rule(&j->plan, i) && !solid;
+        const rule *r = plan_rule(&j->plan, i);
+        solids += r && vector_rule_marks(r) && scene->nodes[scene->parts[i].node].solid != NONE;
+        j->stroked[i] = r != NULL;
     }
     refusal r = refusal_of(j, error);
-    return status == LMN_OK && solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
-                                               "%zu solids of set operations have no lines in vector drawings%s",
-                                               solids, j->pixels ? "" : " and are left out")
-                                      : status;
+    return status == LMN_OK && solids
+               ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "take a look without marks, or draw a picture (.png)",
+                        "marks lie on meshes: %zu solids of set operations have their lines alone", solids)
+               : status;
 }
 
 static lmn_status refuse_section(const vector_job *j, lmn_error *error)

@@ -1,0 +1,678 @@
+/* Which stretches of lines bound a solid. A line is cut wherever it meets a face. Around the middle of a stretch stand the
+ * faces that hold it, as half-planes sorted by angle; which operands hold between them says the tree, and where its value
+ * changes there is a face of the solid. No change: no line. Two, in one plane: none either. Else it is an edge of the
+ * solid, whatever it came from. */
+#include "stroke/solid_private.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/threads.h"
+#include "base/work.h"
+
+static const double pi = 3.14159265358979323846;
+/* An angle between operands is no accident of facets: from this one on it is a line, as in pictures
+ * (lines.meet). */
+static const double MEET = 10 * 3.14159265358979323846 / 180;
+/* Half-planes of one shared plane are not farther apart than rounding of narrow faces makes of it. */
+static const double ONE_PLANE = 0.05;
+enum { BLOCK = 256, STACK = 128, ASIDE = 20 };
+
+/* A half-plane that begins at the line. */
+typedef struct half_plane {
+    double   angle; /* around the line, 0 … 2 π */
+    double   reach; /* so far its face goes */
+    uint32_t face, operand;
+    bool     begins; /* going round, its operand begins there, by which way the face looks */
+} half_plane;
+
+/* Half-planes that are as good as one. */
+typedef struct fan {
+    size_t first, count;
+} fan;
+
+/* Where the solid begins or ends, going round. */
+typedef struct change {
+    double   angle, reach;
+    uint32_t face;
+    bool     begins;
+} change;
+
+typedef struct near_face {
+    uint32_t face;
+    double   from, to; /* along the line */
+} near_face;
+
+typedef struct arounder {
+    const solid_builder *b;
+    solid_state          state;
+    near_face           *near;
+    size_t               near_count, near_capacity;
+    double              *breaks;
+    size_t               break_count, break_capacity;
+    half_plane          *halves;
+    size_t               half_count, half_capacity;
+    fan                 *fans;
+    size_t               fan_count, fan_capacity;
+    change              *changes;
+    size_t               change_count, change_capacity;
+    uint32_t            *parity; /* operands that a ray met, over and over */
+    size_t               parity_count, parity_capacity;
+    bool                *odd;      /* per operand */
+    uint32_t            *incident; /* per operand: half-planes at the stretch */
+    solid_stretches     *out;
+    bool                 failed;
+    double3              along, side, up; /* of the line: unit, right-handed */
+} arounder;
+
+/* --- rays ----------------------------------------------------------------------------------------------- */
+
+static bool meets_ray(const box3 *box, double3 from, double3 slowness)
+{
+    const double low[3] = {box->min.x, box->min.y, box->min.z}, high[3] = {box->max.x, box->max.y, box->max.z},
+                 at[3] = {from.x, from.y, from.z}, slow[3] = {slowness.x, slowness.y, slowness.z};
+    double enter = 0, leave = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        double a = (low[k] - at[k]) * slow[k], b = (high[k] - at[k]) * slow[k];
+        enter = fmax(enter, a < b ? a : b);
+        leave = fmin(leave, a < b ? b : a);
+    }
+    return enter <= leave;
+}
+
+/* By the signs of volumes, which are exactly opposite for the two faces of an edge. */
+static bool ray_meets_face(const solid_face *f, double3 from, double3 along)
+{
+    double3 p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = double3_minus(f->p[k], from);
+    double a = double3_dot(along, double3_cross(p[0], p[1])), b = double3_dot(along, double3_cross(p[1], p[2])),
+           c = double3_dot(along, double3_cross(p[2], p[0]));
+    if (!((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)))
+        return false;
+    double3 n = double3_cross(double3_minus(p[1], p[0]), double3_minus(p[2], p[0]));
+    double  height = double3_dot(p[0], n), speed = double3_dot(along, n);
+    return speed != 0 && height / speed > 0;
+}
+
+/* Which operands hold at a position, by how often a ray meets their faces: sets `odd`, undone by clear_parity. */
+static void find_parity(arounder *w, double3 at)
+{
+    static const double3 along = {0.5412378, 0.6127751, 0.5758921};
+    const solid_builder *b = w->b;
+    const double3        slowness = {1 / along.x, 1 / along.y, 1 / along.z};
+    uint32_t             stack[STACK], depth = 0;
+    if (b->tree.node_count)
+        stack[depth++] = 0;
+    while (depth > 0) {
+        const hierarchy_node *n = &b->tree.nodes[stack[--depth]];
+        if (!meets_ray(&n->box, at, slowness))
+            continue;
+        for (uint32_t i = 0; i < n->count; i++) {
+            uint32_t face = b->tree.members[n->first + i], operand = b->solid->operands[face];
+            if (!ray_meets_face(&b->faces[face], at, along))
+                continue;
+            if (!mem_grow((void **)&w->parity, &w->parity_capacity, w->parity_count + 1, sizeof *w->parity)) {
+                w->failed = true;
+                return;
+            }
+            w->parity[w->parity_count++] = operand;
+            w->odd[operand] = !w->odd[operand];
+        }
+        if (n->count == 0 && depth + 2 <= STACK) {
+            stack[depth++] = n->first;
+            stack[depth++] = n->first + 1;
+        }
+    }
+}
+
+static void clear_parity(arounder *w)
+{
+    for (size_t i = 0; i < w->parity_count; i++)
+        w->odd[w->parity[i]] = false;
+    w->parity_count = 0;
+}
+
+/* --- where a line is cut -------------------------------------------------------------------------------- */
+
+static bool put_break(arounder *w, double at)
+{
+    if (!mem_grow((void **)&w->breaks, &w->break_capacity, w->break_count + 1, sizeof *w->breaks))
+        return false;
+    w->breaks[w->break_count++] = at;
+    return true;
+}
+
+/* Is a position of a face's plane in the face, or as good as? */
+static bool is_in_face(const solid_builder *b, const solid_face *f, double3 at)
+{
+    for (int k = 0; k < 3; k++) {
+        double3 edge = double3_minus(f->p[(k + 1) % 3], f->p[k]),
+                out = double3_cross(edge, f->normal); /* away from the face */
+        double length = double3_length(out);
+        if (double3_dot(double3_minus(at, f->p[k]), out) > b->near * length)
+            return false;
+    }
+    return true;
+}
+
+/* Where the line passes the edges of a face whose plane holds it. */
+static bool break_in_plane(arounder *w, const solid_face *f, double3 from, double length)
+{
+    double3 across = double3_cross(f->normal, w->along);
+    double  sides[3], places[3];
+    for (int k = 0; k < 3; k++) {
+        double3 r = double3_minus(f->p[k], from);
+        sides[k] = double3_dot(r, across);
+        places[k] = double3_dot(r, w->along);
+    }
+    for (int k = 0; k < 3; k++) {
+        int    next = (k + 1) % 3;
+        double at = places[k];
+        bool   on = fabs(sides[k]) <= w->b->near;
+        if (!on && fabs(sides[next]) > w->b->near && (sides[k] < 0) != (sides[next] < 0)) {
+            at += sides[k] / (sides[k] - sides[next]) * (places[next] - places[k]);
+            on = true;
+        }
+        if (on && at > w->b->near && at < length - w->b->near && !put_break(w, at))
+            return false;
+    }
+    return true;
+}
+
+static bool break_at_face(arounder *w, uint32_t face, double3 from, double length)
+{
+    const solid_face *f = &w->b->faces[face];
+    double            near = w->b->near, low = double3_dot(double3_minus(from, f->p[0]), f->normal),
+           high = low + length * double3_dot(w->along, f->normal);
+    if (fabs(low) <= near && fabs(high) <= near)
+        return break_in_plane(w, f, from, length);
+    if ((low > near && high > near) || (low < -near && high < -near) || low == high)
+        return true;
+    double at = low / (low - high) * length;
+    if (at <= near || at >= length - near || !is_in_face(w->b, f, double3_plus(from, w->along, at)))
+        return true;
+    return put_break(w, at);
+}
+
+/* Does the line pass a box? `slowness`: 1 / along. */
+static bool passes(const box3 *box, double3 from, double3 along, double length)
+{
+    const double low[3] = {box->min.x, box->min.y, box->min.z}, high[3] = {box->max.x, box->max.y, box->max.z},
+                 at[3] = {from.x, from.y, from.z}, way[3] = {along.x, along.y, along.z};
+    double enter = 0, leave = length;
+    for (int k = 0; k < 3; k++) {
+        if (fabs(way[k]) < 1e-12) {
+            if (at[k] < low[k] || at[k] > high[k])
+                return false;
+            continue;
+        }
+        double a = (low[k] - at[k]) / way[k], b = (high[k] - at[k]) / way[k];
+        enter = fmax(enter, a < b ? a : b);
+        leave = fmin(leave, a < b ? b : a);
+    }
+    return enter <= leave;
+}
+
+static bool put_near(arounder *w, uint32_t face, double3 from, double length)
+{
+    if (!mem_grow((void **)&w->near, &w->near_capacity, w->near_count + 1, sizeof *w->near))
+        return false;
+    const solid_face *f = &w->b->faces[face];
+    double            low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        double at = double3_dot(double3_minus(f->p[k], from), w->along);
+        low = fmin(low, at);
+        high = fmax(high, at);
+    }
+    w->near[w->near_count++] = (near_face){face, low - w->b->near, high + w->b->near};
+    return break_at_face(w, face, from, length);
+}
+
+static bool find_near(arounder *w, double3 from, double length)
+{
+    const solid_builder *b = w->b;
+    uint32_t             stack[STACK], depth = 0;
+    w->near_count = w->break_count = 0;
+    if (b->tree.node_count)
+        stack[depth++] = 0;
+    while (depth > 0) {
+        const hierarchy_node *n = &b->tree.nodes[stack[--depth]];
+        if (!passes(&n->box, from, w->along, length))
+            continue;
+        for (uint32_t i = 0; i < n->count; i++) {
+            uint32_t face = b->tree.members[n->first + i];
+            if (passes(&b->boxes[face], from, w->along, length) && !put_near(w, face, from, length))
+                return false;
+        }
+        if (n->count == 0 && depth + 2 <= STACK) {
+            stack[depth++] = n->first;
+            stack[depth++] = n->first + 1;
+        }
+    }
+    return true;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+/* --- what stands around a stretch ------------------------------------------------------------------------- */
+
+static bool put_half(arounder *w, uint32_t face, double x, double y, double reach)
+{
+    if (!mem_grow((void **)&w->halves, &w->half_capacity, w->half_count + 1, sizeof *w->halves))
+        return false;
+    const solid_builder *b = w->b;
+    double               angle = atan2(y, x), turns = cos(angle) * double3_dot(b->faces[face].normal, w->up) -
+                                        sin(angle) * double3_dot(b->faces[face].normal, w->side);
+    uint32_t operand = b->solid->operands[face];
+    w->halves[w->half_count++] = (half_plane){
+        angle < 0 ? angle + 2 * pi : angle, reach, face, operand, (turns < 0) != b->parts[operand].taken_away};
+    w->incident[operand]++;
+    return true;
+}
+
+/* Does a face hold the stretch? Its two half-planes, or the one that it has where the stretch is on its edge. */
+static bool take_face(arounder *w, uint32_t face, double3 p, double3 q, double3 middle)
+{
+    const solid_face *f = &w->b->faces[face];
+    double            near = 1.5 * w->b->near;
+    if (fabs(double3_dot(double3_minus(middle, f->p[0]), f->normal)) > near ||
+        fabs(double3_dot(double3_minus(p, f->p[0]), f->normal)) > near ||
+        fabs(double3_dot(double3_minus(q, f->p[0]), f->normal)) > near || !is_in_face(w->b, f, middle))
+        return true;
+    double x[3], y[3], most = 0;
+    int    farthest = 0;
+    for (int k = 0; k < 3; k++) {
+        double3 r = double3_minus(f->p[k], middle);
+        x[k] = double3_dot(r, w->side);
+        y[k] = double3_dot(r, w->up);
+        if (x[k] * x[k] + y[k] * y[k] > most) {
+            most = x[k] * x[k] + y[k] * y[k];
+            farthest = k;
+        }
+    }
+    double reach = sqrt(most), beyond = 0;
+    int    other = farthest;
+    if (reach <= 2 * w->b->near)
+        return true;
+    for (int k = 0; k < 3; k++) {
+        double back = -(x[k] * x[farthest] + y[k] * y[farthest]) / reach;
+        if (back > beyond) {
+            beyond = back;
+            other = k;
+        }
+    }
+    return put_half(w, face, x[farthest], y[farthest], reach) &&
+           (beyond <= 1.5 * w->b->near || put_half(w, face, x[other], y[other], beyond));
+}
+
+static int compare_halves(const void *a, const void *b)
+{
+    const half_plane *p = a, *q = b;
+    if (p->angle != q->angle)
+        return p->angle < q->angle ? -1 : 1;
+    if (p->operand != q->operand)
+        return p->operand < q->operand ? -1 : 1;
+    return (p->face > q->face) - (p->face < q->face);
+}
+
+static bool are_one(const arounder *w, const half_plane *p, const half_plane *q)
+{
+    double   apart = fabs(q->angle - p->angle);
+    uint16_t plane = w->b->solid->planes[p->face];
+    apart = fmin(apart, 2 * pi - apart);
+    return apart * fmin(p->reach, q->reach) <= 2 * w->b->near || apart < 1e-9 ||
+           (plane && plane == w->b->solid->planes[q->face] && apart < ONE_PLANE);
+}
+
+/* Sorts half-planes, from behind the widest gap on, and gathers them. */
+static bool make_fans(arounder *w)
+{
+    size_t count = w->half_count, first = 0;
+    double widest = -1;
+    qsort(w->halves, count, sizeof *w->halves, compare_halves);
+    if (!mem_grow((void **)&w->halves, &w->half_capacity, 2 * count, sizeof *w->halves) ||
+        !mem_grow((void **)&w->fans, &w->fan_capacity, count, sizeof *w->fans))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        double gap = w->halves[i].angle - (i ? w->halves[i - 1].angle : w->halves[count - 1].angle - 2 * pi);
+        if (gap > widest) {
+            widest = gap;
+            first = i;
+        }
+    }
+    for (size_t i = 0; i < first; i++) {
+        w->halves[count + i] = w->halves[i];
+        w->halves[count + i].angle += 2 * pi;
+    }
+    memmove(w->halves, w->halves + first, count * sizeof *w->halves);
+    w->fan_count = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (w->fan_count && are_one(w, &w->halves[w->fans[w->fan_count - 1].first], &w->halves[i]))
+            w->fans[w->fan_count - 1].count++;
+        else
+            w->fans[w->fan_count++] = (fan){i, 1};
+    }
+    return true;
+}
+
+/* Does the operand hold before the first fan? 1 yes, 0 no, −1: its half-planes do not say. */
+static int holds_before(const arounder *w, uint32_t operand)
+{
+    int    before = -1;
+    size_t all = 0;
+    for (size_t i = 0; i < w->fan_count; i++) {
+        size_t own = 0;
+        bool   begins = false;
+        for (size_t k = w->fans[i].first; k < w->fans[i].first + w->fans[i].count; k++)
+            if (w->halves[k].operand == operand) {
+                own++;
+                begins = w->halves[k].begins;
+            }
+        all += own;
+        if (own == 1 && before < 0)
+            before = !begins;
+    }
+    return all % 2 ? -1 : before;
+}
+
+/* Sets the state before the first fan. `stack`: operands that were passed, to be passed again at the end. */
+static void begin_state(arounder *w, double3 middle)
+{
+    const solid_builder *b = w->b;
+    bool                 doubtful = false, others = false;
+    for (size_t i = 0; i < w->half_count; i++) {
+        uint32_t operand = w->halves[i].operand;
+        doubtful = doubtful || b->parts[operand].crossed || holds_before(w, operand) < 0;
+    }
+    for (size_t i = 0; i < b->solid->program.operand_count && !others; i++) {
+        vec3 at = {(float)middle.x, (float)middle.y, (float)middle.z};
+        others = !w->incident[i] && boxes_meet(&b->parts[i].box, &(box3){at, at});
+    }
+    if (doubtful) { /* asked a little beside, in the widest gap */
+        double angle = (w->halves[w->half_count - 1].angle - 2 * pi + w->halves[0].angle) / 2;
+        middle = double3_plus(double3_plus(middle, w->side, ASIDE * b->near * cos(angle)), w->up,
+                              ASIDE * b->near * sin(angle));
+    }
+    if (others || doubtful)
+        find_parity(w, middle);
+    for (size_t i = 0; i < w->half_count; i++) {
+        uint32_t operand = w->halves[i].operand;
+        int      before = b->parts[operand].crossed ? -1 : holds_before(w, operand);
+        if (before >= 0)
+            w->odd[operand] = before;
+    }
+    for (uint32_t i = 0; i < b->solid->program.operand_count; i++)
+        if (w->odd[i])
+            solid_state_pass(&w->state, i);
+}
+
+static void pass_fan(arounder *w, const fan *f)
+{
+    for (size_t i = f->first; i < f->first + f->count; i++)
+        solid_state_pass(&w->state, w->halves[i].operand);
+}
+
+/* Order of what lies in one plane, as of fragments (csg/csg.h), from the outside inwards: ends before beginnings; among
+ * beginnings what is taken away before what is kept, among ends the other way round. `forward`: inwards is the way that
+ * angles grow. */
+static uint32_t key_of(const arounder *w, const half_plane *h, bool forward)
+{
+    bool taken = w->b->parts[h->operand].taken_away, enters = h->begins == forward, begins = enters != taken;
+    return (begins ? 2u : 0) + (begins != taken ? 1u : 0);
+}
+
+/* The face of a fan that people see: where the value changes last, going from the outside inwards. The state is that
+ * outside, and is left as it is inside. */
+static const half_plane *find_owner(arounder *w, const fan *f, bool forward)
+{
+    const half_plane *owner = &w->halves[f->first];
+    for (uint32_t key = 0; key < 4; key++)
+        for (size_t i = f->first; i < f->first + f->count; i++) {
+            bool before = w->state.value;
+            if (key_of(w, &w->halves[i], forward) != key)
+                continue;
+            solid_state_pass(&w->state, w->halves[i].operand);
+            if (w->state.value != before)
+                owner = &w->halves[i];
+        }
+    return owner;
+}
+
+static bool find_changes(arounder *w, double3 middle)
+{
+    w->change_count = 0;
+    begin_state(w, middle);
+    if (w->failed || !mem_grow((void **)&w->changes, &w->change_capacity, w->fan_count, sizeof *w->changes))
+        return false;
+    for (size_t i = 0; i < w->fan_count; i++) {
+        const fan *f = &w->fans[i];
+        bool       before = w->state.value;
+        pass_fan(w, f);
+        if (w->state.value == before)
+            continue;
+        const half_plane *owner = &w->halves[f->first];
+        if (f->count > 1 && !before) {
+            pass_fan(w, f);
+            owner = find_owner(w, f, true);
+        } else if (f->count > 1) {
+            owner = find_owner(w, f, false);
+            pass_fan(w, f);
+        }
+        w->changes[w->change_count++] = (change){owner->angle, owner->reach, owner->face, !before};
+    }
+    /* Back to nothing. */
+    for (size_t i = 0; i < w->fan_count; i++)
+        pass_fan(w, &w->fans[i]);
+    for (uint32_t i = 0; i < w->b->solid->program.operand_count; i++)
+        if (w->odd[i])
+            solid_state_pass(&w->state, i);
+    for (size_t i = 0; i < w->half_count; i++)
+        w->odd[w->halves[i].operand] = false;
+    clear_parity(w);
+    return true;
+}
+
+/* --- stretches ------------------------------------------------------------------------------------------ */
+
+static bool put_stretch(arounder *w, const solid_candidate *c, double3 p, double3 q, const uint32_t faces[2],
+                        uint32_t flags)
+{
+    const edge_mesh *m = w->b->mesh;
+    if (faces[0] != EDGE_NO_FACE && faces[1] != EDGE_NO_FACE && m->materials[faces[0]] != m->materials[faces[1]])
+        flags |= EDGE_MATERIAL;
+    if (!flags)
+        return true;
+    if (!mem_grow((void **)&w->out->items, &w->out->capacity, w->out->count + 1, sizeof *w->out->items))
+        return false;
+    solid_stretch *s = &w->out->items[w->out->count++];
+    *s = (solid_stretch){{p, q}, {faces[0], faces[1]}, flags, flags & EDGE_CREASE ? c->turn : 0, {NO_VERTEX, NO_VERTEX}};
+    const double3 at[2] = {p, q};
+    for (int k = 0; k < 2; k++)
+        if (memcmp(&at[k], &c->ends[k], sizeof at[k]) == 0)
+            s->vertex[k] = c->vertex[k];
+    return true;
+}
+
+/* What an edge of an operand is by itself. */
+static bool is_own(const solid_candidate *c, const uint32_t faces[2])
+{
+    return c->vertex[0] != NO_VERTEX && ((c->faces[0] == faces[0] && c->faces[1] == faces[1]) ||
+                                         (c->faces[0] == faces[1] && c->faces[1] == faces[0]));
+}
+
+/* An edge with two faces: what it is. Smooth ones are outlines where they are convex; 0: it is flat. */
+static uint32_t judge(const arounder *w, const solid_candidate *c, const change *begin, const change *end)
+{
+    double inside = end->angle - begin->angle, turn;
+    inside = inside < 0 ? inside + 2 * pi : inside;
+    turn = fabs(pi - inside);
+    const uint32_t faces[2] = {begin->face, end->face};
+    uint32_t       convex = inside < pi ? EDGE_CANDIDATE : 0;
+    if (is_own(c, faces))
+        return c->flags & EDGE_CREASE ? c->flags : c->flags | convex;
+    uint16_t plane = w->b->solid->planes[begin->face];
+    if (turn * fmin(begin->reach, end->reach) <= 2 * w->b->near ||
+        (plane && plane == w->b->solid->planes[end->face] && turn < ONE_PLANE))
+        return 0;
+    bool one = w->b->solid->operands[begin->face] == w->b->solid->operands[end->face];
+    return turn >= (one ? w->b->crease : fmin(w->b->crease, MEET)) ? EDGE_CREASE : convex;
+}
+
+/* Going round the line, the solid begins at its right-hand face and ends at the other. */
+static bool take_stretch(arounder *w, const solid_candidate *c, double3 p, double3 q)
+{
+    double3 middle = {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2}, from = c->ends[0];
+    double  at = double3_dot(double3_minus(middle, from), w->along);
+    w->half_count = 0;
+    for (size_t i = 0; i < w->near_count; i++)
+        if (w->near[i].from <= at && at <= w->near[i].to && !take_face(w, w->near[i].face, p, q, middle))
+            return false;
+    bool good = w->half_count == 0 || (make_fans(w) && find_changes(w, middle));
+    for (size_t i = 0; i < w->half_count; i++)
+        w->incident[w->halves[i].operand] = 0;
+    if (!good || w->half_count == 0 || w->change_count == 0)
+        return good;
+    const change *a = &w->changes[0], *b = &w->changes[1];
+    if (w->change_count == 1) /* an operand that is not closed */
+        return put_stretch(w, c, p, q, (const uint32_t[2]){a->face, EDGE_NO_FACE}, EDGE_BORDER);
+    const change *begin = a->begins ? a : b, *end = a->begins ? b : a;
+    /* The winding of the face at which the solid ends has the line in this order. */
+    const uint32_t faces[2] = {end->face, begin->face};
+    if (w->change_count > 2)
+        return put_stretch(w, c, p, q, faces, EDGE_BORDER);
+    return put_stretch(w, c, p, q, faces, judge(w, c, begin, end));
+}
+
+/* Is no other operand near? Then the edge bounds the solid, or it does not, as a whole. */
+static bool is_alone(const arounder *w, const solid_candidate *c)
+{
+    const solid_builder *b = w->b;
+    if (c->vertex[0] == NO_VERTEX || c->faces[1] == EDGE_NO_FACE)
+        return false;
+    uint32_t own = b->solid->operands[c->faces[0]];
+    if (b->parts[own].crossed)
+        return false;
+    box3 box = box3_empty();
+    for (int k = 0; k < 2; k++)
+        box = box3_with_point(box, b->mesh->positions[c->vertex[k]]);
+    for (uint32_t i = 0; i < b->solid->program.operand_count; i++)
+        if (i != own && boxes_meet(&b->parts[i].box, &box))
+            return false;
+    return true;
+}
+
+static bool take_alone(arounder *w, const solid_candidate *c)
+{
+    const solid_builder *b = w->b;
+    if (!b->parts[b->solid->operands[c->faces[0]]].alone)
+        return true;
+    const solid_face *f = &b->faces[c->faces[0]], *g = &b->faces[c->faces[1]];
+    double3           across = double3_cross(f->normal, g->normal);
+    bool              convex = double3_dot(across, w->along) > 0;
+    return put_stretch(w, c, c->ends[0], c->ends[1], c->faces,
+                       c->flags & EDGE_CREASE ? c->flags
+                       : convex               ? c->flags | EDGE_CANDIDATE
+                                              : c->flags);
+}
+
+static bool take_candidate(arounder *w, const solid_candidate *c)
+{
+    double3 way = double3_minus(c->ends[1], c->ends[0]);
+    double  length = double3_length(way), near = w->b->near;
+    if (!(length > 0))
+        return true;
+    w->along = (double3){way.x / length, way.y / length, way.z / length};
+    double3 least = fabs(w->along.x) < 0.6 ? (double3){1, 0, 0} : (double3){0, 1, 0}, side = double3_cross(w->along, least);
+    double  wide = double3_length(side);
+    w->side = (double3){side.x / wide, side.y / wide, side.z / wide};
+    w->up = double3_cross(w->along, w->side);
+    if (is_alone(w, c))
+        return take_alone(w, c);
+    if (!find_near(w, c->ends[0], length))
+        return false;
+    qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
+    double3 p = c->ends[0];
+    double  done = 0;
+    for (size_t i = 0; i <= w->break_count; i++) {
+        double at = i == w->break_count ? length : w->breaks[i];
+        if (at - done <= near && i < w->break_count)
+            continue;
+        double3 q = i == w->break_count ? c->ends[1] : double3_plus(c->ends[0], w->along, at);
+        if (at > done && !take_stretch(w, c, p, q))
+            return false;
+        p = q;
+        done = at;
+    }
+    return true;
+}
+
+/* --- all ------------------------------------------------------------------------------------------------ */
+
+typedef struct around_job {
+    const solid_builder *b;
+    solid_stretches     *blocks;
+    atomic_bool          failed;
+} around_job;
+
+static void release(arounder *w)
+{
+    solid_state_release(&w->state);
+    mem_free(w->near);
+    mem_free(w->breaks);
+    mem_free(w->halves);
+    mem_free(w->fans);
+    mem_free(w->changes);
+    mem_free(w->parity);
+    mem_free(w->odd);
+    mem_free(w->incident);
+}
+
+static void take_blocks(size_t begin, size_t end, void *user)
+{
+    around_job *job = user;
+    size_t      operands = job->b->solid->program.operand_count;
+    arounder    w = {.b = job->b};
+    bool        good = solid_state_open(&w.state, &job->b->solid->program);
+    w.odd = mem_calloc(operands + 1, sizeof *w.odd);
+    w.incident = mem_calloc(operands + 1, sizeof *w.incident);
+    good = good && w.odd && w.incident;
+    for (size_t k = begin; k < end && good; k++) {
+        size_t last = (k + 1) * BLOCK < job->b->candidate_count ? (k + 1) * BLOCK : job->b->candidate_count;
+        w.out = &job->blocks[k];
+        for (size_t i = k * BLOCK; i < last && good; i++)
+            good = take_candidate(&w, &job->b->candidates[i]) && !w.failed;
+        good = good && !work_stopped();
+    }
+    if (!good)
+        atomic_store(&job->failed, true);
+    release(&w);
+}
+
+lmn_status solid_bound(const solid_builder *b, solid_stretches *out, lmn_error *error)
+{
+    size_t     count = (b->candidate_count + BLOCK - 1) / BLOCK, total = 0, at = 0;
+    around_job job = {.b = b, .blocks = mem_calloc(count + 1, sizeof *job.blocks)};
+    memset(out, 0, sizeof *out);
+    if (job.blocks)
+        threads_for(count, 1, take_blocks, &job);
+    bool good = job.blocks && !atomic_load(&job.failed);
+    for (size_t i = 0; i < count && good; i++)
+        total += job.blocks[i].count;
+    out->items = good ? mem_alloc((total + 1) * sizeof *out->items) : NULL;
+    for (size_t i = 0; i < count && job.blocks; at += job.blocks[i++].count) {
+        if (out->items && job.blocks[i].count)
+            memcpy(out->items + at, job.blocks[i].items, job.blocks[i].count * sizeof *out->items);
+        mem_free(job.blocks[i].items);
+    }
+    out->count = out->items ? total : 0;
+    mem_free(job.blocks);
+    return out->items ? LMN_OK : error_memory(error);
+}
