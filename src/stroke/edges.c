@@ -442,7 +442,7 @@ static lmn_status sort_edges(edge_builder *b, lmn_error *error)
     fill_buckets(b);
     if (!take_edges(b))
         return error_memory(error);
-    if (b->has_twins) {
+    if (b->has_twins && !b->whole) {
         b->dropped = mem_calloc(m->face_count, 1);
         if (!b->dropped)
             return error_memory(error);
@@ -500,6 +500,15 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions
     edge_builder b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle};
     return edges_finish(&b, edge_faces_make(&b, m, positions, error), error);
 }
+
+lmn_status edge_mesh_create_whole(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
+                                  lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    edge_builder b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle, .whole = true};
+    return edges_finish(&b, edge_faces_make(&b, m, positions, error), error);
+}
+
 lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,
                                  lmn_error *error)
 {

@@ -73,6 +73,9 @@ typedef struct edge_mesh {
  * primitives, one after the other, where the mesh has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
                             lmn_error *error);
+/* The same with all faces, those that are there twice, too: as operands of solids, two of these enclose nothing. */
+lmn_status edge_mesh_create_whole(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
+                                  lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
 
 /* What the poses of a mesh have in common: vertices that are one, faces, and which of these meet. Of the mesh at rest:

@@ -19,6 +19,8 @@ static const double pi = 3.14159265358979323846;
 static const double MEET = 10 * 3.14159265358979323846 / 180;
 /* Half-planes of one shared plane are not farther apart than rounding of narrow faces makes of it. */
 static const double ONE_PLANE = 0.05;
+/* A face holds a line that is no farther from it, times what is one place. */
+static const double HOLDS = 1.5;
 enum { BLOCK = 256, STACK = 128, ASIDE = 20 };
 
 /* A half-plane that begins at the line. */
@@ -219,10 +221,15 @@ static bool passes(const box3 *box, double3 from, double3 along, double length)
 
 static bool put_near(arounder *w, uint32_t face, double3 from, double length)
 {
+    const solid_face *f = &w->b->faces[face];
+    double            low = double3_dot(double3_minus(from, f->p[0]), f->normal),
+           high = low + length * double3_dot(w->along, f->normal), reach = HOLDS * w->b->near;
+    if ((low > reach && high > reach) || (low < -reach && high < -reach))
+        return true;
     if (!mem_grow((void **)&w->near, &w->near_capacity, w->near_count + 1, sizeof *w->near))
         return false;
-    const solid_face *f = &w->b->faces[face];
-    double            low = INFINITY, high = -INFINITY;
+    low = INFINITY;
+    high = -INFINITY;
     for (int k = 0; k < 3; k++) {
         double at = double3_dot(double3_minus(f->p[k], from), w->along);
         low = fmin(low, at);
@@ -282,7 +289,7 @@ static bool put_half(arounder *w, uint32_t face, double x, double y, double reac
 static bool take_face(arounder *w, uint32_t face, double3 p, double3 q, double3 middle)
 {
     const solid_face *f = &w->b->faces[face];
-    double            near = 1.5 * w->b->near;
+    double            near = HOLDS * w->b->near;
     if (fabs(double3_dot(double3_minus(middle, f->p[0]), f->normal)) > near ||
         fabs(double3_dot(double3_minus(p, f->p[0]), f->normal)) > near ||
         fabs(double3_dot(double3_minus(q, f->p[0]), f->normal)) > near || !is_in_face(w->b, f, middle))
@@ -310,7 +317,7 @@ static bool take_face(arounder *w, uint32_t face, double3 p, double3 q, double3 
         }
     }
     return put_half(w, face, x[farthest], y[farthest], reach) &&
-           (beyond <= 1.5 * w->b->near || put_half(w, face, x[other], y[other], beyond));
+           (beyond <= HOLDS * w->b->near || put_half(w, face, x[other], y[other], beyond));
 }
 
 static int compare_halves(const void *a, const void *b)

@@ -225,7 +225,7 @@ static lmn_status load_operand(solid_builder *b, const mesh *m, const solid_oper
     vec3      *positions = place(m, &o->matrix);
     edge_mesh  own = {0};
     lmn_status status =
-        positions ? edge_mesh_create(&own, m, positions, b->crease, error) : error_memory(error);
+        positions ? edge_mesh_create_whole(&own, m, positions, b->crease, error) : error_memory(error);
     mem_free(positions);
     if (status != LMN_OK)
         return status;
