@@ -565,7 +565,7 @@ static bool is_alone(const arounder *w, const solid_candidate *c)
     if (c->vertex[0] == NO_VERTEX || c->faces[1] == EDGE_NO_FACE)
         return false;
     uint32_t own = b->solid->operands[c->faces[0]];
-    if (b->parts[own].crossed)
+    if (b->parts[own].crossed || (b->lined[c->faces[0]] | b->lined[c->faces[1]]) & SOLID_THIN)
         return false;
     box3 box = box3_empty();
     for (int k = 0; k < 2; k++)

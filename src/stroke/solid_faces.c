@@ -68,10 +68,10 @@ static double height_above(const solid_face *of, const solid_face *free_face, in
 
 static bool put_edge(solid_builder *b, const operand_edge *group, size_t count, const mesh_edge *known)
 {
-    const solid_face *f = &b->faces[group[0].corner / 3], *g = count > 1 ? &b->faces[group[1].corner / 3] : NULL;
+    const solid_face *f = &b->faces[group[0].corner / 3], *g = count == 2 ? &b->faces[group[1].corner / 3] : NULL;
     int               corner = (int)(group[0].corner % 3);
-    uint32_t          flags = known ? known->flags & (EDGE_CREASE | EDGE_ROUNDED | EDGE_QUIET) : 0;
-    if (count == 2) {
+    uint32_t          flags = g && known ? known->flags & (EDGE_CREASE | EDGE_ROUNDED | EDGE_QUIET) : 0;
+    if (g) {
         double height = height_above(g, f, corner) == 0 ? 0 : height_above(f, g, (int)(group[1].corner % 3));
         if (height == 0 && !flags && double3_dot(f->normal, g->normal) > 0)
             return true;
@@ -85,7 +85,7 @@ static bool put_edge(solid_builder *b, const operand_edge *group, size_t count, 
         (solid_candidate){{f->p[corner], f->p[(corner + 1) % 3]},
                           {group[0].corner / 3, g ? group[1].corner / 3 : EDGE_NO_FACE},
                           flags,
-                          known ? known->turn : 0,
+                          g && known ? known->turn : 0,
                           {v[corner], v[(corner + 1) % 3]}};
     return true;
 }
@@ -160,6 +160,14 @@ static bool make_room(solid_builder *b, const edge_mesh *own)
            mem_grow((void **)&m->faces, &b->face_capacity, faces, sizeof *m->faces);
 }
 
+static double longest_side(const solid_face *f)
+{
+    double longest = 0;
+    for (int k = 0; k < 3; k++)
+        longest = fmax(longest, double3_length(double3_minus(f->p[(k + 1) % 3], f->p[k])));
+    return longest;
+}
+
 /* Faces turned so that they look out of the solid: outwards, of what is taken away inwards. */
 static void put_faces(solid_builder *b, const edge_mesh *own, uint32_t number, bool flips)
 {
@@ -184,7 +192,7 @@ static void put_faces(solid_builder *b, const edge_mesh *own, uint32_t number, b
         face->normal = length > 0 ? (double3){n.x / length, n.y / length, n.z / length} : (double3){0, 0, 0};
         m->normals[at] = (vec3){(float)face->normal.x, (float)face->normal.y, (float)face->normal.z};
         b->boxes[at] = widened(box, b->near);
-        b->lined[at] = 0;
+        b->lined[at] = length <= 2 * b->near * longest_side(face) ? SOLID_THIN : 0;
         b->solid->operands[at] = number;
         b->solid->planes[at] = 0;
         part->box = box3_union(part->box, b->boxes[at]);

@@ -7,6 +7,9 @@
 #include "stroke/solid.h"
 #include "stroke/stroke_private.h"
 
+/* A face as wide as what is one place: it does not know its own plane. */
+enum { SOLID_THIN = 8 };
+
 /* A face in double precision. */
 typedef struct solid_face {
     double3 p[3], normal; /* unit, outwards of the solid; 0 where it has no area */
@@ -38,7 +41,7 @@ typedef struct solid_builder {
     double           crease;
     solid_face      *faces;
     box3            *boxes; /* per face, widened */
-    uint8_t         *lined; /* per face, a bit a corner: the edge that begins there is a candidate */
+    uint8_t         *lined; /* per face, a bit a corner: the edge that begins there is a candidate; SOLID_THIN */
     hierarchy        tree;  /* of the faces */
     solid_part      *parts;
     size_t           vertex_capacity, face_capacity, operand_capacity, material_capacity, lined_capacity;
