@@ -200,6 +200,7 @@ static lmn_status add_solid(scene_builder *b, size_t part_index, lmn_error *erro
     if (status != LMN_OK)
         return status;
     uint32_t number = (uint32_t)s->mesh_count++;
+    s->open_operands += s->meshes[number].solid->open_operands;
     for (size_t i = 0; i < node_draw_count(n) && status == LMN_OK && s->meshes[number].piece_count; i++) {
         mat4 world = pose_instance(b->pose, part_index, i);
         status = put_item(b, part_index, number, &world, error);

@@ -72,15 +72,30 @@ typedef struct arounder {
 
 /* --- rays ----------------------------------------------------------------------------------------------- */
 
-static bool meets_ray(const box3 *box, double3 from, double3 slowness)
+/* A stretch of a line from a position on, made ready for boxes: 1 / its direction. */
+typedef struct box_line {
+    double at[3], slow[3], length;
+} box_line;
+
+static box_line line_to_boxes(double3 from, double3 along, double length)
 {
-    const double low[3] = {box->min.x, box->min.y, box->min.z}, high[3] = {box->max.x, box->max.y, box->max.z},
-                 at[3] = {from.x, from.y, from.z}, slow[3] = {slowness.x, slowness.y, slowness.z};
-    double enter = 0, leave = INFINITY;
+    const double way[3] = {along.x, along.y, along.z};
+    box_line     out = {{from.x, from.y, from.z}, {0, 0, 0}, length};
+    for (int k = 0; k < 3; k++) /* finite, so that 0 times it is no trouble */
+        out.slow[k] = fabs(way[k]) > 1e-150 ? 1 / way[k] : 1e150;
+    return out;
+}
+
+/* fmin and fmax are calls. */
+static bool meets_box(const box_line *l, const box3 *box)
+{
+    const double low[3] = {box->min.x, box->min.y, box->min.z}, high[3] = {box->max.x, box->max.y, box->max.z};
+    double       enter = 0, leave = l->length;
     for (int k = 0; k < 3; k++) {
-        double a = (low[k] - at[k]) * slow[k], b = (high[k] - at[k]) * slow[k];
-        enter = fmax(enter, a < b ? a : b);
-        leave = fmin(leave, a < b ? b : a);
+        double a = (low[k] - l->at[k]) * l->slow[k], b = (high[k] - l->at[k]) * l->slow[k];
+        double first = a < b ? a : b, last = a < b ? b : a;
+        enter = enter > first ? enter : first;
+        leave = leave < last ? leave : last;
     }
     return enter <= leave;
 }
@@ -105,13 +120,13 @@ static void find_parity(arounder *w, double3 at)
 {
     static const double3 along = {0.5412378, 0.6127751, 0.5758921};
     const solid_builder *b = w->b;
-    const double3        slowness = {1 / along.x, 1 / along.y, 1 / along.z};
+    const box_line       line = line_to_boxes(at, along, INFINITY);
     uint32_t             stack[STACK], depth = 0;
     if (b->tree.node_count)
         stack[depth++] = 0;
     while (depth > 0) {
         const hierarchy_node *n = &b->tree.nodes[stack[--depth]];
-        if (!meets_ray(&n->box, at, slowness))
+        if (!meets_box(&line, &n->box))
             continue;
         for (uint32_t i = 0; i < n->count; i++) {
             uint32_t face = b->tree.members[n->first + i], operand = b->solid->operands[face];
@@ -200,25 +215,6 @@ static bool break_at_face(arounder *w, uint32_t face, double3 from, double lengt
     return put_break(w, at);
 }
 
-/* Does the line pass a box? `slowness`: 1 / along. */
-static bool passes(const box3 *box, double3 from, double3 along, double length)
-{
-    const double low[3] = {box->min.x, box->min.y, box->min.z}, high[3] = {box->max.x, box->max.y, box->max.z},
-                 at[3] = {from.x, from.y, from.z}, way[3] = {along.x, along.y, along.z};
-    double enter = 0, leave = length;
-    for (int k = 0; k < 3; k++) {
-        if (fabs(way[k]) < 1e-12) {
-            if (at[k] < low[k] || at[k] > high[k])
-                return false;
-            continue;
-        }
-        double a = (low[k] - at[k]) / way[k], b = (high[k] - at[k]) / way[k];
-        enter = fmax(enter, a < b ? a : b);
-        leave = fmin(leave, a < b ? b : a);
-    }
-    return enter <= leave;
-}
-
 static bool put_near(arounder *w, uint32_t face, double3 from, double length)
 {
     const solid_face *f = &w->b->faces[face];
@@ -232,8 +228,8 @@ static bool put_near(arounder *w, uint32_t face, double3 from, double length)
     high = -INFINITY;
     for (int k = 0; k < 3; k++) {
         double at = double3_dot(double3_minus(f->p[k], from), w->along);
-        low = fmin(low, at);
-        high = fmax(high, at);
+        low = low < at ? low : at;
+        high = high > at ? high : at;
     }
     w->near[w->near_count++] = (near_face){face, low - w->b->near, high + w->b->near};
     return break_at_face(w, face, from, length);
@@ -242,17 +238,18 @@ static bool put_near(arounder *w, uint32_t face, double3 from, double length)
 static bool find_near(arounder *w, double3 from, double length)
 {
     const solid_builder *b = w->b;
+    const box_line       line = line_to_boxes(from, w->along, length);
     uint32_t             stack[STACK], depth = 0;
     w->near_count = w->break_count = 0;
     if (b->tree.node_count)
         stack[depth++] = 0;
     while (depth > 0) {
         const hierarchy_node *n = &b->tree.nodes[stack[--depth]];
-        if (!passes(&n->box, from, w->along, length))
+        if (!meets_box(&line, &n->box))
             continue;
         for (uint32_t i = 0; i < n->count; i++) {
             uint32_t face = b->tree.members[n->first + i];
-            if (passes(&b->boxes[face], from, w->along, length) && !put_near(w, face, from, length))
+            if (meets_box(&line, &b->boxes[face]) && !put_near(w, face, from, length))
                 return false;
         }
         if (n->count == 0 && depth + 2 <= STACK) {

@@ -95,11 +95,12 @@ typedef struct stroke_scene {
     size_t               mesh_count;
     stroke_item         *items;
     size_t               item_count;
+    uint32_t             open_operands; /* of solids, that are no closed meshes: what they enclose is not certain */
     double extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how
                              exact positions are: where a node puts it is exact */
 } stroke_scene;
 
-/* Takes the parts with `parts[index]` (NULL: all) as they are posed. Solids have no triangles and are left out.
+/* Takes the parts with `parts[index]` (NULL: all) as they are posed; of solids what bounds them (stroke/solid.h).
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
