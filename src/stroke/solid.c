@@ -197,26 +197,54 @@ static lmn_status find_lines(solid_builder *b, const solid_form *form, lmn_error
     return status == LMN_OK && !close_pieces(b->mesh, form) ? error_memory(error) : status;
 }
 
+static void ground_destroy(solid_builder **b)
+{
+    if (!*b)
+        return;
+    hierarchy_release(&(*b)->tree);
+    mem_free((*b)->faces);
+    mem_free((*b)->boxes);
+    mem_free((*b)->lined);
+    mem_free((*b)->parts);
+    mem_free((*b)->candidates);
+    mem_free(*b);
+    *b = NULL;
+}
+
+static lmn_status build(solid_builder *b, const lmn_scene *scene, const solid_form *form, const mesh *half_space,
+                        lmn_error *error)
+{
+    int32_t   *used = mem_alloc((form->operand_count + 1) * sizeof *used);
+    size_t     count = used ? solid_form_used(form, used) : 0;
+    lmn_status status = used ? LMN_OK : error_memory(error);
+    if (count)
+        status = solid_load(b, scene, form, used, count, half_space, error);
+    if (status == LMN_OK && b->mesh->face_count)
+        status = find_lines(b, form, error);
+    mem_free(used);
+    mem_free(b->candidates);
+    b->candidates = NULL;
+    b->mesh = NULL;
+    return status;
+}
+
 lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form,
                                   const mesh *half_space, double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    solid_builder b = {.mesh = out, .near = CSG_COINCIDENT * extent_of(form), .crease = crease_angle};
-    int32_t      *used = mem_alloc((form->operand_count + 1) * sizeof *used);
-    out->solid = b.solid = mem_calloc(1, sizeof *b.solid);
-    lmn_status status = used && b.solid ? LMN_OK : error_memory(error);
-    size_t     count = status == LMN_OK ? solid_form_used(form, used) : 0;
-    if (status == LMN_OK && count)
-        status = solid_load(&b, scene, form, used, count, half_space, error);
-    if (status == LMN_OK && count)
-        status = find_lines(&b, form, error);
-    hierarchy_release(&b.tree);
-    mem_free(used);
-    mem_free(b.faces);
-    mem_free(b.boxes);
-    mem_free(b.lined);
-    mem_free(b.parts);
-    mem_free(b.candidates);
+    solid_builder *b = mem_calloc(1, sizeof *b);
+    out->solid = mem_calloc(1, sizeof *out->solid);
+    lmn_status status = b && out->solid ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        *b = (solid_builder){.mesh = out,
+                             .solid = out->solid,
+                             .near = CSG_COINCIDENT * extent_of(form),
+                             .crease = crease_angle};
+        out->solid->ground = b;
+        status = build(b, scene, form, half_space, error);
+    } else {
+        mem_free(b);
+    }
     if (status != LMN_OK)
         edge_mesh_release(out);
     return status;
@@ -226,6 +254,7 @@ void edge_solid_destroy(edge_solid **s)
 {
     if (!*s)
         return;
+    ground_destroy(&(*s)->ground);
     csg_program_release(&(*s)->program);
     mem_free((*s)->operands);
     mem_free((*s)->planes);

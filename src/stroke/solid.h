@@ -13,6 +13,7 @@ typedef struct edge_solid {
     uint32_t   *operands;      /* per face, from 0 on */
     uint16_t   *planes;        /* per face: of those that several operands share, from 1 on; 0: none */
     uint32_t    open_operands; /* that are no closed meshes: what they enclose is not certain */
+    struct solid_builder *ground; /* what is asked whether a line bounds the solid */
 } edge_solid;
 
 /* The lines of what a form leaves; `half_space` (may be NULL) is the mesh with the number behind the scene's last one.
@@ -20,6 +21,17 @@ typedef struct edge_solid {
 lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form,
                                   const mesh *half_space, double crease_angle, lmn_error *error);
 void       edge_solid_destroy(edge_solid **s);
+
+/* Where a line that lies in one of the faces bounds the solid with it: shares of the line, ascending. For one thread;
+ * open once, for all lines. False when memory is gone. */
+typedef struct solid_trimmer solid_trimmer;
+typedef struct solid_share {
+    double from, to;
+} solid_share;
+solid_trimmer *solid_trimmer_create(const edge_solid *s);
+void           solid_trimmer_destroy(solid_trimmer **t);
+bool           solid_trim(solid_trimmer *t, uint32_t face, const double from[3], const double to[3],
+                          const solid_share **out, size_t *count);
 
 /* Which operands hold, and what their tree makes of it. */
 typedef struct solid_state {

@@ -41,6 +41,7 @@ typedef struct change {
     double   angle, reach;
     uint32_t face;
     bool     begins;
+    size_t   fan;
 } change;
 
 typedef struct near_face {
@@ -69,6 +70,28 @@ typedef struct arounder {
     bool                 failed;
     double3              along, side, up; /* of the line: unit, right-handed */
 } arounder;
+
+static void release(arounder *w)
+{
+    solid_state_release(&w->state);
+    mem_free(w->near);
+    mem_free(w->breaks);
+    mem_free(w->halves);
+    mem_free(w->fans);
+    mem_free(w->changes);
+    mem_free(w->parity);
+    mem_free(w->odd);
+    mem_free(w->incident);
+}
+
+static bool open_arounder(arounder *w, const solid_builder *b)
+{
+    size_t operands = b->solid->program.operand_count;
+    w->b = b;
+    w->odd = mem_calloc(operands + 1, sizeof *w->odd);
+    w->incident = mem_calloc(operands + 1, sizeof *w->incident);
+    return solid_state_open(&w->state, &b->solid->program) && w->odd && w->incident;
+}
 
 /* --- rays ----------------------------------------------------------------------------------------------- */
 
@@ -470,7 +493,7 @@ static bool find_changes(arounder *w, double3 middle)
             owner = find_owner(w, f, false);
             pass_fan(w, f);
         }
-        w->changes[w->change_count++] = (change){owner->angle, owner->reach, owner->face, !before};
+        w->changes[w->change_count++] = (change){owner->angle, owner->reach, owner->face, !before, i};
     }
     /* Back to nothing. */
     for (size_t i = 0; i < w->fan_count; i++)
@@ -530,19 +553,26 @@ static uint32_t judge(const arounder *w, const solid_candidate *c, const change 
     return turn >= (one ? w->b->crease : fmin(w->b->crease, MEET)) ? EDGE_CREASE : convex;
 }
 
-/* Going round the line, the solid begins at its right-hand face and ends at the other. */
-static bool take_stretch(arounder *w, const solid_candidate *c, double3 p, double3 q)
+/* What stands around a stretch of a line that begins at `from`, and where the solid begins and ends there. */
+static bool look_around(arounder *w, double3 from, double3 p, double3 q)
 {
-    double3 middle = {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2}, from = c->ends[0];
+    double3 middle = {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2};
     double  at = double3_dot(double3_minus(middle, from), w->along);
-    w->half_count = 0;
+    w->half_count = w->change_count = 0;
     for (size_t i = 0; i < w->near_count; i++)
         if (w->near[i].from <= at && at <= w->near[i].to && !take_face(w, w->near[i].face, p, q, middle))
             return false;
     bool good = w->half_count == 0 || (make_fans(w) && find_changes(w, middle));
     for (size_t i = 0; i < w->half_count; i++)
         w->incident[w->halves[i].operand] = 0;
-    if (!good || w->half_count == 0 || w->change_count == 0)
+    return good;
+}
+
+/* Going round the line, the solid begins at its right-hand face and ends at the other. */
+static bool take_stretch(arounder *w, const solid_candidate *c, double3 p, double3 q)
+{
+    bool good = look_around(w, c->ends[0], p, q);
+    if (!good || w->change_count == 0)
         return good;
     const change *a = &w->changes[0], *b = &w->changes[1];
     if (w->change_count == 1) /* an operand that is not closed */
@@ -587,34 +617,125 @@ static bool take_alone(arounder *w, const solid_candidate *c)
                                               : c->flags);
 }
 
-static bool take_candidate(arounder *w, const solid_candidate *c)
+/* Makes ready for a line; false where it has no length. */
+static bool set_line(arounder *w, double3 from, double3 to, double *length)
 {
-    double3 way = double3_minus(c->ends[1], c->ends[0]);
-    double  length = double3_length(way), near = w->b->near;
-    if (!(length > 0))
-        return true;
-    w->along = (double3){way.x / length, way.y / length, way.z / length};
-    double3 least = fabs(w->along.x) < 0.6 ? (double3){1, 0, 0} : (double3){0, 1, 0}, side = double3_cross(w->along, least);
-    double  wide = double3_length(side);
+    double3 way = double3_minus(to, from);
+    *length = double3_length(way);
+    if (!(*length > 0))
+        return false;
+    w->along = (double3){way.x / *length, way.y / *length, way.z / *length};
+    double3 least = fabs(w->along.x) < 0.6 ? (double3){1, 0, 0} : (double3){0, 1, 0},
+            side = double3_cross(w->along, least);
+    double wide = double3_length(side);
     w->side = (double3){side.x / wide, side.y / wide, side.z / wide};
     w->up = double3_cross(w->along, w->side);
+    return true;
+}
+
+/* Where the next stretch ends, `*next` being the break to look at first. */
+static double end_of_stretch(const arounder *w, double done, double length, size_t *next)
+{
+    while (*next < w->break_count && w->breaks[*next] - done <= w->b->near)
+        ++*next;
+    return *next < w->break_count ? w->breaks[(*next)++] : length;
+}
+
+static bool take_candidate(arounder *w, const solid_candidate *c)
+{
+    double length, done = 0;
+    if (!set_line(w, c->ends[0], c->ends[1], &length))
+        return true;
     if (is_alone(w, c))
         return take_alone(w, c);
     if (!find_near(w, c->ends[0], length))
         return false;
     qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
     double3 p = c->ends[0];
-    double  done = 0;
-    for (size_t i = 0; i <= w->break_count; i++) {
-        double at = i == w->break_count ? length : w->breaks[i];
-        if (at - done <= near && i < w->break_count)
-            continue;
-        double3 q = i == w->break_count ? c->ends[1] : double3_plus(c->ends[0], w->along, at);
-        if (at > done && !take_stretch(w, c, p, q))
+    for (size_t next = 0; done < length;) {
+        double  at = end_of_stretch(w, done, length, &next);
+        double3 q = at == length ? c->ends[1] : double3_plus(c->ends[0], w->along, at);
+        if (!take_stretch(w, c, p, q))
             return false;
         p = q;
         done = at;
     }
+    return true;
+}
+
+/* --- lines in one face ---------------------------------------------------------------------------------- */
+
+struct solid_trimmer {
+    arounder     w;
+    solid_share *shares;
+    size_t       count, capacity;
+};
+
+solid_trimmer *solid_trimmer_create(const edge_solid *s)
+{
+    solid_trimmer *t = mem_calloc(1, sizeof *t);
+    if (t && !open_arounder(&t->w, s->ground))
+        solid_trimmer_destroy(&t);
+    return t;
+}
+
+void solid_trimmer_destroy(solid_trimmer **t)
+{
+    if (!*t)
+        return;
+    release(&(*t)->w);
+    mem_free((*t)->shares);
+    mem_free(*t);
+    *t = NULL;
+}
+
+/* Does the solid begin or end with the face, on either side of the line? */
+static bool bounds_here(const arounder *w, uint32_t face)
+{
+    for (size_t i = 0; i < w->change_count; i++)
+        for (size_t k = 0; k < w->fans[w->changes[i].fan].count; k++)
+            if (w->halves[w->fans[w->changes[i].fan].first + k].face == face)
+                return true;
+    return false;
+}
+
+static bool put_share(solid_trimmer *t, double from, double to)
+{
+    if (t->count && t->shares[t->count - 1].to == from) {
+        t->shares[t->count - 1].to = to;
+        return true;
+    }
+    if (!mem_grow((void **)&t->shares, &t->capacity, t->count + 1, sizeof *t->shares))
+        return false;
+    t->shares[t->count++] = (solid_share){from, to};
+    return true;
+}
+
+bool solid_trim(solid_trimmer *t, uint32_t face, const double from[3], const double to[3], const solid_share **out,
+                size_t *count)
+{
+    arounder *w = &t->w;
+    double3   a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]}, p = a;
+    double    length, done = 0;
+    t->count = 0;
+    *out = NULL;
+    *count = 0;
+    if (!set_line(w, a, b, &length))
+        return true;
+    if (!find_near(w, a, length))
+        return false;
+    qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
+    for (size_t next = 0; done < length;) {
+        double  at = end_of_stretch(w, done, length, &next);
+        double3 q = at == length ? b : double3_plus(a, w->along, at);
+        if (!look_around(w, a, p, q) || w->failed ||
+            (bounds_here(w, face) && !put_share(t, done / length, at / length)))
+            return false;
+        p = q;
+        done = at;
+    }
+    *out = t->shares;
+    *count = t->count;
     return true;
 }
 
@@ -626,28 +747,11 @@ typedef struct around_job {
     atomic_bool          failed;
 } around_job;
 
-static void release(arounder *w)
-{
-    solid_state_release(&w->state);
-    mem_free(w->near);
-    mem_free(w->breaks);
-    mem_free(w->halves);
-    mem_free(w->fans);
-    mem_free(w->changes);
-    mem_free(w->parity);
-    mem_free(w->odd);
-    mem_free(w->incident);
-}
-
 static void take_blocks(size_t begin, size_t end, void *user)
 {
     around_job *job = user;
-    size_t      operands = job->b->solid->program.operand_count;
-    arounder    w = {.b = job->b};
-    bool        good = solid_state_open(&w.state, &job->b->solid->program);
-    w.odd = mem_calloc(operands + 1, sizeof *w.odd);
-    w.incident = mem_calloc(operands + 1, sizeof *w.incident);
-    good = good && w.odd && w.incident;
+    arounder    w = {.b = NULL};
+    bool        good = open_arounder(&w, job->b);
     for (size_t k = begin; k < end && good; k++) {
         size_t last = (k + 1) * BLOCK < job->b->candidate_count ? (k + 1) * BLOCK : job->b->candidate_count;
         w.out = &job->blocks[k];

@@ -35,7 +35,7 @@ typedef struct solid_part {
 } solid_part;
 
 typedef struct solid_builder {
-    edge_mesh       *mesh;
+    edge_mesh       *mesh; /* while it is built */
     edge_solid      *solid;
     double           near; /* what lies no farther apart is in one place */
     double           crease;
