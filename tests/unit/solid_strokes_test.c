@@ -144,6 +144,36 @@ static void balls_meet_in_a_ring(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Lines in which a solid and another part run through each other end where the solid does: a bar in a hole crosses
+ * nothing, one beside it crosses both faces of the plate. */
+static void parts_cross_what_is_left(void **state)
+{
+    (void)state;
+    static const char *const texts[2] = {
+        "difference(){" BOX(-10, 0, -10, 20, 1, 20) BOX(-2, -1, -2, 4, 3, 4) "}",
+        "difference(){union(){" BOX(-1, -5, -1, 2, 10, 2) BOX(5, -5, 5, 2, 10, 2) "}" BOX(6, -6, 0, 3, 12, 9) "}"};
+    lmn_scene    *s;
+    lmn_error     error = {0};
+    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    assert_int_equal(lmn_scene_create(&s, &error), LMN_OK);
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(lmn_scene_add_file(s, temp_file("part.csg", texts[k], strlen(texts[k])), &load, &error), LMN_OK);
+    stroke_scene scene = scene_of(s);
+    double       length = 0;
+    assert_int_equal(scene.item_count, 2);
+    assert_int_equal(stroke_scene_cross(&scene, NULL, NULL, &error), LMN_OK);
+    for (size_t i = 0; i < stroke_scene_crossing_count(&scene); i++) {
+        double ends[2][3];
+        vec3   outward[2];
+        stroke_scene_crossing(&scene, i, ends, outward);
+        length += sqrt(pow(ends[1][0] - ends[0][0], 2) + pow(ends[1][1] - ends[0][1], 2) +
+                       pow(ends[1][2] - ends[0][2], 2));
+    }
+    assert_true(fabs(length - 2 * 2 * (1 + 2)) < 1e-3);
+    stroke_scene_release(&scene);
+    lmn_scene_destroy(&s);
+}
+
 /* --- bad operands --------------------------------------------------------------------------------------- */
 
 #define CORNERS(x, y, z, u, v, w)                                                                                      \
@@ -281,6 +311,7 @@ int main(void)
         cmocka_unit_test(several_meet_at_an_edge),
         cmocka_unit_test(colours_have_borders),
         cmocka_unit_test(balls_meet_in_a_ring),
+        cmocka_unit_test(parts_cross_what_is_left),
         cmocka_unit_test(shells_that_cross_are_decided),
         cmocka_unit_test(open_operands_are_counted),
         cmocka_unit_test(what_is_taken_away_hides_nothing),
