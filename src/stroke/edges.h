@@ -46,6 +46,14 @@ typedef struct mesh_line {
     float    lift; /* so far it may lie off a surface and still be on it */
 } mesh_line;
 
+/* A cut face of a section: what says how it is hatched. Its faces have a material that is no file's. */
+typedef struct edge_cap {
+    int32_t  axis; /* 0 … 2, that its plane is nearest to being at right angles to */
+    uint32_t body; /* of the part, from 0 on */
+    double   normal[3], offset; /* of its plane, world axes */
+} edge_cap;
+#define EDGE_CAP_MATERIAL(cap) (-2 - (int32_t)(cap))
+
 /* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
  * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
@@ -62,6 +70,8 @@ typedef struct edge_mesh {
     box3                   *boxes;     /* per piece */
     uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
+    edge_cap               *caps;
+    uint32_t                cap_count;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
     struct edge_solid      *solid;      /* stroke/solid.h: the faces are those of its operands; NULL: of a mesh */
     bool                  moves; /* a pose or a call has put it where it is: in the next picture it may be elsewhere */

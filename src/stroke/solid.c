@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "csg_tree/planes.h"
+#include "stroke/scene_cut.h"
 
 /* --- welding -------------------------------------------------------------------------------------------- */
 
@@ -211,25 +212,43 @@ static void ground_destroy(solid_builder **b)
     *b = NULL;
 }
 
-static lmn_status build(solid_builder *b, const lmn_scene *scene, const solid_form *form, const mesh *half_space,
-                        lmn_error *error)
+/* A cut face a cutter that is left. */
+static bool put_caps(solid_builder *b, const int32_t *used, size_t count, const cut *c, const solid_cutter *cutters)
+{
+    b->mesh->caps = mem_alloc((count + 1) * sizeof *b->mesh->caps);
+    b->caps = mem_alloc((count + 1) * sizeof *b->caps);
+    for (size_t i = 0; i < count && b->caps && b->mesh->caps; i++) {
+        int32_t plane = cutters ? cutters[used[i]].plane : NONE;
+        b->caps[i] = plane == NONE ? NONE : (int32_t)b->mesh->cap_count;
+        if (plane != NONE)
+            b->mesh->caps[b->mesh->cap_count++] = scene_cut_cap(c, plane, 0);
+    }
+    return b->caps && b->mesh->caps;
+}
+
+static lmn_status build(solid_builder *b, const lmn_scene *scene, const solid_form *form, const cut *c,
+                        const solid_cutter *cutters, lmn_error *error)
 {
     int32_t   *used = mem_alloc((form->operand_count + 1) * sizeof *used);
     size_t     count = used ? solid_form_used(form, used) : 0;
     lmn_status status = used ? LMN_OK : error_memory(error);
-    if (count)
-        status = solid_load(b, scene, form, used, count, half_space, error);
+    if (status == LMN_OK && !put_caps(b, used, count, c, cutters))
+        status = error_memory(error);
+    if (status == LMN_OK && count)
+        status = solid_load(b, scene, form, used, count, error);
     if (status == LMN_OK && b->mesh->face_count)
         status = find_lines(b, form, error);
     mem_free(used);
     mem_free(b->candidates);
+    mem_free(b->caps);
     b->candidates = NULL;
+    b->caps = NULL;
     b->mesh = NULL;
     return status;
 }
 
-lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form,
-                                  const mesh *half_space, double crease_angle, lmn_error *error)
+lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form, const cut *c,
+                                  const solid_cutter *cutters, double crease_angle, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     solid_builder *b = mem_calloc(1, sizeof *b);
@@ -241,7 +260,7 @@ lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const 
                              .near = CSG_COINCIDENT * extent_of(form),
                              .crease = crease_angle};
         out->solid->ground = b;
-        status = build(b, scene, form, half_space, error);
+        status = build(b, scene, form, c, cutters, error);
     } else {
         mem_free(b);
     }

@@ -7,6 +7,7 @@
 
 #include "csg_tree/program.h"
 #include "stroke/edges.h"
+#include "stroke/solid_section.h"
 
 typedef struct edge_solid {
     csg_program program;
@@ -16,10 +17,11 @@ typedef struct edge_solid {
     struct solid_builder *ground; /* what is asked whether a line bounds the solid */
 } edge_solid;
 
-/* The lines of what a form leaves; `half_space` (may be NULL) is the mesh with the number behind the scene's last one.
- * No vertices when the form is empty. End with edge_mesh_release. Errors: LMN_MEMORY, LMN_LIMIT, LMN_CANCELLED. */
-lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form,
-                                  const mesh *half_space, double crease_angle, lmn_error *error);
+/* The lines of what a form leaves. `c`, `cutters`: what solid_form_cut took away, as boxes with the number behind the
+ * scene's last mesh; NULL: nothing. No vertices when the form is empty. End with edge_mesh_release. Errors: LMN_MEMORY,
+ * LMN_LIMIT, LMN_CANCELLED. */
+lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const solid_form *form, const cut *c,
+                                  const solid_cutter *cutters, double crease_angle, lmn_error *error);
 void       edge_solid_destroy(edge_solid **s);
 
 /* Where a line that lies in one of the faces bounds the solid with it: shares of the line, ascending. For one thread;

@@ -214,13 +214,15 @@ static vec3 *place(const mesh *m, const mat4 *matrix)
     return out;
 }
 
-/* Operands of one colour have one material. */
-static int32_t material_of(const solid_form *form, const int32_t *used, size_t number, const bool *cuts)
+/* Operands of one colour have one material; cut faces have their own. */
+static int32_t material_of(const solid_builder *b, const solid_form *form, const int32_t *used, size_t number)
 {
     const solid_operand *own = &form->operands[used[number]];
+    if (b->caps[number] != NONE)
+        return EDGE_CAP_MATERIAL(b->caps[number]);
     for (size_t i = 0; i < number; i++) {
         const solid_operand *o = &form->operands[used[i]];
-        if (cuts[i] == cuts[number] && o->has_colour == own->has_colour &&
+        if (b->caps[i] == NONE && o->has_colour == own->has_colour &&
             (!own->has_colour || memcmp(&o->colour, &own->colour, sizeof own->colour) == 0))
             return (int32_t)i;
     }
@@ -272,20 +274,18 @@ static bool find_alone(solid_builder *b, size_t count)
 }
 
 lmn_status solid_load(solid_builder *b, const lmn_scene *scene, const solid_form *form, const int32_t *used,
-                      size_t count, const mesh *half_space, lmn_error *error)
+                      size_t count, lmn_error *error)
 {
+    mesh      half_space;
+    primitive box;
+    solid_half_space(&half_space, &box);
     b->parts = mem_calloc(count + 1, sizeof *b->parts);
-    bool      *cuts = mem_calloc(count + 1, sizeof *cuts);
-    lmn_status status = b->parts && cuts && csg_program_add(&b->solid->program, form) ? LMN_OK : error_memory(error);
+    lmn_status status = b->parts && csg_program_add(&b->solid->program, form) ? LMN_OK : error_memory(error);
     for (uint32_t i = 0; i < count && status == LMN_OK; i++) {
         const solid_operand *o = &form->operands[used[i]];
-        cuts[i] = (size_t)o->mesh >= scene->mesh_count;
-        if (work_stopped())
-            status = error_memory(error);
-        else
-            status = load_operand(b, cuts[i] ? half_space : &scene->meshes[o->mesh], o, i,
-                                  material_of(form, used, i, cuts), error);
+        const mesh          *m = (size_t)o->mesh < scene->mesh_count ? &scene->meshes[o->mesh] : &half_space;
+        status = work_stopped() ? error_memory(error)
+                                : load_operand(b, m, o, i, material_of(b, form, used, i), error);
     }
-    mem_free(cuts);
     return status == LMN_OK && !find_alone(b, count) ? error_memory(error) : status;
 }

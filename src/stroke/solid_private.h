@@ -44,6 +44,7 @@ typedef struct solid_builder {
     uint8_t         *lined; /* per face, a bit a corner: the edge that begins there is a candidate; SOLID_THIN */
     hierarchy        tree;  /* of the faces */
     solid_part      *parts;
+    int32_t         *caps; /* per operand, while it is built: of the mesh, where it is a cutter; NONE */
     size_t           vertex_capacity, face_capacity, operand_capacity, material_capacity, lined_capacity;
     solid_candidate *candidates;
     size_t           candidate_count, candidate_capacity;
@@ -53,7 +54,7 @@ typedef struct solid_builder {
 /* --- solid_faces.c --- */
 /* Faces of all operands and the candidates that are their edges. */
 lmn_status solid_load(solid_builder *b, const lmn_scene *scene, const solid_form *form, const int32_t *used,
-                      size_t count, const mesh *half_space, lmn_error *error);
+                      size_t count, lmn_error *error);
 
 /* --- solid_pairs.c --- */
 /* Adds the candidates in which faces meet. */

@@ -210,6 +210,13 @@ static bool is_beside(const worker *w, uint32_t face)
     return low < s->beside_count && s->beside[low] == piece;
 }
 
+/* Is the face one of a solid that may be around the eye? Then it counts wherever it is met. */
+static bool is_around(const stroke_view *v, uint32_t face)
+{
+    uint32_t solid = view_solid(v, face);
+    return solid && v->around[solid - 1];
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -226,7 +233,8 @@ static void compare(worker *w, uint32_t number)
     for (int k = 0; k < 3; k++)
         sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
     bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
-    if (((low[0] == low[1]) & (low[1] == low[2])) | (t->face == s->faces[0]) | (t->face == s->faces[1]))
+    bool own = (t->face == s->faces[0]) | (t->face == s->faces[1]);
+    if (((low[0] == low[1]) & (low[1] == low[2])) | (own & !is_around(v, t->face)))
         return;
     int alone = low[0] == low[1]   ? 2
                 : low[0] == low[2] ? 1
@@ -248,9 +256,9 @@ static void compare(worker *w, uint32_t number)
     double from = t0 > 0 ? t0 : 0, to = t1 < 1 ? t1 : 1, rise = (z1 - z0) / (t1 - t0), run = s->b.z - s->a.z;
     double before = s->a.z + from * run - (z0 + (from - t0) * rise),
            after = s->a.z + to * run - (z0 + (to - t0) * rise);
-    if (from == 0 && has_corner(t, s->ends[0]))
+    if (own || (from == 0 && has_corner(t, s->ends[0])))
         before = 0;
-    if (to == 1 && has_corner(t, s->ends[1]))
+    if (own || (to == 1 && has_corner(t, s->ends[1])))
         after = 0;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
     double same = view_tolerance(v, z0) + box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);

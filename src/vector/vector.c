@@ -42,6 +42,7 @@ typedef struct vector_job {
     double                unit_mm;
     bool                  unit_stated;
     bool                 *stroked; /* per part: drawn by some rule */
+    section               section;
     stroke_scene          strokes;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
     double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
@@ -100,13 +101,10 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
                : status;
 }
 
-static lmn_status refuse_section(const vector_job *j, lmn_error *error)
+/* What the look cuts away, of surfaces and lines alike. */
+static lmn_status find_section(vector_job *j, lmn_error *error)
 {
-    const scene_values *values = j->look->wide[KIND_SCENE].values;
-    refusal             r = refusal_of(j, error);
-    return values->cut.text[0] ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)",
-                                        "sections have no lines in vector drawings, which show the model whole")
-                               : LMN_OK;
+    return section_find(&j->section, &j->pose, j->look, j->desc->select, error);
 }
 
 /* What is neither lines nor a shape. */
@@ -522,6 +520,8 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
+    if (status == LMN_OK && !j->pixels && j->section.cut.cell_count)
+        status = vector_put_hatch(ink, view, j->look->wide[KIND_SCENE].values, j->stroked, &j->out->hatches, error);
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);
     if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)
@@ -570,6 +570,17 @@ static colour frame_ink(colour ground)
     return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
 }
 
+static void warn_of_open(vector_job *j)
+{
+    if (j->strokes.open_parts)
+        warnings_add(&j->out->warnings, WARNING_CUT_OPEN, "%zu parts are not closed and have no cut face there",
+                     j->strokes.open_parts);
+    if (j->strokes.open_operands)
+        warnings_add(&j->out->warnings, WARNING_BAD_GEOMETRY,
+                     "%u operands of solids are not closed: lines are where an odd number of their faces encloses something",
+                     (unsigned)j->strokes.open_operands);
+}
+
 /* What all views draw on: surfaces as fine as the rule that wants them finest. */
 static lmn_status make_scene(vector_job *j, lmn_error *error)
 {
@@ -584,15 +595,18 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
         refine = options.refine > refine ? options.refine : refine;
         bends = bends || stroke_options_bend(&options);
     }
-    lmn_status status =
-        stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
+    const stroke_section section = {&j->section.cut, j->section.spared};
+    lmn_status           status = stroke_scene_create_cut(&j->strokes, &j->pose, j->stroked, crease, refine, &section,
+                                                          report_part, j, error);
+    if (status == LMN_OK)
+        warn_of_open(j);
     if (status == LMN_OK && bends)
         status = stroke_scene_bend(&j->strokes, report_part, j, error);
     bool marked = false;
     for (size_t i = 0; i < j->look->rule_count; i++)
         marked = marked || vector_rule_marks(&j->look->rules[i]);
     return status == LMN_OK && marked && refine > 0
-               ? stroke_scene_create(&j->as_is, &j->pose, j->stroked, crease, report_part, j, error)
+               ? stroke_scene_create_cut(&j->as_is, &j->pose, j->stroked, crease, 0, &section, report_part, j, error)
                : status;
 }
 
@@ -749,7 +763,7 @@ static lmn_status prepare(vector_job *j, lmn_error *error)
     if (status == LMN_OK)
         status = begin_page(j, error);
     if (status == LMN_OK)
-        status = refuse_section(j, error);
+        status = find_section(j, error);
     if (status == LMN_OK)
         status = refuse_motion(j, error);
     if (status != LMN_OK)
@@ -763,6 +777,7 @@ static void end_job(vector_job *j)
 {
     stroke_scene_release(&j->strokes);
     stroke_scene_release(&j->as_is);
+    section_release(&j->section);
     plan_release(&j->plan);
     swept_boxes_release(&j->swept);
     pose_deformation_release(&j->deformation);

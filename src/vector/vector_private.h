@@ -5,6 +5,7 @@
 #include "base/paper.h"
 #include "stage/mark_ground.h"
 #include "plan/plan.h"
+#include "light/light.h"
 #include "vector/vector.h"
 
 /* --- page.c: what descriptions say in words ------------------------------------------------------ */
@@ -86,6 +87,13 @@ typedef struct vector_marks {
     uint64_t          *part_marks;  /* out: added up for each part */
 } vector_marks;
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
+
+/* --- hatch.c ------------------------------------------------------------------------------------- */
+
+/* Hatches the cut faces of these parts as the look says; adds up how many lines these are. Errors: LMN_MEMORY,
+ * LMN_CANCELLED. */
+lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
+                            uint64_t *count, lmn_error *error);
 
 /* --- order.c: for plotters ----------------------------------------------------------------------- */
 

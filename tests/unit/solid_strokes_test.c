@@ -2,6 +2,7 @@
 #include "stroke_shapes.h"
 
 #include "csg_support.h"
+#include "cut/cut.h"
 #include "stroke/solid.h"
 
 typedef struct lengths {
@@ -174,6 +175,40 @@ static void parts_cross_what_is_left(void **state)
     lmn_scene_destroy(&s);
 }
 
+static stroke_scene cut_scene_of(lmn_scene *s, const char *spec, box3 bounds)
+{
+    pose         at_rest;
+    cut          c;
+    stroke_scene out;
+    lmn_error    error = {0};
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
+    assert_int_equal(cut_parse(&c, spec, bounds, &error), LMN_OK);
+    stroke_section section = {&c, NULL};
+    assert_int_equal(stroke_scene_create_cut(&out, &at_rest, NULL, 0.5, 0, &section, NULL, NULL, &error), LMN_OK);
+    pose_release(&at_rest);
+    return out;
+}
+
+/* What a section leaves of a solid is bounded like any solid. */
+static void sections_cut_solids(void **state)
+{
+    (void)state;
+    const box3   bounds = {{0, 0, 0}, {10, 10, 10}};
+    lmn_scene   *s = load_text("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(4, -1, 5, 2, 12, 6) "}");
+    stroke_scene scene = cut_scene_of(s, "y=5", bounds);
+    assert_int_equal(scene.item_count, 1);
+    assert_int_equal(scene.meshes[0].cap_count, 1);
+    assert_true(fabs(measure(&scene.meshes[0]).crease - (180 - 4 * 5 - 4 * 5)) < 1e-3);
+    stroke_scene_release(&scene);
+    scene = cut_scene_of(s, "y=11", bounds);
+    assert_true(fabs(measure(&scene.meshes[0]).crease - 180) < 1e-3);
+    stroke_scene_release(&scene);
+    scene = cut_scene_of(s, "-y=11", bounds);
+    assert_int_equal(scene.item_count, 0);
+    stroke_scene_release(&scene);
+    lmn_scene_destroy(&s);
+}
+
 /* --- bad operands --------------------------------------------------------------------------------------- */
 
 #define CORNERS(x, y, z, u, v, w)                                                                                      \
@@ -312,6 +347,7 @@ int main(void)
         cmocka_unit_test(colours_have_borders),
         cmocka_unit_test(balls_meet_in_a_ring),
         cmocka_unit_test(parts_cross_what_is_left),
+        cmocka_unit_test(sections_cut_solids),
         cmocka_unit_test(shells_that_cross_are_decided),
         cmocka_unit_test(open_operands_are_counted),
         cmocka_unit_test(what_is_taken_away_hides_nothing),
