@@ -86,7 +86,8 @@ static stroke_class class_of(const collector *c, size_t mesh, const mesh_edge *e
         return w->borders ? STROKE_BORDER : STROKE_CLASS_COUNT;
     bool differ = view_is_front(c->v, first_face + e->face[0]) != view_is_front(c->v, first_face + e->face[1]);
     bool turns = differ != ((e->flags & EDGE_TWISTED) != 0);
-    bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE));
+    bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE)) ||
+                    (w->contours == CONTOURS_SMOOTH && c->v->scene->meshes[mesh].solid);
     if (turns && as_edges && (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)) && !has_calm_outline(c->v->scene, mesh))
         return STROKE_CONTOUR;
     if ((e->flags & EDGE_CREASE) && w->creases)

@@ -62,5 +62,7 @@ typedef struct solid_entries {
     uint32_t all, sure;
 } solid_entries;
 solid_entries solid_count_entries(solid_state *s, solid_hit *hits, size_t count);
+/* The first place at which the solid begins, or ends where it held before; false: nowhere. Likewise. */
+bool solid_first_entry(solid_state *s, solid_hit *hits, size_t count, double *at);
 
 #endif

@@ -65,20 +65,29 @@ static void gather_planes(solid_hit *hits, size_t count)
             }
 }
 
+/* Goes through the hits that are one event, from the first on. Returns the one behind them. */
+static size_t pass_event(solid_state *s, const solid_hit *hits, size_t count, size_t first, bool *sure)
+{
+    size_t end = first;
+    *sure = true;
+    for (; end < count && (end == first || (hits[end].plane && hits[end].plane == hits[first].plane &&
+                                            hits[end].at == hits[first].at));
+         end++) {
+        solid_state_pass(s, hits[end].operand);
+        *sure = *sure && hits[end].sure;
+    }
+    return end;
+}
+
 solid_entries solid_count_entries(solid_state *s, solid_hit *hits, size_t count)
 {
     solid_entries out = {0, 0};
     bool          around = s->value;
     gather_planes(hits, count);
     sort_hits(hits, count);
-    for (size_t i = 0, end; i < count; i = end) {
-        bool before = s->value, sure = true;
-        for (end = i; end < count && (end == i || (hits[end].plane && hits[end].plane == hits[i].plane &&
-                                                   hits[end].at == hits[i].at));
-             end++) {
-            solid_state_pass(s, hits[end].operand);
-            sure = sure && hits[end].sure;
-        }
+    for (size_t i = 0; i < count;) {
+        bool before = s->value, sure;
+        i = pass_event(s, hits, count, i, &sure);
         bool entered = s->value != before && (s->value || around);
         around = around && s->value;
         out.all += entered;
@@ -87,4 +96,20 @@ solid_entries solid_count_entries(solid_state *s, solid_hit *hits, size_t count)
     for (size_t i = 0; i < count; i++)
         solid_state_pass(s, hits[i].operand);
     return out;
+}
+
+bool solid_first_entry(solid_state *s, solid_hit *hits, size_t count, double *at)
+{
+    bool   before = s->value, found = false, sure;
+    size_t passed = 0;
+    gather_planes(hits, count);
+    sort_hits(hits, count);
+    while (passed < count && !found) {
+        *at = hits[passed].at;
+        passed = pass_event(s, hits, count, passed, &sure);
+        found = s->value != before;
+    }
+    for (size_t i = 0; i < passed; i++)
+        solid_state_pass(s, hits[i].operand);
+    return found;
 }

@@ -198,6 +198,8 @@ typedef struct stroke_options {
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one
  * view. */
 bool stroke_options_bend(const stroke_options *w);
+/* Do they ask for lines of form, which solids have none of? Outlines of solids are always those of their edges. */
+bool stroke_options_form(const stroke_options *w);
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide
  * them. Same call, same strokes, whatever the number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */

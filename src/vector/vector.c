@@ -64,7 +64,39 @@ static refusal refusal_of(const vector_job *j, lmn_error *error)
 
 /* --- what is drawn -------------------------------------------------------------------------------------- */
 
-/* Which parts are drawn, by which rules. Marks lie on triangles, which solids have none of. */
+/* Of solids there is what bounds them: no marks, which lie on triangles, no lines of form, and nothing of what is taken
+ * away. */
+static lmn_status refuse_of_solids(const vector_job *j, lmn_error *error)
+{
+    const lmn_scene *scene = j->scene;
+    refusal          r = refusal_of(j, error);
+    stroke_options   options;
+    stroke_style     style;
+    size_t           marked = 0, formed = 0;
+    bool             removed = false;
+    for (size_t i = 0; i < scene->part_count; i++) {
+        const rule *own = scene->nodes[scene->parts[i].node].solid != NONE ? plan_rule(&j->plan, i) : NULL;
+        marked += own && vector_rule_marks(own);
+        formed += own && vector_rule_strokes(own, &options, &style) && stroke_options_form(&options);
+    }
+    for (size_t i = 0; i < j->look->rule_count && j->pose.ghost_count; i++)
+        removed = removed || (j->look->rules[i].selector && selector_names_removed(j->look->rules[i].selector) &&
+                              vector_rule_strokes(&j->look->rules[i], &options, &style));
+    lmn_status status = LMN_OK;
+    if (marked)
+        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "take a look without marks, or draw a picture (.png)",
+                        "marks lie on meshes: %zu solids of set operations have their lines alone", marked);
+    if (status == LMN_OK && formed)
+        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, NULL,
+                        "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: %zu solids have none",
+                        formed);
+    if (status == LMN_OK && removed)
+        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
+                        "what solids take away has no lines in vector drawings");
+    return status;
+}
+
+/* Which parts are drawn, by which rules. */
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
@@ -72,7 +104,6 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
                                   .background = j->desc->background,
                                   .pixels_per_mm = VECTOR_PIXELS_PER_MM,
                                   .parts_only = true};
-    size_t             solids = 0;
     moment             when;
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
     if (status == LMN_OK)
@@ -89,18 +120,10 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
         status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
     if (status == LMN_OK)
         j->look = j->plan.look;
-    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
-        const rule *r = plan_rule(&j->plan, i);
-        solids += r && vector_rule_marks(r) && scene->nodes[scene->parts[i].node].solid != NONE;
-        j->stroked[i] = r != NULL;
-    }
-    refusal r = refusal_of(j, error);
-    return status == LMN_OK && solids
-               ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "take a look without marks, or draw a picture (.png)",
-                        "marks lie on meshes: %zu solids of set operations have their lines alone", solids)
-               : status;
+    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
+        j->stroked[i] = plan_rule(&j->plan, i) != NULL;
+    return status == LMN_OK ? refuse_of_solids(j, error) : status;
 }
-
 /* What the look cuts away, of surfaces and lines alike. */
 static lmn_status find_section(vector_job *j, lmn_error *error)
 {
