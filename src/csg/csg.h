@@ -1,5 +1,5 @@
-/* Image-based evaluation of solids: what their trees as programs (csg_tree/program.h) and planes (csg_tree/planes.h) are
- * to shaders. Nienhaus et al. 2006, section 2; Nienhaus 2005, section 5.6; rows K01–K04, C1–C6. */
+/* Image-based evaluation of solids: what their trees as programs (csg_tree/program.h) and planes (csg_tree/planes.h)
+ * are to shaders. Nienhaus et al. 2006, section 2; Nienhaus 2005, section 5.6; rows K01–K04, C1–C6. */
 #ifndef LIMNER_CSG_CSG_H
 #define LIMNER_CSG_CSG_H
 

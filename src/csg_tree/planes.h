@@ -1,5 +1,5 @@
-/* The planes in which faces of several operands lie: what is coincident is decided by their numbers, never by distances.
- * Rows C1–C6. */
+/* The planes in which faces of several operands lie: what is coincident is decided by their numbers, never by
+ * distances. Rows C1–C6. */
 #ifndef LIMNER_CSG_TREE_PLANES_H
 #define LIMNER_CSG_TREE_PLANES_H
 

@@ -1,5 +1,5 @@
-/* A solid's tree as a program: what evaluates it, here and in shaders, counts what holds at each term. Roth 1982; Nienhaus
- * et al. 2006, section 2; rows K01–K04. */
+/* A solid's tree as a program: what evaluates it, here and in shaders, counts what holds at each term. Roth 1982;
+ * Nienhaus et al. 2006, section 2; rows K01–K04. */
 #ifndef LIMNER_CSG_TREE_PROGRAM_H
 #define LIMNER_CSG_TREE_PROGRAM_H
 

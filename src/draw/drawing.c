@@ -118,8 +118,9 @@ static lmn_status refuse_strokes(const refusal *r, const session *s)
         const figure *fig = &s->plan.figures[i];
         lmn_status    status = LMN_OK;
         if (has_lines_of_form(fig->rule) && figure_has_solids(&s->plan, fig))
-            status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, NULL,
-                            "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: solids have none");
+            status =
+                refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, NULL,
+                       "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: solids have none");
         else if (has_strokes(fig->rule) && has_removed(&s->plan, fig))
             status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED,
                             "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)",

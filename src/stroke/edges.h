@@ -16,6 +16,7 @@ typedef enum edge_flag {
                  * convex, or smooth and not flat where the piece it belongs to is not closed */
     EDGE_TWISTED = 1 << 4, /* beside others: both faces pass it the same way, so that one of them is inside out */
     EDGE_QUIET = 1 << 6,   /* turns by more than the crease angle but is no crease: no line unless it is an outline */
+    EDGE_HOLLOW = 1 << 7,  /* beside EDGE_CANDIDATE: of a hollow, so that the outline is always hidden: sides of bores */
     EDGE_ROUNDED = 1 << 5  /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
 } edge_flag;
 
@@ -48,8 +49,8 @@ typedef struct mesh_line {
 
 /* A cut face of a section: what says how it is hatched. Its faces have a material that is no file's. */
 typedef struct edge_cap {
-    int32_t  axis; /* 0 … 2, that its plane is nearest to being at right angles to */
-    uint32_t body; /* of the part, from 0 on */
+    int32_t  axis;              /* 0 … 2, that its plane is nearest to being at right angles to */
+    uint32_t body;              /* of the part, from 0 on */
     double   normal[3], offset; /* of its plane, world axes */
 } edge_cap;
 #define EDGE_CAP_MATERIAL(cap) (-2 - (int32_t)(cap))

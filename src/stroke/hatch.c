@@ -72,7 +72,7 @@ static window_point on_plane(const stroke_view *v, uint32_t triangle, const doub
     window_point    p = v->points[t[0]], q = v->points[t[1]], r = v->points[t[2]];
     window_point    out = {(int32_t)lrint((at[0] - 0.5 * v->camera.width) * v->units),
                            (int32_t)lrint((0.5 * v->camera.height - at[1]) * v->units), 0};
-    double area = window_side(p, q, r), a = window_side(q, r, out) / area, b = window_side(r, p, out) / area;
+    double          area = window_side(p, q, r), a = window_side(q, r, out) / area, b = window_side(r, p, out) / area;
     out.z = a * p.z + b * q.z + (1 - a - b) * r.z;
     return out;
 }
@@ -130,7 +130,7 @@ static bool put_trimmed(hatcher *h, const hatching *g, const stretch *s)
         double  share[2] = {shares[i].from, shares[i].to};
         if (!v->camera.orthographic) { /* even in the world is not even on the page */
             for (int k = 0; k < 2; k++) {
-                double   page[2][2], at[3];
+                double       page[2][2], at[3];
                 window_point q;
                 position_on_line(g, s->line, 0, page[0]);
                 for (int row = 0; row < 3; row++)
@@ -290,8 +290,8 @@ static lmn_status keep_seen(hatch_lines *out, const hatcher *h, lmn_error *error
         return error_memory(error);
     for (size_t i = 0; i < h->count; i++) {
         const stretch *s = &h->items[i];
-        hatching g = hatching_of(h, s->item, &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap]);
-        double   ends[2][2];
+        hatching       g = hatching_of(h, s->item, &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap]);
+        double         ends[2][2];
         position_on_line(&g, s->line, s->from, ends[0]);
         position_on_line(&g, s->line, s->to, ends[1]);
         segments[i] = (window_segment){.a = on_plane(v, s->triangle, ends[0]),
@@ -303,9 +303,8 @@ static lmn_status keep_seen(hatch_lines *out, const hatcher *h, lmn_error *error
     for (size_t i = 0; i < h->count && status == LMN_OK; i++)
         for (uint32_t k = seen.starts[i]; k < seen.starts[i + 1]; k++) {
             double to = k + 1 < seen.starts[i + 1] ? (double)seen.spans[k + 1].from : 1;
-            if (seen.spans[k].count == 0 &&
-                !put_line(out, v, &segments[i], (double)seen.spans[k].from, to,
-                          v->scene->items[h->items[i].item].part_index + 1))
+            if (seen.spans[k].count == 0 && !put_line(out, v, &segments[i], (double)seen.spans[k].from, to,
+                                                      v->scene->items[h->items[i].item].part_index + 1))
                 status = error_memory(error);
         }
     if (status == LMN_OK)

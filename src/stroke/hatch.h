@@ -14,8 +14,8 @@ typedef struct hatch_lines {
     size_t      count, capacity;
 } hatch_lines;
 
-/* Parallel lines on all cut faces of the parts with `parts[index]`, `apart` units apart at an angle (radians), turned and
- * spaced for each part and body as pictures do (light/cut.glsl). Free `items` with mem_free. Errors: LMN_MEMORY,
+/* Parallel lines on all cut faces of the parts with `parts[index]`, `apart` units apart at an angle (radians), turned
+ * and spaced for each part and body as pictures do (light/cut.glsl). Free `items` with mem_free. Errors: LMN_MEMORY,
  * LMN_CANCELLED. */
 lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, double angle, const bool *parts,
                       lmn_error *error);

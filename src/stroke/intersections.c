@@ -366,7 +366,8 @@ static bool put_trimmed(crossing_search *s, const face_crossing *c, int side)
             ends[k][row] = inverse.m[row] * c->ends[k].x + inverse.m[4 + row] * c->ends[k].y +
                            inverse.m[8 + row] * c->ends[k].z + inverse.m[12 + row];
     s->failed = !t || !solid_trim(t, c->faces[side], ends[0], ends[1], &found, &count);
-    solid_share *shares = s->failed ? NULL : mem_copy(found, count * sizeof *shares); /* the other side may be its own */
+    solid_share *shares =
+        s->failed ? NULL : mem_copy(found, count * sizeof *shares); /* the other side may be its own */
     s->failed = s->failed || (count && !shares);
     for (size_t i = 0; !s->failed && i < count; i++) {
         face_crossing part = *c;
@@ -375,8 +376,8 @@ static bool put_trimmed(crossing_search *s, const face_crossing *c, int side)
             part.ends[0] = (double3){from.x + shares[i].from * way.x, from.y + shares[i].from * way.y,
                                      from.z + shares[i].from * way.z};
         if (shares[i].to < 1)
-            part.ends[1] = (double3){from.x + shares[i].to * way.x, from.y + shares[i].to * way.y,
-                                     from.z + shares[i].to * way.z};
+            part.ends[1] =
+                (double3){from.x + shares[i].to * way.x, from.y + shares[i].to * way.y, from.z + shares[i].to * way.z};
         put_from(s, &part, side + 1);
     }
     mem_free(shares);

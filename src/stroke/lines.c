@@ -115,10 +115,20 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
                       kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
-    if (v->outside[a] | v->outside[b])
-        return lines_put(c->out, v, line, item_position(item, m->positions[e->vertex[0]]),
-                         item_position(item, m->positions[e->vertex[1]]), faces);
-    window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
+    uint32_t least = kind == STROKE_CONTOUR && e->flags & EDGE_HOLLOW ? 1 : 0;
+    if (v->outside[a] | v->outside[b]) {
+        size_t before = c->out->count;
+        bool   good = lines_put(c->out, v, line, item_position(item, m->positions[e->vertex[0]]),
+                                item_position(item, m->positions[e->vertex[1]]), faces);
+        if (c->out->count > before)
+            c->out->segments[before].least = least;
+        return good;
+    }
+    window_segment s = {.a = v->points[a],
+                        .b = v->points[b],
+                        .ends = {a, b},
+                        .faces = {faces[0], faces[1]},
+                        .least = least};
     return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
 

@@ -169,9 +169,9 @@ static lmn_status add_cut(scene_builder *b, size_t part_index, const mat4 *world
     const mesh      *m = &b->scene->meshes[b->scene->nodes[b->scene->parts[part_index].node].mesh];
     edge_mesh        made = {0};
     vec3            *positions = pose_positions(m, pose);
-    lmn_status       status =
-        positions ? scene_cut_mesh(&made, verdict, &own_open, m, positions, b->section->cut, world, b->crease_angle, error)
-                        : error_memory(error);
+    lmn_status status = positions ? scene_cut_mesh(&made, verdict, &own_open, m, positions, b->section->cut, world,
+                                                   b->crease_angle, error)
+                                  : error_memory(error);
     mem_free(positions);
     *open = *open || own_open;
     if (status != LMN_OK || *verdict != CUT_CROSSED)
@@ -207,7 +207,7 @@ static lmn_status make_solid(scene_builder *b, size_t part_index, const mat4 *wo
     solid_form       form;
     solid_cutter    *cutters = NULL;
     lmn_status       status = solid_form_create(
-        &form, &b->scene->solids[b->scene->nodes[b->scene->parts[part_index].node].solid], true, error);
+              &form, &b->scene->solids[b->scene->nodes[b->scene->parts[part_index].node].solid], true, error);
     if (status == LMN_OK)
         status = solid_form_cut(&form, c, spared, world, (int32_t)b->scene->mesh_count, &cutters, error);
     if (status == LMN_OK && !mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
@@ -312,7 +312,7 @@ lmn_status stroke_scene_create_cut(stroke_scene *out, const pose *pose, const bo
                            .refine = refine,
                            .kept = &own,
                            .section = section};
-    lmn_status status = fill(&b, parts, progress, user, error);
+    lmn_status        status = fill(&b, parts, progress, user, error);
     for (size_t i = 0; i < out->mesh_count; i++)
         out->meshes[i].topology = NULL;
     stroke_topologies_release(&own);

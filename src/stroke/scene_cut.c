@@ -211,8 +211,8 @@ static bool keep_caps(edge_mesh *out, const cut_result *r, const cut *c)
     return out->caps != NULL;
 }
 
-lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, bool *open, const mesh *m, const vec3 *positions, const cut *c,
-                          const mat4 *world, double crease_angle, lmn_error *error)
+lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, bool *open, const mesh *m, const vec3 *positions,
+                          const cut *c, const mat4 *world, double crease_angle, lmn_error *error)
 {
     cut_result  r;
     lmn_status  status = cut_inputs(&r, m, positions, c, world, error);

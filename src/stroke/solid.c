@@ -255,10 +255,8 @@ lmn_status edge_mesh_create_solid(edge_mesh *out, const lmn_scene *scene, const 
     out->solid = mem_calloc(1, sizeof *out->solid);
     lmn_status status = b && out->solid ? LMN_OK : error_memory(error);
     if (status == LMN_OK) {
-        *b = (solid_builder){.mesh = out,
-                             .solid = out->solid,
-                             .near = CSG_COINCIDENT * extent_of(form),
-                             .crease = crease_angle};
+        *b = (solid_builder){
+            .mesh = out, .solid = out->solid, .near = CSG_COINCIDENT * extent_of(form), .crease = crease_angle};
         out->solid->ground = b;
         status = build(b, scene, form, c, cutters, error);
     } else {

@@ -10,11 +10,11 @@
 #include "stroke/solid_section.h"
 
 typedef struct edge_solid {
-    csg_program program;
-    uint32_t   *operands;      /* per face, from 0 on */
-    uint16_t   *planes;        /* per face: of those that several operands share, from 1 on; 0: none */
-    uint32_t    open_operands; /* that are no closed meshes: what they enclose is not certain */
-    struct solid_builder *ground; /* what is asked whether a line bounds the solid */
+    csg_program           program;
+    uint32_t             *operands;      /* per face, from 0 on */
+    uint16_t             *planes;        /* per face: of those that several operands share, from 1 on; 0: none */
+    uint32_t              open_operands; /* that are no closed meshes: what they enclose is not certain */
+    struct solid_builder *ground;        /* what is asked whether a line bounds the solid */
 } edge_solid;
 
 /* The lines of what a form leaves. `c`, `cutters`: what solid_form_cut took away, as boxes with the number behind the
@@ -32,8 +32,8 @@ typedef struct solid_share {
 } solid_share;
 solid_trimmer *solid_trimmer_create(const edge_solid *s);
 void           solid_trimmer_destroy(solid_trimmer **t);
-bool           solid_trim(solid_trimmer *t, uint32_t face, const double from[3], const double to[3],
-                          const solid_share **out, size_t *count);
+bool solid_trim(solid_trimmer *t, uint32_t face, const double from[3], const double to[3], const solid_share **out,
+                size_t *count);
 
 /* Which operands hold, and what their tree makes of it. */
 typedef struct solid_state {

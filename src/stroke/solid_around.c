@@ -1,7 +1,7 @@
-/* Which stretches of lines bound a solid. A line is cut wherever it meets a face. Around the middle of a stretch stand the
- * faces that hold it, as half-planes sorted by angle; which operands hold between them says the tree, and where its value
- * changes there is a face of the solid. No change: no line. Two, in one plane: none either. Else it is an edge of the
- * solid, whatever it came from. */
+/* Which stretches of lines bound a solid. A line is cut wherever it meets a face. Around the middle of a stretch stand
+ * the faces that hold it, as half-planes sorted by angle; which operands hold between them says the tree, and where its
+ * value changes there is a face of the solid. No change: no line. Two, in one plane: none either. Else it is an edge of
+ * the solid, whatever it came from. */
 #include "stroke/solid_private.h"
 
 #include <math.h>
@@ -299,8 +299,8 @@ static bool put_half(arounder *w, uint32_t face, double x, double y, double reac
     double               angle = atan2(y, x), turns = cos(angle) * double3_dot(b->faces[face].normal, w->up) -
                                         sin(angle) * double3_dot(b->faces[face].normal, w->side);
     uint32_t operand = b->solid->operands[face];
-    w->halves[w->half_count++] = (half_plane){
-        angle < 0 ? angle + 2 * pi : angle, reach, face, operand, (turns < 0) != b->parts[operand].taken_away};
+    w->halves[w->half_count++] = (half_plane){angle < 0 ? angle + 2 * pi : angle, reach, face, operand,
+                                              (turns < 0) != b->parts[operand].taken_away};
     w->incident[operand]++;
     return true;
 }
@@ -520,7 +520,8 @@ static bool put_stretch(arounder *w, const solid_candidate *c, double3 p, double
     if (!mem_grow((void **)&w->out->items, &w->out->capacity, w->out->count + 1, sizeof *w->out->items))
         return false;
     solid_stretch *s = &w->out->items[w->out->count++];
-    *s = (solid_stretch){{p, q}, {faces[0], faces[1]}, flags, flags & EDGE_CREASE ? c->turn : 0, {NO_VERTEX, NO_VERTEX}};
+    *s =
+        (solid_stretch){{p, q}, {faces[0], faces[1]}, flags, flags & EDGE_CREASE ? c->turn : 0, {NO_VERTEX, NO_VERTEX}};
     const double3 at[2] = {p, q};
     for (int k = 0; k < 2; k++)
         if (memcmp(&at[k], &c->ends[k], sizeof at[k]) == 0)
@@ -535,22 +536,22 @@ static bool is_own(const solid_candidate *c, const uint32_t faces[2])
                                          (c->faces[0] == faces[1] && c->faces[1] == faces[0]));
 }
 
-/* An edge with two faces: what it is. Smooth ones are outlines where they are convex; 0: it is flat. */
+/* An edge with two faces: what it is. Smooth ones may be outlines; 0: it is flat. */
 static uint32_t judge(const arounder *w, const solid_candidate *c, const change *begin, const change *end)
 {
     double inside = end->angle - begin->angle, turn;
     inside = inside < 0 ? inside + 2 * pi : inside;
     turn = fabs(pi - inside);
     const uint32_t faces[2] = {begin->face, end->face};
-    uint32_t       convex = inside < pi ? EDGE_CANDIDATE : 0;
+    uint32_t       outline = inside < pi ? EDGE_CANDIDATE : EDGE_CANDIDATE | EDGE_HOLLOW;
     if (is_own(c, faces))
-        return c->flags & EDGE_CREASE ? c->flags : c->flags | convex;
+        return c->flags & EDGE_CREASE ? c->flags : c->flags | outline;
     uint16_t plane = w->b->solid->planes[begin->face];
     if (turn * fmin(begin->reach, end->reach) <= 2 * w->b->near ||
         (plane && plane == w->b->solid->planes[end->face] && turn < ONE_PLANE))
         return 0;
     bool one = w->b->solid->operands[begin->face] == w->b->solid->operands[end->face];
-    return turn >= (one ? w->b->crease : fmin(w->b->crease, MEET)) ? EDGE_CREASE : convex;
+    return turn >= (one ? w->b->crease : fmin(w->b->crease, MEET)) ? EDGE_CREASE : outline;
 }
 
 /* What stands around a stretch of a line that begins at `from`, and where the solid begins and ends there. */
@@ -610,11 +611,9 @@ static bool take_alone(arounder *w, const solid_candidate *c)
         return true;
     const solid_face *f = &b->faces[c->faces[0]], *g = &b->faces[c->faces[1]];
     double3           across = double3_cross(f->normal, g->normal);
-    bool              convex = double3_dot(across, w->along) > 0;
+    uint32_t outline = double3_dot(across, w->along) > 0 ? EDGE_CANDIDATE : EDGE_CANDIDATE | EDGE_HOLLOW;
     return put_stretch(w, c, c->ends[0], c->ends[1], c->faces,
-                       c->flags & EDGE_CREASE ? c->flags
-                       : convex               ? c->flags | EDGE_CANDIDATE
-                                              : c->flags);
+                       c->flags & EDGE_CREASE ? c->flags : c->flags | outline);
 }
 
 /* Makes ready for a line; false where it has no length. */
@@ -689,12 +688,15 @@ void solid_trimmer_destroy(solid_trimmer **t)
     *t = NULL;
 }
 
-/* Does the solid begin or end with the face, on either side of the line? */
+/* Does the solid begin or end with the face, on either side of the line? Of several faces in one plane it is the one
+ * that people see. */
 static bool bounds_here(const arounder *w, uint32_t face)
 {
+    const uint32_t *operands = w->b->solid->operands;
     for (size_t i = 0; i < w->change_count; i++)
         for (size_t k = 0; k < w->fans[w->changes[i].fan].count; k++)
-            if (w->halves[w->fans[w->changes[i].fan].first + k].face == face)
+            if (w->halves[w->fans[w->changes[i].fan].first + k].face == face &&
+                operands[w->changes[i].face] == operands[face])
                 return true;
     return false;
 }

@@ -1,5 +1,5 @@
-/* Between two neighbouring positions at which a cover begins or ends, and at which two of them change places, the order of
- * the covers is one, and so is the number of surfaces that the tree makes of them. */
+/* Between two neighbouring positions at which a cover begins or ends, and at which two of them change places, the order
+ * of the covers is one, and so is the number of surfaces that the tree makes of them. */
 #include "stroke/solid_cover.h"
 
 #include <math.h>

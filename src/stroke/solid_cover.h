@@ -30,8 +30,8 @@ solid_cover solid_cover_of(const stroke_view *v, uint32_t item, uint32_t face, d
                            double z_to);
 bool        solid_covers_put(solid_covers *c, const solid_cover *cover);
 
-/* Calls `step` for each position at which the number of surfaces in front changes, and by how much; at the end of what is
- * covered it is 0 again. Sorts the covers. False when memory is gone. */
+/* Calls `step` for each position at which the number of surfaces in front changes, and by how much; at the end of what
+ * is covered it is 0 again. Sorts the covers. False when memory is gone. */
 typedef void (*solid_step)(void *user, double at, int32_t step);
 bool solid_covers_count(solid_covers *c, const stroke_view *v, solid_step step, void *user);
 void solid_covers_release(solid_covers *c);

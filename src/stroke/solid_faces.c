@@ -90,7 +90,8 @@ static bool put_edge(solid_builder *b, const operand_edge *group, size_t count, 
     return true;
 }
 
-/* All edges of an operand that are not flat. Closed is what has two faces at each that pass it in opposite directions. */
+/* All edges of an operand that are not flat. Closed is what has two faces at each that pass it in opposite directions.
+ */
 static bool take_edges(solid_builder *b, solid_part *part, const edge_mesh *own, uint32_t first_vertex)
 {
     size_t        count = 3 * (size_t)part->face_count, known = 0;
@@ -111,9 +112,9 @@ static bool take_edges(solid_builder *b, solid_part *part, const edge_mesh *own,
         while (known < own->edge_count && compare_known(&own->edges[known], &key) < 0)
             known++;
         bool is_known = known < own->edge_count && compare_known(&own->edges[known], &key) == 0;
-        bool pairs = end - i == 2 && (b->mesh->faces[edges[i].corner / 3][edges[i].corner % 3] == edges[i].low) !=
-                                         (b->mesh->faces[edges[i + 1].corner / 3][edges[i + 1].corner % 3] ==
-                                          edges[i].low);
+        bool pairs =
+            end - i == 2 && (b->mesh->faces[edges[i].corner / 3][edges[i].corner % 3] == edges[i].low) !=
+                                (b->mesh->faces[edges[i + 1].corner / 3][edges[i + 1].corner % 3] == edges[i].low);
         part->open = part->open || (end - i) % 2;
         part->crossed = part->crossed || !pairs; /* what is inside is asked of a ray */
         good = put_edge(b, edges + i, end - i, is_known ? &own->edges[known] : NULL);
@@ -234,8 +235,7 @@ static lmn_status load_operand(solid_builder *b, const mesh *m, const solid_oper
 {
     vec3      *positions = place(m, &o->matrix);
     edge_mesh  own = {0};
-    lmn_status status =
-        positions ? edge_mesh_create_whole(&own, m, positions, b->crease, error) : error_memory(error);
+    lmn_status status = positions ? edge_mesh_create_whole(&own, m, positions, b->crease, error) : error_memory(error);
     mem_free(positions);
     if (status != LMN_OK)
         return status;
@@ -243,8 +243,8 @@ static lmn_status load_operand(solid_builder *b, const mesh *m, const solid_oper
     uint32_t    first_vertex = b->mesh->vertex_count, first_face = b->mesh->face_count;
     part->taken_away = b->solid->program.taken_away[number];
     if ((uint64_t)first_face + own.face_count >= UINT32_MAX / 8)
-        status = error_set(error, LMN_LIMIT, "a solid has more than %u triangles, too many for strokes",
-                           UINT32_MAX / 8);
+        status =
+            error_set(error, LMN_LIMIT, "a solid has more than %u triangles, too many for strokes", UINT32_MAX / 8);
     else if (!make_room(b, &own))
         status = error_memory(error);
     if (status == LMN_OK) {
@@ -284,8 +284,7 @@ lmn_status solid_load(solid_builder *b, const lmn_scene *scene, const solid_form
     for (uint32_t i = 0; i < count && status == LMN_OK; i++) {
         const solid_operand *o = &form->operands[used[i]];
         const mesh          *m = (size_t)o->mesh < scene->mesh_count ? &scene->meshes[o->mesh] : &half_space;
-        status = work_stopped() ? error_memory(error)
-                                : load_operand(b, m, o, i, material_of(b, form, used, i), error);
+        status = work_stopped() ? error_memory(error) : load_operand(b, m, o, i, material_of(b, form, used, i), error);
     }
     return status == LMN_OK && !find_alone(b, count) ? error_memory(error) : status;
 }

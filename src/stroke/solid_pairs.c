@@ -113,9 +113,8 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     double  heights[2][3];
     double3 ends[2];
     if (!find_heights(b, &b->faces[first], &b->faces[second], heights[0]) ||
-        !find_heights(b, &b->faces[second], &b->faces[first], heights[1]) ||
-        comes_with_line(b, first, heights[0]) || comes_with_line(b, second, heights[1]) ||
-        !common_line(b, first, second, (const double(*)[3])heights, ends))
+        !find_heights(b, &b->faces[second], &b->faces[first], heights[1]) || comes_with_line(b, first, heights[0]) ||
+        comes_with_line(b, second, heights[1]) || !common_line(b, first, second, (const double(*)[3])heights, ends))
         return true;
     if (own && crosses(heights[0]) && crosses(heights[1]))
         b->parts[b->solid->operands[first]].crossed = true;
@@ -123,8 +122,8 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
         s->failed = true;
         return false;
     }
-    b->candidates[b->candidate_count++] = (solid_candidate){
-        {ends[0], ends[1]}, {first, second}, 0, 0, {NO_VERTEX, NO_VERTEX}};
+    b->candidates[b->candidate_count++] =
+        (solid_candidate){{ends[0], ends[1]}, {first, second}, 0, 0, {NO_VERTEX, NO_VERTEX}};
     return true;
 }
 

@@ -18,9 +18,9 @@ typedef struct solid_face {
 /* A straight line that may bound the solid. */
 typedef struct solid_candidate {
     double3  ends[2];
-    uint32_t faces[2]; /* that it is of: two of an edge, or two that cross */
-    uint32_t flags;    /* of an edge: edge_flag; of a crossing: 0 */
-    float    turn;     /* of an edge, as in mesh_edge */
+    uint32_t faces[2];  /* that it is of: two of an edge, or two that cross */
+    uint32_t flags;     /* of an edge: edge_flag; of a crossing: 0 */
+    float    turn;      /* of an edge, as in mesh_edge */
     uint32_t vertex[2]; /* of an edge; NO_VERTEX */
 } solid_candidate;
 

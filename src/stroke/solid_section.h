@@ -15,8 +15,8 @@ typedef struct solid_cutter {
 void solid_half_space(mesh *out, primitive *p);
 
 /* Takes from a solid at a position what the cut takes away, unless it is spared; what lies in that goes all the same.
- * `half_space_mesh`: the number of that mesh. `cutters`: one an operand of the form, those that were added included; free
- * with mem_free. Errors: LMN_MEMORY. */
+ * `half_space_mesh`: the number of that mesh. `cutters`: one an operand of the form, those that were added included;
+ * free with mem_free. Errors: LMN_MEMORY. */
 lmn_status solid_form_cut(solid_form *form, const cut *c, bool spared, const mat4 *world, int32_t half_space_mesh,
                           solid_cutter **cutters, lmn_error *error);
 

@@ -46,8 +46,7 @@ static void sort_hits(solid_hit *hits, size_t count)
     for (size_t i = 1; i < count; i++) {
         solid_hit moved = hits[i];
         size_t    k = i;
-        for (; k > 0 && (hits[k - 1].at > moved.at ||
-                         (hits[k - 1].at == moved.at && hits[k - 1].plane > moved.plane));
+        for (; k > 0 && (hits[k - 1].at > moved.at || (hits[k - 1].at == moved.at && hits[k - 1].plane > moved.plane));
              k--)
             hits[k] = hits[k - 1];
         hits[k] = moved;
@@ -70,8 +69,8 @@ static size_t pass_event(solid_state *s, const solid_hit *hits, size_t count, si
 {
     size_t end = first;
     *sure = true;
-    for (; end < count && (end == first || (hits[end].plane && hits[end].plane == hits[first].plane &&
-                                            hits[end].at == hits[first].at));
+    for (; end < count && (end == first ||
+                           (hits[end].plane && hits[end].plane == hits[first].plane && hits[end].at == hits[first].at));
          end++) {
         solid_state_pass(s, hits[end].operand);
         *sure = *sure && hits[end].sure;

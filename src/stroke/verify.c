@@ -38,15 +38,15 @@ typedef struct verifier {
     hierarchy          tree;
     box3              *boxes; /* per face of all items */
     double3 (*corners)[3];
-    uint8_t *unseen;                  /* per face: as view_unseen says of its piece */
-    solid_ray *hits;    /* of solids, along the ray at hand */
-    size_t     hit_count, hit_capacity;
-    solid_hit *sorted;
-    size_t     sorted_capacity;
+    uint8_t     *unseen; /* per face: as view_unseen says of its piece */
+    solid_ray   *hits;   /* of solids, along the ray at hand */
+    size_t       hit_count, hit_capacity;
+    solid_hit   *sorted;
+    size_t       sorted_capacity;
     solid_state *states; /* per item that is a solid */
     bool         failed;
-    mat4     to_world;                /* from eye space */
-    double   half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
+    mat4         to_world;                /* from eye space */
+    double       half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
 } verifier;
 
 /* --- preparation ---------------------------------------------------------------------------------------- */
@@ -209,7 +209,7 @@ static void count_face(verifier *w, uint32_t face, const ray *r, ray_count *out)
     if (u < 0 || v < 0 || u + v > 1 || t < 0)
         return;
     uint32_t solid = view_solid(w->v, face);
-    bool sure = (r->until - t) * fabs(double3_dot(r->along, normal)) > r->near * sqrt(double3_dot(normal, normal));
+    bool     sure = (r->until - t) * fabs(double3_dot(r->along, normal)) > r->near * sqrt(double3_dot(normal, normal));
     if (solid) {
         put_hit(w, solid - 1, face, t, t < r->until, sure);
     } else if (t < r->until) {
@@ -250,7 +250,7 @@ static ray_count count_in_front(verifier *w, const ray *r)
 {
     uint32_t  stack[STACK], depth = 0;
     ray_count count = {0, 0};
-    ray      whole = *r;
+    ray       whole = *r;
     if (w->v->solids) /* what lies behind says whether the eye is inside */
         whole.until = INFINITY;
     w->hit_count = 0;

@@ -266,7 +266,8 @@ static void compare(worker *w, uint32_t number)
         return;
     uint32_t solid = view_solid(v, t->face);
     if (solid)
-        cover_of_solid(w, solid_cover_of(v, solid - 1, t->face, from, to, z0 + (from - t0) * rise, z0 + (to - t0) * rise),
+        cover_of_solid(w,
+                       solid_cover_of(v, solid - 1, t->face, from, to, z0 + (from - t0) * rise, z0 + (to - t0) * rise),
                        before, after, same);
     else
         cover_nearer(w, from, to, before, after, same);
@@ -529,7 +530,7 @@ static void add_entries(void *user, double at, int32_t step)
 
 void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_t count, uint32_t *out)
 {
-    double half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
+    double        half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
     surface_count c = {.v = v};
     for (size_t i = 0; i < count; i++) {
         out[i] = UINT32_MAX;

@@ -31,9 +31,9 @@ typedef struct fill_job {
     size_t              crack_count, crack_capacity;
     uint32_t           *heads, *next; /* cracks that leave a corner, + 1 */
     float (*loop)[2], (*kept)[2];
-    size_t loop_count, loop_capacity, kept_capacity;
-    bool  *stays;
-    size_t stays_capacity;
+    size_t             loop_count, loop_capacity, kept_capacity;
+    bool              *stays;
+    size_t             stays_capacity;
     struct solid_rows *solid; /* NULL: each face is a surface */
 } fill_job;
 
@@ -205,8 +205,9 @@ static bool put_hits(fill_job *j, const solid_triangle *t, int row)
     for (int x = first; x <= last; x++) {
         if (!mem_grow((void **)&s->hits, &s->hit_capacity, s->hit_count + 1, sizeof *s->hits))
             return false;
-        s->hits[s->hit_count] = (row_hit){
-            {span.z + span.slope * (x + 0.5), s->solid->operands[t->face], s->solid->planes[t->face], true}, s->cells[x]};
+        s->hits[s->hit_count] =
+            (row_hit){{span.z + span.slope * (x + 0.5), s->solid->operands[t->face], s->solid->planes[t->face], true},
+                      s->cells[x]};
         s->cells[x] = (uint32_t)++s->hit_count;
     }
     return true;

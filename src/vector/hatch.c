@@ -8,8 +8,8 @@ lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, cons
                             uint64_t *count, lmn_error *error)
 {
     hatch_lines lines;
-    lmn_status  status = hatch_find(&lines, view, (double)v->cut_hatch, (double)v->cut_angle * (3.14159265358979323846 / 180),
-                                    parts, error);
+    lmn_status  status = hatch_find(&lines, view, (double)v->cut_hatch,
+                                    (double)v->cut_angle * (3.14159265358979323846 / 180), parts, error);
     int32_t     all = -1;
     uint32_t    own = 0, part = 0;
     for (size_t i = 0; i < lines.count && status == LMN_OK; i++) {

@@ -87,9 +87,9 @@ static lmn_status refuse_of_solids(const vector_job *j, lmn_error *error)
         status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "take a look without marks, or draw a picture (.png)",
                         "marks lie on meshes: %zu solids of set operations have their lines alone", marked);
     if (status == LMN_OK && formed)
-        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, NULL,
-                        "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: %zu solids have none",
-                        formed);
+        status = refuse(
+            &r, LMN_UNSUPPORTED, WARNING_NO_STROKES, NULL,
+            "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: %zu solids have none", formed);
     if (status == LMN_OK && removed)
         status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
                         "what solids take away has no lines in vector drawings");
@@ -599,9 +599,10 @@ static void warn_of_open(vector_job *j)
         warnings_add(&j->out->warnings, WARNING_CUT_OPEN, "%zu parts are not closed and have no cut face there",
                      j->strokes.open_parts);
     if (j->strokes.open_operands)
-        warnings_add(&j->out->warnings, WARNING_BAD_GEOMETRY,
-                     "%u operands of solids are not closed: lines are where an odd number of their faces encloses something",
-                     (unsigned)j->strokes.open_operands);
+        warnings_add(
+            &j->out->warnings, WARNING_BAD_GEOMETRY,
+            "%u operands of solids are not closed: lines are where an odd number of their faces encloses something",
+            (unsigned)j->strokes.open_operands);
 }
 
 /* What all views draw on: surfaces as fine as the rule that wants them finest. */
@@ -619,8 +620,8 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
         bends = bends || stroke_options_bend(&options);
     }
     const stroke_section section = {&j->section.cut, j->section.spared};
-    lmn_status           status = stroke_scene_create_cut(&j->strokes, &j->pose, j->stroked, crease, refine, &section,
-                                                          report_part, j, error);
+    lmn_status           status =
+        stroke_scene_create_cut(&j->strokes, &j->pose, j->stroked, crease, refine, &section, report_part, j, error);
     if (status == LMN_OK)
         warn_of_open(j);
     if (status == LMN_OK && bends)

@@ -1,5 +1,5 @@
-/* Strokes of solids against OpenSCAD's exact meshes: dense samples along the edges of the mesh that are lines in a view,
- * with rays for what hides them, against the lines that were found without any mesh, and the other way round.
+/* Strokes of solids against OpenSCAD's exact meshes: dense samples along the edges of the mesh that are lines in a
+ * view, with rays for what hides them, against the lines that were found without any mesh, and the other way round.
  * LIMNER_DATA names the folder of the corpora (default: shared/data beside or above the source). Arguments: names of
  * files, or parts of them; without any all are compared. */
 #include <jansson.h>
@@ -27,15 +27,15 @@ typedef struct exact_edge {
 } exact_edge;
 
 typedef struct exact_mesh {
-    dvec     *points;
-    uint32_t *faces;
-    uint32_t  point_count, face_count;
-    dvec     *normals;
-    double   *heights; /* per face: its least */
-    exact_edge *edges; /* three a face, sorted */
-    double   extent;
-    dvec     low, high;
-    tracer  *rays;
+    dvec       *points;
+    uint32_t   *faces;
+    uint32_t    point_count, face_count;
+    dvec       *normals;
+    double     *heights; /* per face: its least */
+    exact_edge *edges;   /* three a face, sorted */
+    double      extent;
+    dvec        low, high;
+    tracer     *rays;
 } exact_mesh;
 
 typedef struct corner {
@@ -263,12 +263,7 @@ static int judge_edge(const exact_mesh *m, const eye *e, const exact_edge *group
     bool   contour = (a > 0) != (b > 0) && fmin(fabs(a), fabs(b)) > 0.01;
     if (least < 2e-3 * m->extent || turn < 1)
         return turn < 0.01 ? 0 : 1;
-    const uint32_t *v = &m->faces[3 * group[1].face];
-    uint32_t        third = v[0] != group[0].a && v[0] != group[0].b   ? v[0]
-                            : v[1] != group[0].a && v[1] != group[0].b ? v[1]
-                                                                       : v[2];
-    bool convex = dvec_dot(dvec_sub(m->points[third], p), n) < 0; /* smooth hollows are no outlines */
-    return (contour && convex) || turn > 60 ? 2 : 1;
+    return contour || turn > 60 ? 2 : 1;
 }
 
 static void sample_truth(samples *out, const exact_mesh *m, const eye *e)
@@ -291,9 +286,10 @@ static void sample_truth(samples *out, const exact_mesh *m, const eye *e)
             on_page(e, at, page);
             bool seen = is_seen(m, e, at, 2e-4 * m->extent);
             /* What is hidden but for rounding may be seen, and the other way round. */
-            bool sure = seen == is_seen(m, e, dvec_add(at, dvec_scale(dvec_add(m->normals[m->edges[i].face],
-                                                                              m->normals[m->edges[end - 1].face]),
-                                                                     5e-4 * m->extent)),
+            bool sure = seen == is_seen(m, e,
+                                        dvec_add(at, dvec_scale(dvec_add(m->normals[m->edges[i].face],
+                                                                         m->normals[m->edges[end - 1].face]),
+                                                                5e-4 * m->extent)),
                                         2e-4 * m->extent);
             put_sample(out, page[0], page[1], seen || !sure, what == 2 && sure);
         }
@@ -311,7 +307,7 @@ static bool sample_lines(samples *out, const stroke_view *v, const stroke_option
     bool good = visibility_find(&seen, v, lines.segments, lines.count, NULL, NULL, &error) == LMN_OK;
     for (size_t i = 0; i < lines.count && good; i++) {
         const window_segment *s = &lines.segments[i];
-        double ax = s->a.x / v->units + PAGE / 2.0, ay = s->a.y / v->units + PAGE / 2.0,
+        double                ax = s->a.x / v->units + PAGE / 2.0, ay = s->a.y / v->units + PAGE / 2.0,
                bx = s->b.x / v->units + PAGE / 2.0, by = s->b.y / v->units + PAGE / 2.0;
         size_t parts = (size_t)fmax(ceil(hypot(bx - ax, by - ay) / step), 1);
         for (size_t k = 0; k < parts; k++) {
@@ -360,8 +356,8 @@ typedef struct total {
     int    files, over, other;
 } total;
 
-/* Per cent of the operands' corners on lines that are no corners of the exact mesh: other fonts, other divisions of curves,
- * other solids. */
+/* Per cent of the operands' corners on lines that are no corners of the exact mesh: other fonts, other divisions of
+ * curves, other solids. */
 static double strange_corners(const exact_mesh *m, const stroke_scene *scene)
 {
     size_t all = 0, strange = 0;
@@ -416,7 +412,8 @@ static void compare_view(const char *name, const exact_mesh *m, const stroke_sce
     printf("%-40s %s  missing %6.3f %%  false %6.3f %%  with hidden ones %6.3f %% %6.3f %%  verify %llu of %llu  lines "
            "%.3f s, view %.3f s%s\n",
            name, flat ? "parallel   " : "perspective", missing, wrong, missing_all, wrong_all,
-           (unsigned long long)check.wrong, (unsigned long long)check.samples, made, took, strange >= 1 ? "  another solid" : "");
+           (unsigned long long)check.wrong, (unsigned long long)check.samples, made, took,
+           strange >= 1 ? "  another solid" : "");
     sum->worst_missing = fmax(sum->worst_missing, strange < 1 ? missing : 0);
     sum->worst_false = fmax(sum->worst_false, strange < 1 ? wrong : 0);
     sum->over += strange < 1 && (missing > 0.1 || wrong > 0.1);
@@ -434,11 +431,11 @@ static void compare_view(const char *name, const exact_mesh *m, const stroke_sce
 
 static void compare_file(const char *folder, const char *name, const char *stl, total *sum)
 {
-    char       path[1024];
-    exact_mesh m;
-    lmn_error  error = {0};
-    lmn_scene *scene;
-    pose       at_rest;
+    char          path[1024];
+    exact_mesh    m;
+    lmn_error     error = {0};
+    lmn_scene    *scene;
+    pose          at_rest;
     lmn_load_desc load = LMN_LOAD_DESC_INIT;
     snprintf(path, sizeof path, "%s/%s", folder, stl);
     if (!read_stl(&m, path))
@@ -500,7 +497,7 @@ int main(int argc, char **argv)
             compare_file(folder, name, stl, &sum);
     }
     json_decref(all);
-    printf("%d views, %d of another solid, %d over the limit, worst missing %.3f %%, worst false %.3f %%, %.2f CPU s\n", sum.files, sum.other, sum.over,
-           sum.worst_missing, sum.worst_false, sum.seconds);
+    printf("%d views, %d of another solid, %d over the limit, worst missing %.3f %%, worst false %.3f %%, %.2f CPU s\n",
+           sum.files, sum.other, sum.over, sum.worst_missing, sum.worst_false, sum.seconds);
     return sum.over ? 1 : 0;
 }

@@ -279,7 +279,8 @@ static void test_solids_and_sections(void **state)
     for (int i = 0; i < 4; i++) {
         f.scene = NULL;
         assert_int_equal(lmn_scene_create(&f.scene, &error), LMN_OK);
-        assert_int_equal(lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/csg/widget.csg", NULL, &error), LMN_OK);
+        assert_int_equal(lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/csg/widget.csg", NULL, &error),
+                         LMN_OK);
         assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
         if (i & 1)
             assert_int_equal(lmn_look_set(f.look, "scene.cut", "x", &error), LMN_OK);
@@ -458,12 +459,11 @@ static void test_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_report),
-        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
-        cmocka_unit_test(test_not_drawn),  cmocka_unit_test(test_solids_and_sections),
-        cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_cancelled),  cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_refused),       cmocka_unit_test(test_report),
+        cmocka_unit_test(test_scale),         cmocka_unit_test(test_without_renderer),
+        cmocka_unit_test(test_not_drawn),     cmocka_unit_test(test_solids_and_sections),
+        cmocka_unit_test(test_formats),       cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_same_again),
     };
     return cmocka_run_group_tests_name("sheet_api", tests, set_up, tear_down);
 }

@@ -3,10 +3,11 @@
 
 #include "csg_support.h"
 #include "cut/cut.h"
+#include "stroke/hatch.h"
 #include "stroke/solid.h"
 
 typedef struct lengths {
-    double crease, candidate, border, material;
+    double crease, candidate, border, material, hollow;
 } lengths;
 
 static stroke_scene scene_of(lmn_scene *s)
@@ -22,14 +23,15 @@ static stroke_scene scene_of(lmn_scene *s)
 
 static lengths measure(const edge_mesh *m)
 {
-    lengths out = {0, 0, 0, 0};
+    lengths out = {0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < m->edge_count; i++) {
-        vec3   p = m->positions[m->edges[i].vertex[0]], q = m->positions[m->edges[i].vertex[1]];
-        double length = sqrt(pow((double)q.x - (double)p.x, 2) + pow((double)q.y - (double)p.y, 2) +
-                             pow((double)q.z - (double)p.z, 2));
+        vec3     p = m->positions[m->edges[i].vertex[0]], q = m->positions[m->edges[i].vertex[1]];
+        double   length = sqrt(pow((double)q.x - (double)p.x, 2) + pow((double)q.y - (double)p.y, 2) +
+                               pow((double)q.z - (double)p.z, 2));
         uint32_t flags = m->edges[i].flags;
         out.crease += flags & EDGE_CREASE ? length : 0;
-        out.candidate += flags & EDGE_CANDIDATE ? length : 0;
+        out.candidate += flags & EDGE_CANDIDATE && !(flags & EDGE_HOLLOW) ? length : 0;
+        out.hollow += flags & EDGE_HOLLOW ? length : 0;
         out.border += flags & EDGE_BORDER ? length : 0;
         out.material += flags & EDGE_MATERIAL ? length : 0;
     }
@@ -101,6 +103,24 @@ static void round_operands_have_rims_and_outlines(void **state)
     check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 3, 2, 12) "}", 120 + 2 * rim, 24 * 5, 0, 0);
 }
 
+/* Sides of a bore are outlines that are always hidden: seen from the side, two lines. */
+static void bores_have_hidden_sides(void **state)
+{
+    (void)state;
+    lmn_scene   *s = load_text("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, -1, 2, 12) "}");
+    stroke_scene scene = scene_of(s);
+    assert_true(fabs(measure(&scene.meshes[0]).hollow - 24 * 10) < 1e-3);
+    stroke_scene_release(&scene);
+    stroke_options options = STROKE_OPTIONS_INIT;
+    options.hidden = true;
+    options.detail = 0.8f; /* the rims, seen from the edge, lie on other lines; the sides stay all the same */
+    stroke_shot shot = shoot(s, look_along(0, 1, 0, (const double[3]){5, 5, 5}, 40, 8, true, 800, 800), options);
+    double      length;
+    count_strokes(&shot.set, STROKE_CONTOUR, 1, &length);
+    assert_true(fabs(length - 2 * 10 * 50) < 10);
+    shot_release(&shot);
+}
+
 static void several_meet_at_an_edge(void **state)
 {
     (void)state;
@@ -110,17 +130,19 @@ static void several_meet_at_an_edge(void **state)
 static void colours_have_borders(void **state)
 {
     (void)state;
-    check_lengths("union(){color([1,0,0,1]){" BOX(0, 0, 0, 10, 10, 10) "}color([0,0,1,1]){" BOX(10, 0, 0, 10, 10, 10) "}}",
-                  160, 0, 0, 40);
+    check_lengths(
+        "union(){color([1,0,0,1]){" BOX(0, 0, 0, 10, 10, 10) "}color([0,0,1,1]){" BOX(10, 0, 0, 10, 10, 10) "}}", 160,
+        0, 0, 40);
 }
 
 /* The curve in which two balls meet is closed and lies on both. */
 static void balls_meet_in_a_ring(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("difference(){sphere($fn=48,$fa=12,$fs=2,r=10);multmatrix([[1,0,0,9],[0,1,0,2],[0,0,1,1],[0,0,0,"
-                             "1]]){sphere($fn=40,$fa=12,$fs=2,r=7);}}");
-    stroke_scene scene = scene_of(s);
+    lmn_scene *s =
+        load_text("difference(){sphere($fn=48,$fa=12,$fs=2,r=10);multmatrix([[1,0,0,9],[0,1,0,2],[0,0,1,1],[0,0,0,"
+                  "1]]){sphere($fn=40,$fa=12,$fs=2,r=7);}}");
+    stroke_scene     scene = scene_of(s);
     const edge_mesh *m = &scene.meshes[0];
     uint8_t         *degree = mem_calloc(m->vertex_count, 1);
     size_t           count = 0;
@@ -150,15 +172,16 @@ static void balls_meet_in_a_ring(void **state)
 static void parts_cross_what_is_left(void **state)
 {
     (void)state;
-    static const char *const texts[2] = {
-        "difference(){" BOX(-10, 0, -10, 20, 1, 20) BOX(-2, -1, -2, 4, 3, 4) "}",
-        "difference(){union(){" BOX(-1, -5, -1, 2, 10, 2) BOX(5, -5, 5, 2, 10, 2) "}" BOX(6, -6, 0, 3, 12, 9) "}"};
-    lmn_scene    *s;
-    lmn_error     error = {0};
-    lmn_load_desc load = LMN_LOAD_DESC_INIT;
+    static const char *const texts[2] = {"difference(){" BOX(-10, 0, -10, 20, 1, 20) BOX(-2, -1, -2, 4, 3, 4) "}",
+                                         "difference(){union(){" BOX(-1, -5, -1, 2, 10, 2)
+                                             BOX(5, -5, 5, 2, 10, 2) "}" BOX(6, -6, 0, 3, 12, 9) "}"};
+    lmn_scene               *s;
+    lmn_error                error = {0};
+    lmn_load_desc            load = LMN_LOAD_DESC_INIT;
     assert_int_equal(lmn_scene_create(&s, &error), LMN_OK);
     for (int k = 0; k < 2; k++)
-        assert_int_equal(lmn_scene_add_file(s, temp_file("part.csg", texts[k], strlen(texts[k])), &load, &error), LMN_OK);
+        assert_int_equal(lmn_scene_add_file(s, temp_file("part.csg", texts[k], strlen(texts[k])), &load, &error),
+                         LMN_OK);
     stroke_scene scene = scene_of(s);
     double       length = 0;
     assert_int_equal(scene.item_count, 2);
@@ -167,8 +190,8 @@ static void parts_cross_what_is_left(void **state)
         double ends[2][3];
         vec3   outward[2];
         stroke_scene_crossing(&scene, i, ends, outward);
-        length += sqrt(pow(ends[1][0] - ends[0][0], 2) + pow(ends[1][1] - ends[0][1], 2) +
-                       pow(ends[1][2] - ends[0][2], 2));
+        length +=
+            sqrt(pow(ends[1][0] - ends[0][0], 2) + pow(ends[1][1] - ends[0][1], 2) + pow(ends[1][2] - ends[0][2], 2));
     }
     assert_true(fabs(length - 2 * 2 * (1 + 2)) < 1e-3);
     stroke_scene_release(&scene);
@@ -209,6 +232,57 @@ static void sections_cut_solids(void **state)
     lmn_scene_destroy(&s);
 }
 
+static double hatched(const stroke_scene *scene, double apart, bool flat)
+{
+    stroke_camera camera = look_along(0, 0, -1, (const double[3]){5, 5, 5}, 200, flat ? 10 : 10.0 / 200, flat, 800, 800);
+    stroke_view  *v;
+    hatch_lines   lines;
+    double        length = 0;
+    assert_int_equal(stroke_view_create(&v, scene, &camera, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(hatch_find(&lines, v, apart, 0.7, NULL, NULL), LMN_OK);
+    for (size_t i = 0; i < lines.count; i++) {
+        const hatch_line *l = &lines.items[i];
+        assert_int_equal(l->part, 1);
+        length += hypot((double)l->ends[1][0] - (double)l->ends[0][0], (double)l->ends[1][1] - (double)l->ends[0][1]);
+    }
+    mem_free(lines.items);
+    stroke_view_destroy(&v);
+    return length * apart / (40 * 40); /* that many units are 1 */
+}
+
+/* Lines on cut faces take their area, of solids and of meshes, and of nothing else. */
+static void cut_faces_are_hatched(void **state)
+{
+    (void)state;
+    const box3   bounds = {{0, 0, 0}, {10, 10, 10}};
+    lmn_scene   *s = load_text("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(3, 3, -1, 4, 4, 12) "}");
+    stroke_scene scene = cut_scene_of(s, "z=5", bounds);
+    assert_true(fabs(hatched(&scene, 4, true) - 84) < 0.5);
+    assert_true(fabs(hatched(&scene, 4, false) - 84) < 0.5);
+    stroke_scene_release(&scene);
+    scene = cut_scene_of(s, "-z=5", bounds); /* seen from behind */
+    assert_true(hatched(&scene, 4, true) == 0);
+    stroke_scene_release(&scene);
+    lmn_scene_destroy(&s);
+    /* What lies in the plane is not cut. */
+    s = load_text("union(){" BOX(0, 0, 0, 10, 10, 5) BOX(1, 1, 0, 2, 2, 10) "}");
+    scene = cut_scene_of(s, "z=5", bounds);
+    assert_true(fabs(hatched(&scene, 1, true) - 4) < 0.1);
+    stroke_scene_release(&scene);
+    lmn_scene_destroy(&s);
+    /* A mesh, and what lies over the cut face of another one. */
+    s = stroke_scene_begin();
+    add_box(s, 0, 0, 0, 10, 10, 10);
+    assert_int_equal(scene_finish(s, "test", NULL), LMN_OK);
+    scene = cut_scene_of(s, "z=5", bounds);
+    assert_true(fabs(hatched(&scene, 4, true) - 100) < 0.5);
+    stroke_scene_release(&scene);
+    scene = cut_scene_of(s, "box=2,2,5:8,8,20", bounds); /* a pocket */
+    assert_true(fabs(hatched(&scene, 1, true) - 36) < 0.3);
+    stroke_scene_release(&scene);
+    scene_free(s);
+}
+
 /* --- bad operands --------------------------------------------------------------------------------------- */
 
 #define CORNERS(x, y, z, u, v, w)                                                                                      \
@@ -219,23 +293,25 @@ static void sections_cut_solids(void **state)
 static void shells_that_cross_are_decided(void **state)
 {
     (void)state;
-    check_lengths("polyhedron(points=[" CORNERS(0, 0, 0, 10, 10, 10) "," CORNERS(5, 2, 2, 15, 8, 8) "],faces=["
-                  "[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0],"
-                  "[8,9,10,11],[15,14,13,12],[8,12,13,9],[9,13,14,10],[10,14,15,11],[11,15,12,8]],convexity=2);",
+    check_lengths("polyhedron(points=[" CORNERS(0, 0, 0, 10, 10, 10) "," CORNERS(
+                      5, 2, 2, 15, 8,
+                      8) "],faces=["
+                         "[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0],"
+                         "[8,9,10,11],[15,14,13,12],[8,12,13,9],[9,13,14,10],[10,14,15,11],[11,15,12,8]],convexity=2);",
                   120 + 88, 0, 24, 0);
 }
 
 static void open_operands_are_counted(void **state)
 {
     (void)state;
-    lmn_scene   *s = load_text("difference(){" BOX(-5, -5, -5, 1, 1, 1) "polyhedron(points=[" CORNERS(0, 0, 0, 10, 10, 10)
-                               "],faces=[[0,1,2,3],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]],convexity=2);}");
+    lmn_scene   *s = load_text("difference(){" BOX(-5, -5, -5, 1, 1, 1) "polyhedron(points=[" CORNERS(
+          0, 0, 0, 10, 10, 10) "],faces=[[0,1,2,3],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]],convexity=2);}");
     stroke_scene scene = scene_of(s);
     assert_true(scene.item_count == 1);
     stroke_scene_release(&scene);
     lmn_scene_destroy(&s);
-    s = load_text("union(){" BOX(0, 0, 0, 1, 1, 1) "polyhedron(points=[" CORNERS(0, 0, 0, 10, 10, 10)
-                  "],faces=[[0,1,2,3],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]],convexity=2);}");
+    s = load_text("union(){" BOX(0, 0, 0, 1, 1, 1) "polyhedron(points=[" CORNERS(
+        0, 0, 0, 10, 10, 10) "],faces=[[0,1,2,3],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]],convexity=2);}");
     scene = scene_of(s);
     assert_int_equal(scene.meshes[0].solid->open_operands, 1);
     assert_int_equal(scene.open_operands, 1);
@@ -249,12 +325,12 @@ static void what_is_taken_away_hides_nothing(void **state)
 {
     (void)state;
     /* A bar behind a plate with a hole in it; the eye looks along y. */
-    lmn_scene *s = load_text("union(){difference(){" BOX(-10, 0, -10, 20, 1, 20) BOX(-2, -1, -2, 4, 3, 4) "}" BOX(-5, 5, -1, 10, 1, 2) "}");
+    lmn_scene   *s = load_text("union(){difference(){" BOX(-10, 0, -10, 20, 1, 20)
+                                   BOX(-2, -1, -2, 4, 3, 4) "}" BOX(-5, 5, -1, 10, 1, 2) "}");
     stroke_scene scene = scene_of(s);
     for (int flat = 0; flat < 2; flat++) {
-        stroke_camera camera =
-            look_along(0, 1, 0, (const double[3]){0, 0, 0}, 60, flat ? 12 : 0.3, flat, 600, 600);
-        stroke_view *v;
+        stroke_camera camera = look_along(0, 1, 0, (const double[3]){0, 0, 0}, 60, flat ? 12 : 0.3, flat, 600, 600);
+        stroke_view  *v;
         assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
         const double at[5][3] = {{0, 5, 1}, {4, 5, 1}, {0.5, 6, 0}, {4, 6, 0.5}, {-9, 0, -9}};
         uint32_t     counts[5];
@@ -296,7 +372,8 @@ static void rays_agree(void **state)
 static void the_eye_may_be_inside(void **state)
 {
     (void)state;
-    lmn_scene *s = load_text("union(){difference(){" BOX(-10, -10, -10, 20, 20, 20) BOX(-8, -8, -8, 16, 16, 16) "}" BOX(-1, 4, -8, 2, 2, 6) BOX(-1, 14, -1, 2, 2, 2) "}");
+    lmn_scene    *s = load_text("union(){difference(){" BOX(-10, -10, -10, 20, 20, 20)
+                                    BOX(-8, -8, -8, 16, 16, 16) "}" BOX(-1, 4, -8, 2, 2, 6) BOX(-1, 14, -1, 2, 2, 2) "}");
     stroke_scene  scene = scene_of(s);
     stroke_camera camera = look_along(0, 1, 0, (const double[3]){0, 0, 0}, 5, 0.6, false, 600, 600);
     stroke_view  *v;
@@ -343,11 +420,13 @@ int main(void)
         cmocka_unit_test(flush_faces_leave_no_lines),
         cmocka_unit_test(cuts_leave_rims),
         cmocka_unit_test(round_operands_have_rims_and_outlines),
+        cmocka_unit_test(bores_have_hidden_sides),
         cmocka_unit_test(several_meet_at_an_edge),
         cmocka_unit_test(colours_have_borders),
         cmocka_unit_test(balls_meet_in_a_ring),
         cmocka_unit_test(parts_cross_what_is_left),
         cmocka_unit_test(sections_cut_solids),
+        cmocka_unit_test(cut_faces_are_hatched),
         cmocka_unit_test(shells_that_cross_are_decided),
         cmocka_unit_test(open_operands_are_counted),
         cmocka_unit_test(what_is_taken_away_hides_nothing),
