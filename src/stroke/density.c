@@ -301,8 +301,8 @@ static bool open_density(density *d, const stroke_view *v)
     return d->all && d->drawn && d->heads;
 }
 
-/* Of a chain; what is hidden is not beside what is seen, and tells of what lies there: the sides of a bore, the rim of which
- * is seen from the edge, on another line. */
+/* Of a chain; what is hidden is not beside what is seen, and tells of what lies there: the sides of a bore, the rim of
+ * which is seen from the edge, on another line. */
 static double hidden_length(const density *d, const chain *c)
 {
     double length = 0;

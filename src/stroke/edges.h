@@ -16,8 +16,8 @@ typedef enum edge_flag {
                  * convex, or smooth and not flat where the piece it belongs to is not closed */
     EDGE_TWISTED = 1 << 4, /* beside others: both faces pass it the same way, so that one of them is inside out */
     EDGE_QUIET = 1 << 6,   /* turns by more than the crease angle but is no crease: no line unless it is an outline */
-    EDGE_HOLLOW = 1 << 7,  /* beside EDGE_CANDIDATE: of a hollow, so that the outline is always hidden: sides of bores */
-    EDGE_ROUNDED = 1 << 5  /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
+    EDGE_HOLLOW = 1 << 7, /* beside EDGE_CANDIDATE: of a hollow, so that the outline is always hidden: sides of bores */
+    EDGE_ROUNDED = 1 << 5 /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
 } edge_flag;
 
 /* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. */

@@ -124,11 +124,8 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
             c->out->segments[before].least = least;
         return good;
     }
-    window_segment s = {.a = v->points[a],
-                        .b = v->points[b],
-                        .ends = {a, b},
-                        .faces = {faces[0], faces[1]},
-                        .least = least};
+    window_segment s = {
+        .a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}, .least = least};
     return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
 

@@ -611,9 +611,8 @@ static bool take_alone(arounder *w, const solid_candidate *c)
         return true;
     const solid_face *f = &b->faces[c->faces[0]], *g = &b->faces[c->faces[1]];
     double3           across = double3_cross(f->normal, g->normal);
-    uint32_t outline = double3_dot(across, w->along) > 0 ? EDGE_CANDIDATE : EDGE_CANDIDATE | EDGE_HOLLOW;
-    return put_stretch(w, c, c->ends[0], c->ends[1], c->faces,
-                       c->flags & EDGE_CREASE ? c->flags : c->flags | outline);
+    uint32_t          outline = double3_dot(across, w->along) > 0 ? EDGE_CANDIDATE : EDGE_CANDIDATE | EDGE_HOLLOW;
+    return put_stretch(w, c, c->ends[0], c->ends[1], c->faces, c->flags & EDGE_CREASE ? c->flags : c->flags | outline);
 }
 
 /* Makes ready for a line; false where it has no length. */

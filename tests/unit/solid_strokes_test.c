@@ -38,19 +38,20 @@ static lengths measure(const edge_mesh *m)
     return out;
 }
 
-static void check_lengths(const char *text, double crease, double candidate, double border, double material)
+static void check_lengths(const char *text, double crease, double candidate, double border, double material,
+                          double hollow)
 {
     lmn_scene   *s = load_text(text);
     stroke_scene scene = scene_of(s);
     assert_int_equal(scene.item_count, 1);
     assert_non_null(scene.meshes[0].solid);
     lengths      got = measure(&scene.meshes[0]);
-    const double wanted[4] = {crease, candidate, border, material},
-                 found[4] = {got.crease, got.candidate, got.border, got.material};
-    for (int k = 0; k < 4; k++)
+    const double wanted[5] = {crease, candidate, border, material, hollow},
+                 found[5] = {got.crease, got.candidate, got.border, got.material, got.hollow};
+    for (int k = 0; k < 5; k++)
         if (fabs(found[k] - wanted[k]) > 1e-3)
             print_error("%s: kind %d: %.6f, expected %.6f\n", text, k, found[k], wanted[k]);
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 5; k++)
         assert_true(fabs(found[k] - wanted[k]) <= 1e-3);
     stroke_scene_release(&scene);
     lmn_scene_destroy(&s);
@@ -68,21 +69,21 @@ static void check_lengths(const char *text, double crease, double candidate, dou
 static void flush_faces_leave_no_lines(void **state)
 {
     (void)state;
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 10, 10, 10) "}", 160, 0, 0, 0);
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 15, 10, 10) "}", 160, 0, 0, 0);
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(0, 0, 0, 10, 10, 10) "}", 120, 0, 0, 0);
-    check_lengths("intersection(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 15, 10, 10) "}", 100, 0, 0, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 10, 10, 10) "}", 160, 0, 0, 0, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 15, 10, 10) "}", 160, 0, 0, 0, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(0, 0, 0, 10, 10, 10) "}", 120, 0, 0, 0, 0);
+    check_lengths("intersection(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 15, 10, 10) "}", 100, 0, 0, 0, 0);
     /* An L of two boxes that are flush on three sides: its outline twice, and six edges between. */
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 10, 10, 4) "}", 2 * 60 + 6 * 10, 0, 0, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 10, 10, 4) "}", 2 * 60 + 6 * 10, 0, 0, 0, 0);
 }
 
 static void cuts_leave_rims(void **state)
 {
     (void)state;
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 5, 10, 10) "}", 100, 0, 0, 0);
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(4, -1, 5, 2, 12, 6) "}", 180, 0, 0, 0);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(5, 0, 0, 5, 10, 10) "}", 100, 0, 0, 0, 0);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(4, -1, 5, 2, 12, 6) "}", 180, 0, 0, 0, 0);
     /* The same, cut flush at both ends and at the top. */
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(4, 0, 5, 2, 10, 5) "}", 180, 0, 0, 0);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(4, 0, 5, 2, 10, 5) "}", 180, 0, 0, 0, 0);
     /* Nothing is left, and nothing is taken away. */
     lmn_scene   *s = load_text("difference(){" BOX(0, 0, 0, 1, 1, 1) BOX(-1, -1, -1, 3, 3, 3) "}");
     stroke_scene scene = scene_of(s);
@@ -90,17 +91,17 @@ static void cuts_leave_rims(void **state)
         assert_int_equal(scene.meshes[i].edge_count, 0);
     stroke_scene_release(&scene);
     lmn_scene_destroy(&s);
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 5, 5, 5) "}", 120, 0, 0, 0);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 0, 0, 5, 5, 5) "}", 120, 0, 0, 0, 0);
 }
 
 static void round_operands_have_rims_and_outlines(void **state)
 {
     (void)state;
     double rim = 24 * 2 * 2 * sin(stroke_pi / 24);
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, -1, 2, 12) "}", 120 + 2 * rim, 0, 0, 0);
-    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 4, 2, 6) "}", 120 + 2 * rim, 0, 0, 0);
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 10, 2, 5) "}", 120 + 2 * rim, 24 * 5, 0, 0);
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 3, 2, 12) "}", 120 + 2 * rim, 24 * 5, 0, 0);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, -1, 2, 12) "}", 120 + 2 * rim, 0, 0, 0, 24 * 10);
+    check_lengths("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 4, 2, 6) "}", 120 + 2 * rim, 0, 0, 0, 24 * 6);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 10, 2, 5) "}", 120 + 2 * rim, 24 * 5, 0, 0, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, 3, 2, 12) "}", 120 + 2 * rim, 24 * 5, 0, 0, 0);
 }
 
 /* Sides of a bore are outlines that are always hidden: seen from the side, two lines. */
@@ -124,7 +125,7 @@ static void bores_have_hidden_sides(void **state)
 static void several_meet_at_an_edge(void **state)
 {
     (void)state;
-    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 10, 0, 10, 10, 10) "}", 220, 0, 10, 0);
+    check_lengths("union(){" BOX(0, 0, 0, 10, 10, 10) BOX(10, 10, 0, 10, 10, 10) "}", 220, 0, 10, 0, 0);
 }
 
 static void colours_have_borders(void **state)
@@ -132,7 +133,7 @@ static void colours_have_borders(void **state)
     (void)state;
     check_lengths(
         "union(){color([1,0,0,1]){" BOX(0, 0, 0, 10, 10, 10) "}color([0,0,1,1]){" BOX(10, 0, 0, 10, 10, 10) "}}", 160,
-        0, 0, 40);
+        0, 0, 40, 0);
 }
 
 /* The curve in which two balls meet is closed and lies on both. */
@@ -234,10 +235,11 @@ static void sections_cut_solids(void **state)
 
 static double hatched(const stroke_scene *scene, double apart, bool flat)
 {
-    stroke_camera camera = look_along(0, 0, -1, (const double[3]){5, 5, 5}, 200, flat ? 10 : 10.0 / 200, flat, 800, 800);
-    stroke_view  *v;
-    hatch_lines   lines;
-    double        length = 0;
+    stroke_camera camera =
+        look_along(0, 0, -1, (const double[3]){5, 5, 5}, 200, flat ? 10 : 10.0 / 200, flat, 800, 800);
+    stroke_view *v;
+    hatch_lines  lines;
+    double       length = 0;
     assert_int_equal(stroke_view_create(&v, scene, &camera, NULL, NULL, NULL), LMN_OK);
     assert_int_equal(hatch_find(&lines, v, apart, 0.7, NULL, NULL), LMN_OK);
     for (size_t i = 0; i < lines.count; i++) {
@@ -298,7 +300,20 @@ static void shells_that_cross_are_decided(void **state)
                       8) "],faces=["
                          "[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0],"
                          "[8,9,10,11],[15,14,13,12],[8,12,13,9],[9,13,14,10],[10,14,15,11],[11,15,12,8]],convexity=2);",
-                  120 + 88, 0, 24, 0);
+                  120 + 88, 0, 24, 0, 0);
+}
+
+/* Walls that lie on each other enclose nothing: two boxes side by side in one operand are one. */
+static void walls_that_meet_cancel(void **state)
+{
+    (void)state;
+    check_lengths(
+        "polyhedron(points=[" CORNERS(0, 0, 0, 10, 10, 10) "," CORNERS(
+            10, 0, 0, 20, 10,
+            10) "],faces=["
+                "[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6],[1,6,2],[2,6,7,3],[3,7,4,0],"
+                "[8,9,10,11],[15,14,13,12],[8,12,13,9],[9,13,14,10],[10,14,15,11],[8,15,12],[8,11,15]],convexity=2);",
+        160, 0, 0, 0, 0);
 }
 
 static void open_operands_are_counted(void **state)
@@ -368,6 +383,34 @@ static void rays_agree(void **state)
         }
 }
 
+/* What a section takes away reaches up to the eye and around it. */
+static void rays_agree_where_the_eye_is_in_what_is_cut(void **state)
+{
+    (void)state;
+    const box3     bounds = {{0, 0, 0}, {10, 10, 10}};
+    stroke_options options = STROKE_OPTIONS_INIT;
+    options.hidden = true;
+    lmn_scene    *s = load_text("difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, -1, 3, 12) "}");
+    stroke_scene  scene = cut_scene_of(s, "-y=4", bounds);
+    stroke_camera camera = look_along(-0.3, 1, -0.25, (const double[3]){5, 5, 5}, 16, 0.5, false, 500, 500);
+    stroke_view  *v;
+    stroke_set    set;
+    stroke_check  check;
+    double        seen;
+    camera.near = 0.1;
+    assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(stroke_find(&set, v, &options, NULL, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(stroke_verify(&check, &set, v, 1, NULL, NULL, NULL), LMN_OK);
+    assert_true(check.samples > 500);
+    assert_int_equal(check.wrong, 0);
+    count_strokes(&set, STROKE_CLASS_COUNT, 0, &seen);
+    assert_true(seen > 1000);
+    stroke_set_release(&set);
+    stroke_view_destroy(&v);
+    stroke_scene_release(&scene);
+    lmn_scene_destroy(&s);
+}
+
 /* The eye in a room that was cut out: walls hide what is behind them, and nothing is around the eye. */
 static void the_eye_may_be_inside(void **state)
 {
@@ -428,9 +471,11 @@ int main(void)
         cmocka_unit_test(sections_cut_solids),
         cmocka_unit_test(cut_faces_are_hatched),
         cmocka_unit_test(shells_that_cross_are_decided),
+        cmocka_unit_test(walls_that_meet_cancel),
         cmocka_unit_test(open_operands_are_counted),
         cmocka_unit_test(what_is_taken_away_hides_nothing),
         cmocka_unit_test(rays_agree),
+        cmocka_unit_test(rays_agree_where_the_eye_is_in_what_is_cut),
         cmocka_unit_test(the_eye_may_be_inside),
         cmocka_unit_test(memory_may_end),
     };
