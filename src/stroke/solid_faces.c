@@ -90,11 +90,71 @@ static bool put_edge(solid_builder *b, const operand_edge *group, size_t count, 
     return true;
 }
 
+/* --- is it closed? --- */
+
+/* Edges with an odd number of faces, as their faces run along them. */
+typedef struct odd_edges {
+    double3 (*ends)[2];
+    size_t count, capacity;
+} odd_edges;
+
+/* So many are looked at: a mesh with more is open. */
+enum { ODD_MOST = 4000 };
+
+static bool put_odd(odd_edges *odd, const solid_builder *b, const operand_edge *group, size_t count)
+{
+    int     upwards = 0; /* faces that pass it from its lower vertex on, less the others */
+    double3 ends[2];
+    for (size_t i = 0; i < count; i++) {
+        int               corner = (int)(group[i].corner % 3);
+        const solid_face *f = &b->faces[group[i].corner / 3];
+        const uint32_t   *v = b->mesh->faces[group[i].corner / 3];
+        bool              up = v[corner] == group[i].low;
+        upwards += up ? 1 : -1;
+        ends[!up] = f->p[corner];
+        ends[up] = f->p[(corner + 1) % 3];
+    }
+    if (!mem_grow((void **)&odd->ends, &odd->capacity, odd->count + 1, sizeof *odd->ends))
+        return false;
+    odd->ends[odd->count][0] = ends[upwards < 0];
+    odd->ends[odd->count++][1] = ends[upwards > 0];
+    return true;
+}
+
+/* How an edge runs past a position: 1, −1 the other way round, 0 not at all. */
+static int runs_past(const double3 ends[2], double3 at, double3 along, double near)
+{
+    double3 way = double3_minus(ends[1], ends[0]), r = double3_minus(at, ends[0]);
+    double  length = double3_length(way), share = length > 0 ? double3_dot(r, way) / (length * length) : -1;
+    if (share <= 0 || share >= 1 || double3_length(double3_plus(r, way, -share)) > near)
+        return 0;
+    return double3_dot(way, along) > 0 ? 1 : -1;
+}
+
+/* Faces without area were left out: what they joined lies on each other all the same. An edge is open where those that
+ * run past its middle do not cancel. */
+static bool has_open(const odd_edges *odd, double near)
+{
+    if (odd->count > ODD_MOST)
+        return true;
+    for (size_t i = 0; i < odd->count; i++) {
+        const double3 *e = odd->ends[i];
+        double3        along = double3_minus(e[1], e[0]), middle = double3_plus(e[0], along, 0.4871);
+        int            sum = 0;
+        for (size_t k = 0; k < odd->count; k++)
+            sum += runs_past(odd->ends[k], middle, along, near);
+        if (sum != 0)
+            return true;
+    }
+    return false;
+}
+
 /* All edges of an operand that are not flat. Closed is what has two faces at each that pass it in opposite directions.
  */
 static bool take_edges(solid_builder *b, solid_part *part, const edge_mesh *own, uint32_t first_vertex)
 {
     size_t        count = 3 * (size_t)part->face_count, known = 0;
+    odd_edges     odd = {NULL};
     operand_edge *edges = mem_alloc((count + 1) * sizeof *edges);
     for (size_t i = 0; i < count && edges; i++) {
         size_t          corner = 3 * (size_t)part->first_face + i;
@@ -115,10 +175,12 @@ static bool take_edges(solid_builder *b, solid_part *part, const edge_mesh *own,
         bool pairs =
             end - i == 2 && (b->mesh->faces[edges[i].corner / 3][edges[i].corner % 3] == edges[i].low) !=
                                 (b->mesh->faces[edges[i + 1].corner / 3][edges[i + 1].corner % 3] == edges[i].low);
-        part->open = part->open || (end - i) % 2;
+        good = (end - i) % 2 == 0 || put_odd(&odd, b, &edges[i], end - i);
         part->crossed = part->crossed || !pairs; /* what is inside is asked of a ray */
-        good = put_edge(b, edges + i, end - i, is_known ? &own->edges[known] : NULL);
+        good = good && put_edge(b, edges + i, end - i, is_known ? &own->edges[known] : NULL);
     }
+    part->open = good && has_open(&odd, 2 * b->near);
+    mem_free(odd.ends);
     mem_free(edges);
     return good;
 }

@@ -254,9 +254,12 @@ group_draw() {
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
-    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 0 '' 'widget.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 2 "^limner: $examples/csg/widget.csg: lines of form" '' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5
+    printf '{"version":1,"name":"removed","rules":[{"select":"*","surface":"flat"},{"select":"@removed","lines":"strokes"}]}' > in-removed.json
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of what is there" '' draw "$examples/csg/widget.csg" $small --look ./in-removed.json
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
-    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    row 0 'warning: lines of form' 'x.png' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5 --lenient -o x.png
     # Poses at telling moments, on one plate or as contours; the time is the end of the clip.
     row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
     grep -q '"reason": "turn"' r.json || complain "no turn is told"
