@@ -395,7 +395,10 @@ static void draw_cast(frame *f)
     if (s.pixels[2] <= 0 || s.pixels[3] <= 0)
         return;
     stopwatch w = watch_start(&f->profile);
-    text_append(&prelude, "%s%s", soft ? "#define SOFT\n" : "", !soft && v->ground_edge > 0 ? "#define EDGED\n" : "");
+    bool      hatched = v->ground_hatch > 0;
+    double    angle = (double)v->ground_angle * (3.14159265358979323846 / 180);
+    text_append(&prelude, "%s%s%s", hatched ? "#define HATCHED\n" : "", soft ? "#define SOFT\n" : "",
+                !soft && v->ground_edge > 0 ? "#define EDGED\n" : "");
     target_declare(&prelude, &target_rows[TARGET_SHADOW]);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_cast.frag", &prelude);
     gpu_pass     pass = {.colours = {f->page}, .colour_count = 1};
@@ -407,6 +410,10 @@ static void draw_cast(frame *f)
         plane_set(f, plane);
         gpu_set_float(f->g, "u_ground_strength", v->ground_strength);
         gpu_set_float(f->g, "u_ground_edge", v->ground_edge);
+        if (hatched) {
+            gpu_set_float(f->g, "u_ground_hatch", v->ground_hatch);
+            gpu_set_vec2(f->g, "u_ground_along", (float)cos(angle), (float)sin(angle));
+        }
         gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
         gpu_draw_screen(f->g);
     }

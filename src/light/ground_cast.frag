@@ -1,4 +1,4 @@
-/* The shadow that the first light throws on the ground, as a tone; and a line along its border. Nienhaus 2005, section 4.8: shadows with their edges. */
+/* The shadow that the first light throws on the ground, as a tone or as strokes; and a line along its border. Nienhaus 2005, section 4.8: shadows with their edges. */
 #include "light/ground_plane.glsl"
 #include "light/shadow.glsl"
 
@@ -49,6 +49,13 @@ float lit_at(vec3 eye)
 }
 #endif
 
+/* How much of the light is kept off. */
+float dark_at(vec2 pixel)
+{
+    vec4 eye = on_ground(pixel);
+    return eye.w > 0.0 ? 1.0 - lit_at(eye.xyz) : 0.0;
+}
+
 /* How much of the pixel the line along the border covers. The share of a ring around it that is lit tells how far the border is. */
 float edge_at(vec2 pixel)
 {
@@ -56,18 +63,77 @@ float edge_at(vec2 pixel)
     float radius = 0.5 * u_ground_edge + 1.0, lit = 0.0;
     for (int i = 0; i < ROUND; i++) {
         float angle = 6.2831853 * (float(i) + 0.5) / float(ROUND);
-        vec4 eye = on_ground(pixel + radius * vec2(cos(angle), sin(angle)));
-        lit += eye.w > 0.0 ? lit_at(eye.xyz) : 1.0;
+        lit += 1.0 - dark_at(pixel + radius * vec2(cos(angle), sin(angle)));
     }
     float off = abs(radius * cos(3.14159265 * lit / float(ROUND)));
     bool border = lit > 0.02 * float(ROUND) && lit < 0.98 * float(ROUND);
     return border ? clamp(0.5 * u_ground_edge - off + 0.5, 0.0, 1.0) : 0.0;
 }
 
+#ifdef HATCHED
+#include "gpu/hash.glsl"
+
+uniform float u_ground_hatch; /* distance of the strokes, pixels */
+uniform vec2  u_ground_along; /* which way they run on the page */
+
+/* A number −1 … 1 of one stroke. */
+float of_stroke(int stroke, int which)
+{
+    return corner_noise(hash_of(uvec3(uint(stroke + 0x8000), uint(which + 0x8000), 0u), 7u)).x;
+}
+
+/* The same, going over into others along the stroke. */
+float along_stroke(int stroke, float along)
+{
+    int   last = int(floor(along));
+    float part = along - floor(along);
+    return mix(of_stroke(stroke, last), of_stroke(stroke, last + 1), part * part * (3.0 - 2.0 * part));
+}
+
+/* How much of the shadow there is along the stroke around here: strokes taper where it ends. */
+float fullness_at(vec2 pixel)
+{
+#ifdef SOFT
+    return dark_at(pixel);
+#else
+    const int STEPS = 4;
+    float sum = dark_at(pixel);
+    if (sum <= 0.0)
+        return 0.0;
+    for (int i = 1; i <= STEPS; i++) {
+        vec2 off = u_ground_along * (3.0 * u_ground_hatch * float(i) / float(STEPS));
+        sum += dark_at(pixel + off) + dark_at(pixel - off);
+    }
+    return clamp(2.0 * sum / float(2 * STEPS + 1) - 1.0, 0.0, 1.0);
+#endif
+}
+
+/* Strokes whose breadth is the shadow's darkness, which nothing but a hand makes uneven; where it is full they leave nothing between. */
+float strokes_at(vec2 pixel)
+{
+    vec2 from = pixel - u_anchor;
+    float along = dot(from, u_ground_along) / u_ground_hatch, across = dot(from, vec2(-u_ground_along.y, u_ground_along.x)) / u_ground_hatch;
+    float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel);
+    int middle = int(floor(across));
+    for (int stroke = middle - 1; stroke <= middle + 1 && fullness > 0.0; stroke++) {
+        float sway = free * (0.32 * of_stroke(stroke, 0x7000) + 0.3 * along_stroke(stroke, 0.05 * along));
+        float ends = 1.5 + 0.5 * of_stroke(stroke, 0x7001); /* some run out sooner than others */
+        float breadth = u_ground_strength * clamp(fullness * ends - (ends - 1.0) * free, 0.0, 1.0);
+        breadth *= 1.0 + free * (0.35 * of_stroke(stroke, 0x7002) + 0.45 * along_stroke(stroke + 0x1000, 0.08 * along));
+        float inside = 0.5 * breadth - abs(across - float(stroke) - 0.5 - sway);
+        covered += clamp(inside * u_ground_hatch + 0.5, 0.0, min(breadth * u_ground_hatch, 1.0));
+    }
+    return min(covered, 1.0);
+}
+#endif
+
 void main()
 {
-    vec4 eye = on_ground(gl_FragCoord.xy);
-    float shade = eye.w > 0.0 ? u_ground_strength * (1.0 - lit_at(eye.xyz)) : 0.0;
+#ifdef HATCHED
+    float shade = strokes_at(gl_FragCoord.xy);
+#else
+    float shade = u_ground_strength * dark_at(gl_FragCoord.xy);
+#endif
 #ifdef EDGED
     shade = max(shade, edge_at(gl_FragCoord.xy));
 #endif

@@ -64,6 +64,13 @@ static const param params[] = {
     PARAM_FLOAT_ROW(scene_values, ground_edge, .def = 0, .min = 0, .max = 12, .soft_max = 2, .unit = UNIT_PT,
                     .cpu_only = true, .only_if = "ground=cast",
                     .doc = "Width of the line along the border of the shadow; 0: none. Soft shadows have none."),
+    PARAM_FLOAT_ROW(scene_values, ground_hatch, .def = 0, .min = 0, .max = 50, .soft_max = 9, .unit = UNIT_PT,
+                    .cpu_only = true, .only_if = "ground=cast",
+                    .doc = "Distance of the strokes that the shadow is drawn with, as broad as it is dark and tapered "
+                           "at its border; 0: a tone."),
+    PARAM_FLOAT_ROW(scene_values, ground_angle, .def = 0, .min = -180, .max = 180, .unit = UNIT_DEGREES,
+                    .cpu_only = true, .only_if = "ground_hatch",
+                    .doc = "Direction of these strokes on the page: 0 is level, 90 upright."),
     PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Depth focus: fraction of the ink that lines and strokes lose away from the depth that is "
                            "looked at; the paper stays what it is."),

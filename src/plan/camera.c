@@ -4,7 +4,11 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "plan/lights.h"
 #include "plan/refuse.h"
+
+/* Rays that fall by less than this see the ground edge on: 1 degree. */
+static const double SHADOW_EDGE_ON = 0.0175;
 
 static double dot3(const double a[3], const double b[3])
 {
@@ -116,6 +120,43 @@ static void fit_rays(view_camera *c, const fit_view *view, const fit_reach reach
     }
 }
 
+/* A shadow that is longer than what throws it is high by more than this counts up to it: the figure would shrink for a
+ * low light. */
+static const double LONGEST_SHADOW = 1.5;
+
+/* What takes a position to its shadow on the ground. False: none is drawn, or it is not seen. */
+static bool find_shadow(mat4 *out, const fit_body *body, const fit_view *view)
+{
+    const fit_ground *g = &body->ground;
+    if (!g->shadowed || !(-view->forward[g->up] > SHADOW_EDGE_ON))
+        return false;
+    mat4 turn = mat4_identity();
+    for (int k = 0; k < 3; k++) {
+        turn.m[4 * k] = view->right[k];
+        turn.m[4 * k + 1] = view->up[k];
+        turn.m[4 * k + 2] = -view->forward[k];
+    }
+    const light_conditions conditions = {.look = body->look, .pose = body->pose, .view = &turn};
+    const light_list       lights = lights_list(&conditions);
+    const float           *first = lights.positions[0];
+    double                 towards[3], across = 0;
+    for (int k = 0; k < 3; k++) {
+        towards[k] =
+            view->right[k] * (double)first[0] + view->up[k] * (double)first[1] - view->forward[k] * (double)first[2];
+        across += k == g->up ? 0 : towards[k] * towards[k];
+    }
+    double rise = fmax(towards[g->up], sqrt(across) / LONGEST_SHADOW);
+    if (first[3] != 0 || !(towards[g->up] > 0))
+        return false;
+    *out = mat4_identity();
+    for (int k = 0; k < 3; k++) {
+        double run = k == g->up ? 1 : towards[k] / rise;
+        out->m[4 * g->up + k] -= run;
+        out->m[12 + k] += run * g->level;
+    }
+    return true;
+}
+
 /* Moves the eye so that what is drawn fills the fraction `fit` of the frame. */
 static void fit_to(view_camera *c, const fit_body *body, double fit, const double right[3], const double up[3],
                    const double forward[3])
@@ -133,6 +174,8 @@ static void fit_to(view_camera *c, const fit_body *body, double fit, const doubl
     view.slope[0] = c->orthographic ? 0 : t * c->aspect;
     view.slope[1] = c->orthographic ? 0 : t;
     c->half_height = extent;
+    mat4 shadow;
+    view.shadow = find_shadow(&shadow, body, &view) ? &shadow : NULL;
     fit_measure(reach, body, &view);
     if (isfinite(reach[0].plus[0]))
         fit_rays(c, &view, reach, extent, fit, at);

@@ -92,14 +92,26 @@ static void measure_points(measuring *m, const local_view *l, const vec3 *points
     }
 }
 
-static void measure_box(measuring *m, const local_view *l, box3 box)
+/* Points that a matrix takes to the world, and their shadows. */
+static void measure_placed(measuring *m, const mat4 *world, const vec3 *points, size_t count)
+{
+    local_view l = localise(m->view, world);
+    measure_points(m, &l, points, count);
+    if (m->view->shadow) {
+        mat4 on_ground = mat4_multiply(m->view->shadow, world);
+        l = localise(m->view, &on_ground);
+        measure_points(m, &l, points, count);
+    }
+}
+
+static void measure_box(measuring *m, const mat4 *world, box3 box)
 {
     vec3 corners[8];
     for (int i = 0; i < 8; i++)
         corners[i] =
             (vec3){i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
     if (!box3_is_empty(box))
-        measure_points(m, l, corners, 8);
+        measure_placed(m, world, corners, 8);
 }
 
 static box3 box_of(const vec3 *points, size_t count)
@@ -136,12 +148,11 @@ static bool measure_primitive(measuring *m, const fit_body *body, size_t part, c
     bool        whole = (double)p->vertex_count * (double)instances <= VERTICES_MOST;
     box3        box = whole ? box3_empty() : box_of(points, p->vertex_count);
     for (size_t i = 0; i < instances; i++) {
-        mat4       world = pose_instance(pose, part, i);
-        local_view l = localise(m->view, &world);
+        mat4 world = pose_instance(pose, part, i);
         if (whole)
-            measure_points(m, &l, points, p->vertex_count);
+            measure_placed(m, &world, points, p->vertex_count);
         else
-            measure_box(m, &l, box);
+            measure_box(m, &world, box);
     }
     mem_free(made);
     return true;
@@ -182,12 +193,11 @@ void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view)
 {
     measuring  m;
     const mat4 identity = mat4_identity();
-    local_view world = localise(view, &identity);
     begin(&m, view);
     for (size_t i = 0; i < body->part_count && body->fitted; i++) {
         bool ghost = body->pose->scene->parts[i].ghost;
         if (body->fitted[i] && (ghost || !measure_mesh(&m, body, i)))
-            measure_box(&m, &world, ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i]);
+            measure_box(&m, &identity, ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i]);
     }
     measure_block(&m);
     for (int axis = 0; axis < 2; axis++)

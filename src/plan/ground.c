@@ -69,12 +69,13 @@ static double share_of_groups(uint32_t *links, const bool *stands, uint32_t coun
 }
 
 /* Does most of what is drawn stand on the plane? */
-static bool stands_level(const plan *p, const ground_plane *g)
+static bool stands_level(const plan *p, const fit_ground *g)
 {
-    size_t   count = p->scene->part_count, things = 0, level = 0;
-    box3     boxes[TOUCHING_MOST];
-    uint32_t links[TOUCHING_MOST];
-    bool     stands[TOUCHING_MOST];
+    const double near = NEARLY * box3_diagonal(p->fit.box);
+    size_t       count = p->scene->part_count, things = 0, level = 0;
+    box3         boxes[TOUCHING_MOST];
+    uint32_t     links[TOUCHING_MOST];
+    bool         stands[TOUCHING_MOST];
     for (size_t i = 0, end; i < count; i = end) {
         box3 box = box3_empty();
         for (end = i + 1; end < count && are_one(p->scene, i, end);)
@@ -84,7 +85,7 @@ static bool stands_level(const plan *p, const ground_plane *g)
                 box = box3_union(box, p->pose->part_boxes[k]);
         if (box3_is_empty(box))
             continue;
-        bool stand = bottom_of(box, g->up) <= g->level + NEARLY * g->size;
+        bool stand = bottom_of(box, g->up) <= g->level + near;
         if (things < TOUCHING_MOST) {
             boxes[things] = box;
             links[things] = (uint32_t)things;
@@ -95,20 +96,31 @@ static bool stands_level(const plan *p, const ground_plane *g)
     }
     if (things > TOUCHING_MOST)
         return (double)level >= MOST * (double)things;
-    join_touching(links, boxes, (uint32_t)things, (float)(NEARLY * g->size));
+    join_touching(links, boxes, (uint32_t)things, (float)near);
     return share_of_groups(links, stands, (uint32_t)things) >= MOST;
+}
+
+void ground_settle(plan *p)
+{
+    const scene_values *v = p->look->wide[KIND_SCENE].values;
+    fit_ground         *g = &p->fit.ground;
+    *g = (fit_ground){.up = p->scene->up == 'z' ? 2 : 1};
+    if (v->ground == GROUND_NONE || p->has_cut || box3_is_empty(p->fit.box) || !(box3_diagonal(p->fit.box) > 0))
+        return;
+    g->level = lowest_of(&p->fit, g->up);
+    g->there = isfinite(g->level) && (v->ground != GROUND_CAST || stands_level(p, g));
+    g->shadowed = g->there && v->ground == GROUND_CAST;
 }
 
 ground_plane ground_find(const plan *p, const view_camera *camera)
 {
     const scene_values *v = p->look->wide[KIND_SCENE].values;
-    ground_plane        out = {.up = p->scene->up == 'z' ? 2 : 1, .box = p->fit.box};
-    if (v->ground == GROUND_NONE || p->has_cut || box3_is_empty(p->fit.box))
+    const fit_ground   *g = &p->fit.ground;
+    ground_plane        out = {.up = g->up, .level = g->level, .box = p->fit.box};
+    if (!g->there)
         return out;
     out.size = box3_diagonal(p->fit.box);
-    out.level = lowest_of(&p->fit, out.up);
     out.reach = (double)v->ground_reach * out.size;
-    out.there = isfinite(out.level) && out.size > 0 && is_seen_from_above(camera, out.up, out.level, out.size) &&
-                (v->ground != GROUND_CAST || stands_level(p, &out));
+    out.there = is_seen_from_above(camera, out.up, out.level, out.size);
     return out;
 }

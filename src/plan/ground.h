@@ -1,5 +1,5 @@
 /* The ground that a model stands on: a plane through its lowest point, upright to the axis that points up. It is there
- * for shadows alone: nothing is fitted to it, and it hides nothing. */
+ * for shadows alone, and hides nothing. */
 #ifndef LIMNER_PLAN_GROUND_H
 #define LIMNER_PLAN_GROUND_H
 
@@ -15,9 +15,13 @@ typedef struct ground_plane {
     box3   box;   /* of what is drawn */
 } ground_plane;
 
-/* Not there where the look wants none, where the viewer looks from below or along it, and in sections; for a light's
- * shadow not either where things stand at different heights. What is drawn
- * stands on it by its lowest vertex; what is fitted to all times, by where that comes lowest. */
+/* Finds what the drawn stands on, before any camera is placed: pictures are fitted to its shadow, too. Sets
+ * `p->fit.ground`. */
+void ground_settle(plan *p);
+
+/* After that. Not there where the look wants none, where the viewer looks from below or along it, and in sections; for
+ * a light's shadow not either where things stand at different heights. What is drawn stands on it by its lowest vertex;
+ * what is fitted to all times, by where that comes lowest. */
 ground_plane ground_find(const plan *p, const view_camera *camera);
 
 #endif

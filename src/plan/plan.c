@@ -10,6 +10,7 @@
 #include "layer/layer.h"
 #include "light/light.h"
 #include "lines/lines.h"
+#include "plan/ground.h"
 #include "plan/paper_look.h"
 #include "plan/refuse.h"
 #include "scene/content.h"
@@ -599,7 +600,12 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     if (!out->rule_of || !out->selected || !out->opaque || !out->figures || !out->rules || !out->fitted ||
         !out->throws || !out->ghost_boxes)
         return error_memory(error);
-    out->fit = (fit_body){pose, out->fitted, out->ghost_boxes, out->part_count, box3_empty()};
+    out->fit = (fit_body){.pose = pose,
+                          .look = look,
+                          .fitted = out->fitted,
+                          .ghost_boxes = out->ghost_boxes,
+                          .part_count = out->part_count,
+                          .box = box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
     if (status == LMN_OK && !options->surfaces_only && !options->parts_only)
         status = section_find(&out->section, pose, look, options->select, error);
@@ -640,6 +646,7 @@ lmn_status plan_create(plan *out, const pose *pose, const lmn_look *look, const 
     warn_of_idle_rules(out, options->parts_only && pose->ghost_count > 0, warnings);
     status = datum_make(&out->datum, out->pose, out->look->wide[KIND_SCENE].values, out->selected, out->part_count,
                         warnings, error);
+    ground_settle(out);
     return status == LMN_OK && !options->parts_only ? plan_figures(out, options, warnings, error) : status;
 }
 

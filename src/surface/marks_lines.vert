@@ -128,7 +128,7 @@ void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
     vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));
     float size = length(b - a);
     vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
-    float tolerance = 1.5 + 1.5 * steepness(m);
+    float tolerance = 0.75 + 0.5 * steepness(m);
     v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
     v_depths = vec4(u_perspective > 0.5 ? -1.0 / from.z : -from.z, u_perspective > 0.5 ? -1.0 / to.z : -to.z, tolerance / u_focal, 0.0);

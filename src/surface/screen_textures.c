@@ -331,7 +331,8 @@ enum {
 };
 
 /* Cosine and sine by which the screen of each ink is turned: turn_of_ink of surface/halftone/position.glsl. */
-static const double ink_turns[CURVE_ANGLES][2] = {{1, 0}, {0.8660254, 0.5}, {0.5, 0.8660254}, {0, 1}};
+static const double ink_turns[CURVE_ANGLES][2] = {
+    {1, 0}, {0.9659258, 0.2588190}, {0.2588190, 0.9659258}, {0.7071068, 0.7071068}};
 
 /* As a texture unit finds it, in texels of the level. */
 static double value_at(const mip_chain *c, int level, double u, double v)

@@ -4,8 +4,10 @@
 
 typedef struct toon {
     int32_t bands;
-    float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness;
-    bool    seed_blur;
+    float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness, blacks, feather,
+        spacing;
+    colour shade, ink;
+    bool   seed_blur;
 } toon;
 
 static const param params[] = {
@@ -19,6 +21,8 @@ static const param params[] = {
                            "1 an even wash."),
     PARAM_FLOAT_ROW(toon, shadow, .def = 0.42, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Brightness of the darkest tone."),
+    PARAM_COLOUR_ROW(toon, shade, .def_colour = {1, 1, 1, 1}, .as_light = true,
+                     .doc = "Colour of the light that the darkest tone has; lighter ones have less of it."),
     PARAM_FLOAT_ROW(toon, light, .def = 1, .min = 0, .max = 2, .soft_max = 1.2, .unit = UNIT_FRACTION,
                     .doc = "Brightness of the lightest tone."),
     PARAM_FLOAT_ROW(toon, highlight, .def = 0.5, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -34,6 +38,16 @@ static const param params[] = {
                     .doc = "No fill is shown darker than this, so that ink stays legible on it."),
     PARAM_FLOAT_ROW(toon, lightness, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Mixes the model's colours towards white: a thin wash of them."),
+    PARAM_FLOAT_ROW(toon, blacks, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What is turned away from the first light is filled with ink: 1 all of it, less what is "
+                           "turned farther; 0 nothing."),
+    PARAM_FLOAT_ROW(toon, feather, .def = 0, .min = 0, .max = 1, .soft_max = 0.3, .unit = UNIT_FRACTION,
+                    .doc = "How far tapering strokes reach from the blacks towards the light, fraction of the "
+                           "way to what faces it; 0: there are none."),
+    PARAM_FLOAT_ROW(toon, spacing, .def = 3.5, .min = 0.5, .max = 50, .soft_max = 9, .unit = UNIT_PT,
+                    .only_if = "feather>0", .doc = "Distance of those strokes from each other, at most."),
+    PARAM_COLOUR_ROW(toon, ink, .def_colour = {13 / 255.0F, 11 / 255.0F, 18 / 255.0F, 1}, .only_if = "blacks>0",
+                     .doc = "Ink of the blacks."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
                    .doc = "Smooths tone borders by blurring the shade map as Nienhaus (2005) does, instead of by the "
                           "border's own distance."),

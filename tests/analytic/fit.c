@@ -40,12 +40,25 @@ static const lmn_look *flat(void)
     return made;
 }
 
+/* The same, and a shadow on the ground as dense as what throws it. */
+static lmn_look *shadowed(const char *light_direction)
+{
+    char      text[512];
+    lmn_look *made = NULL;
+    snprintf(text, sizeof text,
+             "{\"version\":1,\"scene\":{\"ground\":\"cast\",\"ground_strength\":1,\"light_direction\":%s},"
+             "\"rules\":[{\"select\":\"*\",\"surface\":\"flat\"}]}",
+             light_direction);
+    DO(lmn_look_parse(&made, text, "shadowed", &error));
+    return made;
+}
+
 /* What is drawn, pixels: from the left, to the right, from the top, to the bottom. False: nothing is. */
-static bool find_drawn(const lmn_scene *scene, const lmn_draw_desc *desc, int box[4])
+static bool find_drawn_as(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, int box[4])
 {
     lmn_drawing *drawing = NULL;
     int          width, height;
-    DO(lmn_draw(&drawing, renderer(), scene, flat(), desc, &error));
+    DO(lmn_draw(&drawing, renderer(), scene, look, desc, &error));
     const uint8_t *pixels = lmn_drawing_pixels(drawing, &width, &height);
     box[0] = width;
     box[2] = height;
@@ -62,16 +75,26 @@ static bool find_drawn(const lmn_scene *scene, const lmn_draw_desc *desc, int bo
     return box[1] > box[0];
 }
 
+static bool find_drawn(const lmn_scene *scene, const lmn_draw_desc *desc, int box[4])
+{
+    return find_drawn_as(scene, flat(), desc, box);
+}
+
 /* The wider side fills its fraction, and nothing lies beside the middle. Returns how many pixels it is off at most. */
-static double misfit(const lmn_scene *scene, const lmn_draw_desc *desc)
+static double misfit_as(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc)
 {
     int box[4];
-    if (!find_drawn(scene, desc, box))
+    if (!find_drawn_as(scene, look, desc, box))
         return INFINITY;
     double wide = box[1] - box[0] - desc->fit * desc->width, high = box[3] - box[2] - desc->fit * desc->height;
     double off = fabs(fmax(wide, high));
     off = fmax(off, abs(box[0] - (desc->width - box[1])));
     return fmax(off, abs(box[2] - (desc->height - box[3])));
+}
+
+static double misfit(const lmn_scene *scene, const lmn_draw_desc *desc)
+{
+    return misfit_as(scene, flat(), desc);
 }
 
 static lmn_scene *load(const char *name)
@@ -195,10 +218,45 @@ static void solids_lie_in_the_frame(void)
     lmn_scene_destroy(&scene);
 }
 
+/* A shadow on the ground is drawn, so it is fitted, with parallel rays and without, of light from either side. */
+static void shadows_lie_in_the_frame(void)
+{
+    static const char *const models[] = {"box.glb", "house.glb"};
+    static const char *const lights[] = {"[-0.5,0.85,0.42]", "[0.5,0.9,-0.1]"};
+    for (int m = 0; m < 2; m++) {
+        lmn_scene *scene = load(models[m]);
+        double     worst = 0;
+        for (int k = 0; k < 8; k++) {
+            lmn_look     *look = shadowed(lights[k % 2]);
+            lmn_draw_desc desc = describe(SIDE, k & 2 ? SIDE / 2 : SIDE);
+            desc.orthographic = k & 4;
+            worst = fmax(worst, misfit_as(scene, look, &desc));
+            lmn_look_destroy(&look);
+        }
+        check_at_most("FIT", worst, PIXELS_OFF, "%s with its shadow: pixels off", models[m]);
+        lmn_scene_destroy(&scene);
+    }
+}
+
+/* A low light's shadow would leave little room for the figure: it runs out of the frame instead. */
+static void low_light_leaves_room(void)
+{
+    lmn_scene    *scene = load("box.glb");
+    lmn_draw_desc desc = describe(SIDE, SIDE);
+    lmn_look     *look = shadowed("[-1,0.2,0.1]");
+    int           box[4];
+    desc.samples = 1;
+    bool drawn = find_drawn_as(scene, look, &desc, box);
+    check_that("FIT", drawn && (box[0] == 0) != (box[1] == SIDE), "a long shadow leaves the frame on one side");
+    lmn_look_destroy(&look);
+    lmn_scene_destroy(&scene);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"models", models_fill_the_frame},     {"directions", directions_fill_the_frame},
                                        {"postures", postures_fill_the_frame}, {"selections", selections_fill_the_frame},
-                                       {"times", all_times_are_held},         {"solids", solids_lie_in_the_frame}};
+                                       {"times", all_times_are_held},         {"solids", solids_lie_in_the_frame},
+                                       {"shadows", shadows_lie_in_the_frame}, {"low light", low_light_leaves_room}};
     return check_main(argc, argv, "fit", cases, sizeof cases / sizeof *cases);
 }

@@ -469,6 +469,71 @@ static void cast_shadows_are_where_rays_say(void)
     shape_release(&model);
 }
 
+/* What is drawn with strokes: their share of ink where they are whole and near the border, and how much of it changes
+ * along them and across. */
+typedef struct strokes_seen {
+    double inner, border, outside, along, across;
+    int    inner_count, border_count;
+} strokes_seen;
+
+enum { STROKES_APART = 4 };
+
+static strokes_seen look_at_strokes(const shot *s, const signed char *truth)
+{
+    strokes_seen out = {0};
+    for (int y = 8; y < CAST_SIDE - 8; y++)
+        for (int x = 8; x < CAST_SIDE - 8; x++) {
+            int    i = y * CAST_SIDE + x;
+            double ink = 1 - s->picture[4 * i] / 255.0;
+            if (truth[i] == 0 && !is_near_border(truth, i, 1))
+                out.outside += ink;
+            if (truth[i] != 1)
+                continue;
+            if (is_near_border(truth, i, 2)) {
+                out.border += ink;
+                out.border_count++;
+            } else if (!is_near_border(truth, i, 3 * STROKES_APART)) {
+                out.inner += ink;
+                out.inner_count++;
+                /* about 30 degrees, and half way to the next stroke; rows run downwards */
+                out.along += fabs(ink - (1 - s->picture[4 * (i - CAST_SIDE + 2)] / 255.0));
+                out.across += fabs(ink - (1 - s->picture[4 * (i - 2 * CAST_SIDE - 1)] / 255.0));
+            }
+        }
+    out.inner /= fmax(out.inner_count, 1);
+    out.border /= fmax(out.border_count, 1);
+    return out;
+}
+
+/* As dense as the shadow is dark, tapered at its border, none beside it, and where they were told to run. */
+static void cast_shadows_are_hatched(void)
+{
+    static const double strengths[] = {0.25, 0.5, 1};
+    const dvec          light = dvec_of(-0.7, 0.75, 0.3);
+    shape               model = {0};
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    for (int k = 0; k < 3; k++) {
+        char text[120];
+        shot s;
+        snprintf(text, sizeof text, "\"ground_strength\":%g,\"ground_hatch\":\"%dpx\",\"ground_angle\":30",
+                 strengths[k], STROKES_APART);
+        if (!shoot_cast(&s, &model, text, k & 1))
+            continue;
+        signed char *truth = cast_truth(&s, light);
+        strokes_seen seen = look_at_strokes(&s, truth);
+        check_at_least("ground", seen.inner_count, 400, "pixels well within the shadow");
+        check_near("ground", seen.inner, strengths[k], 0.05, "share of ink of strokes %g dark", strengths[k]);
+        check_at_most("ground", seen.border, 0.75 * seen.inner, "  at the border, where they taper");
+        check_at_most("ground", seen.outside, 0, "  ink beside the shadow");
+        if (strengths[k] < 1)
+            check_at_most("ground", seen.along, 0.5 * seen.across, "  changes along strokes and across");
+        free(truth);
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
 /* Things that stand at different heights would throw their shadows far below themselves. */
 static void cast_shadows_need_a_level(void)
 {
@@ -508,6 +573,7 @@ int main(int argc, char **argv)
         {"flat", flat_has_one_tone},
         {"media", media_draw_it},
         {"cast", cast_shadows_are_where_rays_say},
+        {"hatched", cast_shadows_are_hatched},
         {"level", cast_shadows_need_a_level},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);

@@ -9,6 +9,8 @@
 #include "shape.h"
 #include "shot.h"
 
+static const double PI = 3.14159265358979323846;
+
 static const shot_view front = {
     .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
 
@@ -291,6 +293,308 @@ static void dark_fill_is_legible(void)
     }
 }
 
+/* A prism of eight flanks, each with normals of its own. */
+static void shape_prism(shape *s)
+{
+    enum { SIDES = 8 };
+    shape_part *p = shape_add(s, "prism", 4 * SIDES, 6 * SIDES, true, false);
+    for (uint32_t side = 0; side < SIDES; side++) {
+        static const uint32_t quad[6] = {0, 1, 3, 0, 3, 2};
+        for (uint32_t k = 0; k < 4; k++) {
+            double at = (side + (k & 1) + 0.25) * 2 * PI / SIDES, middle = (side + 0.75) * 2 * PI / SIDES;
+            float *position = p->positions[4 * side + k], *normal = p->normals[4 * side + k];
+            position[0] = (float)sin(at);
+            position[1] = k & 2 ? 0.9f : -0.9f;
+            position[2] = (float)cos(at);
+            normal[0] = (float)sin(middle);
+            normal[1] = 0;
+            normal[2] = (float)cos(middle);
+        }
+        for (uint32_t k = 0; k < 6; k++)
+            p->indices[6 * side + k] = 4 * side + quad[k];
+    }
+}
+
+/* Faces that turn by 45 degrees from one to the next: each keeps its one tone up to its edges. */
+static void flat_faces_stay_flat(void)
+{
+    shape    s = {0};
+    shot     drawing;
+    uint32_t colours[64];
+    int      pixels[64];
+    shape_prism(&s);
+    if (shot_of_shape(&drawing, &s, "prism.glb",
+                      surface_look("{\"technique\":\"toon\",\"bands\":16,\"softness\":0,\"highlight\":0,"
+                                   "\"smoothing\":\"8px\"}",
+                                   "0.7,0.5,0.6", 0),
+                      NULL, &front)) {
+        int count = colours_of(&drawing, colours, pixels, 64), few = 0;
+        for (int k = 0; k < count; k++)
+            few += pixels[k] < 1000;
+        check_at_least("E12", count - few, 4, "tones of a prism's flanks");
+        check_at_most("E12", few, 0, "  tones between them, along edges");
+    }
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
+/* The lines of a dark floor, and a light plate so close above it that on the page it is hardly a pixel up: none shows
+ * through, and the floor beside it has them all. */
+static void lines_are_hidden_by_what_lies_close(void)
+{
+    const char *look =
+        surface_look("{\"technique\":\"lines\",\"ink\":\"#ff0000\",\"scale\":\"5px\",\"texture\":1}", "0,1,1", 0.5);
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        shot_view view = {.width = 256,
+                          .height = 256,
+                          .eye = {5, 5, 5},
+                          .up = {0, 1, 0},
+                          .orthographic = orthographic,
+                          .fov_deg = 18};
+        shape     s = {0};
+        shot      drawing;
+        int       red[2] = {0}, seen[2] = {0};
+        shape_box(&s, "floor", dvec_of(-1, -0.1, -1), dvec_of(1, 0, 1));
+        for (int k = 0; k < 3; k++)
+            s.parts[0].colour[k] = 0.1f;
+        shape_box(&s, "plate", dvec_of(-0.6, 0.012, -0.6), dvec_of(0.6, 0.014, 0.6));
+        if (shot_of_shape(&drawing, &s, "plates.glb", look, NULL, &view))
+            for (int i = 3 * 256; i < 253 * 256; i++) {
+                /* Whether a line is hidden is asked at its axis: half of its width may stand over an edge. */
+                bool within = drawing.id[i] == drawing.id[i + 3] && drawing.id[i] == drawing.id[i - 3] &&
+                              drawing.id[i] == drawing.id[i + 3 * 256] && drawing.id[i] == drawing.id[i - 3 * 256];
+                if (!within || isinf(drawing.depth[i]) || drawing.normal[i][1] < 0.5f)
+                    continue;
+                int plate = drawing.id[i] == 2;
+                seen[plate]++;
+                red[plate] += drawing.picture[4 * i + 1] < 200;
+            }
+        check_at_least("EX-14", seen[1], 2000, "pixels of a plate above a floor");
+        check_at_most("EX-14", red[1], 0, "  with ink of the floor's lines");
+        check_at_least("EX-14", (double)red[0] / fmax(seen[0], 1), 0.3, "share of the floor beside it that is inked");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* The darkest tone has the shade's colour, the lightest the surface's own. */
+static void shade_tints_the_dark(void)
+{
+    uint32_t colours[64];
+    int      pixels[64];
+    shot     s;
+    if (take_ball(&s,
+                  surface_look("{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"saturation\":1,"
+                               "\"shadow\":0.5,\"shade\":\"#8080ff\"}",
+                               "0.8,0.6,0", 0),
+                  NULL)) {
+        check_near("E12", colours_of(&s, colours, pixels, 64), 2, 0, "tones with a shade");
+        for (int k = 0; k < 2; k++) {
+            const uint8_t *c = (const uint8_t *)&colours[k];
+            bool           dark = c[0] < 200;
+            check_near("E12", picture_linear(c[0]) / picture_linear(c[2]), dark ? picture_linear(0x80) : 1, 0.01,
+                       "red of the %s tone beside its blue", dark ? "dark" : "light");
+        }
+    }
+    shot_release(&s);
+}
+
+/* --- An inker's blacks ------------------------------------------------------------------------------------ */
+
+static const double light_of_blacks[3] = {0.8, 0.6, 0};
+
+/* White paper but for the blacks. */
+static bool take_inked(shot *out, double blacks, double feather)
+{
+    char surface[240];
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":1,\"light\":1,\"highlight\":0,\"ink\":\"#000000\",\"blacks\":%g,"
+             "\"feather\":%g,\"spacing\":\"8px\"}",
+             blacks, feather);
+    return take_ball(out, surface_look(surface, "0.8,0.6,0", 0), NULL);
+}
+
+/* 0 turned away from the light … 1 towards it. */
+static double turned_at(const shot *s, int i)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++)
+        sum += light_of_blacks[k] * (double)s->normal[i][k];
+    return 0.5 + 0.5 * sum;
+}
+
+static double ink_at(const shot *s, int i)
+{
+    return 1 - s->picture[4 * i] / 255.0;
+}
+
+static void blacks_lie_away_from_the_light(void)
+{
+    for (int k = 0; k < 4; k++) {
+        double blacks = 0.3 * k;
+        int    wrong = 0, filled = 0;
+        shot   s;
+        if (take_inked(&s, blacks, 0))
+            for (int i = 0; i < 256 * 256; i++) {
+                double beyond = isinf(s.depth[i]) ? 1 : turned_at(&s, i) - 0.5 * blacks;
+                filled += !isinf(s.depth[i]) && ink_at(&s, i) > 0.5;
+                wrong += !isinf(s.depth[i]) && fabs(beyond) > 0.015 && (ink_at(&s, i) > 0.5) != (beyond < 0);
+            }
+        check_at_most("S1", wrong, 0, "pixels inked wrongly where blacks are %g", blacks);
+        check_at_least("S1", filled, k ? 1000 * k : 0, "  pixels inked");
+        shot_release(&s);
+    }
+}
+
+static double triangle_wave(double x)
+{
+    return 1 - fabs(2 * (x - floor(x)) - 1);
+}
+
+/* The share of strokes of 0.7 … 1 of the full length that reach farther than a fraction of it, while strokes come
+ * between them: the mean of all stages of that. */
+static double reaching(double fraction)
+{
+    enum { STEPS = 40 };
+    int count = 0;
+    for (int phase = 0; phase < 2 * STEPS; phase++)
+        for (int stage = 0; stage < STEPS; stage++)
+            for (int strength = 0; strength < STEPS; strength++) {
+                double x = (phase + 0.5) / STEPS, between = (stage + 0.5) / STEPS;
+                double wave = (1 - between) * triangle_wave(x) + between * triangle_wave(x / 2);
+                count += (0.7 + 0.3 * (strength + 0.5) / STEPS) * wave > fraction;
+            }
+    return count / (2.0 * STEPS * STEPS * STEPS);
+}
+
+/* From where all is ink to where nothing is, strokes taper, and none is seen in the light. */
+static void feathers_taper(void)
+{
+    enum { BINS = 8 };
+    double ink[BINS + 2] = {0}, pixels[BINS + 2] = {0}, worst = 0;
+    shot   s;
+    if (take_inked(&s, 0.3, 0.3))
+        for (int i = 0; i < 256 * 256; i++) {
+            if (isinf(s.depth[i]) || s.normal[i][2] < 0.5f)
+                continue; /* foreshortened there */
+            int bin = 1 + (int)floor((turned_at(&s, i) - 0.15) / 0.3 * BINS);
+            bin = bin < 0 ? 0 : bin > BINS + 1 ? BINS + 1 : bin;
+            ink[bin] += ink_at(&s, i);
+            pixels[bin]++;
+        }
+    shot_release(&s);
+    for (int k = 1; k <= BINS; k++)
+        if (pixels[k] > 0)
+            worst = fmax(worst, fabs(ink[k] / pixels[k] - reaching((k - 0.5) / BINS)));
+    check_at_most("S1", worst, 0.08, "share of ink on the way from the blacks into the light, beside tapering strokes");
+    check_at_most("S1", ink[BINS + 1], 0, "ink in the light");
+}
+
+/* In the middle of the ball's dark border strokes run along the light as the page shows it. */
+static void feathers_cross_the_border(void)
+{
+    double along = 0, across = 0;
+    int    pairs = 0;
+    shot   s;
+    if (take_inked(&s, 0.3, 0.3))
+        for (int y = 8; y < 248; y++)
+            for (int x = 8; x < 248; x++) {
+                int i = y * 256 + x, ahead = (y - 3) * 256 + x + 4, beside = (y + 4) * 256 + x + 3;
+                if (isinf(s.depth[i]) || fabs(turned_at(&s, i) - 0.3) > 0.06 || s.normal[i][2] < 0.6f)
+                    continue;
+                along += fabs(ink_at(&s, ahead) - ink_at(&s, i));
+                across += fabs(ink_at(&s, beside) - ink_at(&s, i));
+                pairs++;
+            }
+    shot_release(&s);
+    check_at_least("S1", pairs, 300, "pixels among feathering strokes");
+    check_at_most("S1", along / fmax(across, 1), 0.5, "changes of ink along the light beside those across it");
+}
+
+/* --- Watercolour ------------------------------------------------------------------------------------------- */
+
+static bool take_washed(shot *out, bool ball, const char *more, const char *light)
+{
+    shape s = {0};
+    char  surface[300];
+    if (ball)
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
+    else
+        shape_quad(&s, "wall", 20, 0);
+    for (int k = 0; k < 3; k++)
+        s.parts[0].colour[k] = 0.4f;
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"watercolour\",\"pale\":0.5,\"deep\":1.5,\"shade\":\"#8090c0\",\"wander\":0,%s}", more);
+    bool ok = shot_of_shape(out, &s, "wash.glb", surface_look(surface, light, 0), NULL, &front);
+    shape_release(&s);
+    return ok;
+}
+
+/* Light goes through as much pigment as there is: the colour to the power of it, and the shade's once more. */
+static void pigment_takes_light(void)
+{
+    const double own = picture_srgb(0.4) / 255;
+    for (int dark = 0; dark < 2; dark++) {
+        shot s;
+        if (take_washed(&s, false, "\"flow\":0,\"pooling\":0", dark ? "0,0,-1" : "0,0,1"))
+            for (int k = 0; k < 3; k++) {
+                static const double shade[3] = {0x80 / 255.0, 0x90 / 255.0, 0xc0 / 255.0};
+                double              wanted = dark ? pow(own, 1.5) * shade[k] : pow(own, 0.5);
+                check_near("watercolour", s.picture[4 * (128 * 256 + 128) + k] / 255.0, wanted, 0.004,
+                           "channel %d of a wall %s", k, dark ? "without light" : "in full light");
+            }
+        shot_release(&s);
+    }
+}
+
+/* Pigment of a pixel, where there is but one wash. */
+static double pigment_at(const shot *s, int i)
+{
+    return log(fmax(s->picture[4 * i], 1) / 255.0) / log(picture_srgb(0.4) / 255);
+}
+
+/* Where a wash ends there is more of it. */
+static void pigment_pools(void)
+{
+    double sums[3] = {0}, counts[3] = {0};
+    shot   s;
+    if (take_washed(&s, true, "\"washes\":1,\"flow\":0,\"pooling\":0.8,\"pool\":\"4px\",\"smoothing\":\"8px\"",
+                    "0,0,1"))
+        for (int y = 0; y < 256; y++)
+            for (int x = 0; x < 256; x++) {
+                double inside = 128 / (8 * tan(9 * PI / 180)) - hypot(x + 0.5 - 128, y + 0.5 - 128); /* pixels */
+                int    at = inside < 1 ? -1 : inside < 3 ? 0 : inside < 6 ? 1 : inside > 20 ? 2 : -1;
+                if (at >= 0) {
+                    sums[at] += pigment_at(&s, y * 256 + x);
+                    counts[at]++;
+                }
+            }
+    shot_release(&s);
+    for (int k = 0; k < 3; k++)
+        sums[k] /= fmax(counts[k], 1);
+    check_near("watercolour", sums[2], 0.5, 0.01, "pigment in the middle of a ball");
+    check_at_least("watercolour", sums[0], 1.3 * sums[2], "  at its border");
+    check_at_most("watercolour", sums[0], 1.81 * sums[2], "  and no more than it was told to be");
+    check_at_least("watercolour", sums[0], 1.05 * sums[1], "  less farther inside");
+    check_at_least("watercolour", sums[1], 1.03 * sums[2], "  and still more than in the middle");
+}
+
+/* Flow makes it uneven, neither more nor less. */
+static void pigment_flows(void)
+{
+    double sum = 0, squares = 0;
+    shot   s;
+    if (take_washed(&s, false, "\"washes\":1,\"flow\":0.5,\"flow_size\":\"12px\",\"pooling\":0", "0,0,1"))
+        for (int i = 0; i < 256 * 256; i++) {
+            double p = pigment_at(&s, i);
+            sum += p / (256 * 256);
+            squares += p * p / (256 * 256);
+        }
+    shot_release(&s);
+    check_near("watercolour", sum, 0.5, 0.02, "mean pigment where it flows");
+    check_at_least("watercolour", sqrt(fmax(squares - sum * sum, 0)), 0.05, "  how much it differs");
+}
+
 /* --- Gooch ---------------------------------------------------------------------------------------------- */
 
 static void gooch_ramp(void)
@@ -510,6 +814,15 @@ int main(int argc, char **argv)
         {"washes", washes},
         {"borders", tone_borders},
         {"blur", blur_is_a_box},
+        {"flat", flat_faces_stay_flat},
+        {"shade", shade_tints_the_dark},
+        {"hidden", lines_are_hidden_by_what_lies_close},
+        {"blacks", blacks_lie_away_from_the_light},
+        {"feathers", feathers_taper},
+        {"feathers-cross", feathers_cross_the_border},
+        {"pigment", pigment_takes_light},
+        {"pools", pigment_pools},
+        {"flows", pigment_flows},
         {"gooch", gooch_ramp},
         {"gooch-lines", gooch_lines},
         {"gooch-apart", gooch_colours_are_apart},

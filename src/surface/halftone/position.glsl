@@ -179,10 +179,10 @@ vec2 turns_added(vec2 a, vec2 b)
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-/* Each ink lies 30 degrees further. */
+/* Printers' angles: 0 degrees, 15, 75 and 45. None is another's, nor that turned by a right angle, since rows of dots would lie on each other. */
 vec2 turn_of_ink(int ink)
 {
-    return ink == 0 ? vec2(1.0, 0.0) : ink == 1 ? vec2(0.8660254, 0.5) : ink == 2 ? vec2(0.5, 0.8660254) : vec2(0.0, 1.0);
+    return ink == 0 ? vec2(1.0, 0.0) : ink == 1 ? vec2(0.9659258, 0.2588190) : ink == 2 ? vec2(0.2588190, 0.9659258) : vec2(0.7071068, 0.7071068);
 }
 
 /* Coordinates turned by an angle, as cosine and sine. */

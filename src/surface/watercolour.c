@@ -1,0 +1,53 @@
+/* watercolour: washes of thin pigment over white paper, one over the other where less light falls. Pigment is carried
+ * to where a wash ends and flows as the water did; the more of it, the more light it takes (Bousseau, Kaplan, Thollot
+ * and Sillion, "Interactive watercolor rendering with temporal coherence and abstraction", NPAR 2006: edge darkening
+ * and turbulent flow; Curtis et al., "Computer-generated watercolor", SIGGRAPH 1997). Pigment in the grain of paper is
+ * the sheet's (finish.paper). */
+#include "surface/surface.h"
+
+typedef struct watercolour {
+    int32_t washes;
+    float   pale, deep, softness, pooling, pool, flow, flow_size, wander, reserve, saturation, smoothing;
+    colour  shade;
+} watercolour;
+
+static const param params[] = {
+    PARAM_INT_ROW(watercolour, washes, .def = 3, .min = 1, .max = 8, .soft_min = 2, .soft_max = 5, .unit = UNIT_COUNT,
+                  .doc = "Washes that are laid: the first over everything, each further one where less light falls."),
+    PARAM_FLOAT_ROW(watercolour, pale, .def = 0.45, .min = 0, .max = 3, .soft_max = 1,
+                    .doc = "Pigment of the first wash alone; 1 shows the model's own colour, 0 paper."),
+    PARAM_FLOAT_ROW(watercolour, deep, .def = 1.1, .min = 0, .max = 4, .soft_max = 2.5,
+                    .doc = "Pigment of all washes, where no light falls."),
+    PARAM_COLOUR_ROW(watercolour, shade, .def_colour = {0.70f, 0.74f, 0.90f, 1},
+                     .doc = "Colour that the further washes lay over the model's own: what white has in the shade."),
+    PARAM_FLOAT_ROW(watercolour, softness, .def = 1.5, .min = 0, .max = 60, .soft_max = 12, .unit = UNIT_PT,
+                    .doc = "Width over which a wash ends inside a form; 0 is hard, much is wet in wet."),
+    PARAM_FLOAT_ROW(watercolour, pooling, .def = 0.6, .min = 0, .max = 4, .soft_max = 1.5,
+                    .doc = "How much more pigment there is where a wash ends, fraction of its own."),
+    PARAM_FLOAT_ROW(watercolour, pool, .def = 3, .min = 0.25, .max = 30, .soft_max = 9, .unit = UNIT_PT,
+                    .only_if = "pooling>0", .doc = "How far inside a wash that is to be seen."),
+    PARAM_FLOAT_ROW(watercolour, flow, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "How unevenly pigment lies: fraction by which there is more or less of it."),
+    PARAM_FLOAT_ROW(watercolour, flow_size, .def = 48, .min = 3, .max = 500, .soft_max = 150, .unit = UNIT_PT,
+                    .only_if = "flow>0", .doc = "Size of the places with more or less pigment."),
+    PARAM_FLOAT_ROW(watercolour, wander, .def = 3, .min = 0, .max = 50, .soft_max = 9, .unit = UNIT_PT,
+                    .doc = "How far the borders of washes stray from the light's."),
+    PARAM_FLOAT_ROW(watercolour, reserve, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "The lightest fraction of the light, which is left as paper."),
+    PARAM_FLOAT_ROW(watercolour, saturation, .def = 1.15, .min = 0, .max = 3, .soft_max = 2,
+                    .doc = "Saturation of the pigments."),
+    PARAM_FLOAT_ROW(watercolour, smoothing, .def = 6, .min = 0.5, .max = 24, .soft_max = 9, .unit = UNIT_PT,
+                    .doc = "Light and textures are smoothed over this radius before washes are laid, within a part "
+                           "and not across creases; not in what is seen through."),
+};
+
+const technique surface_watercolour = {
+    .name = "watercolour",
+    .doc = "Washes of thin pigment on paper, darker where they end.",
+    .example = "{\"surface\": {\"technique\": \"watercolour\", \"pooling\": 1}, \"lines\": \"strokes\"}",
+    .params = params,
+    .param_count = PARAM_COUNT(params),
+    .params_size = sizeof(watercolour),
+    .channels = CHANNEL_ID,
+    .surface = &(const surface_row){.shader = "surface/watercolour.glsl", .deferred_when = "smoothing>0"},
+};

@@ -1,0 +1,60 @@
+#include "light/light.glsl"
+#include "surface/halftone/noise.glsl"
+#include "surface/surroundings.glsl"
+
+/* How the water flowed here: −1 … 1, about 0. It goes with the model's middle over the page. */
+float flow_at(vec2 pixel, float size, uint seed)
+{
+    vec2 at = (pixel - u_anchor) / size;
+    return 0.7 * plane_noise(at, seed).x + 0.45 * plane_noise(2.3 * at, seed + 1u).y;
+}
+
+float luminance_of(vec3 colour)
+{
+    return dot(colour, vec3(0.2126, 0.7152, 0.0722));
+}
+
+/* How many of the further washes lie here, each with what its end has carried to it; `slope`: how fast the light changes, by a pixel. */
+float washes_at(float light, float slope)
+{
+    float sum = 0.0, steep = max(slope, 1e-5);
+    for (int k = 1; k < u_washes; k++) {
+        float inside = (float(u_washes - k) / float(u_washes) - light) / steep; /* pixels */
+        float cover = clamp(inside / max(u_softness, 1.0) + 0.5, 0.0, 1.0);
+        sum += cover * (1.0 + u_pooling * exp(-max(inside, 0.0) / u_pool) * step(1e-4, slope));
+    }
+    return sum;
+}
+
+vec4 surface_colour(surface_point p)
+{
+    float border = 0.0, slope;
+#ifdef SHADED_LATER
+    surroundings around = surroundings_of(p);
+    surface_point right = p, above = p;
+    p.normal = around.normal;
+    p.albedo.rgb = around.albedo;
+    right.normal = normalize(around.normal + around.across);
+    above.normal = normalize(around.normal + around.up);
+    /* Half of the disc is beyond a straight border; what is left of it says how far that is. */
+    float away = u_smoothing * max(2.0 * around.own - 1.0, 0.0);
+    border = exp(-away / u_pool) * (1.0 - smoothstep(0.9, 0.98, around.own));
+#endif
+    float first = unshadowed(p);
+    float light = min(luminance_of(diffuse_light_of(p, 1.0)), 1.0), dark = min(luminance_of(diffuse_light_of(p, 0.0)), 1.0);
+#ifdef SHADED_LATER
+    slope = length(vec2(luminance_of(diffuse_light_of(right, 1.0)), luminance_of(diffuse_light_of(above, 1.0))) - light);
+#else
+    slope = fwidth(light);
+#endif
+    float wander = u_wander * min(slope, 0.05) * flow_at(gl_FragCoord.xy, 18.0 * page_unit(), 21u);
+    float further = mix(washes_at(dark + wander, slope), washes_at(light + wander, slope), first) / max(float(u_washes - 1), 1.0);
+    float kept = u_reserve > 0.0 ? clamp((1.0 - u_reserve - light - wander) / max(slope, 1e-4) + 0.5, 0.0, 1.0) : 1.0;
+    float uneven = max(1.0 + u_flow * flow_at(gl_FragCoord.xy, u_flow_size, 35u), 0.0);
+    float pigment = (u_pale * (1.0 + u_pooling * border) + (u_deep - u_pale) * further) * uneven * kept;
+
+    float grey = luminance_of(p.albedo.rgb);
+    vec3 own = clamp(shown(max(mix(vec3(grey), p.albedo.rgb, u_saturation), vec3(0.0))), 0.02, 1.0);
+    vec3 glaze = pow(clamp(u_shade.rgb, 0.02, 1.0), vec3(further * uneven * kept));
+    return vec4(pow(own, vec3(pigment)) * glaze, 1.0); /* light goes through as much pigment as there is: Beer's law */
+}
