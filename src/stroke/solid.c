@@ -207,6 +207,7 @@ static void ground_destroy(solid_builder **b)
     mem_free((*b)->boxes);
     mem_free((*b)->lined);
     mem_free((*b)->parts);
+    mem_free((*b)->meets);
     mem_free((*b)->candidates);
     mem_free(*b);
     *b = NULL;

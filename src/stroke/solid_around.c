@@ -64,7 +64,9 @@ typedef struct arounder {
     size_t               change_count, change_capacity;
     uint32_t            *parity; /* operands that a ray met, over and over */
     size_t               parity_count, parity_capacity;
-    bool                *odd;      /* per operand */
+    bool                *odd, *settled; /* per operand */
+    uint32_t            *holding;       /* operands that hold before the first fan */
+    size_t               holding_count, holding_capacity;
     uint32_t            *incident; /* per operand: half-planes at the stretch */
     solid_stretches     *out;
     bool                 failed;
@@ -81,6 +83,8 @@ static void release(arounder *w)
     mem_free(w->changes);
     mem_free(w->parity);
     mem_free(w->odd);
+    mem_free(w->settled);
+    mem_free(w->holding);
     mem_free(w->incident);
 }
 
@@ -89,8 +93,9 @@ static bool open_arounder(arounder *w, const solid_builder *b)
     size_t operands = b->solid->program.operand_count;
     w->b = b;
     w->odd = mem_calloc(operands + 1, sizeof *w->odd);
+    w->settled = mem_calloc(operands + 1, sizeof *w->settled);
     w->incident = mem_calloc(operands + 1, sizeof *w->incident);
-    return solid_state_open(&w->state, &b->solid->program) && w->odd && w->incident;
+    return solid_state_open(&w->state, &b->solid->program) && w->odd && w->settled && w->incident;
 }
 
 /* --- rays ----------------------------------------------------------------------------------------------- */
@@ -138,7 +143,7 @@ static bool ray_meets_face(const solid_face *f, double3 from, double3 along)
     return speed != 0 && height / speed > 0;
 }
 
-/* Which operands hold at a position, by how often a ray meets their faces: sets `odd`, undone by clear_parity. */
+/* Which operands hold at a position, by how often a ray meets their faces: sets `odd`, undone by keep_holding. */
 static void find_parity(arounder *w, double3 at)
 {
     static const double3 along = {0.5412378, 0.6127751, 0.5758921};
@@ -167,13 +172,6 @@ static void find_parity(arounder *w, double3 at)
             stack[depth++] = n->first + 1;
         }
     }
-}
-
-static void clear_parity(arounder *w)
-{
-    for (size_t i = 0; i < w->parity_count; i++)
-        w->odd[w->parity[i]] = false;
-    w->parity_count = 0;
 }
 
 /* --- where a line is cut -------------------------------------------------------------------------------- */
@@ -410,6 +408,52 @@ static int holds_before(const arounder *w, uint32_t operand)
     return all % 2 ? -1 : before;
 }
 
+/* Do other operands than those that stand around reach to a position? All that do meet these. */
+static bool has_others(const arounder *w, double3 at)
+{
+    const solid_part *part = &w->b->parts[w->halves[0].operand];
+    vec3              p = {(float)at.x, (float)at.y, (float)at.z};
+    for (size_t i = 0; i < part->meet_count; i++) {
+        uint32_t other = w->b->meets[part->first_meet + i];
+        if (!w->incident[other] && boxes_meet(&w->b->parts[other].box, &(box3){p, p}))
+            return true;
+    }
+    return false;
+}
+
+static void put_holding(arounder *w, uint32_t operand)
+{
+    if (mem_grow((void **)&w->holding, &w->holding_capacity, w->holding_count + 1, sizeof *w->holding))
+        w->holding[w->holding_count++] = operand;
+    else
+        w->failed = true;
+}
+
+/* The operands that hold before the first fan, each once: of those that stand around what their half-planes say, of
+ * others those of which the ray met an odd number of faces. */
+static void keep_holding(arounder *w)
+{
+    w->holding_count = 0;
+    for (size_t i = 0; i < w->half_count; i++) {
+        uint32_t operand = w->halves[i].operand;
+        int      before = w->b->parts[operand].crossed ? -1 : holds_before(w, operand);
+        if (!w->settled[operand] && (before >= 0 ? before != 0 : w->odd[operand]))
+            put_holding(w, operand);
+        w->settled[operand] = true;
+    }
+    for (size_t i = 0; i < w->parity_count; i++) {
+        uint32_t operand = w->parity[i];
+        if (!w->settled[operand] && w->odd[operand])
+            put_holding(w, operand);
+        w->settled[operand] = true;
+    }
+    for (size_t i = 0; i < w->half_count; i++)
+        w->settled[w->halves[i].operand] = false;
+    for (size_t i = 0; i < w->parity_count; i++)
+        w->settled[w->parity[i]] = w->odd[w->parity[i]] = false;
+    w->parity_count = 0;
+}
+
 /* Sets the state before the first fan. `stack`: operands that were passed, to be passed again at the end. */
 static void begin_state(arounder *w, double3 middle)
 {
@@ -419,10 +463,7 @@ static void begin_state(arounder *w, double3 middle)
         uint32_t operand = w->halves[i].operand;
         doubtful = doubtful || b->parts[operand].crossed || holds_before(w, operand) < 0;
     }
-    for (size_t i = 0; i < b->solid->program.operand_count && !others; i++) {
-        vec3 at = {(float)middle.x, (float)middle.y, (float)middle.z};
-        others = !w->incident[i] && boxes_meet(&b->parts[i].box, &(box3){at, at});
-    }
+    others = has_others(w, middle);
     if (doubtful) { /* asked a little beside, in the widest gap */
         double angle = (w->halves[w->half_count - 1].angle - 2 * pi + w->halves[0].angle) / 2;
         middle = double3_plus(double3_plus(middle, w->side, ASIDE * b->near * cos(angle)), w->up,
@@ -430,15 +471,9 @@ static void begin_state(arounder *w, double3 middle)
     }
     if (others || doubtful)
         find_parity(w, middle);
-    for (size_t i = 0; i < w->half_count; i++) {
-        uint32_t operand = w->halves[i].operand;
-        int      before = b->parts[operand].crossed ? -1 : holds_before(w, operand);
-        if (before >= 0)
-            w->odd[operand] = before;
-    }
-    for (uint32_t i = 0; i < b->solid->program.operand_count; i++)
-        if (w->odd[i])
-            solid_state_pass(&w->state, i);
+    keep_holding(w);
+    for (size_t i = 0; i < w->holding_count; i++)
+        solid_state_pass(&w->state, w->holding[i]);
 }
 
 static void pass_fan(arounder *w, const fan *f)
@@ -498,12 +533,8 @@ static bool find_changes(arounder *w, double3 middle)
     /* Back to nothing. */
     for (size_t i = 0; i < w->fan_count; i++)
         pass_fan(w, &w->fans[i]);
-    for (uint32_t i = 0; i < w->b->solid->program.operand_count; i++)
-        if (w->odd[i])
-            solid_state_pass(&w->state, i);
-    for (size_t i = 0; i < w->half_count; i++)
-        w->odd[w->halves[i].operand] = false;
-    clear_parity(w);
+    for (size_t i = 0; i < w->holding_count; i++)
+        solid_state_pass(&w->state, w->holding[i]);
     return true;
 }
 
@@ -598,8 +629,8 @@ static bool is_alone(const arounder *w, const solid_candidate *c)
     box3 box = box3_empty();
     for (int k = 0; k < 2; k++)
         box = box3_with_point(box, b->mesh->positions[c->vertex[k]]);
-    for (uint32_t i = 0; i < b->solid->program.operand_count; i++)
-        if (i != own && boxes_meet(&b->parts[i].box, &box))
+    for (size_t i = 0; i < b->parts[own].meet_count; i++)
+        if (boxes_meet(&b->parts[b->meets[b->parts[own].first_meet + i]].box, &box))
             return false;
     return true;
 }

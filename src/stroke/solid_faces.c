@@ -335,6 +335,57 @@ static bool find_alone(solid_builder *b, size_t count)
     return good;
 }
 
+typedef struct meet_search {
+    solid_builder *b;
+    uint32_t (*pairs)[2];
+    size_t count, capacity;
+    bool   failed;
+} meet_search;
+
+static bool put_meeting(void *user, uint32_t a, uint32_t b)
+{
+    meet_search *s = user;
+    s->failed = !mem_grow((void **)&s->pairs, &s->capacity, s->count + 1, sizeof *s->pairs);
+    if (s->failed)
+        return false;
+    s->pairs[s->count][0] = a;
+    s->pairs[s->count++][1] = b;
+    s->b->parts[a].meet_count++;
+    s->b->parts[b].meet_count++;
+    return true;
+}
+
+/* Which operands are near which: their boxes meet. */
+static lmn_status find_meetings(solid_builder *b, uint32_t count, lmn_error *error)
+{
+    meet_search s = {.b = b};
+    hierarchy   tree = {NULL};
+    box3       *boxes = mem_alloc(((size_t)count + 1) * sizeof *boxes);
+    lmn_status  status = boxes ? LMN_OK : error_memory(error);
+    size_t      at = 0;
+    for (uint32_t i = 0; i < count && boxes; i++)
+        boxes[i] = b->parts[i].box;
+    if (status == LMN_OK)
+        status = hierarchy_build(&tree, boxes, NULL, count, error);
+    if (status == LMN_OK)
+        hierarchy_pairs(&tree, boxes, NULL, put_meeting, &s);
+    b->meets = s.failed ? NULL : mem_alloc((2 * s.count + 1) * sizeof *b->meets);
+    for (uint32_t i = 0; i < count && b->meets; i++) {
+        b->parts[i].first_meet = at;
+        at += b->parts[i].meet_count;
+        b->parts[i].meet_count = 0;
+    }
+    for (size_t i = 0; i < s.count && b->meets; i++)
+        for (int k = 0; k < 2; k++) {
+            solid_part *part = &b->parts[s.pairs[i][k]];
+            b->meets[part->first_meet + part->meet_count++] = s.pairs[i][1 - k];
+        }
+    hierarchy_release(&tree);
+    mem_free(boxes);
+    mem_free(s.pairs);
+    return status == LMN_OK && !b->meets ? error_memory(error) : status;
+}
+
 lmn_status solid_load(solid_builder *b, const lmn_scene *scene, const solid_form *form, const int32_t *used,
                       size_t count, lmn_error *error)
 {
@@ -348,5 +399,7 @@ lmn_status solid_load(solid_builder *b, const lmn_scene *scene, const solid_form
         const mesh          *m = (size_t)o->mesh < scene->mesh_count ? &scene->meshes[o->mesh] : &half_space;
         status = work_stopped() ? error_memory(error) : load_operand(b, m, o, i, material_of(b, form, used, i), error);
     }
-    return status == LMN_OK && !find_alone(b, count) ? error_memory(error) : status;
+    if (status == LMN_OK && !find_alone(b, count))
+        status = error_memory(error);
+    return status == LMN_OK ? find_meetings(b, (uint32_t)count, error) : status;
 }

@@ -31,7 +31,8 @@ typedef struct solid_part {
     bool     open;    /* no closed mesh */
     bool     crossed; /* runs through itself */
     bool     taken_away;
-    bool     alone; /* bounds the solid where no other operand is near */
+    size_t   first_meet, meet_count; /* of `meets` */
+    bool     alone;                  /* bounds the solid where no other operand is near */
 } solid_part;
 
 typedef struct solid_builder {
@@ -44,7 +45,8 @@ typedef struct solid_builder {
     uint8_t         *lined; /* per face, a bit a corner: the edge that begins there is a candidate; SOLID_THIN */
     hierarchy        tree;  /* of the faces */
     solid_part      *parts;
-    int32_t         *caps; /* per operand, while it is built: of the mesh, where it is a cutter; NONE */
+    uint32_t        *meets; /* per operand those whose boxes meet its own, one list after the other */
+    int32_t         *caps;  /* per operand, while it is built: of the mesh, where it is a cutter; NONE */
     size_t           vertex_capacity, face_capacity, operand_capacity, material_capacity, lined_capacity;
     solid_candidate *candidates;
     size_t           candidate_count, candidate_capacity;
