@@ -1,5 +1,5 @@
 /* The geometry pass: a figure's parts into its G-buffer or onto the page. */
-#include "frame/frame_private.h"
+#include "frame/raster_material.h"
 #include "base/memory.h"
 #include "layer/layer.h"
 
@@ -12,97 +12,6 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
     if (f->mirror && f->mirror->designated[item->part_index])
         return false; /* a mirror does not see itself */
     return fig->designated[item->part_index] || (fig->complement && f->plan->opaque[item->part_index]);
-}
-
-/* Has its part another colour than its own, for what is known about it? */
-static bool shows_datum(const frame *f, const draw_item *item)
-{
-    return !item->is_cut && plan_datum_colour(f->plan, item->part_index);
-}
-
-static void set_datum(frame *f, const draw_item *item)
-{
-    float light[4];
-    uniforms_light(*plan_datum_colour(f->plan, item->part_index), light);
-    gpu_set_vec4(f->g, "u_base_colour", light);
-}
-
-/* The item's material; `capacity` holds it when it is painted in the figure's highlight or a datum's colour. */
-static const material *material_of(const frame *f, const figure *fig, const draw_item *item, material *capacity)
-{
-    static const material standard = {.base_colour = RASTER_STANDARD_COLOUR,
-                                      .base_texture = TEXTURE_USE_NONE,
-                                      .normal_texture = TEXTURE_USE_NONE,
-                                      .normal_scale = 1,
-                                      .alpha_cutoff = 0.5f};
-    const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
-    const colour         *datum = shows_datum(f, item) ? plan_datum_colour(f->plan, item->part_index) : NULL;
-    if (!(fig->highlight.a > 0) && !datum)
-        return own;
-    float light[4];
-    uniforms_light(fig->highlight.a > 0 ? fig->highlight : *datum, light);
-    *capacity = *own;
-    capacity->base_texture = standard.base_texture;
-    capacity->base_colour = (vec4){light[0], light[1], light[2], light[3]};
-    return capacity;
-}
-
-typedef struct item_textures {
-    gpu_texture *base, *normal;
-} item_textures;
-
-static item_textures textures_of(frame *f, const draw_item *item, const material *m)
-{
-    item_textures t = {NULL, NULL};
-    if (!item->has_uvs)
-        return t;
-    t.base = upload_texture(f->up, f->g, &m->base_texture, false);
-    t.normal = upload_texture(f->up, f->g, &m->normal_texture, true);
-    return t;
-}
-
-static void declare_material(text *prelude, const figure_state *s, const draw_item *item, const material *m,
-                             item_textures t, bool datum)
-{
-    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    if (t.base || t.normal || (item->has_uvs && surface && shades_with_geometry(surface)))
-        text_append(prelude, "#define HAS_UV\n");
-    if (item->has_colours && !datum)
-        text_append(prelude, "#define HAS_COLOURS\n");
-    if (item->has_uv1)
-        text_append(prelude, "#define HAS_UV1\n");
-    if (t.base)
-        text_append(prelude, "#define HAS_BASE_TEXTURE\n");
-    if (t.normal)
-        text_append(prelude, "#define HAS_NORMAL_TEXTURE\n");
-    if (item->is_cut)
-        text_append(prelude, "#define CUT_FACE\n");
-    else if (m->alpha != ALPHA_OPAQUE)
-        text_append(prelude, "#define CUT_OUT\n");
-}
-
-static void set_texture_matrix(gpu *g, const char *matrix, const char *offset, const texture_use *use, float strength)
-{
-    float c = cosf(use->rotation), s = sinf(use->rotation);
-    gpu_set_vec4(g, matrix, (float[]){c * use->scale[0], -s * use->scale[0], s * use->scale[1], c * use->scale[1]});
-    gpu_set_vec4(g, offset, (float[]){use->offset[0], use->offset[1], (float)use->uv_set, strength});
-}
-
-static void set_material(gpu *g, const material *m, item_textures t, bool layered)
-{
-    const vec4 *c = &m->base_colour;
-    gpu_set_vec4(g, "u_base_colour", (float[]){c->x, c->y, c->z, c->w});
-    /* Where nothing is seen through, blended surfaces are cut-outs: what is mostly there is there. */
-    gpu_set_float(g, "u_alpha_cutoff", m->alpha != ALPHA_BLEND ? m->alpha_cutoff : layered ? 0.004f : 0.1f);
-    gpu_set_int(g, "u_unlit", m->unlit);
-    if (t.base) {
-        gpu_set_texture(g, "t_base", t.base, true);
-        set_texture_matrix(g, "u_base_matrix", "u_base_offset", &m->base_texture, 0);
-    }
-    if (t.normal) {
-        gpu_set_texture(g, "t_normal", t.normal, true);
-        set_texture_matrix(g, "u_normal_uv_matrix", "u_normal_uv_offset", &m->normal_texture, m->normal_scale);
-    }
 }
 
 /* What the geometry pass writes and where. */
@@ -218,13 +127,6 @@ static void declare_ink(text *prelude, char *path, size_t size, const frame *f, 
     snprintf(path, size, "%s", joined);
 }
 
-/* What the surface technique made, for a material (NONE: without one). */
-static const used_textures *made_for(const figure *fig, int32_t material)
-{
-    return fig->textures->by_material && material >= 0 ? &fig->textures->by_material[material]
-                                                       : &fig->textures->surface;
-}
-
 /* `prelude` says what the material needs; it is used up. */
 static gpu_program *raster_program(frame *f, const figure_state *s, const char *vertex, text prelude,
                                    const raster_job *job)
@@ -289,7 +191,7 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s, int
     if (job->at.shade >= 0) {
         const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
-        used_textures_set(f->g, surface, made_for(s->figure, material));
+        used_textures_set(f->g, surface, material_made(s->figure, material));
         frame_set_numbers(f, surface);
     }
     if (job->inking)
@@ -362,17 +264,17 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
 {
     bool field = uses_field(s, item), patches = uses_patches(job, s, item), rest = uses_rest(job, s, item);
     bool past = job->at.velocity >= 0 && gpu_mesh_has_past(item->mesh), walls = uses_walls(job, s, item);
-    bool datum = shows_datum(f, item), facts = uses_facts(f, job, s, item);
+    bool datum = material_is_datum(f, item), facts = uses_facts(f, job, s, item);
     if (last->ready && last->owner == s && item->material == last->material && item->has_uvs == last->has_uvs &&
         item->has_uv1 == last->has_uv1 && item->has_colours == last->has_colours && item->is_cut == last->is_cut &&
         field == last->has_field && patches == last->has_patches && walls == last->has_walls &&
         datum == last->has_datum && facts == last->has_facts && rest == last->has_rest && past == last->has_past)
         return;
     material        tinted;
-    const material *m = material_of(f, s->figure, item, &tinted);
-    item_textures   t = textures_of(f, item, m);
+    const material *m = material_of_item(f, s->figure, item, &tinted);
+    item_textures   t = material_textures(f, item, m);
     text            prelude = {0};
-    declare_material(&prelude, s, item, m, t, datum);
+    material_declare(&prelude, s, item, m, t, datum);
     text_append(&prelude, "%s%s", patches ? "#define HAS_PATCHES\n" : "",
                 field && !patches ? "#define HAS_FIELD\n" : "");
     if (walls)
@@ -390,7 +292,7 @@ static void set_up(frame *f, const raster_job *job, const figure_state *s, const
         return;
     set_pass(f, job, s, item->material);
     view_set_projection(f->g, &f->camera);
-    set_material(f->g, m, t, job->stack != NULL);
+    material_set(f->g, m, t, job->stack != NULL);
     if (facts)
         gpu_set_texture(f->g, "t_facts", f->facts, false);
     last->owner = s;
@@ -440,60 +342,6 @@ static void set_ids(frame *f, const raster_job *job, const figure_state *s, cons
     gpu_set_uint(f->g, "u_surface_id",
                  item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", order);
-}
-
-/* About two texels to a pixel that the item's part can cover. */
-static int light_map_side(const frame *f, const draw_item *item)
-{
-    enum { LEAST = 64, MOST = 1024 };
-    int box[4], side = LEAST;
-    camera_pixels(&f->camera, f->up->pose->part_boxes[item->part_index], f->width, f->height, 0, box);
-    while (side < MOST && side < 2 * box[2] && side < 2 * box[3])
-        side *= 2;
-    while (side < MOST && (side < box[2] || side < box[3]))
-        side *= 2;
-    return side;
-}
-
-/* The light on one item, laid out by its texture coordinates. The caller gives it back. */
-static gpu_texture *draw_light_map(frame *f, const figure_state *s, const draw_item *item)
-{
-    enum { BORDER = 4 };
-    const int            side = light_map_side(f, item);
-    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    gpu_texture         *map = gpu_target_acquire(f->g, side, side, GPU_RGBA16F),
-                *other = gpu_target_acquire(f->g, side, side, GPU_RGBA16F);
-    material        tinted;
-    const material *m = material_of(f, s->figure, item, &tinted);
-    item_textures   t = textures_of(f, item, m);
-    text            prelude = {0};
-    declare_material(&prelude, s, item, m, t, shows_datum(f, item));
-    text_append(&prelude, "#define UNWRAPPED\n");
-    lights_declare(&prelude, f);
-    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
-    used_textures_declare(&prelude, surface, made_for(s->figure, item->material));
-    char path[320];
-    snprintf(path, sizeof path, "%s+layer/light_map.frag", surface->technique->surface->shader);
-    gpu_program *lit = program_of(f, GPU_FLOOR, "layer/raster.vert", path, &prelude);
-    gpu_pass_begin(f->g, &(gpu_pass){.colours = {map}, .colour_count = 1, .clear = true});
-    gpu_use(f->g, lit, (gpu_state){0});
-    frame_set_common(f, s);
-    uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
-    set_material(f->g, m, t, false);
-    view_set_transform(f->g, &f->camera, &item->world);
-    gpu_draw_mesh(f->g, item->mesh);
-    for (int i = 0; i < BORDER && !gpu_failed(f->g); i++) {
-        gpu_pass_begin(f->g, &(gpu_pass){.colours = {other}, .colour_count = 1});
-        gpu_use(f->g, gpu_program_of(f->g, GPU_FLOOR, "gpu/screen.vert", "layer/light_map_pad.frag", ""),
-                (gpu_state){0});
-        gpu_set_texture(f->g, "t_light_map", map, false);
-        gpu_draw_screen(f->g);
-        gpu_texture *before = map;
-        map = other;
-        other = before;
-    }
-    gpu_target_release(f->g, other);
-    return map;
 }
 
 /* Draws what is gathered. */
@@ -552,7 +400,7 @@ static bool joins(frame *f, const raster_job *job, const figure_state *s, const 
         job->at.velocity >= 0 || wants_light_map(job, s, item) || !gpu_meshes_together(first->mesh, item->mesh) ||
         first->surface_id != item->surface_id)
         return false;
-    bool datum = shows_datum(f, item), plain = !item->has_uvs && !item->has_colours;
+    bool datum = material_is_datum(f, item), plain = !item->has_uvs && !item->has_colours;
     if (uses_facts(f, job, s, item) ? datum != last->has_datum && !plain : job->pass->colour_count || job->node_vectors)
         return false;
     return are_alike(f, s, last, first->material, item->material) &&
@@ -571,7 +419,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
         return;
     }
     draw_run(f, last);
-    gpu_texture *light_map = wants_light_map(job, s, item) ? draw_light_map(f, s, item) : NULL;
+    gpu_texture *light_map = wants_light_map(job, s, item) ? light_map_draw(f, s, item) : NULL;
     if (light_map) {
         gpu_pass again = *job->pass;
         again.clear = false;
@@ -597,7 +445,7 @@ static void draw_item_of(frame *f, const raster_job *job, const draw_item *item,
     if (last->has_walls)
         gpu_set_ivec2(f->g, "u_building", item->building.storeys, (int)item->building.use);
     if (last->has_datum)
-        set_datum(f, item);
+        material_set_datum(f, item);
     gather(f, item, last->has_patches ? item->lapped : item->mesh, last);
 }
 
