@@ -277,6 +277,7 @@ static bool put_line(hatch_lines *out, const stroke_view *v, const window_segmen
         double x = s->a.x + at[k] * ((double)s->b.x - s->a.x), y = s->a.y + at[k] * ((double)s->b.y - s->a.y);
         line->ends[k][0] = (float)(x / v->units + 0.5 * v->camera.width);
         line->ends[k][1] = (float)(y / v->units + 0.5 * v->camera.height);
+        line->depths[k] = (float)view_depth(v, s->a.z + at[k] * (s->b.z - s->a.z));
     }
     return true;
 }
@@ -328,5 +329,27 @@ lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, doub
         mem_free(out->items);
         memset(out, 0, sizeof *out);
     }
+    return status;
+}
+
+lmn_status hatch_verify(stroke_check *out, const hatch_lines *lines, const stroke_view *v, float apart,
+                        lmn_error *error)
+{
+    stroke_set set = {.strokes = mem_calloc(lines->count + 1, sizeof *set.strokes),
+                      .points = mem_calloc(2 * lines->count + 1, sizeof *set.points),
+                      .stroke_count = lines->count,
+                      .point_count = 2 * lines->count};
+    lmn_status status = set.strokes && set.points ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < lines->count && status == LMN_OK; i++) {
+        const hatch_line *l = &lines->items[i];
+        set.strokes[i] = (stroke){.part = l->part, .first = (uint32_t)(2 * i), .count = 2};
+        for (int k = 0; k < 2; k++)
+            set.points[2 * i + (size_t)k] =
+                (stroke_point){.x = l->ends[k][0], .y = l->ends[k][1], .depth = l->depths[k]};
+    }
+    if (status == LMN_OK)
+        status = stroke_verify(out, &set, v, apart, NULL, NULL, error);
+    mem_free(set.strokes);
+    mem_free(set.points);
     return status;
 }

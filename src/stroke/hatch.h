@@ -5,8 +5,8 @@
 #include "stroke/stroke.h"
 
 typedef struct hatch_line {
-    float    ends[2][2]; /* page */
-    uint32_t part;       /* id */
+    float    ends[2][2], depths[2]; /* page; eye depth */
+    uint32_t part;                  /* id */
 } hatch_line;
 
 typedef struct hatch_lines {
@@ -19,5 +19,9 @@ typedef struct hatch_lines {
  * LMN_CANCELLED. */
 lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, double angle, const bool *parts,
                       lmn_error *error);
+
+/* Holds the lines against rays, as stroke_verify does. Errors: LMN_MEMORY, LMN_CANCELLED. */
+lmn_status hatch_verify(stroke_check *out, const hatch_lines *lines, const stroke_view *v, float apart,
+                        lmn_error *error);
 
 #endif

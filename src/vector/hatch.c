@@ -5,7 +5,7 @@
 #include "vector/vector_private.h"
 
 lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
-                            uint64_t *count, lmn_error *error)
+                            uint64_t *count, stroke_check *check, lmn_error *error)
 {
     hatch_lines lines;
     lmn_status  status = hatch_find(&lines, view, (double)v->cut_hatch,
@@ -26,6 +26,8 @@ lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, cons
         sheet_add_line(ink->page, own, v->cut_colour, ends[0], ends[1], (double)v->cut_width / VECTOR_PIXELS_PER_MM);
     }
     *count += lines.count;
+    if (status == LMN_OK && check && lines.count)
+        status = hatch_verify(check, &lines, view, VECTOR_VERIFY_APART, error);
     mem_free(lines.items);
     return status;
 }

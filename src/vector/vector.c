@@ -21,7 +21,6 @@
 #include "light/light.h"
 
 static const double gap_between_views = 12; /* mm */
-static const double verify_apart = 2;       /* pixels between samples */
 static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
 
 /* What one drawing needs while it is made. */
@@ -475,7 +474,7 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
         count_strokes(j, &set, &style);
     if (status == LMN_OK && j->wanted->verify && set.stroke_count) {
         stroke_check check = {0};
-        status = stroke_verify(&check, &set, view, (float)verify_apart, report_part, j, error);
+        status = stroke_verify(&check, &set, view, VECTOR_VERIFY_APART, report_part, j, error);
         j->out->check.samples += check.samples;
         j->out->check.wrong += check.wrong;
         j->out->verified = true;
@@ -530,6 +529,16 @@ static lmn_status draw_lines(vector_job *j, stroke_view *view, const stroke_came
     return status;
 }
 
+static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vector_ink *ink, lmn_error *error)
+{
+    stroke_check check = {0};
+    lmn_status   status = vector_put_hatch(ink, view, j->look->wide[KIND_SCENE].values, j->stroked, &j->out->hatches,
+                                         j->wanted->verify ? &check : NULL, error);
+    j->out->check.samples += check.samples;
+    j->out->check.wrong += check.wrong;
+    return status;
+}
+
 /* What lies on surfaces, and lines over it. */
 static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
 {
@@ -544,7 +553,7 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
     if (status == LMN_OK && !j->pixels && j->section.cut.cell_count)
-        status = vector_put_hatch(ink, view, j->look->wide[KIND_SCENE].values, j->stroked, &j->out->hatches, error);
+        status = draw_hatch(j, view, ink, error);
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);
     if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)

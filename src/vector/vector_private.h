@@ -11,7 +11,8 @@
 /* --- page.c: what descriptions say in words ------------------------------------------------------ */
 
 #define VECTOR_PIXELS_PER_MM (PX_PER_INCH / MM_PER_INCH)
-enum { PAGE_SIDE_MOST = 4000 }; /* mm */
+enum { PAGE_SIDE_MOST = 4000 };  /* mm */
+#define VECTOR_VERIFY_APART 2.0f /* pixels between samples */
 
 /* "1:20": paper over model. Errors: LMN_USAGE. */
 lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
@@ -90,10 +91,12 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
 
 /* --- hatch.c ------------------------------------------------------------------------------------- */
 
-/* Hatches the cut faces of these parts as the look says; adds up how many lines these are. Errors: LMN_MEMORY,
+/* Hatches the cut faces of these parts as the look says; adds up how many lines these are, and says what rays make of
+ * them
+ * (`check`, may be NULL). Errors: LMN_MEMORY,
  * LMN_CANCELLED. */
 lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
-                            uint64_t *count, lmn_error *error);
+                            uint64_t *count, stroke_check *check, lmn_error *error);
 
 /* --- order.c: for plotters ----------------------------------------------------------------------- */
 

@@ -247,6 +247,10 @@ static double hatched(const stroke_scene *scene, double apart, bool flat)
         assert_int_equal(l->part, 1);
         length += hypot((double)l->ends[1][0] - (double)l->ends[0][0], (double)l->ends[1][1] - (double)l->ends[0][1]);
     }
+    stroke_check check;
+    assert_int_equal(hatch_verify(&check, &lines, v, 2, NULL), LMN_OK);
+    assert_int_equal(check.wrong, 0);
+    assert_true(check.samples > length / 4 || length == 0);
     mem_free(lines.items);
     stroke_view_destroy(&v);
     return length * apart / (40 * 40); /* that many units are 1 */
