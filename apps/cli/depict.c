@@ -1,5 +1,6 @@
 #include "depict.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,21 +22,36 @@ static int parse_interval(const char *text, lmn_depict_desc *d)
                                "--interval is '%.60s'; allowed is FROM:TO in seconds, FROM before TO", text);
 }
 
-/* The array of expressions that a file has, as text; NULL: message printed. */
-static char *read_expressions(const char *path)
+static int message_file(const char *path, const char *what)
 {
-    json_error_t  wrong;
-    json_t       *root = json_load_file(path, JSON_REJECT_DUPLICATES, &wrong);
-    const json_t *array = json_is_object(root) ? json_object_get(root, "expressions") : root;
-    char         *text = json_is_array(array) ? json_dumps(array, JSON_REAL_PRECISION(17)) : NULL;
-    if (!root)
-        message_usage(NULL, "%s: line %d, column %d: %s", path, wrong.line, wrong.column, wrong.text);
-    else if (!json_is_array(array))
-        message_usage("an array, or an object with \"expressions\"", "%s: there are no expressions in it", path);
-    else if (!text)
-        message_out_of_memory();
-    json_decref(root);
-    return text;
+    lmn_error error = {.status = LMN_READ};
+    snprintf(error.file, sizeof error.file, "%s", path);
+    snprintf(error.message, sizeof error.message, "%s", what);
+    return message_error(&error);
+}
+
+/* The text of a file with expressions. Exit status; free *out also after one. */
+static int read_expressions(char **out, const char *path)
+{
+    enum { MOST = 16 << 20 };
+    FILE *file = fopen(path, "rb");
+    *out = file ? malloc(MOST + 1) : NULL;
+    if (!file)
+        return message_file(path, strerror(errno));
+    if (!*out) {
+        fclose(file);
+        return message_out_of_memory();
+    }
+    const size_t size = fread(*out, 1, MOST + 1, file);
+    const bool   failed = ferror(file) != 0;
+    const int    reason = errno;
+    fclose(file);
+    if (failed || size > MOST)
+        return message_file(path, failed ? strerror(reason) : "expressions have at most 16 MiB");
+    (*out)[size] = '\0';
+    if (strlen(*out) < size)
+        return message_file(path, "expressions are JSON: there is a NUL byte in it");
+    return EXIT_DONE;
 }
 
 static char *copy_text(const json_t *object, const char *key)
@@ -113,15 +129,18 @@ int depict_scene(lmn_scene *scene, lmn_draw_desc *desc, const char *expressions,
 {
     lmn_depict_desc d = LMN_DEPICT_DESC_INIT;
     lmn_error       error = {0};
-    char           *json = NULL, *text = expressions ? read_expressions(expressions) : NULL;
-    if (expressions && !text)
-        return EXIT_USAGE;
-    int status = interval ? parse_interval(interval, &d) : EXIT_DONE;
+    char           *json = NULL, *text = NULL;
+    int             status = interval ? parse_interval(interval, &d) : EXIT_DONE;
+    if (status == EXIT_DONE && expressions)
+        status = read_expressions(&text, expressions);
     if (status == EXIT_DONE) {
         settle_time(scene, desc, &d);
         d.expressions = text;
-        if (lmn_depict(scene, desc, &d, &json, &error) != LMN_OK)
+        if (lmn_depict(scene, desc, &d, &json, &error) != LMN_OK) {
+            if (error.line > 0 && expressions) /* that is where the expressions were */
+                snprintf(error.file, sizeof error.file, "%s", expressions);
             status = message_error(&error);
+        }
     }
     free(text);
     if (json && !quiet)

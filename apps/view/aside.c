@@ -7,7 +7,7 @@
 enum { TELL_MS = 100, NICENESS = 5 };
 
 struct aside {
-    artist_job  job; /* with solids */
+    artist_job  job; /* with solids or signs */
     aside_desc  desc;
     scene_ref  *scene;
     view_state *state;
@@ -106,7 +106,7 @@ aside *aside_begin(const aside_desc *desc)
     a->status = LMN_CANCELLED;
     if (desc->tell)
         a->timer = g_timeout_add(TELL_MS, tell, a);
-    if (lmn_scene_solid_count(a->scene->scene) == 0)
+    if (lmn_scene_solid_count(a->scene->scene) == 0 && !a->state->told)
         a->thread = g_thread_try_new("aside", run, a, NULL);
     if (a->thread)
         return a;

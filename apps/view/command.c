@@ -365,6 +365,9 @@ static bool is_sayable(const view_state *s, const export_wish *wish, const char 
         message = g_strdup_printf("the solids were edited by hand, which no %s can say", by);
     if (message) {
         complain(error, message, "undo the edits, or change the program that the solids come from");
+    } else if (s->told) {
+        message = g_strdup_printf("there are signs, which no %s says", by);
+        complain(error, message, "save the expressions and draw them with `limner depict --expressions`");
     } else if (strpbrk(wish->path, "{}")) {
         message = g_strdup("the file's name has braces, which stand for other names in commands");
         complain(error, message, "give the file a name without { and }");

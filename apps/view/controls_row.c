@@ -258,6 +258,51 @@ static void show_value(control_row *r, const lmn_look *look)
     }
 }
 
+static void show_colour_text(control_row *r, const char *text)
+{
+    GtkWidget *button = gtk_widget_get_first_child(r->value);
+    GdkRGBA    c = {0, 0, 0, 0};
+    if (!button) {
+        button = gtk_color_button_new();
+        gtk_color_chooser_set_use_alpha(GTK_COLOR_CHOOSER(button), TRUE);
+        name_widget(button, r, "");
+        g_signal_connect(button, "color-set", G_CALLBACK(coloured), r);
+        gtk_box_append(GTK_BOX(r->value), button);
+    }
+    gdk_rgba_parse(&c, text); /* "none" has no colour */
+    gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(button), &c);
+}
+
+static void show_number_text(control_row *r, const char *text)
+{
+    const double number = g_ascii_strtod(text, NULL);
+    if (fabs(slider_value(&r->info, gtk_range_get_value(GTK_RANGE(r->value))) - number) > 1e-6 * fabs(number))
+        gtk_range_set_value(GTK_RANGE(r->value), slider_position(&r->info, number));
+}
+
+void control_row_show_text(control_row *r, const char *text, bool is_default)
+{
+    guint chosen = GTK_INVALID_LIST_POSITION;
+    for (size_t i = 0; i < r->info.name_count; i++)
+        chosen = strcmp(r->info.names[i], text) == 0 ? (guint)i : chosen;
+    r->follows = true;
+    switch (r->info.type) {
+    case LMN_PARAM_BOOL: gtk_switch_set_active(GTK_SWITCH(r->value), strcmp(text, "true") == 0); break;
+    case LMN_PARAM_INT:
+    case LMN_PARAM_FLOAT: show_number_text(r, text); break;
+    case LMN_PARAM_ENUM: gtk_drop_down_set_selected(GTK_DROP_DOWN(r->value), chosen); break;
+    case LMN_PARAM_COLOUR: show_colour_text(r, text); break;
+    default: break;
+    }
+    if (r->entry && !gtk_widget_has_focus(gtk_widget_get_first_child(r->entry)) &&
+        strcmp(gtk_editable_get_text(GTK_EDITABLE(r->entry)), text) != 0)
+        gtk_editable_set_text(GTK_EDITABLE(r->entry), text);
+    gtk_widget_set_opacity(r->reset, is_default ? 0 : 1);
+    gtk_widget_set_sensitive(r->reset, !is_default);
+    show_error(r, NULL);
+    r->follows = false;
+}
+
 void control_row_refresh(control_row *r, const lmn_look *look)
 {
     char            text[LMN_VALUE_TEXT_MAX];

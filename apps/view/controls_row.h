@@ -22,6 +22,9 @@ control_row *control_row_new(const lmn_param_info *info, const place *where, con
 void         control_row_free(control_row *row); /* the widget is its parent's */
 GtkWidget   *control_row_widget(control_row *row);
 
+/* Shows a value as control_set takes it. */
+void control_row_show_text(control_row *row, const char *text, bool is_default);
+
 /* Shows what the look has. */
 void control_row_refresh(control_row *row, const lmn_look *look);
 

@@ -1,5 +1,7 @@
 #include "document.h"
 
+#include "expressions.h"
+
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
@@ -40,6 +42,19 @@ static void scene_clear(void *data)
     g_strfreev(s->cameras);
     g_array_unref(s->boxes);
     g_clear_pointer(&s->edited, g_array_unref);
+    g_clear_pointer(&s->script_told, g_ref_string_release);
+    g_clear_pointer(&s->signs, g_free);
+    g_mutex_clear(&s->lock);
+}
+
+void scene_ref_lock(const scene_ref *s)
+{
+    g_mutex_lock(&((scene_ref *)s)->lock);
+}
+
+void scene_ref_unlock(const scene_ref *s)
+{
+    g_mutex_unlock(&((scene_ref *)s)->lock);
 }
 
 static void clip_clear(void *clip)
@@ -80,6 +95,10 @@ scene_ref *scene_ref_make(lmn_scene *scene, const char *const *paths)
     s->scene = scene;
     s->paths = g_strdupv((char **)paths);
     s->info = lmn_scene_info_of(scene);
+    g_mutex_init(&s->lock);
+    s->script_time = -1;
+    for (size_t i = 0; paths[i] && !s->script_told; i++)
+        s->script_told = expressions_of_file(paths[i], &s->script_time);
     read_lists(s);
     s->boxes = g_array_new(FALSE, FALSE, sizeof(double[6]));
     lmn_part_info part;
@@ -99,6 +118,50 @@ lmn_status scene_ref_edit(scene_ref *s, const GArray *edits, lmn_error *error)
     lmn_status status = solid_edits_apply(s->scene, s->edited, edits, error);
     g_clear_pointer(&s->edited, g_array_unref);
     s->edited = edits ? g_array_ref((GArray *)edits) : NULL;
+    return status;
+}
+
+/* What signs depend on: what is told, when, and of whom they are seen. */
+static char *signs_of(const view_state *state, const lmn_draw_desc *d)
+{
+    return g_strdup_printf("%s|%d %a %s|%a %a %a|%a %a %a|%a %a %a|%d %a %a|%d %d|%d|%u", state->told, d->time_given,
+                           d->time_s, d->clip ? d->clip : "", d->eye[0], d->eye[1], d->eye[2], d->target[0],
+                           d->target[1], d->target[2], d->up[0], d->up[1], d->up[2], d->orthographic, d->fov_deg,
+                           d->fit, d->width, d->height, d->fit_direction, d->seed);
+}
+
+static lmn_status put_signs(scene_ref *s, const view_state *state, const lmn_draw_desc *desc, lmn_error *error)
+{
+    char *wanted = state->told ? signs_of(state, desc) : NULL;
+    if (g_strcmp0(wanted, s->signs) == 0) {
+        g_free(wanted);
+        return LMN_OK;
+    }
+    lmn_depict_desc how = LMN_DEPICT_DESC_INIT;
+    how.expressions = state->told;
+    g_mutex_lock(&s->lock);
+    lmn_status status = wanted ? lmn_depict(s->scene, desc, &how, NULL, error) : lmn_depict_clear(s->scene, error);
+    g_mutex_unlock(&s->lock);
+    g_free(s->signs);
+    s->signs = status == LMN_OK ? wanted : NULL;
+    if (status != LMN_OK)
+        g_free(wanted);
+    return status;
+}
+
+lmn_status scene_ref_prepare(scene_ref *s, const view_state *state, const lmn_draw_desc *desc, const lmn_look **look,
+                             lmn_look **own, lmn_error *error)
+{
+    *own = NULL;
+    *look = state->look->look;
+    lmn_status status = scene_ref_edit(s, state->edits, error);
+    if (status == LMN_OK)
+        status = put_signs(s, state, desc, error);
+    if (status == LMN_OK && state->told)
+        status = lmn_look_copy(own, state->look->look, error);
+    if (status == LMN_OK && state->told)
+        status = lmn_look_add_sign_rules(*own, error);
+    *look = *own ? *own : *look;
     return status;
 }
 
@@ -162,6 +225,8 @@ view_state *state_copy(const view_state *s)
         g_array_ref(s->hidden);
     if (s->edits)
         g_array_ref(s->edits);
+    if (s->told)
+        g_ref_string_acquire(s->told);
     out->clip = g_strdup(s->clip);
     return out;
 }
@@ -175,6 +240,7 @@ void state_free(view_state *s)
         g_array_unref(s->hidden);
     if (s->edits)
         g_array_unref(s->edits);
+    g_clear_pointer(&s->told, g_ref_string_release);
     g_free(s->clip);
     g_free(s);
 }
@@ -196,6 +262,8 @@ char *state_selector(const view_state *s, const scene_ref *scene)
         const char *join = out->len == 0 ? "" : name_shown ? ", " : " ";
         g_string_append_printf(out, "%s%s[id=%u]", join, name_shown ? "" : "!", part);
     }
+    if (name_shown && s->told)
+        g_string_append_printf(out, "%s[glyph]", out->len ? ", " : "");
     /* Nothing is left to see: a selector that no part has. */
     if (out->len == 0)
         g_string_append(out, "!*");
@@ -304,6 +372,7 @@ static unsigned difference(const view_state *a, const view_state *b)
     out |= memcmp(&a->view, &b->view, sizeof a->view) != 0 ? DOCUMENT_VIEW : 0;
     out |= a->hidden != b->hidden ? DOCUMENT_PARTS : 0;
     out |= a->edits != b->edits ? DOCUMENT_SOLIDS : 0;
+    out |= a->told != b->told ? DOCUMENT_TOLD : 0;
     out |= a->timed != b->timed || a->time_s != b->time_s || g_strcmp0(a->clip, b->clip) != 0 ? DOCUMENT_TIME : 0;
     return out;
 }
@@ -398,6 +467,13 @@ static void forget_files(document *d, const scene_ref *scene, int width, int hei
     g_clear_pointer(&s->clip, g_free);
     s->timed = false;
     s->time_s = 0;
+    g_clear_pointer(&s->told, g_ref_string_release);
+    if (scene->script_told) {
+        const double end = scene->clips->len ? g_array_index(scene->clips, clip_info, 0).end_s : 0;
+        s->told = g_ref_string_acquire(scene->script_told);
+        s->timed = end > 0;
+        s->time_s = scene->script_time >= 0 ? scene->script_time : 0.6 * end; /* as the command has it */
+    }
     g_ptr_array_set_size(d->steps, 0);
     add_step(d, s, NULL);
 }
@@ -568,6 +644,14 @@ void document_set_handle(document *d, const node_handle *handle)
 const node_handle *document_handle(const document *d)
 {
     return &d->handle;
+}
+
+void document_set_told(document *d, char *told, const char *what)
+{
+    view_state *s = state_copy(document_state(d));
+    g_clear_pointer(&s->told, g_ref_string_release);
+    s->told = told;
+    change(d, s, what, DOCUMENT_TOLD);
 }
 
 void document_edit_solid(document *d, const solid_edit *edit, const char *what)

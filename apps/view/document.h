@@ -20,11 +20,18 @@ typedef struct scene_ref {
     lmn_scene     *scene;
     GStrv          paths;
     lmn_scene_info info;
-    GArray        *clips;   /* of clip_info */
-    GStrv          cameras; /* their names */
-    GArray        *boxes;   /* of double[6]: the bounds of each part, as they were read */
-    GArray        *edited;  /* what was done to its solids; the artist's own; NULL: nothing */
+    GArray        *clips;       /* of clip_info */
+    GStrv          cameras;     /* their names */
+    GArray        *boxes;       /* of double[6]: the bounds of each part, as they were read */
+    GArray        *edited;      /* what was done to its solids; the artist's own; NULL: nothing */
+    char          *script_told; /* expressions that its files have (expressions.h); NULL: none */
+    double         script_time; /* of the still that they ask for, seconds; below 0: of none */
+    GMutex         lock;        /* held while signs are put into the scene, and while lists are read from it */
+    char          *signs;       /* what its signs were made of; the artist's own; NULL: it has none */
 } scene_ref;
+/* While lists are filled from the scene. */
+void scene_ref_lock(const scene_ref *s);
+void scene_ref_unlock(const scene_ref *s);
 /* Makes the scene's solids as a state has them. On the artist's thread. */
 lmn_status scene_ref_edit(scene_ref *s, const GArray *edits, lmn_error *error);
 
@@ -51,6 +58,7 @@ typedef struct view_state {
     double    time_s;
     char     *clip;  /* as lmn_draw_desc.clip */
     GArray   *edits; /* of solid_edit; NULL: none */
+    char     *told;  /* expressions, of which there are signs (expressions.h); NULL: none */
     uint32_t  seed;
     bool      fitted; /* nobody has moved the view since it was made to fill the picture */
 } view_state;
@@ -66,7 +74,8 @@ typedef enum document_change {
     DOCUMENT_TIME = 16,
     DOCUMENT_HISTORY = 32,  /* what can be undone */
     DOCUMENT_SELECTED = 64, /* the marked part or node */
-    DOCUMENT_SOLIDS = 128   /* where nodes of solids stand, and which are hidden */
+    DOCUMENT_SOLIDS = 128,  /* where nodes of solids stand, and which are hidden */
+    DOCUMENT_TOLD = 256     /* expressions */
 } document_change;
 typedef void (*document_listener)(document *d, unsigned changes, void *user);
 
@@ -114,6 +123,9 @@ const node_handle *document_handle(const document *d);
 /* Puts a node elsewhere, hides it or shows it. */
 void document_edit_solid(document *d, const solid_edit *edit, const char *what);
 
+/* Other expressions; takes the list. */
+void document_set_told(document *d, char *told, const char *what);
+
 bool        document_undo(document *d);
 bool        document_redo(document *d);
 const char *document_undo_name(const document *d); /* NULL: nothing to undo */
@@ -133,6 +145,12 @@ void state_bounds(const view_state *s, const scene_ref *scene, double box_min[3]
  * `select` and `clip` point into the state and into `selector`. */
 void state_describe(const view_state *s, const scene_ref *scene, const char *selector, int width, int height,
                     lmn_draw_desc *desc);
+
+/* Makes the scene as a state has it for a picture: its solids, and its signs, which face the viewer that the
+ * description places. *look gets the state's, or with signs one that knows of them, which lmn_look_destroy ends in
+ * *own. On the artist's thread. */
+lmn_status scene_ref_prepare(scene_ref *s, const view_state *state, const lmn_draw_desc *desc, const lmn_look **look,
+                             lmn_look **own, lmn_error *error);
 
 view_state *state_copy(const view_state *s);
 void        state_free(view_state *s);

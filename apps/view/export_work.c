@@ -26,6 +26,7 @@ typedef struct work {
     const view_state  *state;
     const export_wish *wish;
     lmn_renderer      *renderer;
+    const lmn_look    *look; /* the state's, or with signs one that knows of them */
     lmn_draw_desc      desc;
     lmn_progress_fn    progress;
     void              *user;
@@ -47,7 +48,7 @@ static bool poll(double fraction, const char *stage, void *data)
 
 static lmn_status draw(const work *w, lmn_drawing **out, lmn_error *error)
 {
-    return lmn_draw(out, w->renderer, w->scene->scene, w->state->look->look, &w->desc, error);
+    return lmn_draw(out, w->renderer, w->scene->scene, w->look, &w->desc, error);
 }
 
 static lmn_status write_picture(work *w, lmn_error *error)
@@ -65,8 +66,7 @@ static lmn_status write_sheet(work *w, const lmn_format_info *format, lmn_error 
     lmn_sheet     *sheet = NULL;
     lmn_sheet_desc desc = LMN_SHEET_DESC_INIT;
     desc.lines_only = !format->pictures;
-    lmn_status status =
-        lmn_draw_sheet(&sheet, w->renderer, w->scene->scene, w->state->look->look, &w->desc, &desc, error);
+    lmn_status status = lmn_draw_sheet(&sheet, w->renderer, w->scene->scene, w->look, &w->desc, &desc, error);
     if (status == LMN_OK)
         status = lmn_sheet_write(sheet, w->wish->path, NULL, NULL, error);
     lmn_sheet_destroy(&sheet);
@@ -88,7 +88,7 @@ static lmn_status check_last(const work *w, double time_s, lmn_error *error)
 {
     lmn_draw_desc last = w->desc;
     last.time_s = time_s;
-    return lmn_draw_check(w->scene->scene, w->state->look->look, &last, false, error);
+    return lmn_draw_check(w->scene->scene, w->look, &last, false, error);
 }
 
 static lmn_status write_film(work *w, lmn_error *error)
@@ -138,10 +138,28 @@ static lmn_status write_file(work *w, lmn_error *error)
     }
 }
 
+/* With signs it is the artist who draws it, and whose scene has them. */
+static lmn_status prepare(work *w, lmn_look **signs, lmn_error *error)
+{
+    lmn_format_info format;
+    w->look = w->state->look->look;
+    if (!w->state->told)
+        return LMN_OK;
+    if (wish_kind_of(w->wish->path, &format) == WISH_FILM) {
+        *error = (lmn_error){.status = LMN_USAGE};
+        g_snprintf(error->message, sizeof error->message,
+                   "signs tell all times in one still, and have no place in a film");
+        g_snprintf(error->hint, sizeof error->hint, "take the signs away first");
+        return LMN_USAGE;
+    }
+    return scene_ref_prepare((scene_ref *)w->scene, w->state, &w->desc, &w->look, signs, error);
+}
+
 /* Into the file, or into `out` where it is given; with the renderer, or with one that is made for it. */
 static lmn_status begin(work *w, lmn_drawing **out, lmn_error *error)
 {
     lmn_renderer     *own = NULL;
+    lmn_look         *signs = NULL;
     lmn_renderer_desc desc = LMN_RENDERER_DESC_INIT;
     lmn_status        status = LMN_OK;
     char             *selector = state_selector(w->state, w->scene);
@@ -156,7 +174,10 @@ static lmn_status begin(work *w, lmn_drawing **out, lmn_error *error)
     if (own)
         w->renderer = own;
     if (status == LMN_OK)
+        status = prepare(w, &signs, error);
+    if (status == LMN_OK)
         status = out ? draw(w, out, error) : write_file(w, error);
+    lmn_look_destroy(&signs);
     lmn_renderer_destroy(&own);
     g_free(selector);
     return status;

@@ -135,8 +135,13 @@ static void fill(parts *p)
     p->flat = g_list_store_new(PART_ROW_TYPE);
     lmn_part_info info;
     GPtrArray    *flat = g_ptr_array_new_with_free_func(g_object_unref);
-    for (size_t i = 0; scene && lmn_scene_part_at(scene->scene, i, &info); i++)
+    if (scene)
+        scene_ref_lock(scene);
+    /* Signs come behind the parts of the files. */
+    for (size_t i = 0; scene && i < scene->info.parts && lmn_scene_part_at(scene->scene, i, &info); i++)
         add_part(p, flat, &info);
+    if (scene)
+        scene_ref_unlock(scene);
     g_list_store_splice(p->flat, 0, 0, flat->pdata, flat->len);
     g_ptr_array_unref(flat);
     show_model(p);

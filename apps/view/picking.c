@@ -20,10 +20,14 @@ static lmn_status pick(artist_job *base, lmn_renderer *renderer, lmn_error *erro
     desc.lenient = true;
     desc.progress = artist_goes_on;
     desc.progress_user = base;
-    lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    const lmn_look *look;
+    lmn_look       *own;
+    lmn_status      status = scene_ref_prepare(j->scene, j->state, &desc, &look, &own, error);
     if (status == LMN_OK)
-        status = lmn_draw_pick(renderer, j->scene->scene, j->state->look->look, &desc, j->wish.x, j->wish.y, &j->pick,
-                               error);
+        status = lmn_draw_pick(renderer, j->scene->scene, look, &desc, j->wish.x, j->wish.y, &j->pick, error);
+    lmn_look_destroy(&own);
+    if (status == LMN_OK && j->pick.part > j->scene->info.parts)
+        j->pick.part = 0; /* a sign */
     g_free(selector);
     return status;
 }

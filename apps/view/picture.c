@@ -74,10 +74,13 @@ static lmn_status draw_view(artist_job *base, lmn_renderer *renderer, lmn_error 
     desc.lenient = true;
     desc.progress = artist_goes_on;
     desc.progress_user = base;
-    gint64     from = g_get_monotonic_time();
-    lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    const lmn_look *look;
+    lmn_look       *own;
+    gint64          from = g_get_monotonic_time();
+    lmn_status      status = scene_ref_prepare(j->scene, j->state, &desc, &look, &own, error);
     if (status == LMN_OK)
-        status = lmn_draw(&j->drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
+        status = lmn_draw(&j->drawing, renderer, j->scene->scene, look, &desc, error);
+    lmn_look_destroy(&own);
     j->ms = (double)(g_get_monotonic_time() - from) / 1e3;
     g_free(selector);
     return status;
@@ -259,7 +262,8 @@ static void document_changed(document *d, unsigned changes, void *user)
     }
     if (changes & DOCUMENT_LOOK)
         p->pace = (pace){p->pace.level, 0, false};
-    if (changes & (DOCUMENT_SCENE | DOCUMENT_LOOK | DOCUMENT_VIEW | DOCUMENT_PARTS | DOCUMENT_TIME | DOCUMENT_SOLIDS))
+    if (changes & (DOCUMENT_SCENE | DOCUMENT_LOOK | DOCUMENT_VIEW | DOCUMENT_PARTS | DOCUMENT_TIME | DOCUMENT_SOLIDS |
+                   DOCUMENT_TOLD))
         refresh(p);
 }
 

@@ -31,9 +31,12 @@ static lmn_status draw_copy(artist_job *base, lmn_renderer *renderer, lmn_error 
     desc.lenient = true;
     desc.progress = artist_goes_on;
     desc.progress_user = base;
-    lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    const lmn_look *look;
+    lmn_look       *own;
+    lmn_status      status = scene_ref_prepare(j->scene, j->state, &desc, &look, &own, error);
     if (status == LMN_OK)
-        status = lmn_draw(&j->drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
+        status = lmn_draw(&j->drawing, renderer, j->scene->scene, look, &desc, error);
+    lmn_look_destroy(&own);
     g_free(selector);
     return status;
 }

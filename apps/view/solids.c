@@ -204,8 +204,12 @@ static void fill(solids *s)
     s->shown = scene;
     s->marked = NULL;
     GListStore *roots = g_list_store_new(SOLID_ROW_TYPE);
+    if (scene)
+        scene_ref_lock(scene);
     for (size_t i = 0; i < count; i++)
         add_row(roots, scene, NULL, lmn_scene_solid_at(scene->scene, i), LMN_SOLID_ROOT);
+    if (scene)
+        scene_ref_unlock(scene);
     GListModel *tree = G_LIST_MODEL(
         gtk_tree_list_model_new(g_object_ref(G_LIST_MODEL(roots)), FALSE, count < 20, children_of, NULL, NULL));
     gtk_single_selection_set_model(s->selection, tree);

@@ -6,6 +6,7 @@
 #include "look_files.h"
 #include "parts.h"
 #include "picture.h"
+#include "signs.h"
 #include "solids.h"
 #include "timeline.h"
 #include "trace.h"
@@ -150,6 +151,9 @@ static GtkWidget *make_panel(ViewWindow *w)
     adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), w->gallery), "view-grid-symbolic");
     adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), controls),
                                       "preferences-other-symbolic");
+    w->signs = signs_new(w->document, w->artist);
+    adw_view_stack_add_titled(ADW_VIEW_STACK(stack), w->signs, "signs", _("Signs"));
+    adw_view_stack_page_set_icon_name(adw_view_stack_get_page(ADW_VIEW_STACK(stack), w->signs), "starred-symbolic");
     adw_view_stack_set_hhomogeneous(ADW_VIEW_STACK(stack), FALSE);
     adw_view_switcher_bar_set_stack(ADW_VIEW_SWITCHER_BAR(bar), ADW_VIEW_STACK(stack));
     adw_view_switcher_bar_set_reveal(ADW_VIEW_SWITCHER_BAR(bar), TRUE);
@@ -272,7 +276,9 @@ static void view_window_dispose(GObject *object)
         picture_close(LIMNER_PICTURE(w->picture));
     if (w->gallery)
         gallery_close(w->gallery);
-    w->picture = w->gallery = NULL;
+    if (w->signs)
+        signs_close(w->signs);
+    w->picture = w->gallery = w->signs = NULL;
     g_clear_pointer(&w->artist, artist_end);
     G_OBJECT_CLASS(view_window_parent_class)->dispose(object);
     g_clear_pointer(&w->document, document_free);

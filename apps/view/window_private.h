@@ -10,7 +10,7 @@ struct _ViewWindow {
     AdwApplicationWindow parent;
     document            *document;
     artist              *artist;
-    GtkWidget           *title, *picture, *status, *progress, *toasts, *gallery, *pages, *timeline;
+    GtkWidget           *title, *picture, *status, *progress, *toasts, *gallery, *signs, *pages, *timeline;
     GCancellable        *loading; /* NULL: nothing is read */
     GStrv                loading_paths;
     bool                 reloads; /* the same files, seen from where one is */

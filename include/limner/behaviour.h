@@ -232,18 +232,21 @@ LMN_API lmn_status lmn_dynamics_trajectory(const lmn_dynamics *dynamics, uint32_
 typedef struct lmn_contact {
     double   time_s;
     double   place[3];  /* where it touches, in the world */
-    double   normal[3]; /* the way that it is pushed, unit */
+    double   normal[3]; /* of the surface that is met there, towards the node, unit; without one the way it is pushed */
     double   impulse;   /* of a unit mass: how much its velocity changes, lengths a second */
     uint32_t other;     /* the node whose surface it meets there; 0: nothing is there */
     double   distance;  /* how far that surface is from `place`; 0 without one */
 } lmn_contact;
 
 /* Contacts of a node, with all below it, whose impulse is `least` or more, 0 or above, in order of time: whose surface
- * is met is looked for among all parts that are not its own, as they are then. Where no surface
- * is, there is a contact only where it is thrown back while one pull draws it on before and behind, as by a floor that
- * is not in the scene: corners of sampled curves are none. What has no surface has no contacts. At most `capacity` are
- * written, and *count gets how many there are; `contacts` may be NULL with 0. Errors also: LMN_FORMAT (nothing can be
- * where the animation puts it). */
+ * is met is looked for among all parts that are not its own, as they are then. Place and normal are those of the
+ * features that meet first, a corner and a face or two edges, in the middle of all of them; meshes that stand for
+ * spheres, all of one and drawn smooth, are met as spheres and ellipsoids. Who leaves a closed surface does not meet
+ * it. Where no surface is, there is a contact only where it is thrown back while one pull draws it on before and
+ * behind, as by a floor that is not in the scene: corners of sampled curves are none. What has no surface has no
+ * contacts. At most `capacity` are written, and *count gets how many there are; `contacts` may be NULL with 0. Errors
+ * also: LMN_FORMAT (nothing can be where the animation puts it).
+ */
 LMN_API lmn_status lmn_dynamics_contacts(const lmn_dynamics *dynamics, uint32_t node, double from_s, double to_s,
                                          double least, lmn_contact *contacts, size_t capacity, size_t *count,
                                          lmn_error *error);

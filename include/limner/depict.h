@@ -6,6 +6,7 @@
 #define LIMNER_DEPICT_H
 
 #include "limner/draw.h"
+#include "limner/rules.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,8 +15,8 @@ extern "C" {
 /* What is told. Initialise with LMN_DEPICT_DESC_INIT. */
 typedef struct lmn_depict_desc {
     size_t struct_size;
-    /* JSON: an array of expressions (docs/DEPICTION.md), each with its "target", what is to be depicted of it and how.
-     * NULL: chosen from what moves in the scene. */
+    /* JSON: an array of expressions (docs/DEPICTION.md), each with its "target", what is to be depicted of it and how,
+     * or an object, as a whole script, that has them as "expressions". NULL: chosen from what moves in the scene. */
     const char *expressions;
     bool        interval_given; /* else the whole of the clips */
     double      from_s, to_s;   /* where nothing else is said; seconds */
@@ -29,9 +30,10 @@ typedef struct lmn_depict_desc {
  * by [glyph=arrow], [of=NAME] and [when=past]. They turn to the viewer that `draw` places, and tell past and future of
  * its time. Things for which ghost images stand are hidden. `json` (may be NULL) gets
  * {"expressions", "reasons", "warnings"}: what was told, where it was chosen why, and what could not be told and why
- * not; free it with lmn_text_free. Errors: LMN_USAGE (an expression, the description), LMN_FORMAT (no JSON), LMN_LIMIT,
- * LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. Where memory is missing while those of an earlier call are
- * taken out, changes stay open: lmn_scene_end_changes. */
+ * not; free it with lmn_text_free. Its expressions put the same signs there again, to the byte. Errors: LMN_USAGE (the
+ * description), LMN_FORMAT (no JSON, an expression that is wrong or cannot be told; with line and column),
+ * LMN_UNSUPPORTED (letters that no font has), LMN_LIMIT, LMN_MEMORY, LMN_CANCELLED; then the scene has no signs. Where
+ * memory is missing while those of an earlier call are taken out, changes stay open: lmn_scene_end_changes. */
 LMN_API lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,
                               lmn_error *error);
 
@@ -52,6 +54,9 @@ typedef struct lmn_depiction_info {
     size_t      param_count;
 } lmn_depiction_info;
 LMN_API bool lmn_depiction_at(size_t index, lmn_depiction_info *out);
+
+/* The parameters of one of them, as expressions have them; false when there is no such way or parameter. */
+LMN_API bool lmn_depiction_param_at(size_t index, size_t param_index, lmn_param_info *out);
 
 /* All of them with their parameters as a page of Markdown (docs/reference/depictions.md). Free with lmn_text_free.
  * NULL when memory is gone. */

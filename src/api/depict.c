@@ -9,18 +9,34 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "depict/depict.h"
+#include "look/typed.h"
 #include "look/value.h"
 #include "plan/time.h"
 
-bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
+/* NULL: there are fewer. */
+static const depiction *depiction_at(size_t index)
 {
     size_t count = 0;
     while (depictions[count])
         count++;
-    if (index >= count || !out)
+    return index < count ? depictions[index] : NULL;
+}
+
+bool lmn_depiction_at(size_t index, lmn_depiction_info *out)
+{
+    const depiction *d = depiction_at(index);
+    if (!d || !out)
         return false;
-    const depiction *d = depictions[index];
     *out = (lmn_depiction_info){d->characteristic, d->semantics, d->doc, d->param_count};
+    return true;
+}
+
+bool lmn_depiction_param_at(size_t index, size_t param_index, lmn_param_info *out)
+{
+    const depiction *d = depiction_at(index);
+    if (!d || param_index >= d->param_count || !out)
+        return false;
+    typed_info(out, NULL, NULL, &d->params[param_index]);
     return true;
 }
 
@@ -56,23 +72,21 @@ static lmn_status find_expressions(expression_list *out, json_t **reasons, const
                                    lmn_error *error)
 {
     moment     when;
-    size_t     bad = 0;
     lmn_status status = time_moment(&when, scene, draw, NULL, error);
     if (status != LMN_OK)
         return status;
     if (!d->expressions) {
-        double from = d->interval_given ? d->from_s : 0,
-               to = d->interval_given ? d->to_s : moment_duration(&when, scene);
+        const double end = moment_duration(&when, scene), from = d->interval_given ? d->from_s : 0,
+                     to = d->interval_given ? d->to_s : end;
+        if (end > 0 && from >= end)
+            return error_set(error, LMN_USAGE, "the interval, from %g to %g, lies behind the end of all motion, %g s",
+                             from, to, end);
         return depict_propose(out, reasons, scene, &when, from, to, warnings, error);
     }
-    json_error_t wrong;
-    json_t      *array = json_loads(d->expressions, JSON_REJECT_DUPLICATES, &wrong);
-    if (!array)
-        return error_set(error, LMN_FORMAT, "expressions: line %d, column %d: %s", wrong.line, wrong.column,
-                         wrong.text);
-    status = expressions_read(out, array, scene, &when, &bad, error);
+    status = expressions_read(out, d->expressions, scene, &when, error);
+    if (status == LMN_OK && out->count == 0)
+        warnings_add(warnings, WARNING_UNTOLD, "there are no expressions: nothing is told");
     *reasons = json_array();
-    json_decref(array);
     return status;
 }
 
@@ -82,8 +96,8 @@ static char *told_json(const expression_list *list, json_t *reasons, const warni
     json_t *texts = json_array();
     for (size_t i = 0; i < said->count; i++)
         json_array_append_new(texts, json_string(said->items[i].text));
-    return value_text(json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons,
-                                "warnings", texts));
+    return value_text_exact(json_pack("{s:o,s:O,s:o}", "expressions", expressions_json(list, scene), "reasons", reasons,
+                                      "warnings", texts));
 }
 
 lmn_status lmn_depict(lmn_scene *scene, const lmn_draw_desc *draw, const lmn_depict_desc *desc, char **json,

@@ -112,6 +112,35 @@ static bool has_its_shape(const lmn_scene *scene, const node *n, const char *sem
     return strcmp(semantics, "plane") != 0 || !is_flat(scene, n);
 }
 
+/* What its name says, where its shape does not deny it; NULL: nothing. */
+static const char *meaning_of_name(const lmn_scene *scene, const node *n)
+{
+    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings; i++)
+        if (has_word(n->name, meanings[i].word) && has_its_shape(scene, n, meanings[i].semantics))
+            return meanings[i].semantics;
+    return NULL;
+}
+
+/* Does it belong to something that is known? What is round of a figure or a car is no ball. */
+static bool is_part_of_known(const lmn_scene *scene, const node *n)
+{
+    for (int32_t above = n->parent; above != NONE; above = scene->nodes[above].parent) {
+        const node *of = &scene->nodes[above];
+        const char *told = attribute_of(of, "semantics"), *meaning = told ? told : meaning_of_name(scene, of);
+        if (of->skin != NONE || (meaning && strcmp(meaning, "ground") != 0))
+            return true;
+    }
+    return false;
+}
+
+/* Nothing but its shape says that it is a ball: it has to be as round where it is as it was made. */
+static bool is_ball_by_itself(const lmn_scene *scene, const node *n)
+{
+    const double even = 0.05 * fabs(n->scale[0]);
+    return fabs(fabs(n->scale[1]) - fabs(n->scale[0])) <= even && fabs(fabs(n->scale[2]) - fabs(n->scale[0])) <= even &&
+           is_ball(scene, n) && !is_part_of_known(scene, n);
+}
+
 const char *semantics_of(const lmn_scene *scene, int32_t node_index)
 {
     const node *n = &scene->nodes[node_index];
@@ -124,10 +153,10 @@ const char *semantics_of(const lmn_scene *scene, int32_t node_index)
         return "light";
     if (is_helper(scene, node_index))
         return NULL;
-    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings; i++)
-        if (has_word(n->name, meanings[i].word) && has_its_shape(scene, n, meanings[i].semantics))
-            return meanings[i].semantics;
+    const char *named = meaning_of_name(scene, n);
+    if (named)
+        return named;
     if (n->skin != NONE || (n->parent == NONE && is_skinned_model(scene, node_index)))
         return "character";
-    return is_ball(scene, n) ? "ball" : NULL;
+    return is_ball_by_itself(scene, n) ? "ball" : NULL;
 }

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/vector3.h"
 #include "contact/surface.h"
+#include "contact/touch.h"
 #include "scene/content.h"
 
 static bool is_below(const lmn_scene *s, int32_t node_index, int32_t above)
@@ -35,7 +36,7 @@ lmn_status contact_sides_find(contact_sides *out, const lmn_scene *s, int32_t no
     }
     mem_free(worlds);
     out->radius = box3_is_empty(box) ? 0 : box3_diagonal(box) / (2 * sqrt(3));
-    out->reach = 0.1 * out->radius;
+    out->reach = CONTACT_REACH * out->radius;
     return LMN_OK;
 }
 
@@ -46,18 +47,18 @@ void contact_sides_release(contact_sides *s)
     memset(s, 0, sizeof *s);
 }
 
-bool contact_is_hit(const double before[3], const double after[3], const double normal[3], double facing)
+bool contact_is_hit(const double before[3], const double after[3], const double normal[3])
 {
     double change[3];
     vector3_add(change, after, -1, before);
     const double in = -vector3_dot(before, normal), out = vector3_dot(after, normal);
-    return facing >= 0.5 && in > 0 && in >= 0.1 * vector3_length(change) && out >= -0.1 * in;
+    return in > 0 && in >= 0.1 * vector3_length(change) && out >= -0.1 * in;
 }
 
-double contact_reach(double reach, const double before[3], const double normal[3], double since, double until)
+double contact_reach(double reach, const double before[3], double since, double until)
 {
     const bool sampled = since > 0 && until > 0 && since <= 0.05 && until <= 0.05;
-    return reach + (sampled ? fmax(-vector3_dot(before, normal), 0) * fmin(since, until) : 0);
+    return reach + (sampled ? vector3_length(before) * fmin(since, until) : 0);
 }
 
 /* The search for contacts of one node. */
@@ -66,8 +67,10 @@ typedef struct search {
     const moment   *clips;
     int32_t         node_index;
     contact_sides   sides;
-    pose            posed;
-    bool            is_posed;
+    pose            posed, earlier;
+    bool            is_posed, is_earlier;
+    const impact   *hit;    /* that is looked at */
+    double          before; /* when the motion changed before it */
 } search;
 
 static void transform_point(const mat4 *m, const double p[3], double out[3])
@@ -105,13 +108,21 @@ static bool are_kin(const search *q, int32_t other)
     return false;
 }
 
+static lmn_status pose_at(pose *posed, bool *is_posed, const search *q, double seconds, lmn_error *error)
+{
+    moment when = *q->clips;
+    when.seconds = fmin(fmax(seconds, 0), moment_duration(&when, q->s->scene));
+    lmn_status status = *is_posed ? pose_move(posed, &when, error) : pose_create(posed, q->s->scene, &when, error);
+    *is_posed = true;
+    return status;
+}
+
 /* Limbs touch each other all the time; they meet where they have been apart. Half way since the hit before. */
-static lmn_status were_apart(bool *out, search *q, const contact *c, double before, int32_t other, lmn_error *error)
+static lmn_status were_apart(bool *out, search *q, const touch *t, int32_t other, lmn_error *error)
 {
     const lmn_scene *scene = q->s->scene;
-    const double     then = (before + c->hit.seconds) / 2;
-    moment           when = *q->clips;
-    mat4             world = schedule_world(q->s, q->node_index, c->hit.seconds, SIDE_AT), back = mat4_inverse(&world);
+    const double     then = (q->before + q->hit->seconds) / 2;
+    mat4             world = schedule_world(q->s, q->node_index, q->hit->seconds, SIDE_AT), back = mat4_inverse(&world);
     bool             near = false, *theirs = mem_calloc(scene->part_count + 1, sizeof *theirs);
     double           local[3], at[3];
     surface_place    there;
@@ -119,65 +130,76 @@ static lmn_status were_apart(bool *out, search *q, const contact *c, double befo
         return error_memory(error);
     for (size_t i = 0; i < scene->part_count; i++)
         theirs[i] = q->sides.others[i] && scene->parts[i].node == other;
-    transform_point(&back, c->hit.place, local);
+    transform_point(&back, t->place, local);
     world = schedule_world(q->s, q->node_index, then, SIDE_AT);
     transform_point(&world, local, at);
-    when.seconds = fmin(fmax(then, 0), moment_duration(&when, scene));
-    lmn_status status = pose_move(&q->posed, &when, error);
+    lmn_status status = pose_at(&q->earlier, &q->is_earlier, q, then, error);
     if (status == LMN_OK)
-        status = surface_nearest(&there, &near, &q->posed, theirs, at, q->sides.reach, NULL, error);
+        status = surface_nearest(&there, &near, &q->earlier, theirs, at, q->sides.reach, error);
     *out = !near;
     mem_free(theirs);
     return status;
 }
 
-/* Do both come together where the surface is, and go on together or apart? */
-static lmn_status is_hit(bool *out, const search *q, const contact *c, int32_t other, double facing, lmn_error *error)
+/* How fast it comes to a place of another part, or leaves it. */
+static lmn_status relative_velocity(double out[3], const search *q, size_t part, const double place[3], time_side side,
+                                    lmn_error *error)
 {
-    static const time_side sides[] = {SIDE_BEFORE, SIDE_BEHIND};
-    double                 apart[2][3] = {{0}}, theirs[3];
-    lmn_status             status = LMN_OK;
-    for (int i = 0; i < 2 && status == LMN_OK; i++) {
-        status = velocity_of(apart[i], q, q->node_index, c->hit.place, c->hit.seconds, sides[i], error);
-        if (status == LMN_OK)
-            status = velocity_of(theirs, q, other, c->hit.place, c->hit.seconds, sides[i], error);
-        if (status == LMN_OK)
-            vector3_add(apart[i], apart[i], -1, theirs);
-    }
-    *out = status == LMN_OK && contact_is_hit(apart[0], apart[1], c->hit.normal, facing);
+    double     theirs[3];
+    lmn_status status = velocity_of(out, q, q->node_index, place, q->hit->seconds, side, error);
+    if (status == LMN_OK)
+        status = velocity_of(theirs, q, q->s->scene->parts[part].node, place, q->hit->seconds, side, error);
+    if (status == LMN_OK)
+        vector3_add(out, out, -1, theirs);
     return status;
 }
 
-/* A contact of what has been found in the motion; `before` is when the motion changed before. */
-static lmn_status meet(contact *c, double before, search *q, lmn_error *error)
+static lmn_status approach(double out[3], void *user, size_t part, const double place[3], lmn_error *error)
 {
-    const lmn_scene *scene = q->s->scene;
-    moment           when = *q->clips;
-    bool             found = false, near = false, hit = false;
-    surface_place    there;
-    when.seconds = fmin(fmax(c->hit.seconds, 0), moment_duration(&when, scene));
-    lmn_status status = q->is_posed ? pose_move(&q->posed, &when, error) : pose_create(&q->posed, scene, &when, error);
-    q->is_posed = true;
+    return relative_velocity(out, user, part, place, SIDE_BEFORE, error);
+}
+
+/* Do both come together where the surface is, and go on together or apart? Limbs of one body have been apart, too. */
+static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *error)
+{
+    search       *q = user;
+    double        before[3], after[3];
+    const int32_t other = q->s->scene->parts[found->part].node;
+    lmn_status    status = relative_velocity(before, q, found->part, found->place, SIDE_BEFORE, error);
     if (status == LMN_OK)
-        status = surface_outermost(c->hit.place, &found, &q->posed, q->sides.own, c->hit.normal, 1e-5 * q->sides.radius,
-                                   error);
-    if (status == LMN_OK && found)
-        status =
-            surface_nearest(&there, &near, &q->posed, q->sides.others, c->hit.place,
-                            contact_reach(q->sides.reach, c->hit.before, c->hit.normal, c->hit.since, c->hit.until),
-                            c->hit.normal, error);
-    if (status == LMN_OK && near)
-        status = is_hit(&hit, q, c, scene->parts[there.part].node, there.facing, error);
-    if (status == LMN_OK && hit && are_kin(q, scene->parts[there.part].node)) {
-        hit = there.distance <= q->sides.reach;
-        if (hit)
-            status = were_apart(&hit, q, c, before, scene->parts[there.part].node, error);
-    }
-    if (status == LMN_OK && hit) {
-        c->other = scene->parts[there.part].node;
-        c->distance = there.distance;
-    }
-    return status;
+        status = relative_velocity(after, q, found->part, found->place, SIDE_BEHIND, error);
+    *out = status == LMN_OK && contact_is_hit(before, after, found->normal);
+    if (!*out || !are_kin(q, other))
+        return status;
+    *out = fabs(found->gap) <= q->sides.reach;
+    return *out ? were_apart(out, q, found, other, error) : LMN_OK;
+}
+
+/* Where nothing is met it touches with what is outermost. */
+static lmn_status take_outermost(contact *c, const search *q, lmn_error *error)
+{
+    bool found;
+    return surface_outermost(c->hit.place, &found, &q->posed, q->sides.own, c->hit.normal, 1e-5 * q->sides.radius,
+                             error);
+}
+
+/* A contact of what has been found in the motion. */
+static lmn_status meet(contact *c, search *q, lmn_error *error)
+{
+    touch              there;
+    bool               touches = false;
+    const touch_motion motion = {approach, accepts, q,
+                                 contact_reach(q->sides.reach, q->hit->before, q->hit->since, q->hit->until)};
+    lmn_status         status = pose_at(&q->posed, &q->is_posed, q, q->hit->seconds, error);
+    if (status == LMN_OK)
+        status = touch_find(&there, &touches, &q->posed, q->sides.own, q->sides.others, &motion, error);
+    if (status != LMN_OK || !touches)
+        return status == LMN_OK ? take_outermost(c, q, error) : status;
+    c->other = q->s->scene->parts[there.part].node;
+    c->distance = fabs(there.gap);
+    vector3_copy(c->hit.place, there.place);
+    vector3_copy(c->hit.normal, there.normal);
+    return LMN_OK;
 }
 
 /* What has no surface meets nothing. */
@@ -207,12 +229,16 @@ lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const 
     for (size_t i = 0; i < *count && status == LMN_OK; i++) {
         contact *c = &(*out)[kept];
         *c = (contact){hits[i], NONE, 0};
-        status = meet(c, i > 0 ? hits[i - 1].seconds : from, &q, error);
+        q.hit = &hits[i];
+        q.before = i > 0 ? hits[i - 1].seconds : from;
+        status = meet(c, &q, error);
         kept += c->other != NONE || hits[i].thrown_back;
     }
     *count = kept;
     if (q.is_posed)
         pose_release(&q.posed);
+    if (q.is_earlier)
+        pose_release(&q.earlier);
     contact_sides_release(&q.sides);
     mem_free(hits);
     if (status != LMN_OK) {

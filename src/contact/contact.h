@@ -1,6 +1,7 @@
 /* Where something that moves meets something, and what it meets: an instant at which its velocity changes at once
  * (behaviour/inspect.h), and the surface that is there then. Sampled curves have corners at all their keys, so that a
- * corner alone is none: both come together where the surface is, and no longer do so behind it. */
+ * corner alone is none: both come together where the surface is, and no longer do so behind it. What is touched, where,
+ * and along which normal follow from the surfaces (contact/touch.h). */
 #ifndef LIMNER_CONTACT_CONTACT_H
 #define LIMNER_CONTACT_CONTACT_H
 
@@ -8,14 +9,18 @@
 #include "pose/moment.h"
 
 typedef struct contact {
-    impact  hit;   /* its place is where it touches: its outermost place against the normal, its origin without any */
-    int32_t other; /* the node whose surface is there; NONE: nothing is, and it is thrown back as from a plane */
+    impact hit;       /* its place is where it touches, its normal that of what is met; where nothing is, its outermost
+                         place against the change of its velocity, and the way of this */
+    int32_t other;    /* the node whose surface is there; NONE: nothing is, and it is thrown back as from a plane */
     double  distance; /* of that surface from the place */
 } contact;
 
+/* How near a surface has to be to be met, in radii: round things that are no spheres have flat faces, whose middles lie
+ * so far below them where they have 13 sides. */
+#define CONTACT_REACH 0.03
+
 /* The parts below a node, and all others that are shown: what it can meet. A flag a part each; free with mem_free.
- * *reach is how near a surface has to be to be met: a tenth of its radius, since round things have flat faces. Errors:
- * LMN_MEMORY. */
+ * Errors: LMN_MEMORY. */
 typedef struct contact_sides {
     bool  *own, *others;
     double reach, radius;
@@ -23,13 +28,13 @@ typedef struct contact_sides {
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *scene, int32_t node_index, lmn_error *error);
 void       contact_sides_release(contact_sides *s);
 
-/* Is a change of velocity a hit? Velocities are of one thing against the other, the normal, unit, is the way that it is
- * pushed, `facing` how far the surface there lies square to it: it comes on, and does not go on through the surface. */
-bool contact_is_hit(const double before[3], const double after[3], const double normal[3], double facing);
+/* Is a change of velocity a hit? Velocities are of one thing against the other, the normal, unit, is that of the
+ * surface which is met: it comes on, which is a good part of what changes, and does not go on through the surface. */
+bool contact_is_hit(const double before[3], const double after[3], const double normal[3]);
 
 /* How near a surface has to be to be met, where `reach` is for what is exact: corners of a curve that is sampled, 20 or
  * more times a second, lie up to a sample away from where it turns round. */
-double contact_reach(double reach, const double before[3], const double normal[3], double since, double until);
+double contact_reach(double reach, const double before[3], double since, double until);
 
 /* Those of a node and all below it in from … to whose speed is `least` or more, in order: hits of surfaces, and without
  * any where it is thrown back while it falls (impact.thrown_back). What has no surface has none. `clips` has what is

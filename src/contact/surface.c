@@ -6,12 +6,7 @@
 #include "base/memory.h"
 #include "base/vector3.h"
 #include "base/work.h"
-
-/* What is done with each primitive of a part, its vertices in the world. */
-typedef struct visit {
-    void (*primitive)(const primitive *from, const double (*vertices)[3], size_t part, void *user);
-    void *user;
-} visit;
+#include "contact/sphere.h"
 
 static void to_world(double (*out)[3], const vec3 *positions, uint32_t count, const mat4 *world)
 {
@@ -21,7 +16,10 @@ static void to_world(double (*out)[3], const vec3 *positions, uint32_t count, co
                         world->m[8 + k] * (double)positions[i].z + world->m[12 + k];
 }
 
-static lmn_status visit_primitive(const visit *v, const pose *p, size_t part, const primitive *from, lmn_error *error)
+typedef void seer(const surface_piece *piece, void *user);
+
+static lmn_status visit_primitive(seer *see, void *user, const pose *p, size_t part, const primitive *from,
+                                  lmn_error *error)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part].node];
     const bool  moved = pose_deforms(&p->parts[part], from);
@@ -31,22 +29,22 @@ static lmn_status visit_primitive(const visit *v, const pose *p, size_t part, co
     if (good && moved)
         pose_vertices(&p->parts[part], from, NULL, NULL, from->vertex_count, posed, NULL);
     for (size_t i = 0; good && i < node_draw_count(n); i++) {
-        mat4 to = pose_instance(p, part, i);
+        const mat4 to = pose_instance(p, part, i);
         to_world(world, moved ? posed : from->positions, from->vertex_count, &to);
-        v->primitive(from, (const double(*)[3])world, part, v->user);
+        see(&(surface_piece){part, from, (const double(*)[3])world, to, moved}, user);
     }
     mem_free(posed);
     mem_free(world);
     return good ? LMN_OK : error_memory(error);
 }
 
-static lmn_status visit_part(const visit *v, const pose *p, size_t part, lmn_error *error)
+lmn_status surface_visit(const pose *p, size_t part, seer *see, void *user, lmn_error *error)
 {
     const node *n = &p->scene->nodes[p->scene->parts[part].node];
     const mesh *m = n->mesh == NONE ? NULL : &p->scene->meshes[n->mesh];
     lmn_status  status = LMN_OK;
     for (size_t i = 0; m && i < m->primitive_count && status == LMN_OK; i++)
-        status = visit_primitive(v, p, part, &m->primitives[i], error);
+        status = visit_primitive(see, user, p, part, &m->primitives[i], error);
     return status;
 }
 
@@ -58,33 +56,52 @@ typedef struct outer {
     size_t        count;
 } outer;
 
-static void find_outer(const primitive *from, const double (*vertices)[3], size_t part, void *user)
+static void take_outer(outer *o, const double at[3])
+{
+    const double along = vector3_dot(at, o->direction);
+    if (along > o->least + o->tie)
+        return;
+    if (along < o->least - o->tie) { /* those so far were none */
+        o->count = 0;
+        vector3_set(o->sum, 0, 0, 0);
+    }
+    o->least = fmin(o->least, along);
+    vector3_add(o->sum, o->sum, 1, at);
+    o->count++;
+}
+
+/* Of the unit sphere that a matrix takes to the world, what the direction's image under the transposed one meets. */
+static void take_sphere(outer *o, const sphere *s, const mat4 *world)
+{
+    double at[3], local[3];
+    for (int k = 0; k < 3; k++)
+        local[k] = vector3_dot(&world->m[4 * k], o->direction);
+    const bool directed = vector3_normalise(local);
+    vector3_add(local, s->centre, directed ? -s->radius : 0, local);
+    for (int k = 0; k < 3; k++)
+        at[k] = world->m[k] * local[0] + world->m[4 + k] * local[1] + world->m[8 + k] * local[2] + world->m[12 + k];
+    take_outer(o, at);
+}
+
+static void find_outer(const surface_piece *piece, void *user)
 {
     outer *o = user;
-    (void)part;
-    for (uint32_t i = 0; i < from->vertex_count; i++) {
-        double along = vector3_dot(vertices[i], o->direction);
-        if (along > o->least + o->tie)
-            continue;
-        if (along < o->least - o->tie) { /* those so far were none */
-            o->count = 0;
-            vector3_set(o->sum, 0, 0, 0);
-        }
-        o->least = fmin(o->least, along);
-        vector3_add(o->sum, o->sum, 1, vertices[i]);
-        o->count++;
-    }
+    sphere s;
+    if (!piece->deformed && sphere_of(&s, piece->from))
+        take_sphere(o, &s, &piece->world);
+    else
+        for (uint32_t i = 0; i < piece->from->vertex_count; i++)
+            take_outer(o, piece->vertices[i]);
 }
 
 lmn_status surface_outermost(double out[3], bool *found, const pose *p, const bool *parts, const double direction[3],
                              double tie, lmn_error *error)
 {
-    outer       o = {.direction = direction, .tie = tie, .least = INFINITY};
-    const visit v = {find_outer, &o};
-    lmn_status  status = LMN_OK;
+    outer      o = {.direction = direction, .tie = tie, .least = INFINITY};
+    lmn_status status = LMN_OK;
     for (size_t i = 0; i < p->scene->part_count && status == LMN_OK; i++)
         if (parts[i])
-            status = visit_part(&v, p, i, error);
+            status = surface_visit(p, i, find_outer, &o, error);
     *found = status == LMN_OK && o.count > 0;
     for (int k = 0; k < 3 && *found; k++)
         out[k] = o.sum[k] / (double)o.count;
@@ -94,8 +111,7 @@ lmn_status surface_outermost(double out[3], bool *found, const pose *p, const bo
 /* --- nearest -------------------------------------------------------------------------------------------------- */
 
 typedef struct near {
-    const double  *at, *direction;
-    double         tie; /* distances that differ by less are the same */
+    const double  *at;
     surface_place *best;
     bool           found;
 } near;
@@ -110,9 +126,7 @@ static void nearest_on_edge(const double p[3], const double a[3], const double b
     vector3_mix(out, a, b, fmin(fmax(f, 0), 1));
 }
 
-/* Nearest point of a triangle: below the point where that is inside, else on the nearest edge. Its normal is 0 where
- * it has no area. */
-static void nearest_on_triangle(const double p[3], const double *const c[3], double out[3], double normal[3])
+void surface_nearest_on_triangle(const double p[3], const double *const c[3], double out[3], double normal[3])
 {
     double a[3], b[3], to[3], best = INFINITY;
     vector3_add(a, c[1], -1, c[0]);
@@ -148,33 +162,24 @@ static bool is_away(const double p[3], const double *const c[3], double within)
     return false;
 }
 
-static bool is_nearer(const near *n, double distance, double facing)
+static void find_nearest(const surface_piece *piece, void *user)
 {
-    if (!n->found)
-        return distance <= n->best->distance;
-    if (fabs(distance - n->best->distance) <= n->tie)
-        return facing > n->best->facing || (facing == n->best->facing && distance < n->best->distance);
-    return distance < n->best->distance;
-}
-
-static void find_nearest(const primitive *from, const double (*vertices)[3], size_t part, void *user)
-{
-    near *n = user;
+    near            *n = user;
+    const primitive *from = piece->from;
+    const double(*vertices)[3] = piece->vertices;
     for (uint32_t i = 0; i + 2 < from->index_count && !work_stopped(); i += 3) {
         const double *const c[3] = {vertices[from->indices[i]], vertices[from->indices[i + 1]],
                                     vertices[from->indices[i + 2]]};
         double              at[3], normal[3];
-        if (is_away(n->at, c, n->best->distance + n->tie))
+        if (is_away(n->at, c, n->best->distance))
             continue;
-        nearest_on_triangle(n->at, c, at, normal);
-        const double distance = vector3_distance(at, n->at),
-                     facing = n->direction ? fabs(vector3_dot(normal, n->direction)) : 1;
-        if (!is_nearer(n, distance, facing))
+        surface_nearest_on_triangle(n->at, c, at, normal);
+        const double distance = vector3_distance(at, n->at);
+        if (n->found ? distance >= n->best->distance : distance > n->best->distance)
             continue;
         n->found = true;
-        n->best->part = part;
+        n->best->part = piece->part;
         n->best->distance = distance;
-        n->best->facing = facing;
         vector3_copy(n->best->place, at);
     }
 }
@@ -190,16 +195,15 @@ static double box_distance(const box3 *b, const double p[3])
 }
 
 lmn_status surface_nearest(surface_place *out, bool *found, const pose *p, const bool *parts, const double at[3],
-                           double within, const double direction[3], lmn_error *error)
+                           double within, lmn_error *error)
 {
-    near        n = {at, direction, isfinite(within) ? 1e-5 * within : 0, out, false};
-    const visit v = {find_nearest, &n};
-    lmn_status  status = LMN_OK;
+    near       n = {at, out, false};
+    lmn_status status = LMN_OK;
     *out = (surface_place){.distance = within};
     for (size_t i = 0; i < p->scene->part_count && status == LMN_OK; i++)
         /* Boxes are of single precision. */
-        if (parts[i] && box_distance(&p->part_boxes[i], at) <= out->distance * (1 + 1e-5) + n.tie + 1e-9)
-            status = visit_part(&v, p, i, error);
+        if (parts[i] && box_distance(&p->part_boxes[i], at) <= out->distance * (1 + 1e-5) + 1e-9)
+            status = surface_visit(p, i, find_nearest, &n, error);
     *found = n.found;
     return status == LMN_OK ? work_check(error) : status;
 }

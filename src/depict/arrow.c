@@ -85,6 +85,8 @@ void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[
         double head = fmin(style->head * style->width, end * 0.6), body = end - head;
         double step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
         if (body > DASHES_MOST * step) { /* nobody could see them */
+            warnings_add(j->warnings, WARNING_UNTOLD, "an arrow would have %.0f dashes; it has %d, which are longer",
+                         body / step, DASHES_MOST);
             dash *= body / DASHES_MOST / step;
             step = body / DASHES_MOST;
         }

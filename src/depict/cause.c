@@ -88,7 +88,7 @@ static lmn_status find_doer(doer *out, const depict_job *j, const depict_target 
     way_point(&partner->way, partner->centre, event, place);
     lmn_status status = depict_pose(&posed, j, event, error);
     if (status == LMN_OK)
-        status = surface_nearest(&nearest, &found, posed, partner->parts, at, INFINITY, NULL, error);
+        status = surface_nearest(&nearest, &found, posed, partner->parts, at, INFINITY, error);
     if (status == LMN_OK && found) {
         vector3_copy(place, nearest.place);
         own = j->scene->parts[nearest.part].node;

@@ -1,5 +1,7 @@
 #include "depict/depict.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -194,54 +196,101 @@ static lmn_status change_scene(lmn_scene *scene, depict_job *j, const expression
     return status;
 }
 
+void depict_say_nothing(depict_job *j, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(j->nothing, sizeof j->nothing, format, arguments);
+    va_end(arguments);
+}
+
+/* What somebody asked for, and cannot see. */
+static void say_without_sign(const depict_job *j, const expression *e)
+{
+    char numbered[DEPICT_NAME_SIZE];
+    if (e->line == 0)
+        return;
+    warnings_add(j->warnings, WARNING_UNTOLD, "expression %u, '%s' of '%.60s', has no sign: %s", e->number + 1,
+                 e->row->characteristic, depict_name_of(j->scene, e->target, numbered),
+                 j->nothing[0] ? j->nothing : "nothing of it happens in its interval");
+}
+
+static lmn_status make_one(depict_job *j, const expression *e, lmn_error *error)
+{
+    const size_t before = j->glyph_count;
+    j->nothing[0] = '\0';
+    lmn_status status = e->row->depict(j, e, error);
+    if (status != LMN_OK)
+        return expression_blame(e, j->scene, status, error);
+    if (j->glyph_count == before)
+        say_without_sign(j, e);
+    return LMN_OK;
+}
+
 static lmn_status make_glyphs(depict_job *j, const expression_list *expressions, lmn_error *error)
 {
     lmn_status status = LMN_OK;
+    glyphs_release(j);
+    warnings_release(j->warnings);
     for (int last = 0; last < 2; last++)
         for (size_t i = 0; i < expressions->count && status == LMN_OK; i++)
             if (expressions->items[i].row->last == (last != 0))
-                status = expressions->items[i].row->depict(j, &expressions->items[i], error);
+                status = make_one(j, &expressions->items[i], error);
     return status;
 }
 
-/* Glyphs have room on the page, so that the viewer steps back for them; they are made anew for where it is then. */
-static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressions, const lmn_draw_desc *desc,
-                                 lmn_error *error)
+/* Does it see all at the same places? How near and far it sees is of no matter to glyphs. */
+static bool sees_alike(const view_camera *a, const view_camera *b)
 {
-    preview    with;
-    lmn_status status = preview_open(&with, j, expressions, error);
+    return memcmp(a->view.m, b->view.m, sizeof a->view.m) == 0 && a->orthographic == b->orthographic &&
+           a->fov_y == b->fov_y && a->half_height == b->half_height && a->aspect == b->aspect;
+}
+
+/* Glyphs have room on the page, so that the viewer steps back for them; they are made anew for where it is then, unless
+ * it stays where it was. */
+static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressions, const lmn_draw_desc *desc,
+                                 bool *moved, lmn_error *error)
+{
+    preview           with;
+    const view_camera before = j->camera;
+    lmn_status        status = preview_open(&with, j, expressions, error);
     if (status == LMN_OK)
         status = place_viewer(j, &with.scene, desc, error);
     preview_release(&with);
-    glyphs_release(j);
-    return status == LMN_OK ? make_glyphs(j, expressions, error) : status;
+    *moved = !sees_alike(&before, &j->camera);
+    return status == LMN_OK && *moved ? make_glyphs(j, expressions, error) : status;
 }
 
-lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *warnings,
+lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lmn_draw_desc *desc, warnings *said,
                   lmn_error *error)
 {
     depict_poses poses = {.count = 0};
+    warnings     of_glyphs = {0}; /* that are there in the end */
+    bool         moved = true;
     depict_job   j = {.scene = scene,
                       .poses = &poses,
                       .letterings = &scene->letterings,
                       .seed = desc->seed,
-                      .warnings = warnings,
+                      .warnings = &of_glyphs,
                       .expressions = expressions};
     j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
-        status = time_moment(&j.when, scene, desc, warnings, error);
+        status = time_moment(&j.when, scene, desc, said, error);
     if (status == LMN_OK)
         status = measure_scene(&j, error);
     if (status == LMN_OK)
         status = place_viewer(&j, scene, desc, error);
     if (status == LMN_OK)
         status = make_glyphs(&j, expressions, error);
-    for (int pass = 0; pass < PASSES && status == LMN_OK; pass++)
-        status = turn_to_viewer(&j, expressions, desc, error);
+    for (int pass = 0; pass < PASSES && status == LMN_OK && moved; pass++)
+        status = turn_to_viewer(&j, expressions, desc, &moved, error);
     depict_poses_release(&poses);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
     glyphs_release(&j);
+    if (said)
+        warnings_append(said, &of_glyphs);
+    warnings_release(&of_glyphs);
     return status;
 }

@@ -40,6 +40,7 @@ typedef struct expression {
     int32_t          target, partner; /* nodes; NONE: no partner */
     double           from, to, now;   /* seconds; what is before `now` is past, what is after it future */
     uint32_t         number;          /* among all expressions: seeds what is random */
+    int              line, column;    /* where it was read; 0: it was not */
     void            *values;          /* of row->params; owned */
 } expression;
 
@@ -52,11 +53,14 @@ void expression_list_release(expression_list *l);
 expression *expression_add(expression_list *l, const depiction *row, int32_t target, double from, double to,
                            double now);
 
-/* Reads expressions: [{"target": "ball", "depict": "path", "from": 0, "to": 2, "now": 1, PARAMETER: VALUE …}].
- * Intervals are the whole of the moment's clips and `now` the moment's time where they are left out. `bad` (may be
- * NULL) gets the number of the expression that is wrong. Errors: LMN_USAGE, LMN_FORMAT, LMN_MEMORY. */
-lmn_status expressions_read(expression_list *out, const json_t *array, const lmn_scene *scene, const moment *when,
-                            size_t *bad, lmn_error *error);
+/* Reads JSON text: [{"target": "ball", "depict": "path", "from": 0, "to": 2, "now": 1, PARAMETER: VALUE …}], or an
+ * object (a script, what --explain writes) that has these as "expressions". Intervals are the whole of the moment's
+ * clips and `now` the moment's time where they are left out. Errors, with line and column: LMN_FORMAT, LMN_MEMORY. */
+lmn_status expressions_read(expression_list *out, const char *text, const lmn_scene *scene, const moment *when,
+                            lmn_error *error);
+/* Says which expression an error is of, and where that was read: what it asks for is wrong, LMN_FORMAT, whatever the
+ * room called it. Errors of memory and of who ends the work stay. Returns the status. */
+lmn_status expression_blame(const expression *e, const lmn_scene *scene, lmn_status status, lmn_error *error);
 /* As expressions_read takes them; NULL when memory is gone. */
 json_t *expressions_json(const expression_list *l, const lmn_scene *scene);
 

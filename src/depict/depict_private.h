@@ -34,6 +34,7 @@ typedef struct depict_job {
     const expression_list *expressions; /* all that are told; lent, NULL: none */
     struct glyph          *glyphs;      /* made so far; owned */
     size_t                 glyph_count, glyph_capacity;
+    char                   nothing[200]; /* why the expression that is told now has no sign; empty: nobody says */
 } depict_job;
 
 /* Direction from a position to the viewer, unit. */
@@ -44,6 +45,8 @@ double depict_random(const depict_job *j, const expression *e, uint32_t which, u
 void depict_page_axes(const depict_job *j, double right[3], double up[3]);
 /* A position moved towards the viewer: the same place on the page, before all that is nearer than `distance`. */
 void depict_lift(const depict_job *j, double at[3], double distance);
+/* Says why the expression that is told has no sign. */
+void depict_say_nothing(depict_job *j, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* How far a position is to be moved so that it is before all that the scene has, wherever that goes. */
 double depict_front(const depict_job *j, const double at[3]);
 

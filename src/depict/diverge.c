@@ -98,6 +98,8 @@ static lmn_status explode_depict(depict_job *j, const expression *e, lmn_error *
     double                middle[3];
     glyph_mesh            m = {0};
     lmn_status            status = pieces_open(&p, j, e->target, error);
+    if (status == LMN_OK && p.count < 2)
+        depict_say_nothing(j, "there are no two things below it that could part");
     if (status == LMN_OK && p.count > 1) {
         const double begin = pieces_parting(&p, e->from, e->to, 1e-3 * p.items[0].radius);
         middle_of_all(&p, begin, middle);
@@ -196,6 +198,8 @@ static lmn_status split_depict(depict_job *j, const expression *e, lmn_error *er
     const split_values *v = e->values;
     pieces              p;
     lmn_status          status = pieces_open(&p, j, e->target, error);
+    if (status == LMN_OK && p.count < 2)
+        depict_say_nothing(j, "there are no two things below it that could part");
     if (status == LMN_OK && p.count > 1) {
         const double radius = p.items[0].radius, width = (double)v->width * radius,
                      split = pieces_parting(&p, e->from, e->to, (double)v->apart * radius);

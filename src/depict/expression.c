@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/locate.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "depict/depict.h"
@@ -40,7 +41,7 @@ expression *expression_add(expression_list *l, const depiction *row, int32_t tar
         return NULL;
     }
     params_set_defaults(row->params, row->param_count, values);
-    l->items[l->count] = (expression){row, target, NONE, from, to, now, (uint32_t)l->count, values};
+    l->items[l->count] = (expression){row, target, NONE, from, to, now, (uint32_t)l->count, 0, 0, values};
     return &l->items[l->count++];
 }
 
@@ -137,7 +138,40 @@ static lmn_status read_row(const depiction **out, const json_t *one, const lmn_s
     return LMN_USAGE;
 }
 
-static lmn_status read_values(expression *e, const json_t *one, lmn_error *error)
+/* What is read, and where in it. */
+typedef struct reading {
+    const char      *text;
+    size_t           size;
+    const lmn_scene *scene;
+    const moment    *when;
+    locate_step      steps[3]; /* "expressions", where it is one of an object's; which; its member */
+    size_t           step_count;
+} reading;
+
+static void find_place(const reading *r, const char *key, int *line, int *column)
+{
+    reading here = *r;
+    if (key)
+        here.steps[here.step_count++] = (locate_step){key, 0};
+    locate(r->text, r->size, here.steps, here.step_count, line, column);
+}
+
+/* Of an error that was set: where it is, and that the text is wrong. */
+static lmn_status wrong_at(const reading *r, const char *key, lmn_status status, lmn_error *error)
+{
+    int line = 0, column = 0;
+    if (status == LMN_OK || status == LMN_MEMORY)
+        return status;
+    find_place(r, key, &line, &column);
+    if (error) {
+        error->status = LMN_FORMAT;
+        error->line = line;
+        error->column = column;
+    }
+    return LMN_FORMAT;
+}
+
+static lmn_status read_values(expression *e, const reading *r, const json_t *one, lmn_error *error)
 {
     const char *key;
     json_t     *value;
@@ -155,54 +189,134 @@ static lmn_status read_values(expression *e, const json_t *one, lmn_error *error
         else if (!own)
             status = error_set(error, LMN_USAGE, "'%.60s' has no parameter '%.60s'", e->row->characteristic, key);
         if (status != LMN_OK)
-            return status;
+            return wrong_at(r, key, status, error);
     }
     return LMN_OK;
 }
 
-static lmn_status read_one(expression_list *out, const json_t *one, const lmn_scene *scene, const moment *when,
-                           lmn_error *error)
+/* An interval has a length, and something of the motion in it. A scene without any has the moment 0 alone. */
+static lmn_status check_interval(double from, double to, double end, lmn_error *error)
+{
+    if (from > to || (from == to && (from > 0 || end > 0)))
+        return error_set(error, LMN_USAGE, "the interval is empty: from %g to %g", from, to);
+    if (end > 0 && from >= end)
+        return error_set(error, LMN_USAGE, "the interval, from %g to %g, lies behind the end of all motion, %g s", from,
+                         to, end);
+    return LMN_OK;
+}
+
+static lmn_status read_times(double *from, double *to, double *now, const char **bad, const reading *r,
+                             const json_t *one, lmn_error *error)
+{
+    static const char *const keys[] = {"from", "to", "now"};
+    double *const            times[] = {from, to, now};
+    const double             end = moment_duration(r->when, r->scene);
+    *from = 0;
+    *to = end;
+    *now = r->when->seconds;
+    for (int i = 0; i < 3; i++) {
+        lmn_status status = read_time(times[i], one, keys[i], error);
+        *bad = keys[i];
+        if (status != LMN_OK)
+            return status;
+    }
+    *bad = json_object_get(one, "from") ? "from" : "to";
+    return check_interval(*from, *to, end, error);
+}
+
+static lmn_status read_one(expression_list *out, const reading *r, const json_t *one, lmn_error *error)
 {
     int32_t          target = NONE, partner = NONE;
-    double           from = 0, to = moment_duration(when, scene), now = when->seconds;
+    double           from, to, now;
     const depiction *row = NULL;
+    const char      *bad = NULL;
     if (!json_is_object(one))
-        return error_set(error, LMN_USAGE, "an expression is an object");
-    lmn_status status = read_node(&target, one, "target", scene, error);
-    if (status == LMN_OK && json_object_get(one, "partner"))
-        status = read_node(&partner, one, "partner", scene, error);
-    if (status == LMN_OK)
-        status = read_row(&row, one, scene, target, error);
-    if (status == LMN_OK)
-        status = read_time(&from, one, "from", error);
-    if (status == LMN_OK)
-        status = read_time(&to, one, "to", error);
-    if (status == LMN_OK)
-        status = read_time(&now, one, "now", error);
-    if (status == LMN_OK && from > to)
-        status = error_set(error, LMN_USAGE, "the interval is empty: from %g to %g", from, to);
+        return wrong_at(r, NULL, error_set(error, LMN_USAGE, "an expression is an object"), error);
+    lmn_status status = read_node(&target, one, "target", r->scene, error);
     if (status != LMN_OK)
-        return status;
+        return wrong_at(r, "target", status, error);
+    if (json_object_get(one, "partner"))
+        status = read_node(&partner, one, "partner", r->scene, error);
+    if (status != LMN_OK)
+        return wrong_at(r, "partner", status, error);
+    status = read_row(&row, one, r->scene, target, error);
+    if (status != LMN_OK)
+        return wrong_at(r, "depict", status, error);
+    status = read_times(&from, &to, &now, &bad, r, one, error);
+    if (status != LMN_OK)
+        return wrong_at(r, bad, status, error);
     expression *e = expression_add(out, row, target, from, to, now);
     if (!e)
         return error_memory(error);
     e->partner = partner;
-    return read_values(e, one, error);
+    find_place(r, NULL, &e->line, &e->column);
+    return read_values(e, r, one, error);
 }
 
-lmn_status expressions_read(expression_list *out, const json_t *array, const lmn_scene *scene, const moment *when,
-                            size_t *bad, lmn_error *error)
+/* The message names the expression by its number; line and column are there already. */
+static void name_number(size_t number, lmn_error *error)
 {
-    if (!json_is_array(array))
-        return error_set(error, LMN_USAGE, "expressions are an array of objects");
+    lmn_error was = *error;
+    error_set(error, was.status, "expression %zu: %.400s", number, was.message);
+    error->line = was.line;
+    error->column = was.column;
+    if (was.hint[0])
+        error_hint(error, "%s", was.hint);
+}
+
+static lmn_status read_all(expression_list *out, reading *r, const json_t *array, lmn_error *error)
+{
+    const size_t depth = r->step_count++;
     for (size_t i = 0; i < json_array_size(array); i++) {
-        lmn_status status = read_one(out, json_array_get(array, i), scene, when, error);
-        if (bad)
-            *bad = i;
+        r->steps[depth] = (locate_step){NULL, i};
+        lmn_status status = read_one(out, r, json_array_get(array, i), error);
+        if (status == LMN_FORMAT && error)
+            name_number(i + 1, error);
         if (status != LMN_OK)
             return status;
     }
     return LMN_OK;
+}
+
+lmn_status expressions_read(expression_list *out, const char *text, const lmn_scene *scene, const moment *when,
+                            lmn_error *error)
+{
+    json_error_t wrong;
+    reading      r = {.text = text, .size = strlen(text), .scene = scene, .when = when};
+    json_t      *root = json_loads(text, JSON_REJECT_DUPLICATES, &wrong), *array = root;
+    lmn_status   status;
+    if (json_is_object(root)) {
+        array = json_object_get(root, "expressions");
+        r.steps[r.step_count++] = (locate_step){"expressions", 0};
+    }
+    if (!root) {
+        status = error_in_file(error, LMN_FORMAT, NULL, wrong.line, "expressions: %s", wrong.text);
+        if (error)
+            error->column = wrong.column;
+    } else if (!json_is_array(array)) {
+        status = error_in_file(error, LMN_FORMAT, NULL, 1, "there are no expressions in it");
+        if (error)
+            error->column = 1;
+        error_hint(error, "an array of objects, or an object with \"expressions\"");
+    } else
+        status = read_all(out, &r, array, error);
+    json_decref(root);
+    return status;
+}
+
+lmn_status expression_blame(const expression *e, const lmn_scene *scene, lmn_status status, lmn_error *error)
+{
+    char numbered[DEPICT_NAME_SIZE];
+    if (status == LMN_OK || status == LMN_MEMORY || status == LMN_CANCELLED || status == LMN_LIMIT || !error)
+        return status;
+    lmn_error was = *error;
+    error_set(error, status == LMN_USAGE ? LMN_FORMAT : status, "expression %u, '%s' of '%.60s': %.300s", e->number + 1,
+              e->row->characteristic, depict_name_of(scene, e->target, numbered), was.message);
+    error->line = e->line;
+    error->column = e->column;
+    if (was.hint[0])
+        error_hint(error, "%s", was.hint);
+    return error->status;
 }
 
 /* --- writing ---------------------------------------------------------------------------------------------------------

@@ -53,6 +53,36 @@ static lmn_status outline_find(outline *o, const depict_job *j, const depict_tar
     return status;
 }
 
+/* How far the distance of any vertex from the middle of all changes: what only moves and turns keeps these. */
+static lmn_status deformation_find(double *out, const depict_job *j, const expression *e, const depict_target *t,
+                                   lmn_error *error)
+{
+    const double times[2] = {e->from, e->to};
+    vec3        *vertices[2] = {NULL, NULL};
+    size_t       counts[2] = {0, 0};
+    double       middles[2][3] = {{0}};
+    lmn_status   status = LMN_OK;
+    for (int i = 0; i < 2 && status == LMN_OK; i++)
+        status = target_vertices(&vertices[i], &counts[i], j, t, times[i], error);
+    for (int i = 0; i < 2; i++)
+        for (size_t k = 0; k < counts[i]; k++) {
+            const double at[3] = {(double)vertices[i][k].x, (double)vertices[i][k].y, (double)vertices[i][k].z};
+            vector3_add(middles[i], middles[i], 1.0 / (double)counts[i], at);
+        }
+    *out = 0;
+    for (size_t k = 0; k < counts[0] && k < counts[1]; k++) {
+        double far[2];
+        for (int i = 0; i < 2; i++) {
+            const double at[3] = {(double)vertices[i][k].x, (double)vertices[i][k].y, (double)vertices[i][k].z};
+            far[i] = vector3_distance(at, middles[i]);
+        }
+        *out = fmax(*out, fabs(far[1] - far[0]));
+    }
+    mem_free(vertices[0]);
+    mem_free(vertices[1]);
+    return status;
+}
+
 /* Along a ray from the middle: where the first half plane ends. */
 static double outline_at(const outline *o, double angle)
 {
@@ -71,7 +101,7 @@ static void put_growth_arrow(glyph_mesh *m, const depict_job *j, const expressio
 {
     const growth_values *v = e->values;
     const double         before = outline_at(&ends[0], angle), after = outline_at(&ends[1], angle);
-    if (fabs(after - before) < 0.2 * change)
+    if ((after - before) * (outward ? 1 : -1) < 0.2 * change)
         return;
     const double outer = fmax(before, after);
     /* What comes from nothing, or vanishes, leaves room in the middle for the heads. */
@@ -87,15 +117,26 @@ static void put_growth_arrow(glyph_mesh *m, const depict_job *j, const expressio
     glyph_put_arrow(m, j, (const double(*)[3])points, 2, &(arrow_style){.width = width, .tail = 0.12, .head = 2.2});
 }
 
-/* How far the two outlines are apart where they are farthest apart. */
-static double largest_change(const outline ends[2])
+/* How far the outline goes outward, or inward, where it does so most. */
+static double largest_change(const outline ends[2], bool outward)
 {
     double most = 0;
     for (int k = 0; k < DIRECTIONS; k++) {
-        const double angle = full_turn * k / DIRECTIONS;
-        most = fmax(most, fabs(outline_at(&ends[1], angle) - outline_at(&ends[0], angle)));
+        const double angle = full_turn * k / DIRECTIONS,
+                     more = outline_at(&ends[1], angle) - outline_at(&ends[0], angle);
+        most = fmax(most, outward ? more : -more);
     }
     return most;
+}
+
+/* What keeps its shape, or changes the other way. */
+static void say_unchanged(depict_job *j, const expression *e, bool rigid, bool outward)
+{
+    if (rigid)
+        depict_say_nothing(j, "it is as large at %g s as at %g s", e->to, e->from);
+    else
+        depict_say_nothing(j, "from %g to %g s it only %s, which is told by '%s'", e->from, e->to,
+                           outward ? "shrinks" : "grows", outward ? "collapse" : "expand");
 }
 
 /* Arrows are where the target is now, of the outlines that it has at the interval's two ends. */
@@ -116,8 +157,15 @@ static lmn_status growth_depict(depict_job *j, const expression *e, bool outward
         way_point(&t.way, t.centre, e->now, middle);
         page_place_at(&place, j, middle, depict_front(j, middle));
     }
-    const double change = status == LMN_OK ? largest_change(ends) : 0;
-    for (int i = 0; i < v->count && status == LMN_OK; i++)
+    double deformed = 0;
+    if (status == LMN_OK)
+        status = deformation_find(&deformed, j, e, &t, error);
+    const bool   rigid = deformed <= 1e-3 * t.radius;
+    const double change = status == LMN_OK && !rigid ? largest_change(ends, outward) : 0,
+                 least = 1e-3 * t.radius; /* nobody sees less */
+    if (status == LMN_OK && change <= least)
+        say_unchanged(j, e, rigid, outward);
+    for (int i = 0; i < v->count && status == LMN_OK && change > least; i++)
         put_growth_arrow(&m, j, e, &t, &place, ends, change, full_turn * (i + 0.5) / v->count, outward);
     if (status == LMN_OK)
         status = glyph_put(j, &m, &(glyph_label){outward ? "expand" : "collapse", e->target, GLYPH_PRESENT, v->colour},

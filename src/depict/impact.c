@@ -75,6 +75,9 @@ static lmn_status impact_depict(depict_job *j, const expression *e, lmn_error *e
         status = target_impacts(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
     if (status == LMN_OK && e->partner == NONE)
         status = keep_hits(impacts, &count, j, &t, error);
+    if (status == LMN_OK)
+        depict_say_nothing(j, count ? "it meets nothing up to %g s" : "its velocity nowhere changes at once up to %g s",
+                           count && !v->all ? e->now : e->to);
     for (size_t i = 0; i < count && status == LMN_OK; i++)
         strongest = fmax(strongest, vector3_length(impacts[i].change));
     for (size_t i = 0; i < count && status == LMN_OK; i++)

@@ -123,6 +123,8 @@ lmn_status glyph_put_lettering(glyph_mesh *m, const depict_job *j, const page_pl
         if (line && line->seen)
             widest = fmax(widest, line->high[0] - line->low[0]);
     }
+    if (status == LMN_OK && !(widest > 0))
+        return error_set(error, LMN_USAGE, "nothing of the text can be seen");
     if (style->width > 0 && widest * scale > style->width)
         scale = style->width / widest;
     size[0] = widest * scale;

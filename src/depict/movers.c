@@ -9,7 +9,7 @@
 #include "depict/meeting.h"
 #include "scene/channel.h"
 
-enum { IMPACTS_SEEN = 12, LIMBS_LEAST = 4, STEPS = 48, SHAPES = 12 };
+enum { LIMBS_LEAST = 4, STEPS = 48, SHAPES = 12 };
 
 /* --- who moves -------------------------------------------------------------------------------------------------- */
 
@@ -75,16 +75,18 @@ static double angle_between(const mat4 *a, const mat4 *b)
 /* Of the changes of velocity those where it hits something. */
 static lmn_status count_hits(mover *m, const depict_job *j, const depict_target *t, span all, lmn_error *error)
 {
-    depict_impact impacts[IMPACTS_SEEN];
+    depict_impact impacts[MOVER_HITS];
     size_t        count = 0;
-    lmn_status    status = target_impacts(impacts, IMPACTS_SEEN, &count, t, all.from, all.to, error);
+    lmn_status    status = target_impacts(impacts, MOVER_HITS, &count, t, all.from, all.to, error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         bool    hits = false;
         int32_t whom = NONE;
         status = meeting_touches(&hits, &whom, j, t, &impacts[i], error);
-        if (hits)
-            m->hit = m->hits == 0 || m->hit == whom ? whom : NONE;
-        m->hits += hits;
+        if (!hits)
+            continue;
+        m->hit = m->hits == 0 || m->hit == whom ? whom : NONE;
+        m->hit_times[m->hits] = impacts[i].time;
+        m->hit_whom[m->hits++] = whom;
     }
     return status;
 }

@@ -9,6 +9,9 @@ typedef struct span {
     double from, to;
 } span;
 
+/* So many hits of one thing are seen, the strongest ones. */
+enum { MOVER_HITS = 12 };
+
 /* Something that moves by itself: nothing above it does. */
 typedef struct mover {
     int32_t node;
@@ -20,17 +23,20 @@ typedef struct mover {
     bool    doubles;       /* its way goes back where it came from */
     double  turned;        /* radians, all in all */
     double  scaled;        /* largest by smallest size */
-    double  growth;   /* its size behind the piece around now in which it only grows or shrinks, by that before it */
-    span    grows;    /* that piece */
-    double  shaped;   /* how far its vertices go without its middle, at most */
-    double  zoomed;   /* a camera's largest by smallest picture */
-    size_t  hits;     /* of something */
-    int32_t hit;      /* of what, always the same; NONE: several */
-    double  origin;   /* way of its own origin, about which it turns */
-    bool    spins;    /* about its way */
-    bool    followed; /* by a camera */
-    bool    grouped;  /* told with others */
-    double  weight;   /* how much it matters */
+    double  growth; /* its size behind the piece around now in which it only grows or shrinks, by that before it */
+    span    grows;  /* that piece */
+    double  shaped; /* how far its vertices go without its middle, at most */
+    double  zoomed; /* a camera's largest by smallest picture */
+    size_t  hits;   /* of something */
+    int32_t hit;    /* of what, always the same; NONE: several */
+    double  hit_times[MOVER_HITS];
+    int32_t hit_whom[MOVER_HITS]; /* of these, whose surface it hits */
+    double  origin;               /* way of its own origin, about which it turns */
+    bool    spins;                /* about its way */
+    bool    followed;             /* by a camera */
+    bool    grouped;              /* told with others */
+    bool    collides;             /* its hits are told */
+    double  weight;               /* how much it matters */
 } mover;
 
 typedef struct mover_list {

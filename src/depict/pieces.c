@@ -2,24 +2,27 @@
 
 #include <string.h>
 
-static bool has_parts(const lmn_scene *s, int32_t node)
+#include "base/error.h"
+#include "base/memory.h"
+
+/* A flag a node: is there a part at it or below? NULL: out of memory. */
+static bool *find_carriers(const lmn_scene *s)
 {
-    for (size_t i = 0; i < s->part_count; i++)
-        for (int32_t n = s->parts[i].node; n != NONE; n = s->nodes[n].parent)
-            if (n == node)
-                return true;
-    return false;
+    bool *carries = mem_calloc(s->node_count + 1, sizeof *carries);
+    for (size_t i = 0; carries && i < s->part_count; i++)
+        for (int32_t n = s->parts[i].node; n != NONE && !carries[n]; n = s->nodes[n].parent)
+            carries[n] = true;
+    return carries;
 }
 
-lmn_status pieces_open(pieces *out, const depict_job *j, int32_t node, lmn_error *error)
+static lmn_status open_below(pieces *out, const depict_job *j, int32_t node, const bool *carries, lmn_error *error)
 {
     const lmn_scene *s = j->scene;
-    memset(out, 0, sizeof *out);
     for (int depth = 0; depth < 64; depth++) {
         int32_t only = NONE;
         size_t  children = 0;
         for (int32_t n = s->nodes[node].first_child; n != NONE; n = s->nodes[n].next_sibling)
-            if (has_parts(s, n)) {
+            if (carries[n]) {
                 only = n;
                 children++;
             }
@@ -28,12 +31,21 @@ lmn_status pieces_open(pieces *out, const depict_job *j, int32_t node, lmn_error
         node = only;
     }
     for (int32_t n = s->nodes[node].first_child; n != NONE && out->count < PIECES_MOST; n = s->nodes[n].next_sibling)
-        if (has_parts(s, n)) {
+        if (carries[n]) {
             lmn_status status = target_open(&out->items[out->count++], j, n, error);
             if (status != LMN_OK)
                 return status;
         }
     return LMN_OK;
+}
+
+lmn_status pieces_open(pieces *out, const depict_job *j, int32_t node, lmn_error *error)
+{
+    bool *carries = find_carriers(j->scene);
+    memset(out, 0, sizeof *out);
+    lmn_status status = carries ? open_below(out, j, node, carries, error) : error_memory(error);
+    mem_free(carries);
+    return status;
 }
 
 void pieces_release(pieces *p)

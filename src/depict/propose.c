@@ -73,12 +73,14 @@ static lmn_status find_patterns(mover *movers, size_t count, const proposal *p, 
 static lmn_status tell_groups(mover *movers, size_t count, const proposal *p, lmn_error *error)
 {
     const lmn_scene *s = p->job.scene;
-    lmn_status       status = LMN_OK;
+    bool            *asked = mem_calloc(s->node_count + 1, sizeof *asked);
+    lmn_status       status = asked ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         mover parent = {.node = s->nodes[movers[i].node].parent, .hit = NONE};
         group g;
-        if (parent.node == NONE || movers[i].grouped || movers[i].camera)
+        if (parent.node == NONE || movers[i].grouped || movers[i].camera || asked[parent.node])
             continue;
+        asked[parent.node] = true;
         status = group_find(&g, &p->job, parent.node, p->from, p->to, error);
         if (status != LMN_OK || g.kind == GROUP_NONE)
             continue;
@@ -89,6 +91,7 @@ static lmn_status tell_groups(mover *movers, size_t count, const proposal *p, lm
         else
             propose(p, &parent, "split-path", "things go together, then part; things", (double)g.things);
     }
+    mem_free(asked);
     return status;
 }
 
@@ -207,7 +210,61 @@ static void tell_light(const proposal *p, const mover *m)
     set_number(e, "short_of", 0);
 }
 
-static lmn_status tell(const proposal *p, const mover *m, lmn_error *error)
+/* Is what one mover hits another one, or of it? */
+static bool is_of(const lmn_scene *s, int32_t node, const mover *m)
+{
+    while (node != NONE && node != m->node)
+        node = s->nodes[node].parent;
+    return node != NONE;
+}
+
+/* Where two things that move meet, both are hit at once: is it told of the other one? */
+static bool is_told_already(const proposal *p, const mover_list *all, const mover *m, size_t hit)
+{
+    const double same = 1e-3 * (p->to - p->from);
+    for (size_t i = 0; i < all->count; i++) {
+        const mover *other = &all->items[i];
+        if (!other->collides || other == m || !is_of(p->job.scene, m->hit_whom[hit], other))
+            continue;
+        for (size_t k = 0; k < other->hits; k++)
+            if (fabs(other->hit_times[k] - m->hit_times[hit]) <= same && is_of(p->job.scene, other->hit_whom[k], m))
+                return true;
+    }
+    return false;
+}
+
+static void tell_one_collision(const proposal *p, const mover *m, size_t hits, int32_t partner)
+{
+    expression *e = propose(p, m, "collision", "it hits something; times", (double)hits);
+    if (e)
+        e->partner = partner;
+}
+
+/* What it hits; of what is told of others already, the rest, one thing after the other. */
+static void tell_hits(const proposal *p, const mover_list *all, mover *m)
+{
+    bool   open[MOVER_HITS];
+    size_t left = 0;
+    for (size_t i = 0; i < m->hits; i++) {
+        open[i] = !is_told_already(p, all, m, i);
+        left += open[i];
+    }
+    m->collides = left > 0;
+    if (left == m->hits)
+        tell_one_collision(p, m, m->hits, m->hit);
+    for (size_t i = 0; i < m->hits && left < m->hits; i++) {
+        size_t same = 0;
+        for (size_t k = i; k < m->hits && open[i]; k++)
+            if (open[k] && m->hit_whom[k] == m->hit_whom[i]) {
+                open[k] = k == i;
+                same++;
+            }
+        if (same)
+            tell_one_collision(p, m, same, m->hit_whom[i]);
+    }
+}
+
+static lmn_status tell(const proposal *p, const mover_list *all, mover *m, lmn_error *error)
 {
     lmn_status   status = LMN_OK;
     const bool   on_the_spot = m->origin < 0.1 * m->length || m->length <= m->radius;
@@ -223,11 +280,8 @@ static lmn_status tell(const proposal *p, const mover *m, lmn_error *error)
         tell_way(p, m, ways);
     else if (m->figure)
         status = tell_figure(p, m, ways, error);
-    if (m->hits && !m->figure && !turns) {
-        expression *e = propose(p, m, "collision", "it hits something; times", (double)m->hits);
-        if (e)
-            e->partner = m->hit;
-    }
+    if (m->hits && !m->figure && !turns)
+        tell_hits(p, all, m);
     if (turns)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
     tell_size(p, m);
@@ -297,7 +351,7 @@ static lmn_status tell_all(const proposal *p, mover_list *movers, lmn_error *err
         if (movers->items[i].grouped)
             continue;
         if (told < MOVERS_TOLD) {
-            status = tell(p, &movers->items[i], error);
+            status = tell(p, movers, &movers->items[i], error);
             const bool tells = status != LMN_OK || tells_motion(p, first);
             told += tells;
             if (!tells && still++ < MOVERS_TOLD)

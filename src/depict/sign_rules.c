@@ -35,8 +35,10 @@ static const technique_use *first_use(const rule *r, kind_id kind)
 static bool is_ink(const rule *r)
 {
     const technique_use *use = first_use(r, KIND_SURFACE);
-    const param         *model = param_of(use, "model_colour");
-    return param_of(use, "ink") || (model && *(const float *)((const char *)use->values + model->offset) <= 0);
+    const param         *model = param_of(use, "model_colour"), *ink = param_of(use, "ink");
+    const bool           inks =
+        ink && params_condition(ink->only_if, use->technique->params, use->technique->param_count, use->values);
+    return inks || (model && *(const float *)((const char *)use->values + model->offset) <= 0);
 }
 
 static lmn_status set(lmn_look *look, size_t rule, const char *kind, const char *key, const char *value,

@@ -30,6 +30,37 @@ stroke_store *strokes_find_store(frame *f, const figure *fig, int32_t refine)
     return s;
 }
 
+/* Does a rule draw lines where surfaces run through each other? */
+static bool draws_crossings(const rule *r)
+{
+    bool draws = false;
+    for (size_t i = 0; r && i < r->use_counts[KIND_LINES]; i++) {
+        const technique_use *use = &r->uses[KIND_LINES][i];
+        const lines_row     *row = use->technique->lines;
+        stroke_options       options = STROKE_OPTIONS_INIT;
+        stroke_style         style = {0};
+        (row->as_strokes ? row->as_strokes : lines_as_strokes)(&options, &style, use->values);
+        draws = draws || options.intersections;
+    }
+    return draws;
+}
+
+/* The parts of such rules, a flag each; mem_free. NULL: out of memory, which sticks to the GPU. */
+static bool *find_crossing_parts(frame *f)
+{
+    const rule *last = NULL;
+    bool        draws = false, *parts = mem_calloc(f->up->part_count + 1, sizeof *parts);
+    for (size_t i = 0; parts && i < f->up->part_count; i++) {
+        const rule *r = plan_rule(f->plan, i);
+        draws = r == last ? draws : draws_crossings(r);
+        last = r;
+        parts[i] = draws;
+    }
+    if (!parts)
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    return parts;
+}
+
 /* --- programs ------------------------------------------------------------------------------------------- */
 
 /* Gives the figure an empty edge map, and a depth for lines beyond its surfaces, and draws into them from now on. */
@@ -369,8 +400,10 @@ void strokes_run(frame *f, figure_state *s, const pass *p, const technique_use *
                  (v->visibility == VISIBILITY_AUTO && (strokes_need_chains(v) || s->figure->layered));
     stopwatch     w = watch_start(&f->profile);
     stroke_store *store = gpu_failed(f->g) ? NULL : strokes_find_store(f, s->figure, v->options.refine);
-    if (store)
-        stroke_store_fix(store, f->g, v->options.intersections, stroke_options_bend(&v->options));
+    bool         *crossing = store && v->options.intersections ? find_crossing_parts(f) : NULL;
+    if (store && !gpu_failed(f->g))
+        stroke_store_fix(store, f->g, crossing, stroke_options_bend(&v->options));
+    mem_free(crossing);
     if (store && exact)
         draw_exact(f, s, store, v);
     else if (store)

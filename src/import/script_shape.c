@@ -84,7 +84,8 @@ static void make(script_reader *r, json_t *shape, const char *kind, mesh_in_work
     if (strcmp(kind, "box") == 0) {
         script_check_keys(r, shape, "size");
         script_vector(r, shape, "size", 3, unit, size);
-        box(m, size);
+        /* Shapes are made with y up. */
+        box(m, r->scene->up == 'z' ? (const double[]){size[0], size[2], size[1]} : size);
     } else if (strcmp(kind, "plane") == 0) {
         script_check_keys(r, shape, "size");
         script_vector(r, shape, "size", 2, unit, size);

@@ -240,10 +240,10 @@ void typed_info(lmn_param_info *out, const kind *k, const technique *t, const pa
                             .names = p->type == PARAM_ENUM ? p->names : NULL,
                             .only_if = p->only_if,
                             .auto_from = p->auto_from,
-                            .common = k->common_count && p >= k->common && p < k->common + k->common_count,
+                            .common = k && k->common_count && p >= k->common && p < k->common + k->common_count,
                             .is_file = p->is_file,
                             .is_selector = p->is_selector,
-                            .compiles = param_compiles(p) || decides_passes(p, k, t)};
+                            .compiles = k && (param_compiles(p) || decides_passes(p, k, t))};
     if (ranged)
         put_slider(out, p);
     while (out->names && out->names[out->name_count])

@@ -16,6 +16,7 @@ lmn_status typed_number(const param *p, const void *values, double *out, lmn_err
 lmn_status typed_colours(const param *p, const void *values, float *rgba, size_t *count, lmn_error *error);
 lmn_status typed_direction(const param *p, const void *values, double out[3], lmn_error *error);
 
+/* `k` and `t` are NULL for parameters of what is no technique. */
 void typed_info(lmn_param_info *out, const kind *k, const technique *t, const param *p);
 /* Does the parameter's condition hold for these values of its technique? */
 bool typed_applies(const kind *k, const technique_use *use, const param *p);

@@ -2,6 +2,7 @@
 #include "look/selector.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -26,6 +27,75 @@ char *value_text(json_t *json)
     bool done = json && dump(&out, json, JSON_INDENT(2));
     json_decref(json);
     text_append(&out, "\n");
+    if (done)
+        return text_take(&out);
+    text_release(&out);
+    return NULL;
+}
+
+/* Is a character part of a number in JSON? */
+static bool is_of_number(char c)
+{
+    return (c >= '0' && c <= '9') || (c && strchr("+-.eE", c));
+}
+
+/* As JSON's readers have it, rounded to the nearest double. */
+static double number_in(const char *text, size_t size)
+{
+    json_t      *read = json_loadb(text, size, JSON_DECODE_ANY, NULL);
+    const double number = json_number_value(read);
+    json_decref(read);
+    return number;
+}
+
+/* The fewest digits that give the same number again; `printed` ends where the number does. */
+static void append_shortest(text *out, const char *printed, const char *end)
+{
+    const double number = number_in(printed, (size_t)(end - printed));
+    char         shorter[40], plain[40];
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(shorter, sizeof shorter, "%.*g", digits, number);
+        text_with_point(plain, shorter);
+        if (number_in(plain, strlen(plain)) == number)
+            break;
+    }
+    text_append(out, "%s%s", plain, strpbrk(plain, ".e") ? "" : ".0"); /* it stays a real number */
+}
+
+static void append_exactly(text *out, const char *json)
+{
+    bool quoted = false;
+    for (const char *at = json; *at;) {
+        const char *end = at + 1;
+        if (*at == '"')
+            quoted = !quoted;
+        else if (quoted && *at == '\\' && at[1])
+            end++;
+        else if (!quoted && is_of_number(*at) && (*at == '-' || (*at >= '0' && *at <= '9'))) {
+            bool real = false;
+            for (end = at; is_of_number(*end); end++)
+                real = real || *end == '.' || *end == 'e' || *end == 'E';
+            if (real) {
+                append_shortest(out, at, end);
+                at = end;
+                continue;
+            }
+        }
+        text_append_bytes(out, at, (size_t)(end - at));
+        at = end;
+    }
+}
+
+char *value_text_exact(json_t *json)
+{
+    text printed = {0}, out = {0};
+    bool done = json && json_dump_callback(json, append, &printed, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+                !printed.failed;
+    json_decref(json);
+    if (done)
+        append_exactly(&out, printed.data);
+    text_append(&out, "\n");
+    text_release(&printed);
     if (done)
         return text_take(&out);
     text_release(&out);

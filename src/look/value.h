@@ -20,5 +20,7 @@ json_t *value_number(double number);
 
 /* JSON as text, allocated with mem_alloc, ends in a newline; takes over the reference (NULL gives NULL). */
 char *value_text(json_t *json);
+/* The same with as many digits as give the same doubles again, and no more; value_text has those of floats. */
+char *value_text_exact(json_t *json);
 
 #endif

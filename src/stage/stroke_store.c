@@ -92,10 +92,21 @@ stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_
     return s;
 }
 
-void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends)
+/* What was made of crossings goes when others are asked for. */
+static lmn_status cross(stroke_store *s, gpu *g, const bool *parts, lmn_error *error)
+{
+    if (stroke_scene_has_crossings(&s->scene, parts, s->part_count))
+        return LMN_OK;
+    release_lines(s);
+    for (size_t i = 0; i < s->scene.item_count; i++)
+        gpu_marks_destroy(g, &s->crossings[i]);
+    return stroke_scene_cross(&s->scene, parts, s->part_count, NULL, NULL, error);
+}
+
+void stroke_store_fix(stroke_store *s, gpu *g, const bool *crossings, bool bends)
 {
     lmn_error  error = {0};
-    lmn_status status = crossings ? stroke_scene_cross(&s->scene, NULL, NULL, &error) : LMN_OK;
+    lmn_status status = crossings ? cross(s, g, crossings, &error) : LMN_OK;
     if (status == LMN_OK && bends)
         status = stroke_scene_bend(&s->scene, NULL, NULL, &error);
     if (status != LMN_OK)

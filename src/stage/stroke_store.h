@@ -41,8 +41,9 @@ typedef struct stroke_store_options {
 
 /* What *slot holds when it is as wished, else a new one in its place; NULL after an error, which sticks to the GPU. */
 stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options);
-/* Where surfaces cross and how they bend does not depend on the view: it is found once. Errors stick to the GPU. */
-void stroke_store_fix(stroke_store *s, gpu *g, bool crossings, bool bends);
+/* Where surfaces cross and how they bend does not depend on the view: it is found once. `crossings`: the parts that
+ * have such lines, a flag each; NULL: nobody asks for them. Errors stick to the GPU. */
+void stroke_store_fix(stroke_store *s, gpu *g, const bool *crossings, bool bends);
 /* What the camera sees, unless that is there. Errors: those of stroke_view_create. */
 lmn_status stroke_store_look(stroke_store *s, const stroke_camera *camera, lmn_error *error);
 /* The lines of these parts in the last camera's view; kept until others are asked for, and lent until then. Errors:

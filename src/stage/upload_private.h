@@ -94,13 +94,6 @@ void       upload_shape_release(upload_shape *s);
 /* What shaders read about all solids; once they are all there. */
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
 
-/* --- upload_solid_cut.c --- */
-/* Takes what is cut away from the form of a solid at this position; `half_space_mesh`: the number that its new
- * operands give as their mesh, a box from 0 to 1 in each direction. *bits, one an operand of the form, are 0 or
- * those of a cut face's surface id, and are made here. */
-lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,
-                            uint32_t **bits, lmn_error *error);
-
 /* --- upload_cut.c --- */
 /* Bits of a cut face's surface id. */
 uint32_t cut_face_bits(const cut *c, int32_t plane, uint32_t body, bool positive);

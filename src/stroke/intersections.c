@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/solid.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
 /* Faces of one surface that two pieces have turn against each other by no more than the first, radians, whatever the
@@ -36,6 +37,8 @@ typedef struct crossing_search {
     bool               *still;       /* per item: the world's axes are its own */
     box3               *piece_boxes; /* world axes */
     uint8_t            *piece_meets; /* another one's box */
+    const bool         *parts;       /* that have such lines, a flag each; NULL: all */
+    uint8_t            *piece_asks;  /* is of such a part */
     uint32_t            piece_count;
     box3                region; /* of all overlaps */
     uint64_t           *marks;  /* MARK_SIDE² words: cells where boxes overlap */
@@ -47,6 +50,7 @@ typedef struct crossing_search {
     float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     face_touch         *touches;
     size_t              touch_count, touch_capacity;
+    solid_trimmer     **trimmers; /* per item that is a solid; NULL: not needed yet */
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -87,21 +91,33 @@ static lmn_status number_pieces(crossing_search *s, lmn_error *error)
     }
     s->piece_boxes = mem_alloc((s->piece_count + 1) * sizeof *s->piece_boxes);
     s->piece_meets = mem_calloc(s->piece_count + 1, 1);
+    s->piece_asks = mem_calloc(s->piece_count + 1, 1);
     s->marks = mem_calloc(MARK_SIDE * MARK_SIDE, sizeof *s->marks);
-    if (!s->piece_boxes || !s->piece_meets || !s->marks)
+    if (!s->piece_boxes || !s->piece_meets || !s->piece_asks || !s->marks)
         return error_memory(error);
     for (size_t i = 0; i < scene->item_count; i++) {
         const edge_mesh *m = &scene->meshes[scene->items[i].mesh];
-        for (uint32_t k = 0; k < m->piece_count; k++)
+        const bool       asks = !s->parts || s->parts[scene->items[i].part_index];
+        for (uint32_t k = 0; k < m->piece_count; k++) {
             s->piece_boxes[s->first_piece[i] + k] = box3_transform(m->boxes[k], &scene->items[i].world);
+            s->piece_asks[s->first_piece[i] + k] = asks;
+        }
     }
     return LMN_OK;
+}
+
+/* Would anybody draw the line where two pieces cross? */
+static bool asks_for(const crossing_search *s, uint32_t a, uint32_t b)
+{
+    return s->piece_asks[a] || s->piece_asks[b];
 }
 
 static bool widen_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
     const box3      *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    if (!asks_for(s, a, b))
+        return true;
     s->piece_meets[a] = s->piece_meets[b] = 1;
     box3 both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
                  {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
@@ -141,6 +157,8 @@ static bool mark_region(void *user, uint32_t a, uint32_t b)
     box3             both = {{larger(p->min.x, q->min.x), larger(p->min.y, q->min.y), larger(p->min.z, q->min.z)},
                              {smaller(p->max.x, q->max.x), smaller(p->max.y, q->max.y), smaller(p->max.z, q->max.z)}};
     mark_range       r = marks_of(s, &both);
+    if (!asks_for(s, a, b))
+        return true;
     for (int z = r.low[2]; z <= r.high[2]; z++)
         for (int y = r.low[1]; y <= r.high[1]; y++)
             s->marks[z * MARK_SIDE + y] |= bits_between(r.low[0], r.high[0]);
@@ -329,7 +347,7 @@ static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, 
     return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
 }
 
-static bool put_crossing(crossing_search *s, const face_crossing *c)
+static bool keep_crossing(crossing_search *s, const face_crossing *c)
 {
     if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
         s->failed = true;
@@ -337,6 +355,63 @@ static bool put_crossing(crossing_search *s, const face_crossing *c)
     }
     s->out->crossings[s->out->count++] = *c;
     return true;
+}
+
+static solid_trimmer *trimmer_of(crossing_search *s, uint32_t item)
+{
+    if (!s->trimmers)
+        s->trimmers = mem_calloc(s->scene->item_count + 1, sizeof(solid_trimmer *));
+    if (s->trimmers && !s->trimmers[item])
+        s->trimmers[item] = solid_trimmer_create(s->scene->meshes[s->scene->items[item].mesh].solid);
+    return s->trimmers ? s->trimmers[item] : NULL;
+}
+
+static bool put_from(crossing_search *s, const face_crossing *c, int side);
+
+/* The stretches of a crossing at which its face bounds the solid. */
+static bool put_trimmed(crossing_search *s, const face_crossing *c, int side)
+{
+    const stroke_item *item = &s->scene->items[c->items[side]];
+    solid_trimmer     *t = trimmer_of(s, c->items[side]);
+    const solid_share *found;
+    size_t             count;
+    const mat4         inverse = mat4_inverse(&item->world);
+    double             ends[2][3];
+    for (int k = 0; k < 2; k++)
+        for (int row = 0; row < 3; row++)
+            ends[k][row] = inverse.m[row] * c->ends[k].x + inverse.m[4 + row] * c->ends[k].y +
+                           inverse.m[8 + row] * c->ends[k].z + inverse.m[12 + row];
+    s->failed = !t || !solid_trim(t, c->faces[side], ends[0], ends[1], &found, &count);
+    solid_share *shares =
+        s->failed ? NULL : mem_copy(found, count * sizeof *shares); /* the other side may be its own */
+    s->failed = s->failed || (count && !shares);
+    for (size_t i = 0; !s->failed && i < count; i++) {
+        face_crossing part = *c;
+        double3       way = double3_minus(c->ends[1], c->ends[0]), from = c->ends[0];
+        if (shares[i].from > 0)
+            part.ends[0] = (double3){from.x + shares[i].from * way.x, from.y + shares[i].from * way.y,
+                                     from.z + shares[i].from * way.z};
+        if (shares[i].to < 1)
+            part.ends[1] =
+                (double3){from.x + shares[i].to * way.x, from.y + shares[i].to * way.y, from.z + shares[i].to * way.z};
+        put_from(s, &part, side + 1);
+    }
+    mem_free(shares);
+    return !s->failed;
+}
+
+static bool put_from(crossing_search *s, const face_crossing *c, int side)
+{
+    for (; side < 2; side++)
+        if (s->scene->meshes[s->scene->items[c->items[side]].mesh].solid)
+            return put_trimmed(s, c, side);
+    return keep_crossing(s, c);
+}
+
+/* Adds a crossing, of faces of solids as far as they bound them. */
+static bool put_crossing(crossing_search *s, const face_crossing *c)
+{
+    return put_from(s, c, 0);
 }
 
 /* On which side of the other plane a face is that has an edge on it: 1 or −1; 0 where it has none. */
@@ -397,6 +472,8 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
         second = other;
     }
     const near_face *n = &s->faces[first], *m = &s->faces[second];
+    if (!asks_for(s, s->pieces[first], s->pieces[second]))
+        return true;
     if (n->item == m->item && s->still[n->item]) {
         const edge_mesh *own = &s->scene->meshes[s->scene->items[n->item].mesh];
         if (is_clear(s, own, n->face, m->face) || is_clear(s, own, m->face, n->face))
@@ -472,12 +549,29 @@ static lmn_status search(crossing_search *s, lmn_error *error)
     return s->failed ? error_memory(error) : LMN_OK;
 }
 
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
-                          lmn_error *error)
+/* Sorts them by the item that has the line, each item's in the order in which they were found. */
+static bool crossings_sort(crossing_list *c, size_t item_count)
+{
+    c->first = mem_calloc(item_count + 2, sizeof *c->first);
+    c->order = mem_alloc((c->count + 1) * sizeof *c->order);
+    if (!c->first || !c->order)
+        return false;
+    for (size_t i = 0; i < c->count; i++)
+        c->first[c->crossings[i].items[0] + 2]++;
+    for (size_t i = 2; i < item_count + 2; i++)
+        c->first[i] += c->first[i - 1];
+    for (size_t i = 0; i < c->count; i++)
+        c->order[c->first[c->crossings[i].items[0] + 1]++] = i;
+    return true;
+}
+
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, lmn_progress_fn progress,
+                          void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     crossing_search s = {.scene = scene,
                          .out = out,
+                         .parts = parts,
                          .region = box3_empty(),
                          .progress = progress,
                          .user = user,
@@ -487,6 +581,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     mem_free(s.still);
     mem_free(s.piece_boxes);
     mem_free(s.piece_meets);
+    mem_free(s.piece_asks);
     mem_free(s.marks);
     mem_free(s.faces);
     mem_free(s.boxes);
@@ -495,7 +590,10 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_pro
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);
     mem_free(s.turns);
-    if (status == LMN_OK && !crossings_settle(out))
+    for (size_t i = 0; i < scene->item_count && s.trimmers; i++)
+        solid_trimmer_destroy(&s.trimmers[i]);
+    mem_free(s.trimmers);
+    if (status == LMN_OK && !(crossings_settle(out) && crossings_sort(out, scene->item_count)))
         status = error_memory(error);
     if (status != LMN_OK)
         crossings_release(out);
@@ -506,18 +604,45 @@ void crossings_release(crossing_list *c)
 {
     mem_free(c->crossings);
     mem_free(c->beside);
+    mem_free(c->first);
+    mem_free(c->order);
+    mem_free(c->parts);
     memset(c, 0, sizeof *c);
 }
 
-lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *user, lmn_error *error)
+/* Are all that are asked for among those that were? */
+static bool has_all(const crossing_list *c, const bool *parts, size_t part_count)
 {
-    if (s->crossings)
+    for (size_t i = 0; i < part_count && c->parts; i++)
+        if (!(i < c->part_count && c->parts[i]) && (!parts || parts[i]))
+            return false;
+    return true;
+}
+
+bool stroke_scene_has_crossings(const stroke_scene *s, const bool *parts, size_t part_count)
+{
+    return s->crossings && has_all(s->crossings, parts, part_count);
+}
+
+lmn_status stroke_scene_cross(stroke_scene *s, const bool *parts, size_t part_count, lmn_progress_fn progress,
+                              void *user, lmn_error *error)
+{
+    if (stroke_scene_has_crossings(s, parts, part_count))
         return LMN_OK;
-    s->crossings = mem_calloc(1, sizeof *s->crossings);
+    if (s->crossings)
+        crossings_release(s->crossings);
+    else
+        s->crossings = mem_calloc(1, sizeof *s->crossings);
     if (!s->crossings)
         return error_memory(error);
-    lmn_status status = crossings_find(s->crossings, s, progress, user, error);
+    lmn_status status = crossings_find(s->crossings, s, parts, progress, user, error);
+    if (status == LMN_OK && parts) {
+        s->crossings->part_count = part_count;
+        s->crossings->parts = mem_copy(parts, part_count * sizeof *parts);
+        status = s->crossings->parts ? LMN_OK : error_memory(error);
+    }
     if (status != LMN_OK) {
+        crossings_release(s->crossings);
         mem_free(s->crossings);
         s->crossings = NULL;
     }
@@ -527,6 +652,12 @@ lmn_status stroke_scene_cross(stroke_scene *s, lmn_progress_fn progress, void *u
 size_t stroke_scene_crossing_count(const stroke_scene *s)
 {
     return s->crossings ? s->crossings->count : 0;
+}
+
+const size_t *stroke_scene_crossings_of(const stroke_scene *s, uint32_t item, size_t *count)
+{
+    *count = s->crossings ? s->crossings->first[item + 1] - s->crossings->first[item] : 0;
+    return s->crossings ? s->crossings->order + s->crossings->first[item] : NULL;
 }
 
 /* Of a face, world axes; 0, 0, 0 where its piece is open. */

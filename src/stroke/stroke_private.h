@@ -93,6 +93,8 @@ struct stroke_view {
     window_grid         grid;
     uint32_t            face_count, piece_count, vertex_count;
     uint32_t           *face_pieces; /* per face: of all pieces in the view */
+    uint32_t *solids; /* per piece: 1 + the item of which it is, where that is a solid; NULL: there are none */
+    bool     *around; /* per item: a solid that reaches up to the eye, which may be in it */
 };
 
 /* A straight line whose visibility is asked for. */
@@ -141,6 +143,12 @@ static inline bool view_is_front(const stroke_view *v, uint32_t face)
 static inline double window_side(window_point a, window_point b, window_point c)
 {
     return ((double)b.x - a.x) * ((double)c.y - a.y) - ((double)b.y - a.y) * ((double)c.x - a.x);
+}
+
+/* 1 + the item of a face of a solid, 0: the face is a mesh's, and each face is a surface. */
+static inline uint32_t view_solid(const stroke_view *v, uint32_t face)
+{
+    return v->solids ? v->solids[v->face_pieces[face]] : 0;
 }
 
 /* --- grid.c --- */
@@ -197,14 +205,17 @@ struct crossing_list {
     size_t         count, capacity;
     uint32_t (*beside)[2]; /* pieces, of all in the scene, that nearly coincide, so that one is in front here and the
                               other one there; each pair both ways, ascending */
-    size_t beside_count, beside_capacity;
+    size_t  beside_count, beside_capacity;
+    size_t *first, *order; /* per item, and one more: its first one in `order`, which has their indices */
+    bool   *parts;         /* that were asked for, a flag each; NULL: all */
+    size_t  part_count;
 };
 void crossings_release(crossing_list *c);
 /* So far pieces that nearly coincide may lie in front of each other: fraction of the scene's diagonal. */
 #define BESIDE_LIFT 1.5e-3
-/* All of them, in an order that depends on the scene alone. */
-lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, lmn_progress_fn progress, void *user,
-                          lmn_error *error);
+/* All that one of these parts (a flag each; NULL: all) has, in an order that depends on the scene alone. */
+lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const bool *parts, lmn_progress_fn progress,
+                          void *user, lmn_error *error);
 
 /* --- lines.c --- */
 /* Line edges of one view, before they are chained. */

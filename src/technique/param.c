@@ -277,13 +277,28 @@ static bool parse_palette(const char *given, palette *out)
     return true;
 }
 
+/* Control characters, those of UTF-8 too, and what turns text round or is none: marks of byte order, embeddings,
+ * overrides and isolates, lines and paragraphs that end. */
+static bool is_control(const unsigned char *c)
+{
+    static const char *const hidden[] = {"\xEF\xBB\xBF", "\xE2\x80\xA8", "\xE2\x80\xA9", "\xE2\x80\xAA",
+                                         "\xE2\x80\xAB", "\xE2\x80\xAC", "\xE2\x80\xAD", "\xE2\x80\xAE",
+                                         "\xE2\x81\xA6", "\xE2\x81\xA7", "\xE2\x81\xA8", "\xE2\x81\xA9"};
+    if (*c < ' ' || *c == 127 || (*c == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0))
+        return true;
+    for (size_t i = 0; i < PARAM_COUNT(hidden); i++)
+        if (strncmp((const char *)c, hidden[i], 3) == 0)
+            return true;
+    return false;
+}
+
 static bool parse_words(const char *given, param_words *out)
 {
     size_t length = strlen(given);
     if (length >= sizeof out->text)
         return false;
     for (size_t i = 0; i < length; i++)
-        if ((unsigned char)given[i] < ' ' || given[i] == 127)
+        if (is_control((const unsigned char *)given + i))
             return false;
     memset(out, 0, sizeof *out);
     memcpy(out->text, given, length);

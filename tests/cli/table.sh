@@ -254,9 +254,12 @@ group_draw() {
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
-    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 0 '' 'widget.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 2 "^limner: $examples/csg/widget.csg: lines of form" '' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5
+    printf '{"version":1,"name":"removed","rules":[{"select":"*","surface":"flat"},{"select":"@removed","lines":"strokes"}]}' > in-removed.json
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of what is there" '' draw "$examples/csg/widget.csg" $small --look ./in-removed.json
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
-    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    row 0 'warning: lines of form' 'x.png' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5 --lenient -o x.png
     # Poses at telling moments, on one plate or as contours; the time is the end of the clip.
     row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
     grep -q '"reason": "turn"' r.json || complain "no turn is told"
@@ -742,20 +745,25 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg; has x.svg 'class="hidden'
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
-    # What has no strokes is said.
+    # Solids have lines as meshes have; sections have lines and hatching.
     local widget=$examples/csg/widget.csg ending
     for ending in svg pdf dxf; do
-        row 1 "^limner: $gear: sections have no lines in vector drawings" '' draw "$gear" "${sheet[@]}" -o x.$ending --cut x
-        row 2 "^limner: $widget: 1 solids of set operations have no lines in vector drawings" '' draw "$widget" "${sheet[@]}" -o x.$ending
+        row 0 '' "x.$ending" draw "$gear" "${sheet[@]}" -o x.$ending --cut x
+        row 0 '' "x.$ending" draw "$widget" "${sheet[@]}" -o x.$ending
+        row 0 '' "x.$ending" draw "$gear" "$widget" "${sheet[@]}" -o x.$ending --cut 'box=50%,50%,50%:100%,100%,100%'
     done
-    row 1 '^hint: draw a picture \(.png\); --lenient' '' draw "$gear" "${sheet[@]}" -o x.svg --set scene.cut=x
-    row 2 'solids of set operations' '' draw "$widget" --look toon -o x.svg
-    row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x --lenient
-    row 0 'warning: 1 solids' 'x.svg' draw "$widget" --look ghost -o x.svg --lenient
+    has x.dxf '^HATCH$'
+    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
+    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
+    grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"
+    # What has no strokes is said.
+    row 2 "^limner: $widget: marks lie on meshes: 1 solids of set operations" '' draw "$widget" --look stipple -o x.svg
+    row 2 'lines of form' '' draw "$widget" "${sheet[@]}" -o x.svg --set lines.ridges=0.5
+    row 2 'what solids take away has no lines' '' draw "$widget" --look ghost -o x.svg
+    row 0 'warning: what solids take away has no lines' 'x.svg' draw "$widget" --look ghost -o x.svg --lenient
     grep -q 'selects no part' .stderr && complain "what solids take away is there, below the lines"
     printf '{"version":1,"name":"idle","rules":[{"select":"*","lines":"strokes"},{"select":"nosuch","lines":"strokes"}]}' > in-idle.json
     row 0 "warning: rule 1 of look 'idle' selects no part: 'nosuch'" 'x.svg' draw "$gear" --look ./in-idle.json -o x.svg
-    row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$gear" "$widget" "${sheet[@]}" -o x.svg --lenient
     # Wrong arguments, before any work.
     row 1 '--views goes with vector drawings' '' draw nosuch.stl --views front -o x.png
     row 1 '--plotter goes with vector drawings' '' draw nosuch.stl --plotter
@@ -919,18 +927,32 @@ group_depict() {
     row 0 '' out.png depict "$motion" $small -q -o out.png --time 1 --expressions in-told.json
     "$limner" depict "$motion" $small -q -o .again.png --time 1 --expressions in-told.json && cmp -s .again.png in-first.png ||
         complain "expressions that were explained draw another picture"
+    local told
+    for told in "$motion" "$examples/box-animated.glb" "$examples/scripts/catapult.json"; do
+        "$limner" depict "$told" $small -q -o in-first.png --explain > in-told.json 2> /dev/null
+        row 0 '' out.png depict "$told" $small -q -o out.png --expressions in-told.json
+        "$limner" depict "$told" $small -q -o .again.png --expressions in-told.json && cmp -s .again.png in-first.png ||
+            complain "expressions that were explained draw another picture"
+    done
     echo "$array" > in-path.json
     row 0 '' out.png depict "$motion" $small -q -o out.png -l line --expressions in-path.json
     row 0 '' out.png depict "$motion" $small -q -o out.png --interval 0.5:1
     row 1 '--interval' '' depict "$motion" --interval 1:0.5
     row 1 '--interval' '' depict "$motion" --interval soon
-    row 1 'none.json' '' depict "$motion" --expressions none.json
+    row 2 '^limner: none.json: No such file' '' depict "$motion" --expressions none.json
     echo '[{"target": "Tail", "depict": "path"}]' > in-path.json
-    row 1 'Tail' '' depict "$motion" --expressions in-path.json
+    row 2 "^limner: in-path.json:1:3: expression 1: .*'Tail'" '' depict "$motion" --expressions in-path.json
     echo '{' > in-path.json
-    row 1 'in-path.json: line' '' depict "$motion" --expressions in-path.json
+    row 2 '^limner: in-path.json:2: ' '' depict "$motion" --expressions in-path.json
     echo '{"a": 1}' > in-path.json
-    row 1 'no expressions' '' depict "$motion" --expressions in-path.json
+    row 2 '^limner: in-path.json:1:1: there are no expressions' '' depict "$motion" --expressions in-path.json
+    row 1 'behind the end of all motion' '' depict "$motion" --interval 50:60
+    echo '[]' > in-path.json
+    row 0 'warning: there are no expressions: nothing is told' out.png depict "$motion" $small -o out.png --expressions in-path.json
+    echo '[{"target": "Hips", "depict": "expand"}]' > in-path.json
+    row 0 "warning: expression 1, 'expand' of 'Hips', has no sign: it is as large" out.png depict "$motion" $small -o out.png --expressions in-path.json
+    printf '{"limner_script": 1, "nodes": [{"name": "b", "sphere": {}}],\n "expressions": [\n  {"target": "b", "depict": "paht"}]}' > in-script.json
+    row 2 "^limner: in-script.json:3:19: expression 1: there is no way to depict 'paht'" '' depict in-script.json
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain

@@ -45,6 +45,11 @@ static const stage
               "\"duration\": 2}",
               {0, 0, 9},
               {0, 0, 0}},
+    shrinkage = {CRATE("crate", "[0, 0, 0]"),
+                 "{\"target\": \"crate\", \"property\": \"scale\", \"linear\": [[2, 2, 2], [1, 1, 1]], "
+                 "\"duration\": 2}",
+                 {0, 0, 9},
+                 {0, 0, 0}},
     speaker = {CRATE("somebody", "[0, 0, 0]") ", {\"name\": \"head\", \"parent\": \"somebody\", \"sphere\": "
                                               "{\"radius\": 0.5}, \"translation\": [0, 1, 0]}",
                "{\"target\": \"somebody\", \"linear\": [[0, 0, 0], [0.5, 0, 0]], \"duration\": 2}",
@@ -95,7 +100,7 @@ static const scenario scenarios[] = {
     {"turnaround", NULL, &spin, "\"target\": \"crate\"", 1.2},
     {"tailspin", NULL, &spin, "\"target\": \"crate\"", 1.2},
     {"expand", NULL, &growth, "\"target\": \"crate\"", 1},
-    {"collapse", NULL, &growth, "\"target\": \"crate\"", 1},
+    {"collapse", NULL, &shrinkage, "\"target\": \"crate\"", 1},
     {"speech", NULL, &speaker, "\"target\": \"somebody\", \"text\": \"Here I am again\", \"side\": \"right\"", 1},
     {"thought", NULL, &speaker, "\"target\": \"somebody\", \"text\": \"Here I am again\", \"side\": \"right\"", 1},
     {"camera-path", NULL, &filmed, "\"target\": \"eye\"", 1.2},

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 
+#include "base/vector3.h"
 #include "contact/contact.h"
 #include "contact/surface.h"
 #include "import_support.h"
@@ -277,6 +278,27 @@ static void test_limbs_meet_where_they_have_been_apart(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Doors stop before walls, and thighs swing below a trunk: what comes near, and turns round there, has hit nothing. */
+static void test_what_stops_short_hits_nothing(void **state)
+{
+    (void)state;
+    static const char *const scripts[] = {"door", "runner", "turning"};
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
+        char path[1200];
+        snprintf(path, sizeof path, LIMNER_SOURCE_DIR "/examples/scripts/%s.json", scripts[i]);
+        lmn_scene *s = load_or_fail(path);
+        for (size_t k = 0; k < s->node_count; k++) {
+            size_t   count = 0;
+            contact *found = s->nodes[k].name ? contacts_of(s, s->nodes[k].name, 0, &count) : NULL;
+            if (count)
+                fail_msg("%s: %s has %zu contacts, the first one %g away", scripts[i], s->nodes[k].name, count,
+                         found[0].distance);
+            mem_free(found);
+        }
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* A box that lands flat touches with all of a face. */
 static void test_faces_touch_in_their_middle(void **state)
 {
@@ -290,6 +312,199 @@ static void test_faces_touch_in_their_middle(void **state)
     double     speed = sqrt(2 * 9.81 * 1.5);
     assert_true(count >= 1);
     expect(s, &found[0], speed / 9.81, (const double[]){1, 0, 0}, UP, 1.3 * speed, "ground");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* A ball of radius 0.5 that comes to a plate turned about z, at its face 1 s after it has begun, straight and as fast
+ * as is said, and goes on as is said. */
+static lmn_scene *ball_on_slope(double degrees, const double before[3], const double after[3])
+{
+    const double angle = degrees * acos(-1) / 180, n[3] = {-sin(angle), cos(angle), 0}, c[3] = {0.3, 2, -0.2};
+    char         nodes[1024], behaviour[1024];
+    snprintf(nodes, sizeof nodes,
+             "{\"name\": \"slope\", \"box\": {\"size\": [20, 1, 20]}, \"translation\": [%.17g, %.17g, %.17g], "
+             "\"rotation\": [0, 0, %.17g, %.17g]}, {\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}}",
+             c[0] - n[0], c[1] - n[1], c[2], sin(angle / 2), cos(angle / 2));
+    snprintf(
+        behaviour, sizeof behaviour,
+        "{\"target\": \"ball\", \"linear\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]], "
+        "\"times\": [0, 1, 2]}",
+        c[0] - before[0], c[1] - before[1], c[2] - before[2], c[0], c[1], c[2], c[0] + after[0], c[1] + after[1],
+        c[2] + after[2]);
+    return scene_of(nodes, behaviour);
+}
+
+static void expect_on_slope(double degrees, const double before[3], const double after[3])
+{
+    const double angle = degrees * acos(-1) / 180, n[3] = {-sin(angle), cos(angle), 0};
+    double       place[3] = {0.3, 2, -0.2}, change[3];
+    size_t       count;
+    lmn_scene   *s = ball_on_slope(degrees, before, after);
+    contact     *found = contacts_of(s, "ball", 0.1, &count);
+    vector3_add(place, place, -0.5, n);
+    vector3_add(change, after, -1, before);
+    if (count != 1)
+        fail_msg("%g degrees: %zu contacts", degrees, count);
+    expect(s, &found[0], 1, place, n, vector3_length(change), "slope");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* The normal is that of what is met, however the velocity changes, and the place that of the sphere. */
+static void test_slopes_are_met_where_the_sphere_touches(void **state)
+{
+    (void)state;
+    static const double degrees[] = {0, 5, 10, 17, 25, 37, 45, 60};
+    for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++) {
+        const double angle = degrees[i] * acos(-1) / 180, n[3] = {-sin(angle), cos(angle), 0}, down[3] = {0, -3, 0.4};
+        double       thrown[3];
+        vector3_add(thrown, down, -1.6 * vector3_dot(down, n), n);
+        expect_on_slope(degrees[i], down, thrown); /* as by a spring */
+        vector3_add(thrown, thrown, -0.7, down);
+        vector3_add(thrown, thrown, fmax(0, -vector3_dot(thrown, n)), n);
+        expect_on_slope(degrees[i], down, thrown);                       /* much slower along it */
+        expect_on_slope(degrees[i], down, (const double[]){0, 0, 0});    /* it stays */
+        expect_on_slope(degrees[i], down, (const double[]){-1, 4, 0.5}); /* it is thrown off aslant */
+    }
+    expect_on_slope(0, (const double[]){3, -3, 0}, (const double[]){0, 0, 0});
+    expect_on_slope(0, (const double[]){3, -1, 0}, (const double[]){0, 1, 0});
+}
+
+/* What glides on a floor and stops has not met the floor. */
+static void test_what_glides_meets_nothing(void **state)
+{
+    (void)state;
+    size_t     count;
+    lmn_scene *s = ball_on_slope(0, (const double[]){2, 0, 0.3}, (const double[]){0, 0, 0});
+    contact   *found = contacts_of(s, "ball", 0, &count);
+    assert_int_equal(count, 0);
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* An edge that is hit off its middle pushes towards the middle of the ball, a corner, too. */
+static void test_edges_and_corners_push_along_the_ball(void **state)
+{
+    (void)state;
+    static const double edge[3] = {2, 1, 0};
+    for (int i = 0; i < 3; i++) {
+        const double off = (19 + 20 * i) * acos(-1) / 180;
+        const double n[3] = {-sin(off), cos(off), 0};
+        char         behaviour[512];
+        double       c[3];
+        size_t       count;
+        vector3_add(c, edge, 0.5, n);
+        snprintf(behaviour, sizeof behaviour,
+                 "{\"target\": \"ball\", \"linear\": [[%.17g, %.17g, 0.1], [%.17g, %.17g, 0.1], [%.17g, %.17g, 0.1]], "
+                 "\"times\": [0, 1, 2]}",
+                 c[0], c[1] + 4, c[0], c[1], c[0], c[1] + 2);
+        lmn_scene *s = scene_of("{\"name\": \"table\", \"box\": {\"size\": [2, 1, 2]}, \"translation\": [3, 0.5, 0]}, "
+                                "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}}",
+                                behaviour);
+        contact   *found = contacts_of(s, "ball", 0.1, &count);
+        assert_int_equal(count, 1);
+        expect(s, &found[0], 1, (const double[]){2, 1, 0.1}, n, 6, "table");
+        mem_free(found);
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* Boxes turned so that a corner, an edge or a face comes first, on a face, and two edges crossed. */
+static void test_boxes_meet_with_what_comes_first(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *ground, *turn;
+        double      rise, place[3], normal[3];
+    } cases[] = {
+        {"[0, 0, 0, 1]", "[0, 0, 0.3826834323650898, 0.9238795325112867]", 0.7071067811865476, {0, 0, 0}, {0, 1, 0}},
+        {"[0, 0, 0.13052619222005157, 0.9914448613738104]", /* 15 degrees about z, and the box with it */
+         "[0, 0, 0.13052619222005157, 0.9914448613738104]",
+         0.5176380902050415,
+         {0, 0.0, 0},
+         {-0.25881904510252074, 0.9659258262890683, 0}},
+        {"[0.3826834323650898, 0, 0, 0.9238795325112867]", /* an edge along x below one along z */
+         "[0, 0, 0.3826834323650898, 0.9238795325112867]",
+         0,
+         {0, 0, 0},
+         {0, 1, 0}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        /* A ground of 8, its upper face, or for the last one its edge, through the origin. */
+        const bool   edge = i == 2;
+        const double down = edge ? 4 * sqrt(2) : 4, rise = edge ? sqrt(0.5) : cases[i].rise;
+        char         nodes[1024], behaviour[512];
+        const double n[3] = {cases[i].normal[0], cases[i].normal[1], 0};
+        snprintf(nodes, sizeof nodes,
+                 "{\"name\": \"ground\", \"box\": {\"size\": [8, 8, 8]}, \"rotation\": %s, \"translation\": [%.17g, "
+                 "%.17g, 0]}, {\"name\": \"crate\", \"box\": {\"size\": [1, 1, 1]}, \"rotation\": %s}",
+                 cases[i].ground, -down * n[0], -down * n[1], cases[i].turn);
+        snprintf(behaviour, sizeof behaviour,
+                 "{\"target\": \"crate\", \"linear\": [[0.7, %.17g, 0], [0, %.17g, 0], [0, %.17g, 0]], \"times\": "
+                 "[0, 1, 2]}",
+                 rise + 3, rise, rise + 1);
+        lmn_scene *s = scene_of(nodes, behaviour);
+        size_t     count;
+        contact   *found = contacts_of(s, "crate", 0.1, &count);
+        if (count != 1)
+            fail_msg("case %zu: %zu contacts", i, count);
+        double place[3] = {0, rise, 0};
+        vector3_add(place, place, i == 1 ? -0.5 : -rise, n);
+        expect(s, &found[0], 1, place, n, sqrt(0.49 + 16), "ground");
+        mem_free(found);
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* Along the line between the middles of two balls, of which none has a vertex there; a squashed one has a normal of its
+ * own at each place: of x²/a² + y²/b² + z²/a² = 1 it is (x/a², y/b², z/a²). */
+static void test_balls_of_all_shapes_are_met_exactly(void **state)
+{
+    (void)state;
+    const double n[3] = {0.36, 0.48, 0.8}, a = 0.5, b = 0.2, slope[3] = {-sin(0.4), cos(0.4), 0};
+    char         nodes[1024], behaviour[512];
+    size_t       count;
+    snprintf(behaviour, sizeof behaviour,
+             "{\"target\": \"ball\", \"linear\": [[%.17g, %.17g, 3], [%.17g, %.17g, %.17g], [1, 0.9, 3]], \"times\": "
+             "[0, 1, 2]}",
+             1.5 * n[0], 1.5 * n[1], 1.5 * n[0], 1.5 * n[1], 1.5 * n[2]);
+    lmn_scene *s = scene_of("{\"name\": \"big\", \"sphere\": {\"radius\": 1}}, "
+                            "{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}}",
+                            behaviour);
+    contact   *found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, n, n, found[0].hit.speed, "big");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+    /* Where the outward normal is `slope` downwards; the support of the ellipsoid along it. */
+    const double reach = sqrt(a * a * slope[0] * slope[0] + b * b * slope[1] * slope[1]),
+                 place[3] = {-a * a * slope[0] / reach, -b * b * slope[1] / reach, 0};
+    snprintf(
+        nodes, sizeof nodes,
+        "{\"name\": \"slope\", \"box\": {\"size\": [20, 1, 20]}, \"translation\": [%.17g, %.17g, 0], \"rotation\": "
+        "[0, 0, %.17g, %.17g]}, {\"name\": \"ball\", \"sphere\": {\"radius\": 1}, \"scale\": [%.17g, %.17g, %.17g]}",
+        -(reach + 0.5) * slope[0], -(reach + 0.5) * slope[1], sin(0.2), cos(0.2), a, b, a);
+    s = scene_of(nodes, "{\"target\": \"ball\", \"linear\": [[0, 3, 0], [0, 0, 0], [0, 1, 0]], \"times\": [0, 1, 2]}");
+    found = contacts_of(s, "ball", 0.1, &count);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], 1, place, slope, 4, "slope");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* A floor that is not in the scene is touched with the sphere, too: here down is aslant. */
+static void test_floors_that_are_not_there_touch_the_sphere(void **state)
+{
+    (void)state;
+    size_t       count;
+    lmn_scene   *s = scene_of("{\"name\": \"ball\", \"sphere\": {\"radius\": 0.5}}",
+                              "{\"target\": \"ball\", \"function\": \"bounce\", \"start\": [-1.2, 1.6, 0], \"gravity\": "
+                                "[6, -8, 0], \"floor\": 0.5, \"restitution\": 0.8, \"duration\": 1}");
+    contact     *found = contacts_of(s, "ball", 0.1, &count);
+    const double seconds = sqrt(2 * 1.5 / 10);
+    assert_int_equal(count, 1);
+    expect(s, &found[0], seconds, (const double[]){0, 0, 0}, (const double[]){-0.6, 0.8, 0}, 1.8 * 10 * seconds, NULL);
     mem_free(found);
     lmn_scene_destroy(&s);
 }
@@ -336,10 +551,17 @@ int main(void)
         cmocka_unit_test(test_balls_name_each_other),
         cmocka_unit_test(test_bodies_are_as_they_are_then),
         cmocka_unit_test(test_faces_touch_in_their_middle),
+        cmocka_unit_test(test_what_stops_short_hits_nothing),
         cmocka_unit_test(test_what_falls_and_is_thrown_back_has_met_a_floor),
         cmocka_unit_test(test_sampled_falls_meet_the_ground_alone),
         cmocka_unit_test(test_clips_that_hit_nothing_have_no_contacts),
         cmocka_unit_test(test_limbs_meet_where_they_have_been_apart),
+        cmocka_unit_test(test_slopes_are_met_where_the_sphere_touches),
+        cmocka_unit_test(test_balls_of_all_shapes_are_met_exactly),
+        cmocka_unit_test(test_floors_that_are_not_there_touch_the_sphere),
+        cmocka_unit_test(test_what_glides_meets_nothing),
+        cmocka_unit_test(test_edges_and_corners_push_along_the_ball),
+        cmocka_unit_test(test_boxes_meet_with_what_comes_first),
         cmocka_unit_test(test_the_document_is_whole_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

@@ -317,7 +317,7 @@ static void controls_in_names_are_shown(void **state)
     lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
     lmn_draw_desc   draw = seen_at(1);
     desc.expressions = "[{\"target\": \"a\\u001b[31mb\\u0007\\u009b\", \"depict\": \"path\"}]";
-    assert_int_equal(lmn_depict(s, &draw, &desc, NULL, &error), LMN_USAGE);
+    assert_int_equal(lmn_depict(s, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "a\\x1b[31mb\\x07\\x9b"));
     lmn_scene_destroy(&s);
 }
@@ -408,7 +408,9 @@ static void shapes_are_told_by_their_shape(void **state)
         {"{\"name\": \"hand_ik_r\", \"translation\": [1, 0, 0]}", NULL},
         {"{\"name\": \"arm pole\", \"translation\": [1, 0, 0]}", NULL},
         {"{\"name\": \"hand_r\", \"translation\": [1, 0, 0]}", "hand"},
-        {"{\"name\": \"hand control\", \"box\": {\"size\": [1, 1, 1]}}", "hand"}, /* it is seen */
+        {"{\"name\": \"hand control\", \"box\": {\"size\": [1, 1, 1]}}", "hand"},             /* it is seen */
+        {"{\"name\": \"thing\", \"sphere\": {\"radius\": 1}, \"scale\": [1, 2, 0.7]}", NULL}, /* as a trunk */
+        {"{\"name\": \"thing\", \"sphere\": {\"radius\": 1}, \"scale\": 3}", "ball"},
         {"{\"name\": \"door\", \"box\": {\"size\": [1, 2, 0.1]}}", "door"},
         {"{\"name\": \"thing\", \"semantics\": \"ball\", \"box\": {\"size\": [1, 1, 1]}}", "ball"}, /* who says so */
     };
@@ -424,6 +426,55 @@ static void shapes_are_told_by_their_shape(void **state)
             fail_msg("%s is a %s", rows[i].node, told ? told : "thing");
         lmn_scene_destroy(&s);
     }
+}
+
+/* What is round of a figure is no ball: sleeves, caps, trunks. What somebody throws is one. */
+static void round_limbs_are_no_balls(void **state)
+{
+    (void)state;
+    size_t     balls = 0, named = 0;
+    lmn_scene *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/batting-hit.json");
+    for (size_t i = 0; i < s->node_count; i++) {
+        const char *told = semantics_of(s, (int32_t)i);
+        if (!told || strcmp(told, "ball") != 0)
+            continue;
+        balls++;
+        named += strstr(s->nodes[i].name, "ball") != NULL;
+    }
+    assert_true(balls > 0);
+    assert_int_equal(balls, named);
+    lmn_scene_destroy(&s);
+}
+
+/* Two things that come together are hit both, and one star tells it; what one of them hits else has one of its own. */
+static void one_hit_is_told_once(void **state)
+{
+    (void)state;
+    lmn_scene *s = scene_of(
+        "{\"name\": \"wall\", \"box\": {\"size\": [0.2, 4, 4]}, \"translation\": [6.6, 0, 0]}, "
+        "{\"name\": \"a\", \"sphere\": {\"radius\": 0.5}}, {\"name\": \"b\", \"sphere\": {\"radius\": 0.5}}",
+        "[{\"target\": \"a\", \"linear\": [[-6, 0, 0], [-0.5, 0, 0], [-6, 0, 0]], \"times\": [0, 1, 3]}, "
+        "{\"target\": \"b\", \"linear\": [[4, 0, 0], [0.5, 0, 0], [6, 0, 0], [4, 0, 0]], \"times\": [0, 1, 2, 3]}]");
+    json_t       *told = told_of(s, NULL, 2.5);
+    size_t        i, both = 0, walls = 0;
+    const json_t *e;
+    json_array_foreach(json_object_get(told, "expressions"), i, e)
+    {
+        if (strcmp(json_string_value(json_object_get(e, "depict")), "collision") != 0)
+            continue;
+        const char *target = json_string_value(json_object_get(e, "target")),
+                   *partner = json_string_value(json_object_get(e, "partner"));
+        const bool wall = partner && strcmp(partner, "wall") == 0;
+        walls += wall;
+        both += !wall;
+        assert_true(!wall || strcmp(target, "b") == 0);
+    }
+    json_decref(told);
+    /* Whichever is told first has the hit of both, and the wall's is told of b. */
+    assert_int_equal(both, 1);
+    assert_true(walls <= 1);
+    assert_int_equal(count_of(s, "star"), 2 * 2); /* rim and face of each */
+    lmn_scene_destroy(&s);
 }
 
 /* Its middle box is finely cut: corners and edges of a box are not as far from its middle as faces. */
@@ -455,6 +506,8 @@ int main(void)
         cmocka_unit_test(long_ways_have_few_dashes),
         cmocka_unit_test(faces_are_told),
         cmocka_unit_test(shapes_are_told_by_their_shape),
+        cmocka_unit_test(round_limbs_are_no_balls),
+        cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

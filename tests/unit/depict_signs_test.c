@@ -599,7 +599,7 @@ static void frames_are_what_the_camera_sees(void **state)
     lmn_error       error = {0};
     lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
     desc.expressions = "[{\"target\": \"box\", \"depict\": \"shot-flow\"}]";
-    assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_USAGE);
+    assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "camera"));
     lmn_scene_destroy(&scene);
 }
@@ -797,7 +797,7 @@ static void causes_are_shown(void **state)
     lmn_draw_desc   draw = seen_at(1);
     lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
     desc.expressions = "[{\"target\": \"ball\", \"depict\": \"cause\"}]";
-    assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_USAGE);
+    assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "partner"));
     lmn_scene_destroy(&scene);
 }
@@ -881,7 +881,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
         scene = spin_scene((double[]){1, 0, 0}, 0.7);
         target = "plane";
     } else if (strcmp(row, "expand") == 0 || strcmp(row, "collapse") == 0) {
-        scene = growth_scene(1, 2, 0);
+        scene = growth_scene(strcmp(row, "expand") == 0 ? 1 : 2, strcmp(row, "expand") == 0 ? 2 : 1, 0);
         target = "box";
     } else if (strcmp(row, "speech") == 0 || strcmp(row, "thought") == 0) {
         scene = speaker_scene(true, true);

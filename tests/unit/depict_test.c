@@ -592,31 +592,90 @@ static void mistakes_are_said(void **state)
     (void)state;
     static const struct {
         const char *text, *said;
-        lmn_status  status;
+        int         line, column;
     } rows[] = {
-        {"[", "line 1", LMN_FORMAT},
-        {"{}", "array", LMN_USAGE},
-        {"[1]", "object", LMN_USAGE},
-        {"[{}]", "\"target\"", LMN_USAGE},
-        {"[{\"target\": \"nobody\", \"depict\": \"path\"}]", "nobody", LMN_USAGE},
-        {"[{\"target\": \"#99\", \"depict\": \"path\"}]", "#99", LMN_USAGE},
-        {"[{\"target\": \"ball\"}]", "\"depict\"", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"paht\"}]", "paht", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 2, \"to\": 1}]", "interval", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": -1}]", "from", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": \"now\"}]", "from", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": \"wide\"}]", "width", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": 1e9}]", "width", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"breadth\": 1}]", "breadth", LMN_USAGE},
-        {"[{\"target\": \"ball\", \"depict\": \"path\", \"partner\": \"nobody\"}]", "nobody", LMN_USAGE},
+        {"[", "expressions: ", 1, 1},
+        {"{}", "no expressions", 1, 1},
+        {"[1]", "expression 1: an expression is an object", 1, 2},
+        {"[{}]", "\"target\"", 1, 2},
+        {"[{\"target\": \"nobody\", \"depict\": \"path\"}]", "nobody", 1, 3},
+        {"[{\"target\": \"#99\", \"depict\": \"path\"}]", "#99", 1, 3},
+        {"[{\"target\": \"ball\"}]", "\"depict\"", 1, 2},
+        {"[{\"target\": \"ball\", \"depict\": \"paht\"}]", "paht", 1, 21},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 2, \"to\": 1}]", "interval", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 1, \"to\": 1}]", "interval is empty", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"to\": 0}]", "interval is empty", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": 50, \"to\": 60}]", "behind the end", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": -1}]", "from", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"from\": \"now\"}]", "from", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": \"wide\"}]", "width", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": 1e9}]", "width", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"breadth\": 1}]", "breadth", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"partner\": \"nobody\"}]", "nobody", 1, 39},
+        {"[{\"target\": \"ball\", \"depict\": \"path\"},\n {\"target\": \"ball\", \"depict\": \"cause\"}]",
+         "expression 2, 'cause' of 'ball': ", 2, 2},
+        {"{\"a\": 1,\n\"expressions\": [{\"target\": \"ball\",\n \"depict\": \"path\", \"gap\": -1}]}",
+         "expression 1: gap", 3, 20},
+        {"[{\"target\": \"ball\", \"depict\": \"speech\", \"text\": \"a\\u0085\"}]", "control characters", 1, 41},
+        {"[{\"target\": \"ball\", \"depict\": \"speech\", \"text\": \"a\\u202eb\"}]", "control characters", 1, 41},
+        {"[{\"target\": \"ball\", \"depict\": \"speech\", \"text\": \"\\ufeff\"}]", "control characters", 1, 41},
+        {"[{\"target\": \"ball\", \"depict\": \"speech\", \"text\": \"   \"}]", "nothing of the text can be seen", 1,
+         2},
+        {"[{\"target\": \"ball\", \"depict\": \"thought\", \"text\": \"\"}]", "nothing of the text can be seen", 1, 2},
     };
     lmn_scene *scene = ball_scene("bad.glb", true);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lmn_error error = {0};
-        assert_int_equal(tell(scene, rows[i].text, 1, NULL, &error), rows[i].status);
-        if (!strstr(error.message, rows[i].said))
-            fail_msg("%s: %s", rows[i].text, error.message);
+        assert_int_equal(tell(scene, rows[i].text, 1, NULL, &error), LMN_FORMAT);
+        if (!strstr(error.message, rows[i].said) || error.line != rows[i].line || error.column != rows[i].column)
+            fail_msg("%s: %d:%d: %s", rows[i].text, error.line, error.column, error.message);
         assert_null(glyph_at(scene, "arrow", NULL, 0));
+    }
+    lmn_scene_destroy(&scene);
+}
+
+/* An editor finds the parameters of all ways to depict, with what they are set to where nobody says it. */
+static void parameters_are_listed(void **state)
+{
+    (void)state;
+    lmn_depiction_info way;
+    lmn_param_info     p;
+    for (size_t i = 0; lmn_depiction_at(i, &way); i++) {
+        for (size_t k = 0; k < way.param_count; k++) {
+            assert_true(lmn_depiction_param_at(i, k, &p));
+            assert_string_equal(p.key, depictions[i]->params[k].key);
+            assert_true(p.doc[0] && (p.type == LMN_PARAM_TEXT || p.default_text[0]));
+        }
+        assert_false(lmn_depiction_param_at(i, way.param_count, &p));
+    }
+    assert_false(lmn_depiction_param_at(1000, 0, &p));
+}
+
+/* What is asked for and has no sign is said, with why. */
+static void expressions_without_signs_are_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *said;
+    } rows[] = {
+        {"[]", "there are no expressions: nothing is told"},
+        {"[{\"target\": \"ball\", \"depict\": \"expand\"}]",
+         "expression 1, 'expand' of 'ball', has no sign: it is as large"},
+        {"[{\"target\": \"ball\", \"depict\": \"collapse\"}]", "has no sign: it is as large"},
+        {"[{\"target\": \"ball\", \"depict\": \"explode\"}]", "has no sign: there are no two things below it"},
+        {"[{\"target\": \"ball\", \"depict\": \"path\"}, {\"target\": \"ball\", \"depict\": \"split-path\"}]",
+         "expression 2, 'split-path' of 'ball', has no sign"},
+        {"[{\"target\": \"ball\", \"depict\": \"path\", \"width\": 0.001, \"dash\": 0.1, \"gap\": 0.1}]",
+         "dashes; it has 2000, which are longer"},
+    };
+    lmn_scene *scene = ball_scene("unsaid.glb", true);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmn_error error = {0};
+        char     *json = NULL;
+        assert_int_equal(tell(scene, rows[i].text, 1, &json, &error), LMN_OK);
+        if (!strstr(json, rows[i].said))
+            fail_msg("%s: %s", rows[i].text, json);
+        lmn_text_free(json);
     }
     lmn_scene_destroy(&scene);
 }
@@ -658,6 +717,8 @@ int main(void)
         cmocka_unit_test(expressions_come_back_as_they_were),
         cmocka_unit_test(proposals_follow_from_the_motion),
         cmocka_unit_test(mistakes_are_said),
+        cmocka_unit_test(expressions_without_signs_are_said),
+        cmocka_unit_test(parameters_are_listed),
         cmocka_unit_test(missing_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

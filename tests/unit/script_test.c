@@ -47,6 +47,35 @@ static void test_examples_are_read(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Sizes are along the script's own axes, whichever of these points up; round things stand on that one. */
+static void test_shapes_lie_in_the_axes_of_the_script(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape, *up;
+        double      size[3];
+    } rows[] = {
+        {"\"box\": {\"size\": [1, 2, 3]}", "y", {1, 2, 3}},
+        {"\"box\": {\"size\": [1, 2, 3]}", "z", {1, 2, 3}},
+        {"\"plane\": {\"size\": [1, 2]}", "y", {1, 0, 2}},
+        {"\"plane\": {\"size\": [1, 2]}", "z", {1, 2, 0}},
+        {"\"cylinder\": {\"radius\": 1, \"height\": 5}", "y", {2, 5, 2}},
+        {"\"cylinder\": {\"radius\": 1, \"height\": 5}", "z", {2, 2, 5}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "{\"limner_script\": 1, \"up\": \"%s\", \"nodes\": [{\"name\": \"it\", %s}]}",
+                 rows[i].up, rows[i].shape);
+        lmn_scene   *s = load_or_fail(temp_file("axes.json", text, strlen(text)));
+        const box3   b = s->meshes[0].primitives[0].bounds;
+        const double size[3] = {(double)(b.max.x - b.min.x), (double)(b.max.y - b.min.y), (double)(b.max.z - b.min.z)};
+        for (int k = 0; k < 3; k++)
+            if (fabs(size[k] - rows[i].size[k]) > 1e-6)
+                fail_msg("%s, up %s: %g along axis %d", rows[i].shape, rows[i].up, size[k], k);
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* Two scripts in one scene: each keeps its own nodes. */
 static void test_scripts_merge(void **state)
 {
@@ -135,8 +164,11 @@ static void test_memory_may_end_anywhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_examples_are_read),       cmocka_unit_test(test_scripts_merge),
-        cmocka_unit_test(test_mistakes_have_places),    cmocka_unit_test(test_deep_activities_are_refused),
+        cmocka_unit_test(test_examples_are_read),
+        cmocka_unit_test(test_shapes_lie_in_the_axes_of_the_script),
+        cmocka_unit_test(test_scripts_merge),
+        cmocka_unit_test(test_mistakes_have_places),
+        cmocka_unit_test(test_deep_activities_are_refused),
         cmocka_unit_test(test_memory_may_end_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

@@ -375,7 +375,7 @@ static void same_call_same_strokes(void **state)
     stroke_shot    shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
     stroke_options w = all_lines();
     stroke_set     again;
-    assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, 0, NULL, NULL, NULL), LMN_OK);
     assert_int_equal(stroke_find(&again, shot.view, &w, NULL, NULL, NULL, NULL), LMN_OK);
     assert_true(sets_are_equal(&shot.set, &again));
     stroke_set_release(&again);
@@ -394,7 +394,7 @@ static void crossings_look_outwards(void **state)
     s->nodes[s->node_count - 1].scale[1] = -2; /* from −1.4 to −0.6 */
     add_plate(s, -2, -2, 2, 2, 0.1);
     stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
-    assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, 0, NULL, NULL, NULL), LMN_OK);
     const double boxes[3][6] = {
         {-1, -1, -1, 1, 1, 1}, {0.5, 0.2, -0.6, 2.5, 1.5, 1.4}, {-0.5, -1.4, 0.2, 0.6, -0.6, 2.5}};
     size_t on_box[3] = {0}, open = 0;

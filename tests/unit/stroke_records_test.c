@@ -166,6 +166,32 @@ static void test_seen_ones(void **state)
     edge_mesh_release(&e);
 }
 
+/* Who asks for the crossings of some parts gets theirs, with whatever they run through, and no others. */
+static void test_crossings_of_some_parts(void **state)
+{
+    (void)state;
+    static const bool wanted[2][3] = {{false, false, true}, {true, false, true}};
+    lmn_scene        *s = stroke_scene_begin();
+    add_box(s, -1, -1, -1, 1, 1, 1);
+    add_box(s, 0, 0, 0, 2, 2, 2);
+    add_plate(s, -2, -2, 2, 2, 0.5);
+    const double from[3] = {0, 0, 0};
+    stroke_shot  shot =
+        shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_options){.contours = CONTOURS_EDGES});
+    assert_int_equal(stroke_scene_cross(shot.scene, wanted[0], 3, NULL, NULL, NULL), LMN_OK);
+    const size_t some = stroke_scene_crossing_count(shot.scene);
+    assert_true(stroke_scene_has_crossings(shot.scene, wanted[0], 3));
+    assert_false(stroke_scene_has_crossings(shot.scene, wanted[1], 3));
+    assert_false(stroke_scene_has_crossings(shot.scene, NULL, 3));
+    assert_int_equal(stroke_scene_cross(shot.scene, wanted[1], 3, NULL, NULL, NULL), LMN_OK);
+    const size_t more = stroke_scene_crossing_count(shot.scene);
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, 0, NULL, NULL, NULL), LMN_OK);
+    assert_true(stroke_scene_has_crossings(shot.scene, wanted[0], 3));
+    assert_true(some > 0 && some < more);                            /* both boxes without their own */
+    assert_int_equal(stroke_scene_crossing_count(shot.scene), more); /* all have the first box, or the plate */
+    shot_release(&shot);
+}
+
 /* Each crossing has one record, with its item's, and the normals of both surfaces. */
 static void test_crossings(void **state)
 {
@@ -177,7 +203,7 @@ static void test_crossings(void **state)
     const double from[3] = {0, 0, 0};
     stroke_shot  shot =
         shoot(s, look_along(-1, -1, -1, from, 20, 3, true, 200, 200), (stroke_options){.contours = CONTOURS_EDGES});
-    assert_int_equal(stroke_scene_cross(shot.scene, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(stroke_scene_cross(shot.scene, NULL, 0, NULL, NULL, NULL), LMN_OK);
     size_t all = stroke_scene_crossing_count(shot.scene), found = 0;
     assert_true(all > 10);
     for (uint32_t item = 0; item < 3; item++) {
@@ -287,6 +313,7 @@ int main(void)
         cmocka_unit_test(test_triangle),
         cmocka_unit_test(test_seen_ones),
         cmocka_unit_test(test_crossings),
+        cmocka_unit_test(test_crossings_of_some_parts),
         cmocka_unit_test(test_creases_come_first),
         cmocka_unit_test(test_ribbons),
         cmocka_unit_test(test_without_memory),

@@ -1,5 +1,6 @@
 """The viewer's window, step by step as a person uses it. Arguments: VIEWER COMMAND SOURCE FOLDER."""
 import filecmp
+import json
 import os
 import shlex
 import shutil
@@ -235,6 +236,51 @@ def solid_edited():
     check("it ends after solids were edited", v.close() == 0)
 
 
+def signs_edited():
+    script = os.path.join(FOLDER, "told.json")
+    shutil.copy(os.path.join(SOURCE, "examples", "scripts", "bounce.json"), script)
+    with open(script) as file:
+        before = file.read()
+    v = Viewer(VIEWER, [script])
+    v.wait("loaded parts")
+    xdo("mousemove", *centre(v.find("Signs", "page tab")), "click", 1)
+    v.rests()
+    slider = v.find("path.width", "slider")
+    check("a script's expressions are listed with their options", v.find("still.count", "slider") is not None)
+    since = v.mark()
+    slider.set_current_value(0.9)
+    v.wait("expressions count=4", since=since)
+    v.rests(since)
+    check("an option changes the signs, and the picture follows", True)
+    since = v.mark()
+    v.find("path.from", "text").set_text_contents("soon")
+    v.wait("refused", since=since)
+    check("a refused option is told", True)
+    since = v.mark()
+    v.click("Save expressions")
+    v.wait("saved-expressions", since=since)
+    with open(script) as file:
+        after = file.read()
+    told, first = json.loads(after), json.loads(before)
+    check("they are saved in the script, and nothing else is changed",
+          told["expressions"] != first["expressions"] and {**told, "expressions": 0} == {**first, "expressions": 0} and
+          after.startswith(before[:before.index('"expressions"')]))
+    since = v.mark()
+    v.click("Take all signs away")
+    v.wait("expressions count=0", since=since)
+    since = v.mark()
+    v.click("Propose signs")
+    count = int(v.wait(r"expressions count=(\d+)", since=since).group(1))
+    check("signs are proposed from what moves", count > 1)
+    since = v.mark()
+    v.click("Main menu")
+    time.sleep(0.4)
+    v.click("Copy as command")
+    v.wait("not-copied", since=since)
+    check("signs are not copied as a command", True)
+    check("it ends with signs", v.close() == 0)
+
+
 def copied_and_exported(v):
     since = v.mark()
     v.click("Main menu")
@@ -374,7 +420,7 @@ def main():
                     break
         if v.process.poll() is None:
             v.process.send_signal(signal.SIGKILL)
-        for step in (goes_on_where_it_was, solid_edited, look_file_changed, says_what_is_wrong):
+        for step in (goes_on_where_it_was, solid_edited, signs_edited, look_file_changed, says_what_is_wrong):
             try:
                 step()
             except Failure as e:

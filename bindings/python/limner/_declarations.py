@@ -854,6 +854,7 @@ FUNCTIONS = {
     "lmn_depict_clear": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_look_add_sign_rules": (c_int, [c_void_p, POINTER(lmn_error)]),
     "lmn_depiction_at": (c_bool, [c_size_t, POINTER(lmn_depiction_info)]),
+    "lmn_depiction_param_at": (c_bool, [c_size_t, c_size_t, POINTER(lmn_param_info)]),
     "lmn_depiction_reference": (c_void_p, []),
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
     "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),

@@ -19,8 +19,8 @@ static void put_edge(float *out, const record_bends *bends, uint32_t edge)
 {
     const edge_mesh *m = bends->m;
     const mesh_edge *e = &m->edges[edge];
-    bool             pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
-    int bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
+    bool pair = e->face[1] != EDGE_NO_FACE && !(e->flags & EDGE_HOLLOW), closed = m->closed[m->pieces[e->face[0]]];
+    int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
                (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0) |
                (e->flags & EDGE_QUIET ? RECORD_QUIET : 0);
@@ -171,15 +171,13 @@ float *strokes_edge_records_seen(const edge_mesh *m, const float viewer[4], size
 
 float *strokes_crossing_records(const stroke_scene *s, uint32_t item, size_t *count)
 {
-    size_t all = stroke_scene_crossing_count(s), own = 0;
-    double ends[2][3];
-    vec3   outward[2];
-    for (size_t i = 0; i < all; i++)
-        own += stroke_scene_crossing(s, i, ends, outward) == item;
-    float *records = mem_calloc(own + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
-    for (size_t i = 0; i < all && records; i++) {
-        if (stroke_scene_crossing(s, i, ends, outward) != item)
-            continue;
+    size_t        own;
+    double        ends[2][3];
+    vec3          outward[2];
+    const size_t *indices = stroke_scene_crossings_of(s, item, &own);
+    float        *records = mem_calloc(own + 1, EDGE_RECORD_FLOATS * sizeof *records), *at = records;
+    for (size_t i = 0; i < own && records; i++) {
+        stroke_scene_crossing(s, indices[i], ends, outward);
         for (int k = 0; k < 3; k++) {
             at[k] = (float)ends[0][k];
             at[4 + k] = (float)ends[1][k];
