@@ -151,6 +151,60 @@ static void print_films(const json_t *list)
     }
 }
 
+/* The newest GDAL that is installed; the library looks for the same names (src/import/geodata_library.c). */
+static void *load_gdal(void)
+{
+    enum { NEWEST = 45, OLDEST = 26 };
+    char  name[32];
+    void *found = NULL;
+    for (int i = NEWEST; i >= OLDEST && !found; i--) {
+        snprintf(name, sizeof name, "libgdal.so.%d", i);
+        found = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+    }
+    return found ? found : dlopen("libgdal.so", RTLD_LAZY | RTLD_LOCAL);
+}
+
+/* {"gdal": "3.6.2", "proj": "9.1.1", "package": …}; null: not installed. Reading runs it in a fenced process; here it
+ * is asked for its version alone. */
+static json_t *find_geodata(void)
+{
+    const char *(*release)(const char *) = NULL;
+    void (*proj)(int *, int *, int *) = NULL;
+    void   *gdal = load_gdal();
+    json_t *out = json_pack("{s:n, s:n, s:s}", "gdal", "proj", "package", "gdal-bin");
+    if (gdal) {
+        *(void **)&release = dlsym(gdal, "GDALVersionInfo");
+        *(void **)&proj = dlsym(gdal, "OSRGetPROJVersion");
+    }
+    if (release)
+        json_object_set_new(out, "gdal", json_string(release("RELEASE_NAME")));
+    if (proj) {
+        char text[64];
+        int  v[3] = {0};
+        proj(&v[0], &v[1], &v[2]);
+        snprintf(text, sizeof text, "%d.%d.%d", v[0], v[1], v[2]);
+        json_object_set_new(out, "proj", json_string(text));
+    }
+    return out; /* it stays loaded to the end: some of its libraries do not survive being unloaded */
+}
+
+static void print_geodata(const json_t *found)
+{
+    static const struct {
+        const char *key, *name, *what;
+    } rows[] = {{"gdal", "GDAL", "GeoPackage, shapefiles, OpenStreetMap extracts and terrain"},
+                {"proj", "PROJ", "terrain and models in different coordinate systems"}};
+    printf("\ngeodata\n");
+    for (size_t i = 0; i < OPTION_COUNT(rows); i++) {
+        const char *version = text_at(found, rows[i].key, NULL);
+        printf("  %-28s ", rows[i].name);
+        if (version)
+            printf("%s\n", version);
+        else
+            printf("no: %s need it (sudo apt-get install %s)\n", rows[i].what, text_at(found, "package", ""));
+    }
+}
+
 static int print_report(json_t *root, bool as_json, bool usable)
 {
     if (as_json) {
@@ -164,6 +218,7 @@ static int print_report(json_t *root, bool as_json, bool usable)
         print_values(json_object_get(root, "gl"), 0);
         printf("\ndecoders\n");
         print_values(json_object_get(root, "decoders"), 2);
+        print_geodata(json_object_get(root, "geodata"));
         print_films(json_object_get(root, "films"));
         print_limits(json_object_get(root, "limits"));
         printf("\nLimner can draw here.\n");
@@ -203,6 +258,7 @@ static int run(const word_list *inputs, const void *values)
     }
     json_object_set_new(root, "missing", missing);
     json_object_set_new(root, "decoders", json_pack("{s:s}", "fence", lmn_fence_kind()));
+    json_object_set_new(root, "geodata", find_geodata());
     json_object_set_new(root, "films", list_films());
     json_object_set_new(root, "limits", list_limits());
     lmn_renderer_destroy(&renderer);

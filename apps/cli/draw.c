@@ -362,6 +362,26 @@ static int draw_frames(draw_session *s, const lmn_scene *scene, const char *inpu
     return status;
 }
 
+/* Puts a bent scene in the place of one that is not seen as a single camera does. */
+static int project(draw_session *s, lmn_scene **scene)
+{
+    const draw_values  *v = s->values;
+    lmn_projection_desc d = LMN_PROJECTION_DESC_INIT;
+    lmn_scene          *bent = NULL;
+    lmn_error           error = {0};
+    if (v->perspective <= 0)
+        return EXIT_DONE;
+    d.projection = (lmn_projection)(v->perspective - 1);
+    d.angle_deg = v->bend.given ? v->bend.value : v->horizon.given ? v->horizon.value : 0;
+    d.from = v->bend_from.given ? v->bend_from.value : d.from;
+    d.to = v->bend_to.given ? v->bend_to.value : d.to;
+    if (lmn_scene_project(&bent, *scene, &s->desc, &d, &error) != LMN_OK)
+        return message_error(&error);
+    lmn_scene_destroy(scene);
+    *scene = bent;
+    return EXIT_DONE;
+}
+
 static int draw_scene(draw_session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
@@ -387,6 +407,8 @@ static int draw_scene(draw_session *s, const char *const *paths, size_t count)
     if (status == EXIT_DONE && s->depicts)
         status = depict_scene(scene, &s->desc, s->values->expressions, s->values->interval, s->values->explain,
                               s->values->quiet);
+    if (status == EXIT_DONE)
+        status = project(s, &scene);
     if (status == EXIT_DONE)
         status = check_last_frame(s, scene);
     s->progress.label = paths[0];

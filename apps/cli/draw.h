@@ -16,7 +16,8 @@ typedef struct draw_values {
     word_list        sets;
     option_size      size;
     option_number    time, seed, samples, dpi;
-    int              up_axis, angle;
+    int              up_axis, angle, perspective; /* perspective: 0 that of a camera, else lmn_projection + 1 */
+    option_number    bend, bend_from, bend_to, horizon;
     const char      *lod, *terrain;
     option_number    populate;
     word_list        defines;

@@ -93,6 +93,35 @@ static int check_effect(const draw_session *s)
     return EXIT_DONE;
 }
 
+/* What a bent scene cannot be drawn with. */
+static int check_perspective(const draw_session *s)
+{
+    enum { MULTI = 1, PANORAMA };
+    const draw_values *v = s->values;
+    bool               multi = v->perspective == MULTI, round = v->perspective == PANORAMA;
+    const struct {
+        bool        given;
+        const char *name, *why;
+    } rows[] = {
+        {!multi && (v->bend.given || v->bend_from.given || v->bend_to.given), "bend", "goes with --perspective multi"},
+        {!round && v->horizon.given, "horizon", "goes with --perspective panorama"},
+        {round && !v->viewpoint.eye.given, "perspective", "panorama needs --eye X,Y,Z"},
+        {round && (v->viewpoint.fov.given || v->viewpoint.orthographic || v->viewpoint.fit.given), "perspective",
+         "panorama is as wide as --horizon says: it goes neither with --fov nor with --fit or --ortho"},
+        {round && v->page, "perspective", "panorama has the shape of --size, not of --page"},
+        {(multi || round) && v->frames, "perspective", "bends what stands still: it does not go with --frames"},
+        {(multi || round) && v->fit_time, "perspective", "bends what stands still: it does not go with --fit-time"},
+        {(multi || round) && v->poses, "perspective", "bends what stands still: it does not go with --poses"},
+        {(multi || round) && (v->views || v->scale), "perspective",
+         "has no scale: it goes neither with --views nor with --scale"},
+        {(multi || round) && s->depicts, "perspective", "goes with `limner draw`"},
+    };
+    for (size_t i = 0; i < OPTION_COUNT(rows); i++)
+        if (rows[i].given)
+            return message_usage(NULL, "--%s %s", rows[i].name, rows[i].why);
+    return EXIT_DONE;
+}
+
 /* Options of one kind of drawing that the other has not. */
 static int check_vectors(const draw_session *s)
 {
@@ -113,6 +142,8 @@ static int check_vectors(const draw_session *s)
     int status = check_capacity(s);
     if (status == EXIT_DONE)
         status = check_effect(s);
+    if (status == EXIT_DONE)
+        status = check_perspective(s);
     if (status != EXIT_DONE)
         return status;
     if (v->views && (v->viewpoint.view >= 0 || v->viewpoint.eye.given || v->viewpoint.camera))

@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const char *const angles[] = {"third", "first", NULL};
+static const char *const perspectives[] = {"single", "multi", "panorama", NULL};
 
 static void write_format_doc(char *out, size_t size)
 {
@@ -49,6 +50,20 @@ static const option options[] = {
      "--page 96.",
      1, 10000},
     VIEWPOINT_OPTIONS(draw_values),
+    {"perspective", 0, OPTION_CHOICE, AT(perspective), "KIND",
+     "single as one camera sees it, multi near at hand so and in the distance from above, as maps for tourists are "
+     "drawn, or panorama around --eye. Default: single.",
+     .choices = perspectives},
+    {"bend", 0, OPTION_NUMBER, AT(bend), "DEG",
+     "Of --perspective multi: how far the ground stands up in the distance. Default: so that it is seen from 65 "
+     "degrees "
+     "above.",
+     1, 90},
+    {"bend-from", 0, OPTION_NUMBER, AT(bend_from), "PART",
+     "Where it begins to rise, of the way from the viewer to the far side. Default: 0.25.", 0, 1},
+    {"bend-to", 0, OPTION_NUMBER, AT(bend_to), "PART", "Where it is as steep as it gets. Default: 0.75.", 0, 1},
+    {"horizon", 0, OPTION_NUMBER, AT(horizon), "DEG",
+     "Of --perspective panorama: how much of the horizon the picture is wide. Default: 180.", 30, 360},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS",
      "Draw the model as it is at this time of its animation; also the time of what changes by itself (perturb.boil, "
      "surface.change). Default: the model at rest.",

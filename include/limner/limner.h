@@ -37,6 +37,7 @@
 #include "limner/look.h"
 #include "limner/maps.h"
 #include "limner/memory.h"
+#include "limner/projection.h"
 #include "limner/rules.h"
 #include "limner/scene.h"
 #include "limner/sheet.h"

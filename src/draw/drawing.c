@@ -9,6 +9,7 @@
 #include "light/light.h"
 #include "export/export.h"
 #include "plan/refuse.h"
+#include "lines/stroke/strokes.h"
 #include "plan/unit.h"
 
 static void swap_rows(uint8_t *pixels, uint8_t *row, size_t stride, int height)
@@ -89,21 +90,45 @@ static bool has_strokes(const rule *r)
     return false;
 }
 
-/* Strokes know the meshes of parts as they are in the scene. */
+static bool has_lines_of_form(const rule *r)
+{
+    for (size_t i = 0; i < r->use_counts[KIND_LINES]; i++) {
+        const technique_use *use = &r->uses[KIND_LINES][i];
+        if (use->technique != &lines_strokes)
+            continue;
+        stroke_options options = strokes_options_of(use->values);
+        if (stroke_options_form(&options))
+            return true;
+    }
+    return false;
+}
+
+static bool has_removed(const plan *p, const figure *f)
+{
+    for (size_t i = p->scene->part_count; i < p->part_count; i++)
+        if (f->designated[i])
+            return true;
+    return false;
+}
+
+/* Of solids strokes know what bounds them: neither how they bend, nor what they take away. */
 static lmn_status refuse_strokes(const refusal *r, const session *s)
 {
-    bool solids = false;
     for (size_t i = 0; i < s->plan.figure_count; i++) {
         const figure *fig = &s->plan.figures[i];
-        bool          strokes = has_strokes(fig->rule);
-        solids = solids || (strokes && figure_has_solids(&s->plan, fig));
+        lmn_status    status = LMN_OK;
+        if (has_lines_of_form(fig->rule) && figure_has_solids(&s->plan, fig))
+            status =
+                refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, NULL,
+                       "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: solids have none");
+        else if (has_strokes(fig->rule) && has_removed(&s->plan, fig))
+            status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED,
+                            "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)",
+                            "lines 'strokes' are those of what is there: what solids take away has none");
+        if (status != LMN_OK)
+            return status;
     }
-    const char *instead = "operators like 'discontinuity' draw them (--set lines.operator=discontinuity)";
-    lmn_status  status = LMN_OK;
-    if (solids)
-        status = refuse(r, LMN_UNSUPPORTED, WARNING_UNUSED, instead,
-                        "lines 'strokes' are those of meshes: solids have none");
-    return status;
+    return LMN_OK;
 }
 
 /* Marks lie on the triangles of parts as they are in the scene. */

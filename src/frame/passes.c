@@ -55,6 +55,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define HAS_COMPLEMENT\n");
     if (p->writes_too)
         text_append(&prelude, "#define WRITES_TOO\n");
+    if (p->tiles)
+        text_append(&prelude, "#define TILES %s\n", target_row_of(s, p->tiles)->name);
     if (params->perturbed && goes_onto_page(p)) {
         text_append(&prelude, "#define PERTURBED\n");
         const technique_use *lines = rule_inked_lines(s->figure->rule);

@@ -78,6 +78,27 @@ typedef struct city_meshes {
     size_t     count, capacity;
 } city_meshes;
 
+/* The same before the scene has them. */
+typedef struct city_form {
+    primitive *primitives;
+    size_t     count;
+    uint8_t    word;
+} city_form;
+typedef struct city_forms {
+    city_form *items;
+    size_t     count, capacity;
+} city_forms;
+void city_forms_release(city_forms *forms);
+
+/* Makes the forms of a shape, which is changed on the way, without a look at the scene, so that several threads can,
+ * each with a builder of its own: forked from one, and joined to it in the end, which counts what they have met. The
+ * rest is as for city_make. */
+lmn_status city_form_shape(city_builder *b, city_shape *shape, uint8_t own, bool building, city_forms *out);
+lmn_status city_builder_fork(city_builder *out, const city_builder *b, lmn_error *error);
+void       city_builder_join(city_builder *b, city_builder *forked);
+/* Appends them to the scene, whose they are then. */
+lmn_status city_keep(city_builder *b, city_forms *forms, city_meshes *out);
+
 /* Appends the meshes of a shape, which is changed on the way. `own` is the word of the object's class, `building` says
  * that it has an inside. */
 lmn_status city_make(city_builder *b, city_shape *shape, uint8_t own, bool building, city_meshes *out);

@@ -277,19 +277,48 @@ static lmn_status make_primitive(city_builder *b, const city_shape *s, size_t fr
     return error_memory(b->error);
 }
 
-static lmn_status add_mesh(city_builder *b, primitive *primitives, size_t count, uint8_t word, city_meshes *out)
+static lmn_status add_form(city_builder *b, primitive *primitives, size_t count, uint8_t word, city_forms *out)
 {
     if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
         return error_memory(b->error);
-    mesh *m = scene_append_mesh(b->scene);
-    if (!m || !mesh_set_primitives(m, primitives, count))
+    primitive *kept = mem_copy(primitives, count * sizeof *primitives);
+    if (!kept)
         return error_memory(b->error);
-    out->items[out->count++] = (city_mesh){(int32_t)b->scene->mesh_count - 1, word};
+    out->items[out->count++] = (city_form){kept, count, word};
+    return LMN_OK;
+}
+
+void city_forms_release(city_forms *forms)
+{
+    for (size_t i = 0; i < forms->count; i++) {
+        for (size_t k = 0; k < forms->items[i].count; k++)
+            primitive_release(&forms->items[i].primitives[k]);
+        mem_free(forms->items[i].primitives);
+    }
+    mem_free(forms->items);
+    *forms = (city_forms){NULL, 0, 0};
+}
+
+lmn_status city_keep(city_builder *b, city_forms *forms, city_meshes *out)
+{
+    for (size_t i = 0; i < forms->count; i++) {
+        city_form *form = &forms->items[i];
+        if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
+            return error_memory(b->error);
+        mesh *m = scene_append_mesh(b->scene);
+        if (!m)
+            return error_memory(b->error);
+        m->primitives = form->primitives;
+        m->primitive_count = form->count;
+        out->items[out->count++] = (city_mesh){(int32_t)b->scene->mesh_count - 1, form->word};
+        *form = (city_form){NULL, 0, CITY_NO_WORD};
+    }
+    forms->count = 0;
     return LMN_OK;
 }
 
 /* The faces order[from] … order[to − 1] of one word: a primitive for each material. */
-static lmn_status make_mesh(city_builder *b, const city_shape *s, size_t from, size_t to, city_meshes *out)
+static lmn_status make_form(city_builder *b, const city_shape *s, size_t from, size_t to, city_forms *out)
 {
     const face_key *order = b->scratch->order;
     primitive      *list = NULL;
@@ -312,14 +341,14 @@ static lmn_status make_mesh(city_builder *b, const city_shape *s, size_t from, s
         i = end;
     }
     if (status == LMN_OK && count)
-        status = add_mesh(b, list, count, s->faces[order[from].face].word, out);
+        status = add_form(b, list, count, s->faces[order[from].face].word, out);
     for (size_t i = 0; status != LMN_OK && i < count; i++)
         primitive_release(&list[i]);
     mem_free(list);
     return status;
 }
 
-static lmn_status make_lines(city_builder *b, const city_shape *s, uint8_t own, city_meshes *out)
+static lmn_status make_lines(city_builder *b, const city_shape *s, uint8_t own, city_forms *out)
 {
     primitive p = {.material = b->plain};
     p.positions = mem_calloc(s->corner_count, sizeof *p.positions);
@@ -342,13 +371,13 @@ static lmn_status make_lines(city_builder *b, const city_shape *s, uint8_t own, 
     lmn_status status = p.positions && p.lines ? LMN_OK : error_memory(b->error);
     bool       any = p.line_count > 0;
     if (status == LMN_OK && any)
-        status = add_mesh(b, &p, 1, own, out);
+        status = add_form(b, &p, 1, own, out);
     if (status != LMN_OK || !any)
         primitive_release(&p);
     return status;
 }
 
-lmn_status city_make(city_builder *b, city_shape *s, uint8_t own, bool building, city_meshes *out)
+lmn_status city_form_shape(city_builder *b, city_shape *s, uint8_t own, bool building, city_forms *out)
 {
     if (s->lines)
         return make_lines(b, s, own, out);
@@ -365,9 +394,19 @@ lmn_status city_make(city_builder *b, city_shape *s, uint8_t own, bool building,
         size_t end = i + 1;
         while (end < s->face_count && b->scratch->order[end].key >> 32 == b->scratch->order[i].key >> 32)
             end++;
-        status = make_mesh(b, s, i, end, out);
+        status = make_form(b, s, i, end, out);
         i = end;
     }
+    return status;
+}
+
+lmn_status city_make(city_builder *b, city_shape *s, uint8_t own, bool building, city_meshes *out)
+{
+    city_forms forms = {NULL, 0, 0};
+    lmn_status status = city_form_shape(b, s, own, building, &forms);
+    if (status == LMN_OK)
+        status = city_keep(b, &forms, out);
+    city_forms_release(&forms);
     return status;
 }
 
@@ -462,12 +501,52 @@ lmn_status city_attach(city_builder *b, int32_t node_index, const city_meshes *m
 
 /* --- open and close ------------------------------------------------------------------------------------- */
 
+static city_scratch *open_scratch(void)
+{
+    city_scratch *x = mem_calloc(1, sizeof *x);
+    if (x)
+        x->turner = city_turner_new();
+    return x;
+}
+
+static void close_scratch(city_builder *b)
+{
+    city_scratch *x = b->scratch;
+    if (!x)
+        return;
+    city_turner_free(x->turner);
+    mem_free(x->triangles.corners);
+    mem_free(x->ends);
+    mem_free(x->order);
+    mem_free(x->local);
+    mem_free(x->used);
+    mem_free(x);
+    b->scratch = NULL;
+}
+
+lmn_status city_builder_fork(city_builder *out, const city_builder *b, lmn_error *error)
+{
+    *out = (city_builder){
+        .job = b->job, .error = error, .points = b->points, .point_count = b->point_count, .plain = b->plain};
+    out->scratch = open_scratch();
+    return out->scratch && out->scratch->turner ? LMN_OK : error_memory(error);
+}
+
+void city_builder_join(city_builder *b, city_builder *forked)
+{
+    uint64_t       *to = (uint64_t *)&b->tally;
+    const uint64_t *from = (const uint64_t *)&forked->tally;
+    for (size_t i = 0; i < sizeof b->tally / sizeof *to; i++)
+        to[i] += from[i];
+    for (size_t i = 0; i < sizeof b->surfaces / sizeof *b->surfaces; i++)
+        b->surfaces[i] += forked->surfaces[i];
+    close_scratch(forked);
+}
+
 lmn_status city_builder_open(city_builder *b, const import_job *job, lmn_error *error)
 {
     *b = (city_builder){.job = job, .scene = job->scene, .error = error};
-    b->scratch = mem_calloc(1, sizeof *b->scratch);
-    if (b->scratch)
-        b->scratch->turner = city_turner_new();
+    b->scratch = open_scratch();
     b->plain = b->scratch && b->scratch->turner ? build_plain_material(job->scene, false) : NONE;
     return b->plain != NONE ? LMN_OK : error_memory(error);
 }
@@ -530,7 +609,6 @@ static void tell_all(const city_builder *b)
 
 lmn_status city_builder_close(city_builder *b, lmn_status status)
 {
-    city_scratch *x = b->scratch;
     if (status == LMN_OK)
         status = city_builder_terrain(b);
     if (status == LMN_OK && b->terrain)
@@ -539,16 +617,7 @@ lmn_status city_builder_close(city_builder *b, lmn_status status)
     b->terrain = NULL;
     if (status == LMN_OK)
         tell_all(b);
-    if (!x)
-        return status;
-    city_turner_free(x->turner);
-    mem_free(x->triangles.corners);
-    mem_free(x->ends);
-    mem_free(x->order);
-    mem_free(x->local);
-    mem_free(x->used);
-    mem_free(x);
-    b->scratch = NULL;
+    close_scratch(b);
     return status;
 }
 

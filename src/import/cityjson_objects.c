@@ -1,10 +1,12 @@
 /* City objects: first what there is and who belongs to whom, then node after node. */
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "import/cityjson.h"
 
 /* --- what there is -------------------------------------------------------------------------------------- */
@@ -341,11 +343,30 @@ static void put_geometry(cityjson_reader *r, const cityjson_object *o, uint8_t o
     put_shape(r, o, own, meshes);
 }
 
-static void put_object(cityjson_reader *r, cityjson_object *o, city_meshes *meshes)
+static bool has_wished_lod(const cityjson_reader *r, const cityjson_object *o)
+{
+    bool found = false;
+    for (size_t k = 0; k < o->geometry_count; k++)
+        found = found || r->geometries[o->first_geometry + k].lod <= r->wish;
+    return found;
+}
+
+/* Do its parts stand for it? */
+static bool is_coarser(const cityjson_object *o)
+{
+    return o->has_children && o->lod < o->below_lod;
+}
+
+static json_span type_of(const cityjson_reader *r, const cityjson_object *o)
 {
     json_span type = cityjson_unpack(r, o->type);
-    if (!type.at)
-        type = (json_span){"unknown", 7};
+    return type.at ? type : (json_span){"unknown", 7};
+}
+
+/* `formed`: what it looks like, where that has been made already; else NULL. */
+static void put_object(cityjson_reader *r, cityjson_object *o, city_forms *formed, city_meshes *meshes)
+{
+    json_span type = type_of(r, o);
     o->node = city_object(&r->builder, span_decode(cityjson_unpack(r, o->id)), type.at, type.size);
     if (o->node == NONE) {
         r->status = LMN_MEMORY;
@@ -354,17 +375,134 @@ static void put_object(cityjson_reader *r, cityjson_object *o, city_meshes *mesh
     put_attributes(r, o);
     if (r->status != LMN_OK)
         return;
-    bool drawable = false;
-    for (size_t k = 0; k < o->geometry_count; k++)
-        drawable = drawable || r->geometries[o->first_geometry + k].lod <= r->wish;
-    if (!drawable || (o->has_children && o->lod < o->below_lod)) {
+    bool drawable = has_wished_lod(r, o);
+    if (!drawable || is_coarser(o)) {
         r->builder.tally.no_geometry += o->geometry_count == 0;
         r->builder.tally.no_lod += o->geometry_count > 0 && !drawable;
         r->builder.tally.coarser += drawable;
         return;
     }
     count_lod(r, o->lod);
-    put_geometry(r, o, city_word_of_class(type.at, type.size), meshes);
+    if (!formed) {
+        put_geometry(r, o, city_word_of_class(type.at, type.size), meshes);
+        return;
+    }
+    meshes->count = 0;
+    r->status = city_keep(&r->builder, formed, meshes);
+    if (r->status == LMN_OK && meshes->count)
+        r->status = city_attach(&r->builder, o->node, meshes, NULL, true);
+}
+
+/* --- several at a time ---------------------------------------------------------------------------------- */
+
+/* What objects look like is made by the batch, on all processors; nodes then follow one by one, in the file's order. */
+enum { BATCH = 8192, LEAST_OF_THREAD = 512 };
+
+typedef struct forming {
+    cityjson_reader *r;
+    size_t           first;
+    city_forms       forms[BATCH]; /* of the objects from `first` on */
+    bool             formed[BATCH];
+    lmn_status       status; /* of the thread that failed; the first of them by its objects, `failed` */
+    lmn_error        error;
+    size_t           failed;
+    pthread_mutex_t  joining;
+} forming;
+
+/* Does it consist of surfaces alone that no other object shares, and of nothing that is fetched on the way? */
+static bool stands_alone(const cityjson_reader *r, const cityjson_object *o)
+{
+    bool alone = r->texture_count == 0;
+    for (size_t k = 0; k < o->geometry_count && alone; k++) {
+        cityjson_kind kind = r->geometries[o->first_geometry + k].kind;
+        alone = kind >= KIND_SURFACES && kind <= KIND_SOLIDS;
+    }
+    return alone && has_wished_lod(r, o) && !is_coarser(o);
+}
+
+static void form_object(cityjson_reader *r, const cityjson_object *o, city_forms *out)
+{
+    json_span type = type_of(r, o);
+    city_shape_clear(&r->shape);
+    for (size_t k = 0; k < o->geometry_count && r->status == LMN_OK; k++) {
+        const cityjson_geometry *g = &r->geometries[o->first_geometry + k];
+        if (g->lod == o->lod)
+            cityjson_read_shape(r, g);
+    }
+    if (r->status == LMN_OK && r->shape.face_count)
+        r->status = city_form_shape(&r->builder, &r->shape, city_word_of_class(type.at, type.size),
+                                    is_building(cityjson_unpack(r, o->type)), out);
+}
+
+static void form_some(size_t begin, size_t end, void *user)
+{
+    forming        *f = user;
+    lmn_error       error = {0};
+    cityjson_reader own = *f->r;
+    size_t          i = f->first + begin;
+    own.error = &error;
+    own.shape = (city_shape){0};
+    own.shell_ends = own.solid_shells = NULL;
+    own.words = NULL;
+    own.shell_count = own.shell_capacity = own.solid_count = own.solid_capacity = 0;
+    own.word_count = own.word_capacity = 0;
+    own.status = city_builder_fork(&own.builder, &f->r->builder, &error);
+    for (; i < f->first + end && own.status == LMN_OK; i++) {
+        const cityjson_object *o = &own.objects[i];
+        f->formed[i - f->first] = stands_alone(&own, o);
+        if (f->formed[i - f->first])
+            form_object(&own, o, &f->forms[i - f->first]);
+    }
+    pthread_mutex_lock(&f->joining);
+    city_builder_join(&f->r->builder, &own.builder);
+    if (own.status != LMN_OK && i < f->failed) {
+        f->failed = i;
+        f->status = own.status;
+        f->error = error;
+    }
+    pthread_mutex_unlock(&f->joining);
+    city_shape_release(&own.shape);
+    mem_free(own.shell_ends);
+    mem_free(own.solid_shells);
+    mem_free(own.words);
+}
+
+static void put_batch(cityjson_reader *r, forming *f, size_t count, city_meshes *meshes)
+{
+    memset(f->formed, 0, sizeof f->formed);
+    threads_for(count, LEAST_OF_THREAD, form_some, f);
+    if (f->status != LMN_OK) {
+        r->status = f->status;
+        if (r->error)
+            *r->error = f->error;
+    }
+    for (size_t i = 0; i < count && r->status == LMN_OK; i++)
+        put_object(r, &r->objects[f->first + i], f->formed[i] ? &f->forms[i] : NULL, meshes);
+    for (size_t i = 0; i < count; i++)
+        city_forms_release(&f->forms[i]);
+}
+
+static void put_objects(cityjson_reader *r)
+{
+    city_meshes meshes = {0};
+    forming    *f = mem_calloc(1, sizeof *f);
+    if (!f) {
+        cityjson_no_memory(r);
+        return;
+    }
+    f->r = r;
+    f->failed = SIZE_MAX;
+    pthread_mutex_init(&f->joining, NULL);
+    for (f->first = 0; f->first < r->object_count && r->status == LMN_OK; f->first += BATCH) {
+        size_t rest = r->object_count - f->first;
+        put_batch(r, f, rest < BATCH ? rest : BATCH, &meshes);
+        if (r->status == LMN_OK)
+            r->status =
+                import_progress(r->job, 0.2 + 0.6 * (double)f->first / (double)r->object_count, "building", r->error);
+    }
+    pthread_mutex_destroy(&f->joining);
+    mem_free(f);
+    mem_free(meshes.items);
 }
 
 void cityjson_read_objects(cityjson_reader *r, json_span objects)
@@ -381,13 +519,7 @@ void cityjson_read_objects(cityjson_reader *r, json_span objects)
     find_parents(r);
     choose_lods(r);
     city_builder_points(&r->builder, r->points, r->point_count);
-    city_meshes meshes = {0};
-    for (size_t i = 0; i < r->object_count && r->status == LMN_OK; i++) {
-        put_object(r, &r->objects[i], &meshes);
-        if (i % 512 == 511 && r->status == LMN_OK)
-            r->status = import_progress(r->job, 0.2 + 0.6 * (double)i / (double)r->object_count, "building", r->error);
-    }
-    mem_free(meshes.items);
+    put_objects(r);
     for (size_t i = 0; i < r->object_count && r->status == LMN_OK; i++)
         if (r->objects[i].parent_index != NONE)
             city_link(&r->builder, r->objects[r->objects[i].parent_index].node, r->objects[i].node);

@@ -111,13 +111,50 @@ static bool has_middle(const raiser *r, double middle[2])
     return true;
 }
 
-static void pyramid(raiser *r, const double middle[2])
+/* Roofs that go up to one point: how large the outline still is, and how high of the roof, from below the first of them
+ * on up to the point. */
+typedef struct roof_profile {
+    const double (*steps)[2];
+    size_t count;
+} roof_profile;
+
+static roof_profile profile_of(roof_form form)
 {
+    /* A quarter of a circle, every 15 degrees; and a bulb that draws in to a spike. */
+    static const double dome[][2] = {
+        {0.9659, 0.2588}, {0.8660, 0.5}, {0.7071, 0.7071}, {0.5, 0.8660}, {0.2588, 0.9659}};
+    static const double onion[][2] = {{1.1, 0.12},  {1.14, 0.25}, {1.06, 0.38}, {0.82, 0.5},
+                                      {0.48, 0.61}, {0.22, 0.72}, {0.09, 0.84}};
+    return form == ROOF_DOME    ? (roof_profile){dome, sizeof dome / sizeof *dome}
+           : form == ROOF_ONION ? (roof_profile){onion, sizeof onion / sizeof *onion}
+                                : (roof_profile){NULL, 0};
+}
+
+static void pointed(raiser *r, roof_form form, const double middle[2])
+{
+    const roof_profile profile = profile_of(form);
+    const uint32_t     count = (uint32_t)r->corners;
+    uint32_t           below = r->eaves;
     walls(r);
+    for (size_t k = 0; k < profile.count; k++, below = (uint32_t)r->points->count - count) {
+        const double scale = profile.steps[k][0],
+                     z = r->how->eaves + profile.steps[k][1] * (r->how->ridge - r->how->eaves);
+        uint32_t above = (uint32_t)r->points->count;
+        for (uint32_t i = 0; i < count; i++)
+            raiser_put(r, middle[0] + scale * (r->positions[i][0] - middle[0]),
+                       middle[1] + scale * (r->positions[i][1] - middle[1]), z);
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t corners[4] = {below + i, below + (i + 1) % count, above + (i + 1) % count, above + i};
+            for (int c = 0; c < 4; c++)
+                raiser_corner(r, corners[c]);
+            raiser_end_ring(r);
+            raiser_end_face(r, r->roof);
+        }
+    }
     uint32_t apex = raiser_put(r, middle[0], middle[1], r->how->ridge);
-    for (uint32_t i = 0; i < r->corners; i++) {
-        raiser_corner(r, r->eaves + i);
-        raiser_corner(r, r->eaves + (i + 1) % (uint32_t)r->corners);
+    for (uint32_t i = 0; i < count; i++) {
+        raiser_corner(r, below + i);
+        raiser_corner(r, below + (i + 1) % count);
         raiser_corner(r, apex);
         raiser_end_ring(r);
         raiser_end_face(r, r->roof);
@@ -180,8 +217,10 @@ static roof_made roof(raiser *r)
     case ROOF_FLAT: flat(r); return ROOF_AS_ASKED;
     case ROOF_SKILLION: skillion(r); return ROOF_AS_ASKED;
     case ROOF_PYRAMIDAL:
+    case ROOF_DOME:
+    case ROOF_ONION:
         if (has_middle(r, middle)) {
-            pyramid(r, middle);
+            pointed(r, form, middle);
             return ROOF_AS_ASKED;
         }
         made = ROOF_OTHERWISE;

@@ -14,6 +14,8 @@ typedef enum roof_form {
     ROOF_MANSARD_FLAT, /* steep below and level above */
     ROOF_GAMBREL,      /* steep below and gentle above, with upright walls at the ends */
     ROOF_SKILLION,     /* one slope */
+    ROOF_DOME,         /* round, up to one point */
+    ROOF_ONION,        /* a bulb, up to one point */
     ROOF_FORMS
 } roof_form;
 

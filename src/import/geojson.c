@@ -10,6 +10,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "import/city_crs.h"
+#include "import/crossings.h"
 #include "import/footprint.h"
 #include "import/geojson.h"
 #include "import/json_scan.h"
@@ -651,6 +652,8 @@ static void read_document(geojson_reader *r)
         no_memory(r);
     if (r->status == LMN_OK)
         read_features(r, features);
+    if (r->status == LMN_OK)
+        r->status = crossings_join(r->scene, r->error);
     if (r->status == LMN_OK && r->street)
         r->status = street_populate(r->street, &r->builder, density);
 }

@@ -64,11 +64,12 @@ static roof_form roof_of(json_span shape)
     static const struct {
         const char *word;
         roof_form   form;
-    } rows[] = {{"gabled", ROOF_GABLED},         {"hipped", ROOF_HIPPED},     {"half-hipped", ROOF_HIPPED},
-                {"side_hipped", ROOF_HIPPED},    {"saltbox", ROOF_GABLED},    {"pyramidal", ROOF_PYRAMIDAL},
-                {"cone", ROOF_PYRAMIDAL},        {"mansard", ROOF_MANSARD},   {"mansard-flat", ROOF_MANSARD_FLAT},
-                {"gambrel", ROOF_GAMBREL},       {"skillion", ROOF_SKILLION}, {"lean_to", ROOF_SKILLION},
-                {"double_saltbox", ROOF_GABLED}, {"half_hipped", ROOF_HIPPED}};
+    } rows[] = {{"gabled", ROOF_GABLED},      {"hipped", ROOF_HIPPED},     {"half-hipped", ROOF_HIPPED},
+                {"side_hipped", ROOF_HIPPED}, {"saltbox", ROOF_GABLED},    {"pyramidal", ROOF_PYRAMIDAL},
+                {"cone", ROOF_PYRAMIDAL},     {"mansard", ROOF_MANSARD},   {"mansard-flat", ROOF_MANSARD_FLAT},
+                {"gambrel", ROOF_GAMBREL},    {"skillion", ROOF_SKILLION}, {"lean_to", ROOF_SKILLION},
+                {"dome", ROOF_DOME},          {"onion", ROOF_ONION},       {"double_saltbox", ROOF_GABLED},
+                {"half_hipped", ROOF_HIPPED}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (span_is(shape, rows[i].word))
             return rows[i].form;

@@ -48,13 +48,10 @@ static void find_frame(frame *out, const city_facts *city)
     city_plane(city->origin[0], city->origin[1], meridian, out->origin);
 }
 
-static lmn_status ask_extent(const import_job *job, geodata_extent *out, char *system, size_t size, lmn_error *error)
+lmn_status terrain_take_extent(geodata_extent *out, char *system, size_t size, const fence_bytes *answer,
+                               const char *path, lmn_error *error)
 {
-    fence_bytes answer;
-    lmn_status  status = geodata_ask(job, GEODATA_EXTENT, NULL, NULL, &answer, error);
-    if (status != LMN_OK)
-        return status;
-    fence_reader r = fence_read(answer.bytes, answer.size);
+    fence_reader r = fence_read(answer->bytes, answer->size);
     const void  *extent = fence_take(&r, sizeof *out);
     char        *name = fence_take_text(&r);
     if (extent)
@@ -64,10 +61,17 @@ static lmn_status ask_extent(const import_job *job, geodata_extent *out, char *s
     bool good = extent && name && isfinite(out->low[0]) && isfinite(out->low[1]) && isfinite(out->high[0]) &&
                 isfinite(out->high[1]) && out->step > 0 && isfinite(out->step);
     mem_free(name);
+    return good ? LMN_OK : error_in_file(error, LMN_FORMAT, path, 0, "the raster does not say where it lies");
+}
+
+static lmn_status ask_extent(const import_job *job, geodata_extent *out, char *system, size_t size, lmn_error *error)
+{
+    fence_bytes answer;
+    lmn_status  status = geodata_ask(job, GEODATA_EXTENT, NULL, NULL, &answer, error);
+    if (status == LMN_OK)
+        status = terrain_take_extent(out, system, size, &answer, job->path, error);
     mem_free(answer.bytes);
-    if (good)
-        return LMN_OK;
-    return error_in_file(error, LMN_FORMAT, job->path, 0, "the raster does not say where it lies");
+    return status;
 }
 
 /* How far apart posts are: as in the raster, but not more of them than can be drawn, nor so few that all is one plane.
@@ -84,27 +88,6 @@ static void lay_grid(terrain *t, const city_facts *city, double native)
     t->step = fmin(fmax(native, longer / POSTS_ALONG), longer / FEWEST_ALONG);
     t->columns = (uint32_t)(sides[0] / t->step) + 2;
     t->rows = (uint32_t)(sides[1] / t->step) + 2;
-}
-
-static lmn_status ask_heights(const import_job *job, terrain *t, const frame *f, lmn_error *error)
-{
-    geodata_grid grid = {f->origin[0] + t->low[0] / f->metres, f->origin[1] + t->low[1] / f->metres,
-                         t->step / f->metres, t->columns, t->rows};
-    size_t       count = (size_t)t->columns * t->rows;
-    fence_bytes  answer;
-    lmn_status   status = geodata_ask(job, GEODATA_HEIGHTS, &grid, f->system, &answer, error);
-    if (status != LMN_OK)
-        return status;
-    t->heights = mem_calloc(count, sizeof *t->heights);
-    t->known = mem_calloc(count, sizeof *t->known);
-    if (!t->heights || !t->known)
-        status = error_memory(error);
-    else if (answer.size != count * sizeof *t->heights)
-        status = error_in_file(error, LMN_FORMAT, job->path, 0, "the terrain has not as many heights as it should");
-    else
-        memcpy(t->heights, answer.bytes, answer.size);
-    mem_free(answer.bytes);
-    return status;
 }
 
 /* Heights that nobody knows are those of the nearest post in the row, or of the row before or behind. */
@@ -136,6 +119,31 @@ static bool fill(terrain *t, double zero)
     return there > 0;
 }
 
+lmn_status terrain_take_heights(terrain *t, const fence_bytes *answer, double zero, const char *path, lmn_error *error)
+{
+    size_t count = (size_t)t->columns * t->rows;
+    t->heights = mem_calloc(count, sizeof *t->heights);
+    t->known = mem_calloc(count, sizeof *t->known);
+    if (!t->heights || !t->known)
+        return error_memory(error);
+    if (answer->size != count * sizeof *t->heights)
+        return error_in_file(error, LMN_FORMAT, path, 0, "the terrain has not as many heights as it should");
+    memcpy(t->heights, answer->bytes, answer->size);
+    return fill(t, zero) ? LMN_OK : error_in_file(error, LMN_FORMAT, path, 0, "no height is known below the model");
+}
+
+static lmn_status ask_heights(const import_job *job, terrain *t, const frame *f, double zero, lmn_error *error)
+{
+    geodata_grid grid = {f->origin[0] + t->low[0] / f->metres, f->origin[1] + t->low[1] / f->metres,
+                         t->step / f->metres, t->columns, t->rows};
+    fence_bytes  answer;
+    lmn_status   status = geodata_ask(job, GEODATA_HEIGHTS, &grid, f->system, &answer, error);
+    if (status == LMN_OK)
+        status = terrain_take_heights(t, &answer, zero, job->path, error);
+    mem_free(answer.bytes);
+    return status;
+}
+
 static lmn_status load(terrain *t, const import_job *job, const city_facts *city, lmn_error *error)
 {
     geodata_extent extent;
@@ -152,10 +160,7 @@ static lmn_status load(terrain *t, const import_job *job, const city_facts *city
         return LMN_USAGE;
     }
     lay_grid(t, city, extent.geographic ? extent.step * 111000 : extent.step);
-    status = ask_heights(job, t, &f, error);
-    if (status == LMN_OK && !fill(t, city->origin[2] * city_metres(city, 1)))
-        status = error_in_file(error, LMN_FORMAT, job->path, 0, "no height is known below the model");
-    return status;
+    return ask_heights(job, t, &f, city->origin[2] * city_metres(city, 1), error);
 }
 
 lmn_status terrain_load(terrain **out, const char *path, const city_facts *city, lmn_error *error)

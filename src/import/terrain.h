@@ -4,6 +4,7 @@
 #define LIMNER_IMPORT_TERRAIN_H
 
 #include "import/footprint.h"
+#include "import/geodata.h"
 
 /* Posts at low + step · (column, row), in the scene's coordinates. Each cell is two triangles, which meet along the
  * line from its first to its last post. */
@@ -19,6 +20,12 @@ void terrain_free(terrain *t); /* NULL is fine */
 /* The terrain in a file below what lies between these bounds, which are the scene's. Errors: those of geodata_ask;
  * LMN_USAGE when the city does not say where it lies. */
 lmn_status terrain_load(terrain **out, const char *path, const city_facts *city, lmn_error *error);
+/* What the child answers (geodata.h) is checked like a file: where a raster lies, and the heights of a terrain whose
+ * grid is laid, less those of `zero`. Errors: LMN_FORMAT, LMN_MEMORY. */
+lmn_status terrain_take_extent(geodata_extent *out, char *system, size_t size, const fence_bytes *answer,
+                               const char *path, lmn_error *error);
+lmn_status terrain_take_heights(terrain *t, const fence_bytes *answer, double zero, const char *path, lmn_error *error);
+
 /* The height, at the edge beyond it. */
 double terrain_height(const terrain *t, double x, double y);
 /* The lowest height along a closed ring. */

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "info/city_info.h"
 #include "info/info.h"
+#include "info/mesh_info.h"
 #include "info/solid_info.h"
 
 static json_t *real(double value)
@@ -62,9 +63,20 @@ static json_t *part_materials(const lmn_scene *s, const mesh *m)
     return list;
 }
 
+/* What is told of a mesh, once for all parts that have it; `told` (may be NULL) holds one for each mesh. */
+static json_t *mesh_json(const lmn_scene *s, int32_t index, json_t **told)
+{
+    if (!told || index == NONE)
+        return NULL;
+    if (!told[index])
+        told[index] = mesh_info_json(&s->meshes[index]);
+    return json_incref(told[index]);
+}
+
 static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
 {
-    json_t *list = json_array();
+    json_t  *list = json_array();
+    json_t **told = mem_calloc(s->mesh_count + 1, sizeof *told);
     for (size_t i = first; i < first + count; i++) {
         const part *p = &s->parts[i];
         const node *n = &s->nodes[p->node];
@@ -74,6 +86,11 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
                 string_or_null(p->path), "triangles", (json_int_t)(p->triangles * instances), "instances",
                 (json_int_t)instances, "bounds", bounds_json(p->bounds), "materials",
                 part_materials(s, n->mesh != NONE ? &s->meshes[n->mesh] : NULL), "attributes", attributes_json(n));
+        json_t *edges = mesh_json(s, n->mesh, told);
+        if (entry && edges)
+            json_object_set_new(entry, "mesh", edges);
+        else
+            json_decref(edges);
         if (entry && p->lines)
             json_object_set_new(entry, "lines", json_integer((json_int_t)(p->lines * instances)));
         if (entry && n->solid != NONE) {
@@ -82,6 +99,9 @@ static json_t *parts_json(const lmn_scene *s, size_t first, size_t count)
         }
         json_array_append_new(list, entry);
     }
+    for (size_t i = 0; told && i < s->mesh_count; i++)
+        json_decref(told[i]);
+    mem_free(told);
     return list;
 }
 

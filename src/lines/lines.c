@@ -112,6 +112,7 @@ const target_row lines_targets[LINES_TARGET_COUNT] = {
     {"t_whole", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
     {"t_styled", TEXEL_RGBA16F, .empty = {1, 1, 1, 1}},
     {"t_crowd", TEXEL_RGBA16F, SCALE_APART, .filtered = true},
+    {"t_calm", TEXEL_R8, SCALE_TILE},
 };
 
 static const technique *const techniques[] = {

@@ -62,7 +62,8 @@ enum { LINES_CROWD_WIDTHS = 6 };
 #define LINES_WHOLE  TARGET_OWN(10) /* the edge map, two pixels wide, of all lines */
 #define LINES_STYLED TARGET_OWN(11) /* the same, run on and cut short */
 #define LINES_CROWD  TARGET_OWN(12) /* r: length of lines around, pixels in a square pixel */
-enum { LINES_TARGET_COUNT = 13 };
+#define LINES_CALM   TARGET_OWN(13) /* 1: a tile where lines crowd: lines/calm.glsl */
+enum { LINES_TARGET_COUNT = 14 };
 extern const target_row lines_targets[LINES_TARGET_COUNT];
 #define LINES_TARGETS .targets = lines_targets, .target_count = LINES_TARGET_COUNT
 

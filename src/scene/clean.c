@@ -107,6 +107,7 @@ static bool drop_vertices(primitive *p)
     if (kept < p->vertex_count) {
         compact(p->positions, sizeof *p->positions, positions, p->vertex_count);
         compact(p->normals, sizeof *p->normals, positions, p->vertex_count);
+        compact(p->straight, sizeof *p->straight, positions, p->vertex_count);
         for (int i = 0; i < UV_SETS; i++)
             compact(p->uvs[i], sizeof *p->uvs[i], positions, p->vertex_count);
         compact(p->colours, sizeof *p->colours, positions, p->vertex_count);

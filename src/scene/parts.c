@@ -1,12 +1,14 @@
 #include "scene/parts.h"
 #include "scene/solid.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/threads.h"
 
 /* A path is cut here, so that a deep tree of long names does not grow without bounds. */
 enum { PATH_BYTES_MAX = 1024, PATH_DEPTH_MAX = 1100 };
@@ -27,11 +29,11 @@ typedef struct listing {
     const char      *prefix;
     uint32_t         first_id;
     mat4            *worlds; /* of all nodes, for joints may be anywhere; NULL: there are no skins */
-    mat4            *above;  /* without skins: of the node that is listed and those above it, the root's first */
     const mat4      *position;
     part            *parts;
     size_t           count;
     path_set         seen;
+    atomic_bool      failed;
 } listing;
 
 static uint64_t hash_text(const char *t)
@@ -124,78 +126,87 @@ static char *make_unique(path_set *set, char *path)
 static bool is_part(const lmn_scene *s, int32_t index, bool ghost)
 {
     const node *n = &s->nodes[index];
-    bool        lines = n->solid == NONE && n->mesh != NONE && mesh_line_count(&s->meshes[n->mesh]) > 0;
-    return n->ghost == ghost && (lines || node_triangle_count(s, n) > 0);
+    bool        lines = n->solid == NONE && n->mesh != NONE;
+    return n->ghost == ghost && (node_triangle_count(s, n) > 0 || (lines && mesh_line_count(&s->meshes[n->mesh]) > 0));
 }
 
-static bool add_part(listing *l, int32_t index, int depth)
+/* Where a node is whose scene has no skins. */
+static mat4 world_of(const listing *l, int32_t index)
+{
+    int32_t chain[PATH_DEPTH_MAX];
+    int     depth = 0;
+    for (int32_t n = index; n != NONE && depth < PATH_DEPTH_MAX; n = l->scene->nodes[n].parent)
+        chain[depth++] = n;
+    mat4 out = l->position ? *l->position : mat4_identity();
+    for (bool first = !l->position; depth-- > 0; first = false) {
+        mat4 local = node_local_matrix(&l->scene->nodes[chain[depth]]);
+        out = first ? local : mat4_multiply(&out, &local);
+    }
+    return out;
+}
+
+/* All of a part but that its path is unique. False: memory is gone. */
+static bool fill_part(listing *l, size_t number)
 {
     char        fallback[32];
-    const char *name = own_name(l->scene, index);
+    part       *p = &l->parts[number];
+    const node *n = &l->scene->nodes[p->node];
+    const char *name = own_name(l->scene, p->node);
     if (!name) {
-        snprintf(fallback, sizeof fallback, "part-%u", (unsigned)(l->first_id + l->count + 1));
+        snprintf(fallback, sizeof fallback, "part-%u", (unsigned)(l->first_id + number + 1));
         name = fallback;
     }
-    part *p = &l->parts[l->count];
-    *p = (part){.node = index, .name = mem_copy_text(name), .ghost = l->scene->nodes[index].ghost};
-    l->count++;
-    if (!p->name)
-        return false;
-    char *path = make_path(l, index, name);
-    p->path = path ? make_unique(&l->seen, path) : NULL;
+    p->name = mem_copy_text(name);
+    p->path = p->name ? make_path(l, p->node, name) : NULL;
     if (!p->path)
         return false;
-    const node *n = &l->scene->nodes[index];
     p->triangles = node_triangle_count(l->scene, n);
     p->lines = n->solid == NONE && n->mesh != NONE ? mesh_line_count(&l->scene->meshes[n->mesh]) : 0;
-    p->bounds = l->worlds ? node_bounds(l->scene, l->worlds, index, NULL, NULL)
-                          : node_bounds_unskinned(l->scene, &l->above[depth], index);
-    return true;
-}
-
-static void put_above(listing *l, int32_t index, int depth)
-{
-    mat4 local = node_local_matrix(&l->scene->nodes[index]);
-    if (!l->above)
-        return;
-    if (depth > 0)
-        l->above[depth] = mat4_multiply(&l->above[depth - 1], &local);
-    else
-        l->above[0] = l->position ? mat4_multiply(l->position, &local) : local;
-}
-
-static bool add_tree(listing *l, int32_t root, bool ghosts)
-{
-    const node *nodes = l->scene->nodes;
-    int         depth = 0;
-    for (int32_t n = root, last = root; n != NONE; last = n, n = scene_next_node(l->scene, root, n)) {
-        if (n != root && nodes[n].parent == last) {
-            depth++;
-        } else {
-            for (; n != root && nodes[last].parent != nodes[n].parent; last = nodes[last].parent)
-                depth--;
-        }
-        put_above(l, n, depth);
-        if (is_part(l->scene, n, ghosts) && !add_part(l, n, depth))
-            return false;
+    if (l->worlds) {
+        p->bounds = node_bounds(l->scene, l->worlds, p->node, NULL, NULL);
+    } else {
+        mat4 world = world_of(l, p->node);
+        p->bounds = node_bounds_unskinned(l->scene, &world, p->node);
     }
     return true;
 }
 
-static bool add_trees(listing *l, bool ghosts)
+static void fill_some(size_t begin, size_t end, void *user)
+{
+    listing *l = user;
+    bool     good = true;
+    for (size_t i = begin; i < end && good; i++)
+        good = fill_part(l, i);
+    if (!good)
+        atomic_store(&l->failed, true);
+}
+
+static void add_trees(listing *l, bool ghosts)
 {
     for (size_t i = 0; i < l->scene->node_count; i++)
-        if (l->scene->nodes[i].parent == NONE && !add_tree(l, (int32_t)i, ghosts))
-            return false;
-    return true;
+        for (int32_t root = (int32_t)i, n = l->scene->nodes[i].parent == NONE ? root : NONE; n != NONE;
+             n = scene_next_node(l->scene, root, n))
+            if (is_part(l->scene, n, ghosts))
+                l->parts[l->count++] = (part){.node = n, .ghost = l->scene->nodes[n].ghost};
+}
+
+static bool make_paths_unique(listing *l)
+{
+    bool good = true;
+    for (size_t i = 0; i < l->count && good; i++) {
+        l->parts[i].path = make_unique(&l->seen, l->parts[i].path);
+        good = l->parts[i].path != NULL;
+    }
+    return good;
 }
 
 bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const mat4 *position, part_list *out)
 {
     size_t count = 0, ghosts = 0;
     for (size_t i = 0; i < s->node_count; i++) {
-        ghosts += is_part(s, (int32_t)i, true);
-        count += is_part(s, (int32_t)i, s->nodes[i].ghost);
+        bool found = is_part(s, (int32_t)i, s->nodes[i].ghost);
+        count += found;
+        ghosts += found && s->nodes[i].ghost;
     }
     listing l = {.scene = s, .prefix = prefix, .first_id = first_id};
     l.seen.capacity = 16;
@@ -206,15 +217,19 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     l.position = position;
     if (s->skin_count)
         l.worlds = scene_world_matrices(s, NULL);
-    else
-        l.above = mem_alloc((LIMIT_NODE_DEPTH + 2) * sizeof *l.above);
-    bool good = l.seen.entries && l.parts && (l.worlds || l.above);
+    bool good = l.seen.entries && l.parts && (l.worlds || !s->skin_count);
     for (size_t i = 0; good && l.worlds && position && i < s->node_count; i++)
         l.worlds[i] = mat4_multiply(position, &l.worlds[i]);
-    good = good && add_trees(&l, false) && (ghosts == 0 || add_trees(&l, true));
+    enum { LEAST_OF_THREAD = 4096 };
+    if (good) {
+        add_trees(&l, false);
+        if (ghosts)
+            add_trees(&l, true);
+        threads_for(l.count, LEAST_OF_THREAD, fill_some, &l);
+        good = !l.failed && make_paths_unique(&l);
+    }
     mem_free(l.seen.entries);
     mem_free(l.worlds);
-    mem_free(l.above);
     if (!good) {
         parts_release(l.parts, l.count);
         return false;

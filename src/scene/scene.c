@@ -158,6 +158,7 @@ void primitive_release(primitive *p)
 {
     mem_free(p->positions);
     mem_free(p->normals);
+    mem_free(p->straight);
     for (int i = 0; i < UV_SETS; i++)
         mem_free(p->uvs[i]);
     mem_free(p->colours);

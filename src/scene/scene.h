@@ -41,20 +41,21 @@ typedef struct edge_visibility {
  * NULL. Of triangles `indices` is always there, 3 per triangle, each < vertex_count; of lines `lines`, 2 per line. In a
  * mesh those with triangles come first. */
 typedef struct primitive {
-    uint32_t        vertex_count, index_count;
-    vec3           *positions;
-    vec3           *normals; /* unit; NULL: made from the crease angle when drawn */
-    vec2           *uvs[UV_SETS];
-    vec4           *colours;    /* linear, straight alpha */
-    uint16_t       *joints;     /* `influences` per vertex */
-    float          *weights;    /* of the joints, as many; those of a vertex sum to 1 */
-    uint32_t        influences; /* 0 without joints */
-    uint32_t       *indices;
-    uint32_t       *lines;      /* NULL: none, as where there are triangles */
-    uint32_t        line_count; /* pairs */
-    int32_t         material;   /* NONE: the default material */
-    morph_target   *morphs;
-    size_t          morph_count;
+    uint32_t      vertex_count, index_count;
+    vec3         *positions;
+    vec3         *normals;  /* unit; NULL: made from the crease angle when drawn */
+    vec3         *straight; /* where the vertices were in the world before a projection bent it; NULL: it is not bent */
+    vec2         *uvs[UV_SETS];
+    vec4         *colours;    /* linear, straight alpha */
+    uint16_t     *joints;     /* `influences` per vertex */
+    float        *weights;    /* of the joints, as many; those of a vertex sum to 1 */
+    uint32_t      influences; /* 0 without joints */
+    uint32_t     *indices;
+    uint32_t     *lines;      /* NULL: none, as where there are triangles */
+    uint32_t      line_count; /* pairs */
+    int32_t       material;   /* NONE: the default material */
+    morph_target *morphs;
+    size_t        morph_count;
     edge_visibility edges;
     bool            welded; /* no two vertices lie at one position */
     box3            bounds; /* of positions; set by scene_finish */

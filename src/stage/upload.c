@@ -14,7 +14,7 @@ static lmn_status write_vertices(upload *u, gpu *g, const upload_part_job *job, 
     v->rest_positions = rest_positions;
     upload_walls walls = {.indices = NULL};
     if (status == LMN_OK && u->needs.walls && !v->at_rest && !v->past[0]) {
-        status = upload_find_walls(&walls, u, job, v->now, error);
+        status = upload_find_walls(&walls, u, job, v, error);
         v->now = &walls.data;
         v->walls = (const float *)walls.numbers;
     }
@@ -90,12 +90,18 @@ static lmn_status upload_primitive(upload *u, gpu *g, const upload_part_job *job
         past[k] = posed_positions(p, &u->pose->past[k]->parts[job->part_index], &now.split);
         status = past[k] ? LMN_OK : error_memory(error);
     }
-    upload_vertices v = {.now = &now.data, .at_rest = rest};
+    vec3 *straight = p->straight && now.split.source && status == LMN_OK
+                         ? posed_gather(p->straight, now.split.source, now.split.vertex_count, sizeof *straight)
+                         : NULL;
+    if (status == LMN_OK && p->straight && now.split.source && !straight)
+        status = error_memory(error);
+    upload_vertices v = {.now = &now.data, .straight = straight ? straight : p->straight, .at_rest = rest};
     for (int k = 0; k < POSE_PAST_MAX; k++)
         v.past[k] = past[k];
     if (status == LMN_OK)
         status = write_vertices(u, g, job, i, &v, error);
     posed_release(&now);
+    mem_free(straight);
     mem_free(rest);
     for (int k = 0; k < POSE_PAST_MAX; k++)
         mem_free(past[k]);

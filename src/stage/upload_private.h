@@ -29,6 +29,7 @@ void upload_set_past(const upload *u, draw_item *item, size_t instance);
 typedef struct upload_vertices {
     const vertex_arrays *now;
     const float         *walls;               /* four numbers a vertex, upload_walls.c; NULL: nobody asks */
+    const vec3          *straight;            /* before a projection bent them, in the world; NULL: as they are */
     const vec3          *at_rest;             /* the same vertices; NULL: nobody asks, or it is that */
     const vec3          *past[POSE_PAST_MAX]; /* likewise; as many as there are */
     const vec3          *rest_positions;      /* of at_rest, in its part's frame */
@@ -77,7 +78,7 @@ typedef struct upload_walls {
     float (*numbers)[4];
 } upload_walls;
 /* Of what is not deformed. Errors: LMN_MEMORY. Release it also after one. */
-lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_part_job *job, const vertex_arrays *data,
+lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_part_job *job, const upload_vertices *v,
                              lmn_error *error);
 void       upload_walls_release(upload_walls *w);
 
@@ -92,13 +93,6 @@ void       upload_solids_release(upload *u, gpu *g);
 void       upload_shape_release(upload_shape *s);
 /* What shaders read about all solids; once they are all there. */
 lmn_status upload_solids_close(upload *u, gpu *g, lmn_error *error);
-
-/* --- upload_solid_cut.c --- */
-/* Takes what is cut away from the form of a solid at this position; `half_space_mesh`: the number that its new
- * operands give as their mesh, a box from 0 to 1 in each direction. *bits, one an operand of the form, are 0 or
- * those of a cut face's surface id, and are made here. */
-lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,
-                            uint32_t **bits, lmn_error *error);
 
 /* --- upload_cut.c --- */
 /* Bits of a cut face's surface id. */

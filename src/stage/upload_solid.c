@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "layer/layer.h"
 #include "csg_tree/form.h"
+#include "stroke/solid_section.h"
 
 /* Light grey, sRGB 0.8, as formats without colours have it. */
 static const vec4 plain_grey = {0.6038f, 0.6038f, 0.6038f, 1};
@@ -25,22 +26,6 @@ typedef struct baker {
     uint32_t        *keys, *indices, *owners;
     size_t           vertex_count, vertex_capacity, normal_capacity, index_count, index_capacity, owner_capacity;
 } baker;
-
-/* A box from 0 to 1; its arrays are constant and not owned. */
-static void make_half_space(mesh *out, primitive *p)
-{
-    static const vec3     corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
-                                         1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    *p = (primitive){.vertex_count = 8,
-                     .index_count = 36,
-                     .positions = (vec3 *)(uintptr_t)corners,
-                     .indices = (uint32_t *)(uintptr_t)indices,
-                     .material = NONE,
-                     .bounds = {{0, 0, 0}, {1, 1, 1}}};
-    *out = (mesh){.primitives = p, .primitive_count = 1};
-}
 
 static const mesh *mesh_of(const baker *b, int32_t index)
 {
@@ -454,6 +439,24 @@ static lmn_status send(upload_solid *s, gpu *g, const baker *b, lmn_error *error
     return gpu_check(g, error);
 }
 
+/* What the section takes away, and how cut faces are marked. */
+static lmn_status cut_solid(upload *u, upload_solid *s, size_t part_index, const mat4 *world, int32_t half_space_mesh,
+                            lmn_error *error)
+{
+    const cut    *c = &u->section.cut;
+    bool          spared = u->section.spared && u->section.spared[part_index];
+    solid_cutter *cutters = NULL;
+    lmn_status    status = solid_form_cut(&s->form, c, spared, world, half_space_mesh, &cutters, error);
+    s->cut_bits = mem_calloc(s->form.operand_count + 1, sizeof *s->cut_bits);
+    if (status == LMN_OK && !s->cut_bits)
+        status = error_memory(error);
+    for (size_t k = 0; k < s->form.operand_count && status == LMN_OK; k++)
+        if (cutters[k].plane != NONE)
+            s->cut_bits[k] = cut_face_bits(c, cutters[k].plane, 0, cutters[k].positive);
+    mem_free(cutters);
+    return status;
+}
+
 static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene *scene, size_t part_index,
                              const mat4 *world, lmn_error *error)
 {
@@ -463,10 +466,10 @@ static lmn_status make_solid(upload *u, upload_solid *s, gpu *g, const lmn_scene
                    .crease_angle = u->crease_angle,
                    .shapes = u->shapes,
                    .has_lists = gpu_capabilities_of(g)->lists};
-    make_half_space(&b.half_space, &half_space);
+    solid_half_space(&b.half_space, &half_space);
     lmn_status status = solid_form_create(&s->form, &scene->solids[s->source], true, error);
     if (status == LMN_OK)
-        status = upload_cut_solid(u, &s->form, part_index, world, (int32_t)scene->mesh_count, &s->cut_bits, error);
+        status = cut_solid(u, s, part_index, world, (int32_t)scene->mesh_count, error);
     s->used = mem_alloc((s->form.operand_count + 1) * sizeof *s->used);
     if (status == LMN_OK && !s->used)
         status = error_memory(error);

@@ -1,6 +1,8 @@
 /* Meshes whose vertices know where on a wall they are: what facades are laid out by. */
 #include "stage/upload_private.h"
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "field/walls.h"
 
@@ -36,19 +38,33 @@ static bool split(upload_walls *out, const wall_mesh *m, const vertex_arrays *fr
     return done;
 }
 
-lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_part_job *job, const vertex_arrays *data,
+/* The lowest of what a projection has bent, before it did. */
+static vec3 lowest(const vec3 *straight, uint32_t count)
+{
+    vec3 low = {INFINITY, INFINITY, INFINITY};
+    for (uint32_t i = 0; i < count; i++)
+        low = (vec3){fminf(low.x, straight[i].x), fminf(low.y, straight[i].y), fminf(low.z, straight[i].z)};
+    return low;
+}
+
+lmn_status upload_find_walls(upload_walls *out, const upload *u, const upload_part_job *job, const upload_vertices *v,
                              lmn_error *error)
 {
-    primitive        p = {.vertex_count = data->vertex_count,
-                          .index_count = data->index_count,
-                          .positions = (vec3 *)(uintptr_t)data->positions,
-                          .indices = (uint32_t *)(uintptr_t)data->indices};
-    const lmn_scene *scene = u->pose->scene;
-    int              up = scene->up == 'z' ? 2 : 1;
-    vec3             low = u->pose->part_boxes[job->part_index].min;
-    mat4             world = pose_instance(u->pose, job->part_index, job->instance);
-    wall_mesh        made;
-    lmn_status       status = wall_mesh_make(&made, &p, &world, up, (double)(up == 2 ? low.z : low.y), error);
+    const vertex_arrays *data = v->now;
+    primitive            p = {.vertex_count = data->vertex_count,
+                              .index_count = data->index_count,
+                              .positions = v->straight ? (vec3 *)(uintptr_t)v->straight : (vec3 *)(uintptr_t)data->positions,
+                              .indices = (uint32_t *)(uintptr_t)data->indices};
+    const lmn_scene     *scene = u->pose->scene;
+    int                  up = scene->up == 'z' ? 2 : 1;
+    vec3                 low = u->pose->part_boxes[job->part_index].min;
+    mat4                 world = pose_instance(u->pose, job->part_index, job->instance);
+    if (v->straight) {
+        low = lowest(v->straight, data->vertex_count);
+        world = mat4_identity();
+    }
+    wall_mesh  made;
+    lmn_status status = wall_mesh_make(&made, &p, &world, up, (double)(up == 2 ? low.z : low.y), error);
     if (status == LMN_OK) {
         out->numbers = numbers_of(&made);
         if (!split(out, &made, data) || !out->numbers)

@@ -301,6 +301,21 @@ static bool open_density(density *d, const stroke_view *v)
     return d->all && d->drawn && d->heads;
 }
 
+/* Of a chain; what is hidden is not beside what is seen, and tells of what lies there: the sides of a bore, the rim of
+ * which is seen from the edge, on another line. */
+static double hidden_length(const density *d, const chain *c)
+{
+    double length = 0;
+    for (uint32_t k = 0; k < c->count; k++) {
+        const stroke *s = &d->set->strokes[c->first + k];
+        for (uint32_t i = 1; i < s->count && s->hidden_by; i++) {
+            const stroke_point *p = &d->set->points[s->first + i];
+            length += hypot((double)p->x - (double)p[-1].x, (double)p->y - (double)p[-1].y);
+        }
+    }
+    return length;
+}
+
 static bool choose(density *d, chain *chains, size_t count, uint8_t *gone)
 {
     double small = OUTLINE_ALONE * fmin(2 * (1 - (double)d->options->detail), 1);
@@ -314,8 +329,9 @@ static bool choose(density *d, chain *chains, size_t count, uint8_t *gone)
         if (d->sample_count == 0) /* nothing of it is visible */
             continue;
         bool goes = (!is_outline(s) && s->kind < STROKE_SUGGESTIVE && s->size < small) || is_crowded(d, s, width);
+        bool hidden_stays = goes && hidden_length(d, c) > BARE_LINE;
         for (uint32_t k = 0; k < c->count && goes; k++)
-            gone[c->first + k] = 1;
+            gone[c->first + k] = !(hidden_stays && d->set->strokes[c->first + k].hidden_by);
         if (!goes && !lay(d, width))
             return false;
     }

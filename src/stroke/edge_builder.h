@@ -43,6 +43,7 @@ typedef struct edge_builder {
     float          crease; /* cosine of … */
     double         angle;
     bool           has_flat; /* faces without area were left out */
+    bool           whole;    /* nothing is dropped that is there twice */
     bool has_twins; /* there may be faces that are there twice: edges have more than two, or both of an edge are the
                        same, or lie on each other */
 } edge_builder;

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "stroke/butterfly_mesh.h"
 #include "stroke/drawn.h"
+#include "stroke/solid.h"
 
 /* A face leans out of its neighbour's plane when the corner that they do not share is farther from it than this
  * fraction of its distance. */
@@ -441,7 +442,7 @@ static lmn_status sort_edges(edge_builder *b, lmn_error *error)
     fill_buckets(b);
     if (!take_edges(b))
         return error_memory(error);
-    if (b->has_twins) {
+    if (b->has_twins && !b->whole) {
         b->dropped = mem_calloc(m->face_count, 1);
         if (!b->dropped)
             return error_memory(error);
@@ -499,6 +500,15 @@ lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions
     edge_builder b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle};
     return edges_finish(&b, edge_faces_make(&b, m, positions, error), error);
 }
+
+lmn_status edge_mesh_create_whole(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
+                                  lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    edge_builder b = {.mesh = out, .crease = (float)cos(crease_angle), .angle = crease_angle, .whole = true};
+    return edges_finish(&b, edge_faces_make(&b, m, positions, error), error);
+}
+
 lmn_status edge_mesh_create_from(edge_mesh *out, const edge_faces *faces, double crease_angle, uint32_t *numbers,
                                  lmn_error *error)
 {
@@ -527,6 +537,8 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->inward);
     mem_free(m->boxes);
     mem_free(m->said);
+    mem_free(m->caps);
     edge_refinement_destroy(&m->refinement);
+    edge_solid_destroy(&m->solid);
     memset(m, 0, sizeof *m);
 }

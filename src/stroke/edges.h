@@ -16,7 +16,8 @@ typedef enum edge_flag {
                  * convex, or smooth and not flat where the piece it belongs to is not closed */
     EDGE_TWISTED = 1 << 4, /* beside others: both faces pass it the same way, so that one of them is inside out */
     EDGE_QUIET = 1 << 6,   /* turns by more than the crease angle but is no crease: no line unless it is an outline */
-    EDGE_ROUNDED = 1 << 5  /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
+    EDGE_HOLLOW = 1 << 7, /* beside EDGE_CANDIDATE: of a hollow, so that the outline is always hidden: sides of bores */
+    EDGE_ROUNDED = 1 << 5 /* beside EDGE_CREASE: the middle of a narrow rounding, as sharp as that turns in all */
 } edge_flag;
 
 /* What a file says of an edge (glTF's EXT_mesh_primitive_edge_visibility). It overrules the angle. */
@@ -46,6 +47,14 @@ typedef struct mesh_line {
     float    lift; /* so far it may lie off a surface and still be on it */
 } mesh_line;
 
+/* A cut face of a section: what says how it is hatched. Its faces have a material that is no file's. */
+typedef struct edge_cap {
+    int32_t  axis;              /* 0 … 2, that its plane is nearest to being at right angles to */
+    uint32_t body;              /* of the part, from 0 on */
+    double   normal[3], offset; /* of its plane, world axes */
+} edge_cap;
+#define EDGE_CAP_MATERIAL(cap) (-2 - (int32_t)(cap))
+
 /* A mesh with all its primitives welded by position: vertices that lie at one position are one. Triangles that were
  * there twice are one, those without area are gone. Positions are the mesh's own. */
 typedef struct edge_mesh {
@@ -62,7 +71,10 @@ typedef struct edge_mesh {
     box3                   *boxes;     /* per piece */
     uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
+    edge_cap               *caps;
+    uint32_t                cap_count;
     struct edge_refinement *refinement; /* stroke/butterfly_mesh.h; NULL: the mesh is as it was given */
+    struct edge_solid      *solid;      /* stroke/solid.h: the faces are those of its operands; NULL: of a mesh */
     bool                  moves; /* a pose or a call has put it where it is: in the next picture it may be elsewhere */
     struct edge_topology *topology;  /* of its poses, borrowed; NULL: none is kept */
     uint32_t all_edges, loose_edges; /* of the mesh: how many there are, and how many do not have exactly two faces */
@@ -72,6 +84,9 @@ typedef struct edge_mesh {
  * primitives, one after the other, where the mesh has a pose. End with edge_mesh_release. Errors: LMN_MEMORY. */
 lmn_status edge_mesh_create(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
                             lmn_error *error);
+/* The same with all faces, those that are there twice, too: as operands of solids, two of these enclose nothing. */
+lmn_status edge_mesh_create_whole(edge_mesh *out, const mesh *m, const vec3 *positions, double crease_angle,
+                                  lmn_error *error);
 void       edge_mesh_release(edge_mesh *m);
 
 /* What the poses of a mesh have in common: vertices that are one, faces, and which of these meet. Of the mesh at rest:

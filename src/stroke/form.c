@@ -135,17 +135,24 @@ static lmn_status collect_mesh(view_lines *out, const stroke_view *v, const stro
     return status;
 }
 
+bool stroke_options_form(const stroke_options *w)
+{
+    return w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
+}
+
 bool stroke_options_bend(const stroke_options *w)
 {
-    return w->contours == CONTOURS_SMOOTH || w->suggestive > 0 || w->ridges > 0 || w->valleys > 0 || w->apparent > 0;
+    return w->contours == CONTOURS_SMOOTH || stroke_options_form(w);
 }
 
 lmn_status form_collect(view_lines *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                         lmn_progress_fn progress, void *user, lmn_error *error)
 {
-    bool       bends = options->suggestive > 0 || options->ridges > 0 || options->valleys > 0 || options->apparent > 0;
+    bool       bends = stroke_options_form(options);
     lmn_status status = LMN_OK;
     for (size_t i = 0; i < v->scene->mesh_count && status == LMN_OK; i++) {
+        if (v->scene->meshes[i].solid) /* nobody knows how it bends */
+            continue;
         if (!stroke_options_bend(options) && !(options->contours != CONTOURS_NONE && has_calm_outline(v->scene, i)))
             continue;
         if (progress && !progress((double)i / (double)v->scene->mesh_count, "finding lines of form", user))
@@ -184,7 +191,7 @@ lmn_status stroke_scene_bend(stroke_scene *s, lmn_progress_fn progress, void *us
 {
     lmn_status status = open_surfaces(s) ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < s->mesh_count && status == LMN_OK; i++) {
-        if (s->surfaces[i].bends)
+        if (s->surfaces[i].bends || s->meshes[i].solid)
             continue;
         form_surface_release(&s->surfaces[i]);
         if (progress && !progress((double)i / (double)s->mesh_count, "finding how surfaces bend", user))

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/solid.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
 /* Faces of one surface that two pieces have turn against each other by no more than the first, radians, whatever the
@@ -49,6 +50,7 @@ typedef struct crossing_search {
     float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     face_touch         *touches;
     size_t              touch_count, touch_capacity;
+    solid_trimmer     **trimmers; /* per item that is a solid; NULL: not needed yet */
     crossing_list      *out;
     lmn_progress_fn     progress;
     void               *user;
@@ -345,7 +347,7 @@ static bool is_one_surface(crossing_search *s, uint32_t first, uint32_t second, 
     return acos(fmin(cosine, 1)) <= fmax(TURN_LEAST, (double)turns[0][n->face] + turns[1][m->face]);
 }
 
-static bool put_crossing(crossing_search *s, const face_crossing *c)
+static bool keep_crossing(crossing_search *s, const face_crossing *c)
 {
     if (!mem_grow((void **)&s->out->crossings, &s->out->capacity, s->out->count + 1, sizeof *s->out->crossings)) {
         s->failed = true;
@@ -353,6 +355,63 @@ static bool put_crossing(crossing_search *s, const face_crossing *c)
     }
     s->out->crossings[s->out->count++] = *c;
     return true;
+}
+
+static solid_trimmer *trimmer_of(crossing_search *s, uint32_t item)
+{
+    if (!s->trimmers)
+        s->trimmers = mem_calloc(s->scene->item_count + 1, sizeof(solid_trimmer *));
+    if (s->trimmers && !s->trimmers[item])
+        s->trimmers[item] = solid_trimmer_create(s->scene->meshes[s->scene->items[item].mesh].solid);
+    return s->trimmers ? s->trimmers[item] : NULL;
+}
+
+static bool put_from(crossing_search *s, const face_crossing *c, int side);
+
+/* The stretches of a crossing at which its face bounds the solid. */
+static bool put_trimmed(crossing_search *s, const face_crossing *c, int side)
+{
+    const stroke_item *item = &s->scene->items[c->items[side]];
+    solid_trimmer     *t = trimmer_of(s, c->items[side]);
+    const solid_share *found;
+    size_t             count;
+    const mat4         inverse = mat4_inverse(&item->world);
+    double             ends[2][3];
+    for (int k = 0; k < 2; k++)
+        for (int row = 0; row < 3; row++)
+            ends[k][row] = inverse.m[row] * c->ends[k].x + inverse.m[4 + row] * c->ends[k].y +
+                           inverse.m[8 + row] * c->ends[k].z + inverse.m[12 + row];
+    s->failed = !t || !solid_trim(t, c->faces[side], ends[0], ends[1], &found, &count);
+    solid_share *shares =
+        s->failed ? NULL : mem_copy(found, count * sizeof *shares); /* the other side may be its own */
+    s->failed = s->failed || (count && !shares);
+    for (size_t i = 0; !s->failed && i < count; i++) {
+        face_crossing part = *c;
+        double3       way = double3_minus(c->ends[1], c->ends[0]), from = c->ends[0];
+        if (shares[i].from > 0)
+            part.ends[0] = (double3){from.x + shares[i].from * way.x, from.y + shares[i].from * way.y,
+                                     from.z + shares[i].from * way.z};
+        if (shares[i].to < 1)
+            part.ends[1] =
+                (double3){from.x + shares[i].to * way.x, from.y + shares[i].to * way.y, from.z + shares[i].to * way.z};
+        put_from(s, &part, side + 1);
+    }
+    mem_free(shares);
+    return !s->failed;
+}
+
+static bool put_from(crossing_search *s, const face_crossing *c, int side)
+{
+    for (; side < 2; side++)
+        if (s->scene->meshes[s->scene->items[c->items[side]].mesh].solid)
+            return put_trimmed(s, c, side);
+    return keep_crossing(s, c);
+}
+
+/* Adds a crossing, of faces of solids as far as they bound them. */
+static bool put_crossing(crossing_search *s, const face_crossing *c)
+{
+    return put_from(s, c, 0);
 }
 
 /* On which side of the other plane a face is that has an edge on it: 1 or −1; 0 where it has none. */
@@ -531,6 +590,9 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);
     mem_free(s.turns);
+    for (size_t i = 0; i < scene->item_count && s.trimmers; i++)
+        solid_trimmer_destroy(&s.trimmers[i]);
+    mem_free(s.trimmers);
     if (status == LMN_OK && !(crossings_settle(out) && crossings_sort(out, scene->item_count)))
         status = error_memory(error);
     if (status != LMN_OK)

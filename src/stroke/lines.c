@@ -86,7 +86,8 @@ static stroke_class class_of(const collector *c, size_t mesh, const mesh_edge *e
         return w->borders ? STROKE_BORDER : STROKE_CLASS_COUNT;
     bool differ = view_is_front(c->v, first_face + e->face[0]) != view_is_front(c->v, first_face + e->face[1]);
     bool turns = differ != ((e->flags & EDGE_TWISTED) != 0);
-    bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE));
+    bool as_edges = w->contours == CONTOURS_EDGES || (w->contours == CONTOURS_SMOOTH && (e->flags & EDGE_CREASE)) ||
+                    (w->contours == CONTOURS_SMOOTH && c->v->scene->meshes[mesh].solid);
     if (turns && as_edges && (e->flags & (EDGE_CREASE | EDGE_CANDIDATE)) && !has_calm_outline(c->v->scene, mesh))
         return STROKE_CONTOUR;
     if ((e->flags & EDGE_CREASE) && w->creases)
@@ -114,10 +115,17 @@ static bool put_edge(collector *c, uint32_t index, const mesh_edge *e, uint64_t 
                       kind == STROKE_CONTOUR && !view_is_front(v, faces[0])};
     if (v->outside[a] & v->outside[b])
         return true;
-    if (v->outside[a] | v->outside[b])
-        return lines_put(c->out, v, line, item_position(item, m->positions[e->vertex[0]]),
-                         item_position(item, m->positions[e->vertex[1]]), faces);
-    window_segment s = {.a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}};
+    uint32_t least = kind == STROKE_CONTOUR && e->flags & EDGE_HOLLOW ? 1 : 0;
+    if (v->outside[a] | v->outside[b]) {
+        size_t before = c->out->count;
+        bool   good = lines_put(c->out, v, line, item_position(item, m->positions[e->vertex[0]]),
+                                item_position(item, m->positions[e->vertex[1]]), faces);
+        if (c->out->count > before)
+            c->out->segments[before].least = least;
+        return good;
+    }
+    window_segment s = {
+        .a = v->points[a], .b = v->points[b], .ends = {a, b}, .faces = {faces[0], faces[1]}, .least = least};
     return !is_near_page(v, s.a, s.b) || put_line(c->out, line, s);
 }
 

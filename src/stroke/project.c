@@ -225,7 +225,7 @@ uint8_t *view_unseen(const stroke_view *v, size_t index)
         bool  inside = !v->camera.orthographic && eye.x >= box.min.x - margin && eye.x <= box.max.x + margin &&
                       eye.y >= box.min.y - margin && eye.y <= box.max.y + margin && eye.z >= box.min.z - margin &&
                       eye.z <= box.max.z + margin;
-        if (m->closed[i] && !inside)
+        if (m->closed[i] && !inside && !m->solid)
             out[i] = m->inward[i] == mirrored ? 1 : 2;
     }
     return out;
@@ -245,6 +245,8 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
             for (int k = 0; k < 3; k++)
                 p[k] = position_in_clip_space(v, item_position(item, m->positions[corners[k]]));
             front = faces_eye(p);
+            if (m->solid && ((v->outside[a] | v->outside[b] | v->outside[c]) >> PLANE_NEAR & 1))
+                v->around[index] = true;
             if (unseen[m->pieces[f]] != (front ? 2 : 1) && !(v->outside[a] & v->outside[b] & v->outside[c]) &&
                 !put_clipped(v, p, face))
                 return false;
@@ -283,12 +285,31 @@ static void box_triangles(size_t begin, size_t end, void *user)
         box->low_y = a.y < b.y ? (a.y < c.y ? a.y : c.y) : (b.y < c.y ? b.y : c.y);
         box->high_x = a.x > b.x ? (a.x > c.x ? a.x : c.x) : (b.x > c.x ? b.x : c.x);
         box->high_y = a.y > b.y ? (a.y > c.y ? a.y : c.y) : (b.y > c.y ? b.y : c.y);
+        uint32_t solid = view_solid(v, v->triangles[i].face);
         box->near_z = nextafterf((float)(a.z < b.z ? (a.z < c.z ? a.z : c.z) : (b.z < c.z ? b.z : c.z)), -INFINITY);
         box->slope = fminf(slope_of(a, b, c), most * (v->camera.orthographic ? 1 : fabsf(box->near_z)));
+        if (solid && v->around[solid - 1]) /* counts wherever it lies: the eye may be in what it encloses */
+            box->near_z = -INFINITY;
     }
 }
 
 /* --- the view ------------------------------------------------------------------------------------------- */
+
+static bool mark_solids(stroke_view *v)
+{
+    const stroke_scene *s = v->scene;
+    v->around = mem_calloc(s->item_count + 1, sizeof *v->around);
+    for (size_t i = 0; i < s->item_count && v->around; i++) {
+        if (!s->meshes[s->items[i].mesh].solid)
+            continue;
+        if (!v->solids)
+            v->solids = mem_calloc((size_t)v->piece_count + 1, sizeof *v->solids);
+        if (!v->solids)
+            return false;
+        v->solids[v->items[i].first_piece] = (uint32_t)i + 1;
+    }
+    return v->around != NULL;
+}
 
 static lmn_status number_items(stroke_view *v, lmn_error *error)
 {
@@ -325,7 +346,7 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
         for (uint32_t f = 0; f < m->face_count; f++)
             v->face_pieces[v->items[i].first_face + f] = v->items[i].first_piece + m->pieces[f];
     }
-    return LMN_OK;
+    return mark_solids(v) ? LMN_OK : error_memory(error);
 }
 
 static double units_of(const stroke_camera *c)
@@ -387,6 +408,8 @@ void stroke_view_destroy(stroke_view **view)
     mem_free(v->outside);
     mem_free(v->fronts);
     mem_free(v->face_pieces);
+    mem_free(v->solids);
+    mem_free(v->around);
     mem_free(v->triangles);
     mem_free(v->boxes);
     grid_release(&v->grid);

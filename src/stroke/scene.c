@@ -6,6 +6,7 @@
 #include "stroke/scene_cut.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
+#include "stroke/solid.h"
 #include "stroke/stroke_private.h"
 
 typedef struct scene_builder {
@@ -159,18 +160,20 @@ static lmn_status put_item(scene_builder *b, size_t part_index, uint32_t mesh, c
 }
 
 /* What a section leaves of an instance that it goes through: a mesh of its own. */
-static lmn_status add_cut(scene_builder *b, size_t part_index, const mat4 *world, cut_verdict *verdict,
+static lmn_status add_cut(scene_builder *b, size_t part_index, const mat4 *world, cut_verdict *verdict, bool *open,
                           lmn_error *error)
 {
+    bool             own_open = false;
     stroke_scene    *s = b->out;
     const part_pose *pose = &b->pose->parts[part_index];
     const mesh      *m = &b->scene->meshes[b->scene->nodes[b->scene->parts[part_index].node].mesh];
     edge_mesh        made = {0};
     vec3            *positions = pose_positions(m, pose);
-    lmn_status       status =
-        positions ? scene_cut_mesh(&made, verdict, m, positions, b->section->cut, world, b->crease_angle, error)
-                        : error_memory(error);
+    lmn_status status = positions ? scene_cut_mesh(&made, verdict, &own_open, m, positions, b->section->cut, world,
+                                                   b->crease_angle, error)
+                                  : error_memory(error);
     mem_free(positions);
+    *open = *open || own_open;
     if (status != LMN_OK || *verdict != CUT_CROSSED)
         return status;
     status = edge_mesh_refine(&made, b->refine, error);
@@ -194,22 +197,69 @@ static cut_verdict judge_part(const scene_builder *b, size_t part_index)
     return verdict == CUT_CROSSED && spared ? CUT_WHOLE : verdict;
 }
 
+/* One instance of a solid, or all, as lines of what its operations leave. */
+static lmn_status make_solid(scene_builder *b, size_t part_index, const mat4 *world, uint32_t *number, lmn_error *error)
+{
+    static const cut nothing = {.cell_count = 0};
+    const cut       *c = b->section ? b->section->cut : &nothing;
+    bool             spared = b->section && b->section->spared && b->section->spared[part_index];
+    stroke_scene    *s = b->out;
+    solid_form       form;
+    solid_cutter    *cutters = NULL;
+    lmn_status       status = solid_form_create(
+              &form, &b->scene->solids[b->scene->nodes[b->scene->parts[part_index].node].solid], true, error);
+    if (status == LMN_OK)
+        status = solid_form_cut(&form, c, spared, world, (int32_t)b->scene->mesh_count, &cutters, error);
+    if (status == LMN_OK && !mem_grow((void **)&s->meshes, &b->mesh_capacity, s->mesh_count + 1, sizeof *s->meshes))
+        status = error_memory(error);
+    if (status == LMN_OK)
+        status = edge_mesh_create_solid(&s->meshes[s->mesh_count], b->scene, &form, c, cutters, b->crease_angle, error);
+    solid_form_release(&form);
+    mem_free(cutters);
+    if (status != LMN_OK)
+        return status;
+    *number = (uint32_t)s->mesh_count++;
+    s->open_operands += s->meshes[*number].solid->open_operands;
+    return LMN_OK;
+}
+
+/* Instances are one solid, unless a section cuts each elsewhere. */
+static lmn_status add_solid(scene_builder *b, size_t part_index, lmn_error *error)
+{
+    const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
+    bool        apart = b->section && b->section->cut->cell_count > 0;
+    uint32_t    number = 0;
+    lmn_status  status = LMN_OK;
+    for (size_t i = 0; i < node_draw_count(n) && status == LMN_OK; i++) {
+        mat4 world = pose_instance(b->pose, part_index, i);
+        if (i == 0 || apart)
+            status = make_solid(b, part_index, &world, &number, error);
+        if (status == LMN_OK && b->out->meshes[number].piece_count)
+            status = put_item(b, part_index, number, &world, error);
+    }
+    return status;
+}
+
 static lmn_status add_part(scene_builder *b, size_t part_index, lmn_error *error)
 {
     const node *n = &b->scene->nodes[b->scene->parts[part_index].node];
     cut_verdict part = n->mesh < 0 ? CUT_GONE : judge_part(b, part_index);
     uint32_t    number = UINT32_MAX;
+    bool        open = false;
     lmn_status  status = LMN_OK;
+    if (n->solid != NONE)
+        return add_solid(b, part_index, error);
     for (size_t i = 0; i < node_draw_count(n) && part != CUT_GONE && status == LMN_OK; i++) {
         mat4        world = pose_instance(b->pose, part_index, i);
         cut_verdict own = part;
         if (part == CUT_CROSSED)
-            status = add_cut(b, part_index, &world, &own, error);
+            status = add_cut(b, part_index, &world, &own, &open, error);
         if (status == LMN_OK && own == CUT_WHOLE && number == UINT32_MAX)
             status = find_mesh(b, part_index, &number, error);
         if (status == LMN_OK && own == CUT_WHOLE)
             status = put_item(b, part_index, number, &world, error);
     }
+    b->out->open_parts += open;
     return status;
 }
 
@@ -247,10 +297,22 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
 lmn_status stroke_scene_create_refined(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                        int32_t refine, lmn_progress_fn progress, void *user, lmn_error *error)
 {
+    return stroke_scene_create_cut(out, pose, parts, crease_angle, refine, NULL, progress, user, error);
+}
+
+lmn_status stroke_scene_create_cut(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
+                                   int32_t refine, const stroke_section *section, lmn_progress_fn progress, void *user,
+                                   lmn_error *error)
+{
     stroke_topologies own = {NULL};
-    scene_builder     b = {
-            .out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle, .refine = refine, .kept = &own};
-    lmn_status status = fill(&b, parts, progress, user, error);
+    scene_builder     b = {.out = out,
+                           .pose = pose,
+                           .scene = pose->scene,
+                           .crease_angle = crease_angle,
+                           .refine = refine,
+                           .kept = &own,
+                           .section = section};
+    lmn_status        status = fill(&b, parts, progress, user, error);
     for (size_t i = 0; i < out->mesh_count; i++)
         out->meshes[i].topology = NULL;
     stroke_topologies_release(&own);

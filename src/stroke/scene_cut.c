@@ -5,8 +5,14 @@
 
 #include "base/memory.h"
 
-/* No material of any file: where a cut face meets what it closes, there is a line however flat they meet. */
-enum { CUT_MATERIAL = -2 };
+edge_cap scene_cut_cap(const cut *c, int32_t plane, uint32_t body)
+{
+    const cut_plane *p = &c->planes[plane];
+    double           x = fabs(p->normal[0]), y = fabs(p->normal[1]), z = fabs(p->normal[2]);
+    edge_cap         out = {x >= y && x >= z ? 0 : y >= z ? 1 : 2, body, {0, 0, 0}, p->offset};
+    memcpy(out.normal, p->normal, sizeof out.normal);
+    return out;
+}
 
 static lmn_status cut_inputs(cut_result *out, const mesh *m, const vec3 *positions, const cut *c, const mat4 *world,
                              lmn_error *error)
@@ -41,10 +47,12 @@ static bool take_surface(primitive *out, const primitive *from, const vec3 *posi
     return true;
 }
 
-static bool take_cap(primitive *out, const cut_cap *cap)
+/* Where a cut face meets what it closes, there is a line however flat they meet: it has a material of its own. */
+static bool take_cap(primitive *out, const cut_cap *cap, size_t number)
 {
-    *out = (primitive){
-        .vertex_count = (uint32_t)cap->count, .index_count = (uint32_t)cap->count, .material = CUT_MATERIAL};
+    *out = (primitive){.vertex_count = (uint32_t)cap->count,
+                       .index_count = (uint32_t)cap->count,
+                       .material = EDGE_CAP_MATERIAL(number)};
     out->positions = mem_copy(cap->positions, cap->count * sizeof *out->positions);
     out->indices = mem_alloc((cap->count + 1) * sizeof *out->indices);
     for (uint32_t i = 0; out->indices && i < cap->count; i++)
@@ -181,7 +189,7 @@ static bool take_result(mesh *out, const mesh *m, const vec3 *positions, const c
                                        : take_surface(p, from, positions, &r->surfaces[i]);
     }
     for (size_t i = 0; i < r->cap_count && good; i++)
-        good = take_cap(&out->primitives[out->primitive_count++], &r->caps[i]);
+        good = take_cap(&out->primitives[out->primitive_count++], &r->caps[i], i);
     return good;
 }
 
@@ -195,8 +203,16 @@ static cut_verdict judge(cut_result *r, uint64_t triangles, const line_cutter *l
     return r->verdict == CUT_GONE && lines->out->line_count ? CUT_CROSSED : r->verdict;
 }
 
-lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, const mesh *m, const vec3 *positions, const cut *c,
-                          const mat4 *world, double crease_angle, lmn_error *error)
+static bool keep_caps(edge_mesh *out, const cut_result *r, const cut *c)
+{
+    out->caps = mem_alloc((r->cap_count + 1) * sizeof *out->caps);
+    for (size_t i = 0; i < r->cap_count && out->caps; i++)
+        out->caps[out->cap_count++] = scene_cut_cap(c, r->caps[i].plane, r->caps[i].body);
+    return out->caps != NULL;
+}
+
+lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, bool *open, const mesh *m, const vec3 *positions,
+                          const cut *c, const mat4 *world, double crease_angle, lmn_error *error)
 {
     cut_result  r;
     lmn_status  status = cut_inputs(&r, m, positions, c, world, error);
@@ -204,6 +220,7 @@ lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, const mesh *m, c
     line_cutter cutter = {.c = c, .world = world, .out = &lines};
     if (status == LMN_OK && !cut_lines(&cutter, m, positions))
         status = error_memory(error);
+    *open = r.open;
     *verdict = status == LMN_OK ? judge(&r, mesh_triangle_count(m), &cutter) : CUT_GONE;
     if (*verdict == CUT_CROSSED) {
         mesh left = {.primitives = mem_calloc(m->primitive_count + r.cap_count + 1, sizeof *left.primitives)};
@@ -214,6 +231,10 @@ lmn_status scene_cut_mesh(edge_mesh *out, cut_verdict *verdict, const mesh *m, c
         }
         status = good ? edge_mesh_create(out, &left, NULL, crease_angle, error) : error_memory(error);
         mesh_release(&left);
+        if (status == LMN_OK && !keep_caps(out, &r, c)) {
+            edge_mesh_release(out);
+            status = error_memory(error);
+        }
     }
     primitive_release(&lines);
     cut_result_release(&r);

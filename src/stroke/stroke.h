@@ -95,11 +95,13 @@ typedef struct stroke_scene {
     size_t               mesh_count;
     stroke_item         *items;
     size_t               item_count;
+    size_t               open_parts;    /* some of whose sections do not close */
+    uint32_t             open_operands; /* of solids, that are no closed meshes: what they enclose is not certain */
     double extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how
                              exact positions are: where a node puts it is exact */
 } stroke_scene;
 
-/* Takes the parts with `parts[index]` (NULL: all) as they are posed. Solids have no triangles and are left out.
+/* Takes the parts with `parts[index]` (NULL: all) as they are posed; of solids what bounds them (stroke/solid.h).
  * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status stroke_scene_create(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
                                lmn_progress_fn progress, void *user, lmn_error *error);
@@ -113,6 +115,9 @@ typedef struct stroke_section {
     const struct cut *cut;
     const bool       *spared; /* per part: stays whole; NULL: none */
 } stroke_section;
+lmn_status stroke_scene_create_cut(stroke_scene *out, const pose *pose, const bool *parts, double crease_angle,
+                                   int32_t refine, const stroke_section *section, lmn_progress_fn progress, void *user,
+                                   lmn_error *error);
 /* The same again and again, with a section (may be NULL), for poses of one scene: what these have in common is kept in
  * `kept`, which belongs to the caller. It is zero-initialised at first, and ended with stroke_topologies_release. */
 typedef struct stroke_topologies {
@@ -199,6 +204,8 @@ typedef struct stroke_options {
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one
  * view. */
 bool stroke_options_bend(const stroke_options *w);
+/* Do they ask for lines of form, which solids have none of? Outlines of solids are always those of their edges. */
+bool stroke_options_form(const stroke_options *w);
 
 /* Finds the lines of the parts with `parts[index]` (NULL: all of the scene); all of the scene's parts may hide
  * them. Same call, same strokes, whatever the number of threads. Errors: LMN_MEMORY, LMN_CANCELLED. */

@@ -93,6 +93,8 @@ struct stroke_view {
     window_grid         grid;
     uint32_t            face_count, piece_count, vertex_count;
     uint32_t           *face_pieces; /* per face: of all pieces in the view */
+    uint32_t *solids; /* per piece: 1 + the item of which it is, where that is a solid; NULL: there are none */
+    bool     *around; /* per item: a solid that reaches up to the eye, which may be in it */
 };
 
 /* A straight line whose visibility is asked for. */
@@ -141,6 +143,12 @@ static inline bool view_is_front(const stroke_view *v, uint32_t face)
 static inline double window_side(window_point a, window_point b, window_point c)
 {
     return ((double)b.x - a.x) * ((double)c.y - a.y) - ((double)b.y - a.y) * ((double)c.x - a.x);
+}
+
+/* 1 + the item of a face of a solid, 0: the face is a mesh's, and each face is a surface. */
+static inline uint32_t view_solid(const stroke_view *v, uint32_t face)
+{
+    return v->solids ? v->solids[v->face_pieces[face]] : 0;
 }
 
 /* --- grid.c --- */

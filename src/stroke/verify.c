@@ -4,9 +4,11 @@
 #include "stroke/stroke_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/solid.h"
 
 /* A position counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what
  * they belong to. */
@@ -24,14 +26,27 @@ typedef struct ray_count {
     uint32_t sure, all;
 } ray_count;
 
+/* Where a ray meets a face of a solid. */
+typedef struct solid_ray {
+    uint32_t  item;
+    bool      nearer;
+    solid_hit hit;
+} solid_ray;
+
 typedef struct verifier {
     const stroke_view *v;
     hierarchy          tree;
     box3              *boxes; /* per face of all items */
     double3 (*corners)[3];
-    uint8_t *unseen;                  /* per face: as view_unseen says of its piece */
-    mat4     to_world;                /* from eye space */
-    double   half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
+    uint8_t     *unseen; /* per face: as view_unseen says of its piece */
+    solid_ray   *hits;   /* of solids, along the ray at hand */
+    size_t       hit_count, hit_capacity;
+    solid_hit   *sorted;
+    size_t       sorted_capacity;
+    solid_state *states; /* per item that is a solid */
+    bool         failed;
+    mat4         to_world;                /* from eye space */
+    double       half_width, half_height; /* of the page in eye space: at depth 1 in perspective */
 } verifier;
 
 /* --- preparation ---------------------------------------------------------------------------------------- */
@@ -76,6 +91,25 @@ static void release(verifier *w)
     mem_free(w->boxes);
     mem_free(w->corners);
     mem_free(w->unseen);
+    mem_free(w->hits);
+    mem_free(w->sorted);
+    for (size_t i = 0; i < w->v->scene->item_count && w->states; i++)
+        solid_state_release(&w->states[i]);
+    mem_free(w->states);
+}
+
+static lmn_status open_states(verifier *w, lmn_error *error)
+{
+    const stroke_scene *s = w->v->scene;
+    bool                good = true;
+    if (!w->v->solids)
+        return LMN_OK;
+    w->states = mem_calloc(s->item_count + 1, sizeof *w->states);
+    for (size_t i = 0; i < s->item_count && w->states && good; i++) {
+        const edge_mesh *m = &s->meshes[s->items[i].mesh];
+        good = !m->solid || solid_state_open(&w->states[i], &m->solid->program);
+    }
+    return w->states && good ? LMN_OK : error_memory(error);
 }
 
 static lmn_status prepare(verifier *w, lmn_error *error)
@@ -84,7 +118,7 @@ static lmn_status prepare(verifier *w, lmn_error *error)
     w->boxes = mem_alloc(((size_t)v->face_count + 1) * sizeof *w->boxes);
     w->corners = mem_alloc(((size_t)v->face_count + 1) * sizeof *w->corners);
     w->unseen = mem_alloc((size_t)v->face_count + 1);
-    lmn_status status = w->boxes && w->corners && w->unseen ? LMN_OK : error_memory(error);
+    lmn_status status = w->boxes && w->corners && w->unseen ? open_states(w, error) : error_memory(error);
     for (size_t i = 0; i < v->scene->item_count && status == LMN_OK; i++) {
         uint8_t *unseen = view_unseen(v, i);
         if (unseen)
@@ -150,8 +184,19 @@ static bool passes(const box3 *b, const ray *r)
     return enter <= leave;
 }
 
+static void put_hit(verifier *w, uint32_t item, uint32_t face, double at, bool nearer, bool sure)
+{
+    const edge_solid *s = w->v->scene->meshes[w->v->scene->items[item].mesh].solid;
+    uint32_t          own = face - w->v->items[item].first_face;
+    if (!mem_grow((void **)&w->hits, &w->hit_capacity, w->hit_count + 1, sizeof *w->hits)) {
+        w->failed = true;
+        return;
+    }
+    w->hits[w->hit_count++] = (solid_ray){item, nearer, {at, s->operands[own], s->planes[own], sure}};
+}
+
 /* Möller and Trumbore's test. Counts the face when it lies in front of the ray's end. */
-static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count *out)
+static void count_face(verifier *w, uint32_t face, const ray *r, ray_count *out)
 {
     const double3 *p = w->corners[face];
     double3        a = double3_minus(p[1], p[0]), b = double3_minus(p[2], p[0]), h = double3_cross(r->along, b),
@@ -161,21 +206,59 @@ static void count_face(const verifier *w, uint32_t face, const ray *r, ray_count
         return;
     double3 s = double3_minus(r->from, p[0]), q = double3_cross(s, a);
     double  u = double3_dot(s, h) / det, v = double3_dot(r->along, q) / det, t = double3_dot(b, q) / det;
-    if (u < 0 || v < 0 || u + v > 1 || t < 0 || t >= r->until)
+    if (u < 0 || v < 0 || u + v > 1 || t < 0)
         return;
-    out->all++;
-    out->sure += (r->until - t) * fabs(double3_dot(r->along, normal)) > r->near * sqrt(double3_dot(normal, normal));
+    uint32_t solid = view_solid(w->v, face);
+    bool     sure = (r->until - t) * fabs(double3_dot(r->along, normal)) > r->near * sqrt(double3_dot(normal, normal));
+    if (solid) {
+        put_hit(w, solid - 1, face, t, t < r->until, sure);
+    } else if (t < r->until) {
+        out->all++;
+        out->sure += sure;
+    }
 }
 
-static ray_count count_in_front(const verifier *w, const ray *r)
+static int compare_hits(const void *a, const void *b)
+{
+    const solid_ray *p = a, *q = b;
+    return (p->item > q->item) - (p->item < q->item);
+}
+
+/* What is met an odd number of times, in front of the position or behind it, holds where the ray begins. */
+static void count_solids(verifier *w, ray_count *out)
+{
+    if (!w->hit_count || !mem_grow((void **)&w->sorted, &w->sorted_capacity, w->hit_count, sizeof *w->sorted))
+        return;
+    qsort(w->hits, w->hit_count, sizeof *w->hits, compare_hits);
+    for (size_t i = 0, end; i < w->hit_count; i = end) {
+        solid_state *s = &w->states[w->hits[i].item];
+        size_t       count = 0;
+        for (end = i; end < w->hit_count && w->hits[end].item == w->hits[i].item; end++) {
+            solid_state_pass(s, w->hits[end].hit.operand);
+            if (w->hits[end].nearer)
+                w->sorted[count++] = w->hits[end].hit;
+        }
+        solid_entries entries = solid_count_entries(s, w->sorted, count);
+        for (size_t k = i; k < end; k++)
+            solid_state_pass(s, w->hits[k].hit.operand);
+        out->all += entries.all;
+        out->sure += entries.sure;
+    }
+}
+
+static ray_count count_in_front(verifier *w, const ray *r)
 {
     uint32_t  stack[STACK], depth = 0;
     ray_count count = {0, 0};
+    ray       whole = *r;
+    if (w->v->solids) /* what lies behind says whether the eye is inside */
+        whole.until = INFINITY;
+    w->hit_count = 0;
     if (w->tree.node_count)
         stack[depth++] = 0;
     while (depth > 0) {
         const hierarchy_node *n = &w->tree.nodes[stack[--depth]];
-        if (!passes(&n->box, r))
+        if (!passes(&n->box, &whole))
             continue;
         for (uint32_t i = 0; i < n->count; i++)
             count_face(w, w->tree.members[n->first + i], r, &count);
@@ -184,12 +267,13 @@ static ray_count count_in_front(const verifier *w, const ray *r)
             stack[depth++] = n->first + 1;
         }
     }
+    count_solids(w, &count);
     return count;
 }
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
 
-static void check_position(const verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
+static void check_position(verifier *w, const stroke *s, double x, double y, double depth, stroke_check *out)
 {
     bool right = false, counted = false;
     for (int ring = 0; ring < RINGS && !counted; ring++)
@@ -214,7 +298,7 @@ static double depth_between(const stroke_view *v, const stroke_point *p, const s
     return 1 / (1 / p->depth + fraction * (1 / q->depth - 1 / p->depth));
 }
 
-static void check_stroke(const verifier *w, const stroke_set *set, const stroke *s, double apart, stroke_check *out)
+static void check_stroke(verifier *w, const stroke_set *set, const stroke *s, double apart, stroke_check *out)
 {
     double next = apart / 2; /* along the stroke */
     double done = 0;
@@ -240,6 +324,8 @@ lmn_status stroke_verify(stroke_check *out, const stroke_set *set, const stroke_
     for (size_t i = 0; i < set->stroke_count && status == LMN_OK; i++) {
         if (!set->strokes[i].smooth) /* rays know nothing of what is meant by the mesh */
             check_stroke(&w, set, &set->strokes[i], apart > 0 ? apart : 1, out);
+        if (w.failed)
+            status = error_memory(error);
         if (progress && out->samples >= told + TICK) {
             told = out->samples;
             if (!progress((double)i / (double)set->stroke_count, "verifying", user))

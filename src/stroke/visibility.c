@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "stroke/solid_cover.h"
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
@@ -61,6 +62,7 @@ typedef struct worker {
     size_t                filled_count, filled_capacity;
     position_step        *steps;
     size_t                step_capacity;
+    solid_covers          covers; /* of faces of solids */
     uint64_t              pairs;
     bool                  failed;
 } worker;
@@ -125,18 +127,42 @@ static void put_step(worker *w, double at, int32_t step)
 }
 
 /* Between two positions of the segment the triangle lies nearer by before … after; what differs by less than `same` is
- * the same. */
-static void cover_nearer(worker *w, double from, double to, double before, double after, double same)
+ * the same. False where it is nowhere nearer; else the positions are where it is. */
+static bool find_nearer(double *from, double *to, double before, double after, double same)
 {
     bool begins = before > same, ends = after > same;
-    if (!begins && !ends)
+    if (begins && !ends && after < -same)
+        *to = *from + (*to - *from) * (before / (before - after));
+    else if (ends && !begins && before < -same)
+        *from = *from + (*to - *from) * (before / (before - after));
+    return begins || ends;
+}
+
+static void cover_nearer(worker *w, double from, double to, double before, double after, double same)
+{
+    if (!find_nearer(&from, &to, before, after, same))
         return;
-    if (begins && after < -same)
-        to = from + (to - from) * (before / (before - after));
-    else if (ends && before < -same)
-        from = from + (to - from) * (before / (before - after));
     put_step(w, from, 1);
     put_step(w, to, -1);
+}
+
+/* The face of a solid from one position to another, with its depths there. Where the eye may be in the solid, what lies
+ * behind the segment counts too. */
+static void cover_of_solid(worker *w, solid_cover c, double before, double after, double same)
+{
+    double from = c.from, to = c.to, rise = (c.z[1] - c.z[0]) / (to - from), z = c.z[0];
+    bool   nearer = find_nearer(&from, &to, before, after, same), around = w->v->around[c.item];
+    double stops[4] = {c.from, nearer ? from : c.to, nearer ? to : c.to, c.to};
+    for (int k = 0; k < 3; k++) {
+        solid_cover part = c;
+        part.from = stops[k];
+        part.to = stops[k + 1];
+        part.z[0] = z + (part.from - c.from) * rise;
+        part.z[1] = z + (part.to - c.from) * rise;
+        part.nearer = nearer && k == 1;
+        if (part.from < part.to && (part.nearer || around) && !solid_covers_put(&w->covers, &part))
+            w->failed = true;
+    }
 }
 
 static bool is_ignored(const window_segment *s, uint32_t face)
@@ -184,6 +210,13 @@ static bool is_beside(const worker *w, uint32_t face)
     return low < s->beside_count && s->beside[low] == piece;
 }
 
+/* Is the face one of a solid that may be around the eye? Then it counts wherever it is met. */
+static bool is_around(const stroke_view *v, uint32_t face)
+{
+    uint32_t solid = view_solid(v, face);
+    return solid && v->around[solid - 1];
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -200,7 +233,8 @@ static void compare(worker *w, uint32_t number)
     for (int k = 0; k < 3; k++)
         sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
     bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
-    if (((low[0] == low[1]) & (low[1] == low[2])) | (t->face == s->faces[0]) | (t->face == s->faces[1]))
+    bool own = (t->face == s->faces[0]) | (t->face == s->faces[1]);
+    if (((low[0] == low[1]) & (low[1] == low[2])) | (own & !is_around(v, t->face)))
         return;
     int alone = low[0] == low[1]   ? 2
                 : low[0] == low[2] ? 1
@@ -222,13 +256,20 @@ static void compare(worker *w, uint32_t number)
     double from = t0 > 0 ? t0 : 0, to = t1 < 1 ? t1 : 1, rise = (z1 - z0) / (t1 - t0), run = s->b.z - s->a.z;
     double before = s->a.z + from * run - (z0 + (from - t0) * rise),
            after = s->a.z + to * run - (z0 + (to - t0) * rise);
-    if (from == 0 && has_corner(t, s->ends[0]))
+    if (own || (from == 0 && has_corner(t, s->ends[0])))
         before = 0;
-    if (to == 1 && has_corner(t, s->ends[1]))
+    if (own || (to == 1 && has_corner(t, s->ends[1])))
         after = 0;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
     double same = view_tolerance(v, z0) + box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
-    if (!s->ignored_count || !is_ignored(s, t->face))
+    if (s->ignored_count && is_ignored(s, t->face))
+        return;
+    uint32_t solid = view_solid(v, t->face);
+    if (solid)
+        cover_of_solid(w,
+                       solid_cover_of(v, solid - 1, t->face, from, to, z0 + (from - t0) * rise, z0 + (to - t0) * rise),
+                       before, after, same);
+    else
         cover_nearer(w, from, to, before, after, same);
 }
 
@@ -311,6 +352,11 @@ static bool put_spans(worker *w, span_block *block)
     }
 }
 
+static void put_solid_step(void *user, double at, int32_t step)
+{
+    put_step(user, at, step);
+}
+
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
     w->segment = s;
@@ -321,7 +367,10 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->low_y = s->a.y < s->b.y ? s->a.y : s->b.y;
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
     w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
+    w->covers.count = 0;
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
+    if (!w->failed && w->covers.count)
+        w->failed = !solid_covers_count(&w->covers, w->v, put_solid_step, w);
     if (!w->failed)
         w->failed = !put_spans(w, block);
 }
@@ -348,6 +397,7 @@ static void find_blocks(size_t begin, size_t end, void *user)
     mem_free(w.table);
     mem_free(w.filled);
     mem_free(w.steps);
+    solid_covers_release(&w.covers);
 }
 
 /* The blocks' spans one after the other. */
@@ -423,6 +473,8 @@ typedef struct surface_count {
     const stroke_view *v;
     window_point       at;
     uint32_t           count;
+    solid_covers       covers;
+    bool               failed;
 } surface_count;
 
 /* A position on an edge belongs to the triangle that lies to its right, or below where the edge is level: so to one of
@@ -456,21 +508,41 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
             continue;
         double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole,
                b = window_side(p[2], p[0], c->at) / whole;
-        double z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
-        c->count += c->at.z - z > view_tolerance(v, z) + box->slope;
+        double   z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
+        bool     nearer = c->at.z - z > view_tolerance(v, z) + box->slope;
+        uint32_t solid = view_solid(v, t->face);
+        if (!solid) {
+            c->count += nearer;
+            continue;
+        }
+        solid_cover cover = solid_cover_of(v, solid - 1, t->face, 0, 1, z, z);
+        cover.nearer = nearer;
+        if ((nearer || v->around[solid - 1]) && !solid_covers_put(&c->covers, &cover))
+            c->failed = true;
     }
+}
+
+static void add_entries(void *user, double at, int32_t step)
+{
+    surface_count *c = user;
+    c->count += at < 1 ? (uint32_t)step : 0;
 }
 
 void stroke_view_count(const stroke_view *v, const double (*positions)[3], size_t count, uint32_t *out)
 {
-    double half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
+    double        half_x = 0.5 * v->camera.width * v->units, half_y = 0.5 * v->camera.height * v->units;
+    surface_count c = {.v = v};
     for (size_t i = 0; i < count; i++) {
-        surface_count c = {.v = v};
         out[i] = UINT32_MAX;
+        c.count = 0;
+        c.covers.count = 0;
         if (!view_position(v, (double3){positions[i][0], positions[i][1], positions[i][2]}, &c.at) ||
             fabs((double)c.at.x) > half_x || fabs((double)c.at.y) > half_y)
             continue;
         grid_walk(&v->grid, c.at, c.at, count_nearer, &c);
-        out[i] = c.count;
+        if (c.covers.count && !c.failed)
+            c.failed = !solid_covers_count(&c.covers, v, add_entries, &c);
+        out[i] = c.failed ? UINT32_MAX : c.count;
     }
+    solid_covers_release(&c.covers);
 }

@@ -41,7 +41,7 @@ typedef enum target {
 } target;
 
 /* Behind them lie the technique's own, in the order of its rows. */
-enum { OWN_TARGETS_MAX = 13, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
+enum { OWN_TARGETS_MAX = 14, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
 #define TARGET_OWN(index) ((target)(TARGET_COUNT + (index)))
 
 typedef enum target_format {

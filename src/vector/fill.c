@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stroke/solid.h"
 #include "vector/vector_private.h"
 
 static const double cells_a_pixel = 3, cells_most = 1e7;
@@ -30,16 +31,47 @@ typedef struct fill_job {
     size_t              crack_count, crack_capacity;
     uint32_t           *heads, *next; /* cracks that leave a corner, + 1 */
     float (*loop)[2], (*kept)[2];
-    size_t loop_count, loop_capacity, kept_capacity;
-    bool  *stays;
-    size_t stays_capacity;
+    size_t             loop_count, loop_capacity, kept_capacity;
+    bool              *stays;
+    size_t             stays_capacity;
+    struct solid_rows *solid; /* NULL: each face is a surface */
 } fill_job;
-
-/* --- the picture ---------------------------------------------------------------------------------------- */
 
 typedef struct corner {
     double x, y, z; /* cells; depth that is affine on the page */
 } corner;
+
+/* A face of a solid's operand on the page. */
+typedef struct solid_triangle {
+    corner   p[3];
+    uint32_t face; /* of its mesh */
+    uint32_t next; /* that begins in the same row, + 1 */
+} solid_triangle;
+
+typedef struct row_hit {
+    solid_hit hit;
+    uint32_t  next; /* in the same cell, + 1 */
+} row_hit;
+
+/* A solid that is found cell by cell, row after row. */
+typedef struct solid_rows {
+    const edge_solid *solid;
+    solid_state       state;
+    uint32_t          face; /* that is put in */
+    solid_triangle   *triangles;
+    size_t            triangle_count, triangle_capacity;
+    uint32_t         *tops; /* per row: the first triangle that begins there, + 1 */
+    uint32_t         *active;
+    size_t            active_count, active_capacity;
+    row_hit          *hits;
+    size_t            hit_count, hit_capacity;
+    uint32_t         *cells; /* per column: the first hit, + 1 */
+    solid_hit        *line;  /* hits of one cell */
+    size_t            line_capacity;
+    bool              failed;
+} solid_rows;
+
+/* --- the picture ---------------------------------------------------------------------------------------- */
 
 static corner corner_of(const fill_job *j, const double clip[4])
 {
@@ -59,28 +91,65 @@ static void draw_row(fill_job *j, int row, double from, double to, double z, dou
     }
 }
 
-static void draw_triangle(fill_job *j, const corner p[3], uint32_t part)
+/* What a triangle covers of a row; its depth there is z + slope · x. */
+typedef struct row_span {
+    double from, to, z, slope;
+} row_span;
+
+static bool find_span(const fill_job *j, const corner p[3], int row, row_span *out)
 {
     double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
     if (!(fabs(area) > 1e-12) || !isfinite(area))
-        return;
+        return false;
     double dx = ((p[1].z - p[0].z) * (p[2].y - p[0].y) - (p[2].z - p[0].z) * (p[1].y - p[0].y)) / area;
     double dy = ((p[2].z - p[0].z) * (p[1].x - p[0].x) - (p[1].z - p[0].z) * (p[2].x - p[0].x)) / area;
-    double top = fmin(p[0].y, fmin(p[1].y, p[2].y)), bottom = fmax(p[0].y, fmax(p[1].y, p[2].y));
-    for (int row = (int)fmax(ceil(top - 0.5), 0); row <= (int)fmin(ceil(bottom - 0.5) - 1, j->rows - 1); row++) {
-        double y = row + 0.5, from = INFINITY, to = -INFINITY;
-        for (int k = 0; k < 3; k++) {
-            const corner *a = &p[k], *b = &p[(k + 1) % 3];
-            if ((a->y <= y) == (b->y <= y))
-                continue;
-            double x = a->x + (y - a->y) / (b->y - a->y) * (b->x - a->x);
-            from = fmin(from, x);
-            to = fmax(to, x);
-        }
-        if (from < to)
-            draw_row(j, row, fmax(from, -1), fmin(to, j->columns + 1.0), p[0].z + dy * (y - p[0].y) - dx * p[0].x, dx,
-                     part);
+    double y = row + 0.5, from = INFINITY, to = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const corner *a = &p[k], *b = &p[(k + 1) % 3];
+        if ((a->y <= y) == (b->y <= y))
+            continue;
+        double x = a->x + (y - a->y) / (b->y - a->y) * (b->x - a->x);
+        from = fmin(from, x);
+        to = fmax(to, x);
     }
+    *out = (row_span){fmax(from, -1), fmin(to, j->columns + 1.0), p[0].z + dy * (y - p[0].y) - dx * p[0].x, dx};
+    return from < to;
+}
+
+static void find_rows(const fill_job *j, const corner p[3], int out[2])
+{
+    double top = fmin(p[0].y, fmin(p[1].y, p[2].y)), bottom = fmax(p[0].y, fmax(p[1].y, p[2].y));
+    out[0] = (int)fmin(fmax(ceil(top - 0.5), 0), j->rows);
+    out[1] = (int)fmax(fmin(ceil(bottom - 0.5) - 1, j->rows - 1), -1);
+}
+
+static void put_solid_triangle(fill_job *j, const corner p[3])
+{
+    solid_rows *s = j->solid;
+    int         rows[2];
+    find_rows(j, p, rows);
+    if (rows[0] > rows[1])
+        return;
+    if (!mem_grow((void **)&s->triangles, &s->triangle_capacity, s->triangle_count + 1, sizeof *s->triangles)) {
+        s->failed = true;
+        return;
+    }
+    s->triangles[s->triangle_count] = (solid_triangle){{p[0], p[1], p[2]}, s->face, s->tops[rows[0]]};
+    s->tops[rows[0]] = (uint32_t)++s->triangle_count;
+}
+
+static void draw_triangle(fill_job *j, const corner p[3], uint32_t part)
+{
+    int      rows[2];
+    row_span span;
+    if (j->solid) {
+        put_solid_triangle(j, p);
+        return;
+    }
+    find_rows(j, p, rows);
+    for (int row = rows[0]; row <= rows[1]; row++)
+        if (find_span(j, p, row, &span))
+            draw_row(j, row, span.from, span.to, span.z, span.slope, part);
 }
 
 /* Draws what of a triangle lies before the eye. */
@@ -112,6 +181,8 @@ static void draw_faces(fill_job *j, const stroke_item *item)
          all = mat4_multiply(&both, &item->world);
     for (uint32_t f = 0; f < m->face_count; f++) {
         double clip[3][4] = {{0}};
+        if (j->solid)
+            j->solid->face = f;
         for (int k = 0; k < 3; k++) {
             vec3         v = m->positions[m->faces[f][k]];
             const double from[4] = {(double)v.x, (double)v.y, (double)v.z, 1};
@@ -120,6 +191,103 @@ static void draw_faces(fill_job *j, const stroke_item *item)
         }
         draw_clipped(j, (const double(*)[4])clip, item->part_index + 1);
     }
+}
+
+/* --- solids --------------------------------------------------------------------------------------------- */
+
+static bool put_hits(fill_job *j, const solid_triangle *t, int row)
+{
+    solid_rows *s = j->solid;
+    row_span    span;
+    if (!find_span(j, t->p, row, &span))
+        return true;
+    int first = (int)fmax(ceil(span.from - 0.5), 0), last = (int)fmin(ceil(span.to - 0.5) - 1, j->columns - 1);
+    for (int x = first; x <= last; x++) {
+        if (!mem_grow((void **)&s->hits, &s->hit_capacity, s->hit_count + 1, sizeof *s->hits))
+            return false;
+        s->hits[s->hit_count] =
+            (row_hit){{span.z + span.slope * (x + 0.5), s->solid->operands[t->face], s->solid->planes[t->face], true},
+                      s->cells[x]};
+        s->cells[x] = (uint32_t)++s->hit_count;
+    }
+    return true;
+}
+
+/* Where the solid is seen at a cell. What is met an odd number of times is around the eye. */
+static bool draw_cell(fill_job *j, int row, int x, uint32_t part)
+{
+    solid_rows *s = j->solid;
+    size_t      count = 0;
+    double      at;
+    for (uint32_t i = s->cells[x]; i; i = s->hits[i - 1].next) {
+        if (!mem_grow((void **)&s->line, &s->line_capacity, count + 1, sizeof *s->line))
+            return false;
+        s->line[count++] = s->hits[i - 1].hit;
+    }
+    s->cells[x] = 0;
+    for (size_t i = 0; i < count; i++)
+        solid_state_pass(&s->state, s->line[i].operand);
+    if (solid_first_entry(&s->state, s->line, count, &at))
+        draw_row(j, row, x, x + 1, at, 0, part);
+    for (size_t i = 0; i < count; i++)
+        solid_state_pass(&s->state, s->line[i].operand);
+    return true;
+}
+
+static bool draw_solid_row(fill_job *j, int row, uint32_t part)
+{
+    solid_rows *s = j->solid;
+    size_t      kept = 0;
+    bool        good = true;
+    for (uint32_t i = s->tops[row]; i && good; i = s->triangles[i - 1].next) {
+        good = mem_grow((void **)&s->active, &s->active_capacity, s->active_count + 1, sizeof *s->active);
+        if (good)
+            s->active[s->active_count++] = i - 1;
+    }
+    s->hit_count = 0;
+    for (size_t i = 0; i < s->active_count && good; i++) {
+        const solid_triangle *t = &s->triangles[s->active[i]];
+        int                   rows[2];
+        find_rows(j, t->p, rows);
+        if (rows[1] < row)
+            continue;
+        s->active[kept++] = s->active[i];
+        good = put_hits(j, t, row);
+    }
+    s->active_count = kept;
+    for (int x = 0; x < j->columns && good; x++)
+        good = !s->cells[x] || draw_cell(j, row, x, part);
+    return good;
+}
+
+static bool draw_solid(fill_job *j, const stroke_item *item)
+{
+    solid_rows s = {.solid = j->strokes->meshes[item->mesh].solid};
+    s.tops = mem_calloc((size_t)j->rows + 1, sizeof *s.tops);
+    s.cells = mem_calloc((size_t)j->columns + 1, sizeof *s.cells);
+    bool good = solid_state_open(&s.state, &s.solid->program) && s.tops && s.cells;
+    j->solid = &s;
+    if (good)
+        draw_faces(j, item);
+    for (int row = 0; row < j->rows && good; row++)
+        good = !s.failed && draw_solid_row(j, row, item->part_index + 1);
+    j->solid = NULL;
+    solid_state_release(&s.state);
+    mem_free(s.triangles);
+    mem_free(s.tops);
+    mem_free(s.active);
+    mem_free(s.hits);
+    mem_free(s.cells);
+    mem_free(s.line);
+    return good;
+}
+
+static bool draw_item(fill_job *j, const stroke_item *item)
+{
+    if (j->strokes->meshes[item->mesh].solid)
+        return draw_solid(j, item);
+    draw_faces(j, item);
+    return true;
 }
 
 static bool draw_parts(fill_job *j)
@@ -134,9 +302,10 @@ static bool draw_parts(fill_job *j)
         return false;
     for (size_t i = 0; i < count; i++)
         j->depths[i] = INFINITY;
-    for (size_t i = 0; i < j->strokes->item_count; i++)
-        draw_faces(j, &j->strokes->items[i]);
-    return true;
+    bool good = true;
+    for (size_t i = 0; i < j->strokes->item_count && good; i++)
+        good = draw_item(j, &j->strokes->items[i]);
+    return good;
 }
 
 /* --- borders -------------------------------------------------------------------------------------------- */

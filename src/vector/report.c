@@ -46,6 +46,8 @@ static json_t *strokes_json(const lmn_sheet *s)
     json_t *out = report_strokes_json(s->counts);
     if (s->dots)
         json_object_set_new(out, "dots", json_integer((json_int_t)s->dots));
+    if (s->hatches)
+        json_object_set_new(out, "hatch_lines", json_integer((json_int_t)s->hatches));
     if (s->marks)
         json_object_set_new(out, "marks", json_integer((json_int_t)s->marks));
     return out;

@@ -21,7 +21,6 @@
 #include "light/light.h"
 
 static const double gap_between_views = 12; /* mm */
-static const double verify_apart = 2;       /* pixels between samples */
 static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
 
 /* What one drawing needs while it is made. */
@@ -41,7 +40,8 @@ typedef struct vector_job {
     double                scale; /* 0: as large as fits */
     double                unit_mm;
     bool                  unit_stated;
-    bool                 *stroked; /* per part: drawn by some rule, and no solid */
+    bool                 *stroked; /* per part: drawn by some rule */
+    section               section;
     stroke_scene          strokes;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
     double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
@@ -63,16 +63,39 @@ static refusal refusal_of(const vector_job *j, lmn_error *error)
 
 /* --- what is drawn -------------------------------------------------------------------------------------- */
 
-/* Are solids of this rule drawn less than it says? Where pixels show their surfaces, lines and marks are what they
- * lack. */
-static bool lacks_solids(const vector_job *j, const rule *r)
+/* Of solids there is what bounds them: no marks, which lie on triangles, no lines of form, and nothing of what is taken
+ * away. */
+static lmn_status refuse_of_solids(const vector_job *j, lmn_error *error)
 {
-    stroke_options options;
-    stroke_style   style;
-    return !j->pixels || vector_rule_strokes(r, &options, &style) || vector_rule_marks(r);
+    const lmn_scene *scene = j->scene;
+    refusal          r = refusal_of(j, error);
+    stroke_options   options;
+    stroke_style     style;
+    size_t           marked = 0, formed = 0;
+    bool             removed = false;
+    for (size_t i = 0; i < scene->part_count; i++) {
+        const rule *own = scene->nodes[scene->parts[i].node].solid != NONE ? plan_rule(&j->plan, i) : NULL;
+        marked += own && vector_rule_marks(own);
+        formed += own && vector_rule_strokes(own, &options, &style) && stroke_options_form(&options);
+    }
+    for (size_t i = 0; i < j->look->rule_count && j->pose.ghost_count; i++)
+        removed = removed || (j->look->rules[i].selector && selector_names_removed(j->look->rules[i].selector) &&
+                              vector_rule_strokes(&j->look->rules[i], &options, &style));
+    lmn_status status = LMN_OK;
+    if (marked)
+        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "take a look without marks, or draw a picture (.png)",
+                        "marks lie on meshes: %zu solids of set operations have their lines alone", marked);
+    if (status == LMN_OK && formed)
+        status = refuse(
+            &r, LMN_UNSUPPORTED, WARNING_NO_STROKES, NULL,
+            "lines of form (suggestive, ridges, valleys, apparent) are those of meshes: %zu solids have none", formed);
+    if (status == LMN_OK && removed)
+        status = refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
+                        "what solids take away has no lines in vector drawings");
+    return status;
 }
 
-/* Which parts are drawn, by which rules. Solids have no strokes. */
+/* Which parts are drawn, by which rules. */
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
@@ -80,7 +103,6 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
                                   .background = j->desc->background,
                                   .pixels_per_mm = VECTOR_PIXELS_PER_MM,
                                   .parts_only = true};
-    size_t             solids = 0;
     moment             when;
     lmn_status         status = time_moment(&when, scene, j->desc, &j->out->warnings, error);
     if (status == LMN_OK)
@@ -97,25 +119,14 @@ static lmn_status plan_parts(vector_job *j, lmn_error *error)
         status = plan_create(&j->plan, &j->pose, j->look, &options, &j->out->warnings, error);
     if (status == LMN_OK)
         j->look = j->plan.look;
-    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++) {
-        bool solid = scene->nodes[scene->parts[i].node].solid != NONE;
-        solids += solid && plan_rule(&j->plan, i) && lacks_solids(j, plan_rule(&j->plan, i));
-        j->stroked[i] = plan_rule(&j->plan, i) && !solid;
-    }
-    refusal r = refusal_of(j, error);
-    return status == LMN_OK && solids ? refuse(&r, LMN_UNSUPPORTED, WARNING_NO_STROKES, "draw a picture (.png)",
-                                               "%zu solids of set operations have no lines in vector drawings%s",
-                                               solids, j->pixels ? "" : " and are left out")
-                                      : status;
+    for (size_t i = 0; i < scene->part_count && status == LMN_OK; i++)
+        j->stroked[i] = plan_rule(&j->plan, i) != NULL;
+    return status == LMN_OK ? refuse_of_solids(j, error) : status;
 }
-
-static lmn_status refuse_section(const vector_job *j, lmn_error *error)
+/* What the look cuts away, of surfaces and lines alike. */
+static lmn_status find_section(vector_job *j, lmn_error *error)
 {
-    const scene_values *values = j->look->wide[KIND_SCENE].values;
-    refusal             r = refusal_of(j, error);
-    return values->cut.text[0] ? refuse(&r, LMN_USAGE, WARNING_NO_STROKES, "draw a picture (.png)",
-                                        "sections have no lines in vector drawings, which show the model whole")
-                               : LMN_OK;
+    return section_find(&j->section, &j->pose, j->look, j->desc->select, error);
 }
 
 /* What is neither lines nor a shape. */
@@ -463,7 +474,7 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
         count_strokes(j, &set, &style);
     if (status == LMN_OK && j->wanted->verify && set.stroke_count) {
         stroke_check check = {0};
-        status = stroke_verify(&check, &set, view, (float)verify_apart, report_part, j, error);
+        status = stroke_verify(&check, &set, view, VECTOR_VERIFY_APART, report_part, j, error);
         j->out->check.samples += check.samples;
         j->out->check.wrong += check.wrong;
         j->out->verified = true;
@@ -518,6 +529,16 @@ static lmn_status draw_lines(vector_job *j, stroke_view *view, const stroke_came
     return status;
 }
 
+static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vector_ink *ink, lmn_error *error)
+{
+    stroke_check check = {0};
+    lmn_status   status = vector_put_hatch(ink, view, j->look->wide[KIND_SCENE].values, j->stroked, &j->out->hatches,
+                                         j->wanted->verify ? &check : NULL, error);
+    j->out->check.samples += check.samples;
+    j->out->check.wrong += check.wrong;
+    return status;
+}
+
 /* What lies on surfaces, and lines over it. */
 static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
 {
@@ -531,6 +552,8 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
+    if (status == LMN_OK && !j->pixels && j->section.cut.cell_count)
+        status = draw_hatch(j, view, ink, error);
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);
     if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)
@@ -579,6 +602,18 @@ static colour frame_ink(colour ground)
     return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
 }
 
+static void warn_of_open(vector_job *j)
+{
+    if (j->strokes.open_parts)
+        warnings_add(&j->out->warnings, WARNING_CUT_OPEN, "%zu parts are not closed and have no cut face there",
+                     j->strokes.open_parts);
+    if (j->strokes.open_operands)
+        warnings_add(
+            &j->out->warnings, WARNING_BAD_GEOMETRY,
+            "%u operands of solids are not closed: lines are where an odd number of their faces encloses something",
+            (unsigned)j->strokes.open_operands);
+}
+
 /* What all views draw on: surfaces as fine as the rule that wants them finest. */
 static lmn_status make_scene(vector_job *j, lmn_error *error)
 {
@@ -593,15 +628,18 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
         refine = options.refine > refine ? options.refine : refine;
         bends = bends || stroke_options_bend(&options);
     }
-    lmn_status status =
-        stroke_scene_create_refined(&j->strokes, &j->pose, j->stroked, crease, refine, report_part, j, error);
+    const stroke_section section = {&j->section.cut, j->section.spared};
+    lmn_status           status =
+        stroke_scene_create_cut(&j->strokes, &j->pose, j->stroked, crease, refine, &section, report_part, j, error);
+    if (status == LMN_OK)
+        warn_of_open(j);
     if (status == LMN_OK && bends)
         status = stroke_scene_bend(&j->strokes, report_part, j, error);
     bool marked = false;
     for (size_t i = 0; i < j->look->rule_count; i++)
         marked = marked || vector_rule_marks(&j->look->rules[i]);
     return status == LMN_OK && marked && refine > 0
-               ? stroke_scene_create(&j->as_is, &j->pose, j->stroked, crease, report_part, j, error)
+               ? stroke_scene_create_cut(&j->as_is, &j->pose, j->stroked, crease, 0, &section, report_part, j, error)
                : status;
 }
 
@@ -758,7 +796,7 @@ static lmn_status prepare(vector_job *j, lmn_error *error)
     if (status == LMN_OK)
         status = begin_page(j, error);
     if (status == LMN_OK)
-        status = refuse_section(j, error);
+        status = find_section(j, error);
     if (status == LMN_OK)
         status = refuse_motion(j, error);
     if (status != LMN_OK)
@@ -772,6 +810,7 @@ static void end_job(vector_job *j)
 {
     stroke_scene_release(&j->strokes);
     stroke_scene_release(&j->as_is);
+    section_release(&j->section);
     plan_release(&j->plan);
     swept_boxes_release(&j->swept);
     pose_deformation_release(&j->deformation);

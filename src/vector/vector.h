@@ -41,6 +41,7 @@ struct lmn_sheet {
     bool         has_traces; /* some rule wants them */
     uint64_t     counts[STROKE_CLASS_COUNT], hidden;
     uint64_t     dots, marks; /* that lie on surfaces: dots, strokes */
+    uint64_t     hatches;     /* lines on cut faces */
     bool         verified;
     stroke_check check;
 };

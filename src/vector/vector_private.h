@@ -5,12 +5,14 @@
 #include "base/paper.h"
 #include "stage/mark_ground.h"
 #include "plan/plan.h"
+#include "light/light.h"
 #include "vector/vector.h"
 
 /* --- page.c: what descriptions say in words ------------------------------------------------------ */
 
 #define VECTOR_PIXELS_PER_MM (PX_PER_INCH / MM_PER_INCH)
-enum { PAGE_SIDE_MOST = 4000 }; /* mm */
+enum { PAGE_SIDE_MOST = 4000 };  /* mm */
+#define VECTOR_VERIFY_APART 2.0f /* pixels between samples */
 
 /* "1:20": paper over model. Errors: LMN_USAGE. */
 lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
@@ -86,6 +88,15 @@ typedef struct vector_marks {
     uint64_t          *part_marks;  /* out: added up for each part */
 } vector_marks;
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
+
+/* --- hatch.c ------------------------------------------------------------------------------------- */
+
+/* Hatches the cut faces of these parts as the look says; adds up how many lines these are, and says what rays make of
+ * them
+ * (`check`, may be NULL). Errors: LMN_MEMORY,
+ * LMN_CANCELLED. */
+lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
+                            uint64_t *count, stroke_check *check, lmn_error *error);
 
 /* --- order.c: for plotters ----------------------------------------------------------------------- */
 

@@ -453,6 +453,86 @@ static void mirror(void)
     shape_release(&floor_only);
 }
 
+/* What a mirror shows is lit as the scene is: by Lambert's law, which no viewer changes. */
+static void mirrored_light(void)
+{
+    static const char look[] =
+        "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{\"light_direction\":\"0.48,0.6,0."
+        "64\",\"fill\":0},"
+        "\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"lambert\",\"ambient\":0}},"
+        "{\"select\":\"mirror\",\"surface\":{\"technique\":\"mirror\",\"reflectivity\":1,\"tint\":\"#ffffff\"}}]}";
+    const dvec      light = dvec_of(0.48, 0.6, 0.64);
+    const shot_view view = {.width = 320, .height = 320, .eye = {2, 3.2, 5}, .target = {0, 0.2, 0}, .up = {0, 1, 0}};
+    shape           real = {0}, image = {0};
+    shot            drawing;
+    shape_box(&real, "box", dvec_of(-0.5, 0.3, -0.5), dvec_of(0.5, 1.1, 0.5));
+    add_floor(&real, 1.2);
+    shape_box(&image, "image", dvec_of(-0.5, -1.1, -0.5), dvec_of(0.5, -0.3, 0.5));
+    if (shot_of_shape(&drawing, &real, "mirror_light.glb", look, NULL, &view)) {
+        const dvec upwards = dvec_of(drawing.view[4], drawing.view[5], drawing.view[6]);
+        tracer    *t_real = tracer_create(&real), *t_image = tracer_create(&image);
+        trace_map  seen, reflected;
+        int        judged = 0;
+        double     worst = 0, lightest = 0;
+        trace_map_make(&seen, t_real, &drawing);
+        trace_map_make(&reflected, t_image, &drawing);
+        for (int y = 2; y + 2 < 320; y++)
+            for (int x = 2; x + 2 < 320; x++) {
+                int  i = y * 320 + x;
+                bool clear = reflected.id[i] != 0;
+                for (int k = 0; k < 9; k++) {
+                    int beside = i + (k / 3 - 1) * 320 + k % 3 - 1;
+                    clear = clear && seen.id[beside] == 2 && reflected.id[beside] == reflected.id[i] &&
+                            dvec_dot(reflected.normal[beside], reflected.normal[i]) > 0.99;
+                }
+                if (!clear)
+                    continue;
+                dvec   n = reflected.normal[i];
+                double wanted = fmax(dvec_dot(dvec_add(n, dvec_scale(upwards, -2 * dvec_dot(n, upwards))), light), 0);
+                worst = fmax(worst, fabs(picture_linear(pixel(&drawing, x, y)[0]) - wanted));
+                lightest = fmax(lightest, wanted);
+                judged++;
+            }
+        check_at_least("E14", judged, 1500, "pixels of a lit box in a mirror");
+        check_at_least("E14", lightest, 0.3, "  light of the lightest");
+        check_at_most("E14", worst, 0.02, "  light off what Lambert says of the box itself");
+        trace_map_release(&seen);
+        trace_map_release(&reflected);
+        tracer_destroy(t_real);
+        tracer_destroy(t_image);
+    }
+    shot_release(&drawing);
+    shape_release(&real);
+    shape_release(&image);
+}
+
+/* What stands behind a mirror, between the viewer's image and what is reflected, does not show in it. */
+static void mirrors_clip(void)
+{
+    static const char look[] =
+        LOOK("{\"select\":\"*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff4040\"}},"
+             "{\"select\":\"below\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#00c000\"}},"
+             "{\"select\":\"mirror\",\"surface\":{\"technique\":\"mirror\",\"reflectivity\":1}}");
+    const shot_view view = {.width = 320, .height = 320, .eye = {2, 3.2, 5}, .target = {0, 0.2, 0}, .up = {0, 1, 0}};
+    shape           real = {0};
+    shot            drawing;
+    int             green = 0, red = 0;
+    shape_box(&real, "box", dvec_of(-0.5, 0.3, -0.5), dvec_of(0.5, 1.1, 0.5));
+    add_floor(&real, 1.2);
+    shape_box(&real, "below", dvec_of(-0.6, -0.5, -0.2), dvec_of(0.9, -0.1, 1));
+    if (shot_of_shape(&drawing, &real, "mirror_clip.glb", look, NULL, &view))
+        for (int i = 0; i < 320 * 320; i++)
+            if (drawing.id[i] == 2) {
+                const uint8_t *p = &drawing.picture[4 * i];
+                green += p[1] > 150 && p[0] < 60;
+                red += p[0] > 150 && p[1] < 120;
+            }
+    check_at_least("E14", red, 800, "pixels of the box in a mirror with another one behind it");
+    check_at_most("E14", green, 0, "  pixels of that one");
+    shot_release(&drawing);
+    shape_release(&real);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -466,6 +546,8 @@ int main(int argc, char **argv)
         {"widths", widths},
         {"slanted", slanted_width},
         {"mirror", mirror},
+        {"mirror-light", mirrored_light},
+        {"mirror-clip", mirrors_clip},
     };
     int status = check_main(argc, argv, "compose", cases, sizeof cases / sizeof *cases);
     shot_end();

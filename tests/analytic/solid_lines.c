@@ -512,13 +512,15 @@ static void bores_seen_through(void)
                                      .up = {0, 0, 1},
                                      .orthographic = true};
     static const char *const looks[] = {"blueprint", "technical", "xray"};
+    static const char *const undashed[] = {"lines.hidden", "solid", NULL};
     for (int l = 0; l < 3; l++) {
+        bool one = strcmp(looks[l], "technical") == 0; /* no layers: its hidden lines are strokes of the picture */
         csg  c = {0};
         shot s, plain;
         int  samples = 0, seen = 0, seen_plain = 0;
         drilled(&c);
         csg_colour(&c);
-        if (draw(&s, &c, looks[l], NULL, &side) && draw(&plain, &c, "edges", NULL, &side)) {
+        if (draw(&s, &c, looks[l], one ? undashed : NULL, &side) && draw(&plain, &c, "edges", NULL, &side)) {
             for (int bore = 0; bore < 3; bore++)
                 for (int wall = -1; wall <= 1; wall += 2)
                     for (int k = 0; k < 40; k++) {
@@ -528,6 +530,7 @@ static void bores_seen_through(void)
                             front = front || is_ink(&plain, 0, x, (int)p.y);
                             for (int layer = 0; layer < s.layer_count; layer++)
                                 ink = ink || is_ink(&s, (size_t)layer, x, (int)p.y);
+                            ink = ink || (one && s.picture[4 * ((int)p.y * s.width + x)] < 220);
                         }
                         samples++;
                         seen += ink;

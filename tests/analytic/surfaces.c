@@ -652,6 +652,46 @@ static void gooch_colours_are_apart(void)
     shot_release(&s);
 }
 
+/* Where the light's mirror image stands on a ball: its normal halves the way to the light and the way to the viewer. */
+static void highlights_are_where_light_is_mirrored(void)
+{
+    static const char *const        with[2] = {"{\"technique\":\"toon\",\"light\":0.6,\"highlight\":0.3}",
+                                               "{\"technique\":\"gooch\",\"specular\":0.6}"},
+                             *const without[2] = {"{\"technique\":\"toon\",\"light\":0.6,\"highlight\":0}",
+                                                  "{\"technique\":\"gooch\",\"specular\":0}"};
+    static const struct {
+        const char *text;
+        double      towards[3];
+    } lights[] = {{"0.6,0.48,0.64", {0.6, 0.48, 0.64}}, {"-0.6,-0.48,0.64", {-0.6, -0.48, 0.64}}};
+    const double radius = 128 / (8 * tan(9 * PI / 180));
+    for (int t = 0; t < 2; t++)
+        for (int l = 0; l < 2; l++) {
+            shot   shiny, dull;
+            double sum = 0, at[2] = {0}, half[3], length = 0;
+            int    darker = 0;
+            bool   ok = take_ball(&shiny, surface_look(with[t], lights[l].text, 0), NULL);
+            if (take_ball(&dull, surface_look(without[t], lights[l].text, 0), NULL) && ok)
+                for (int i = 0; i < 256 * 256; i++) {
+                    double more = shiny.picture[4 * i + 2] - dull.picture[4 * i + 2];
+                    darker += more < 0;
+                    sum += more;
+                    at[0] += more * (i % 256 + 0.5 - 128);
+                    at[1] += more * (128 - i / 256 - 0.5);
+                }
+            for (int k = 0; k < 3; k++) {
+                half[k] = lights[l].towards[k] + (k == 2);
+                length += half[k] * half[k];
+            }
+            check_at_least("E12", sum, 1000, "light of the highlight, %s", t ? "gooch" : "toon");
+            check_at_most("E12", darker, 0, "  pixels that it makes darker");
+            for (int k = 0; k < 2; k++)
+                check_near("E12", at[k] / fmax(sum, 1), radius * half[k] / sqrt(length), 4,
+                           "  its middle, pixels %s of the ball's", k ? "up" : "to the right");
+            shot_release(&shiny);
+            shot_release(&dull);
+        }
+}
+
 static void gooch_lines(void)
 {
     const shot_view view = {.width = 300, .height = 240, .eye = {4, 3, 5}, .up = {0, 1, 0}};
@@ -824,6 +864,7 @@ int main(int argc, char **argv)
         {"pools", pigment_pools},
         {"flows", pigment_flows},
         {"gooch", gooch_ramp},
+        {"highlights", highlights_are_where_light_is_mirrored},
         {"gooch-lines", gooch_lines},
         {"gooch-apart", gooch_colours_are_apart},
         {"faces", tones_leave_the_faces},

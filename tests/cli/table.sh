@@ -254,9 +254,12 @@ group_draw() {
     row 0 '' 'x.svg' draw in-lines.obj -o x.svg --look line --report in-report.json
     grep -q 'id="[^"]*part-2-drawn"' x.svg || complain "the drawing has no group of the file's lines"
     tr -d ' \n' < in-report.json | grep -q '"drawn":[12]' || complain "the report does not count the file's lines: $(cat in-report.json)"
-    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of meshes" '' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 0 '' 'widget.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes
+    row 2 "^limner: $examples/csg/widget.csg: lines of form" '' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5
+    printf '{"version":1,"name":"removed","rules":[{"select":"*","surface":"flat"},{"select":"@removed","lines":"strokes"}]}' > in-removed.json
+    row 2 "^limner: $examples/csg/widget.csg: lines 'strokes' are those of what is there" '' draw "$examples/csg/widget.csg" $small --look ./in-removed.json
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
-    row 0 "warning: lines 'strokes' are those of meshes" 'x.png' draw "$examples/csg/widget.csg" $small --look edges --set lines.operator=strokes --lenient -o x.png
+    row 0 'warning: lines of form' 'x.png' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5 --lenient -o x.png
     # Poses at telling moments, on one plate or as contours; the time is the end of the clip.
     row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
     grep -q '"reason": "turn"' r.json || complain "no turn is told"
@@ -332,6 +335,23 @@ group_draw() {
     "$limner" draw "$box" $inside -o in-a.png
     "$limner" draw "$box" $inside -o in-b.png --set lines.operator=none
     cmp -s in-a.png in-b.png || complain "there are lines on the wall"
+}
+
+group_perspective() {
+    local town=$examples/town.geojson
+    row 0 '' a.png draw "$town" $small -l city --perspective multi -o a.png
+    row 0 '' a.svg draw "$town" -l technical --perspective multi --eye -60,-175,28 --target 0,0,5 -o a.svg
+    row 0 '' a.png draw "$town" $small -l city --perspective panorama --eye 0,0,12 --horizon 360 --set finish.labels=name -o a.png
+    row 1 'panorama needs --eye' '' draw "$town" --perspective panorama -o a.png
+    row 1 'goes with --perspective multi' '' draw "$town" --bend 20 -o a.png
+    row 1 'goes with --perspective panorama' '' draw "$town" --perspective multi --horizon 90 -o a.png
+    row 1 'does not go with --frames' '' draw "$town" --perspective multi --frames 0:3:2 -o 'a-{frame}.png'
+    row 1 'straight above' '' draw "$town" --perspective multi --view top -o a.png
+    row 1 'beyond the zenith' '' draw "$town" --perspective multi --bend 80 -o a.png
+    row 2 'too tall' '' draw "$town" --perspective multi --eye -60,-175,28 --bend 60 --bend-from 0.5 --bend-to 0.55 -o a.png
+    row 1 'cannot bend from' '' draw "$town" --perspective multi --bend-from 0.9 --bend-to 0.1 -o a.png
+
+    row 2 'solid of set operations' '' draw "$examples/csg/widget.csg" --perspective multi -o a.png
 }
 
 group_many() {
@@ -725,20 +745,25 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg; has x.svg 'class="hidden'
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
-    # What has no strokes is said.
+    # Solids have lines as meshes have; sections have lines and hatching.
     local widget=$examples/csg/widget.csg ending
     for ending in svg pdf dxf; do
-        row 1 "^limner: $gear: sections have no lines in vector drawings" '' draw "$gear" "${sheet[@]}" -o x.$ending --cut x
-        row 2 "^limner: $widget: 1 solids of set operations have no lines in vector drawings" '' draw "$widget" "${sheet[@]}" -o x.$ending
+        row 0 '' "x.$ending" draw "$gear" "${sheet[@]}" -o x.$ending --cut x
+        row 0 '' "x.$ending" draw "$widget" "${sheet[@]}" -o x.$ending
+        row 0 '' "x.$ending" draw "$gear" "$widget" "${sheet[@]}" -o x.$ending --cut 'box=50%,50%,50%:100%,100%,100%'
     done
-    row 1 '^hint: draw a picture \(.png\); --lenient' '' draw "$gear" "${sheet[@]}" -o x.svg --set scene.cut=x
-    row 2 'solids of set operations' '' draw "$widget" --look toon -o x.svg
-    row 0 'warning: sections have no lines in vector drawings' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --cut x --lenient
-    row 0 'warning: 1 solids' 'x.svg' draw "$widget" --look ghost -o x.svg --lenient
+    has x.dxf '^HATCH$'
+    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
+    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
+    grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"
+    # What has no strokes is said.
+    row 2 "^limner: $widget: marks lie on meshes: 1 solids of set operations" '' draw "$widget" --look stipple -o x.svg
+    row 2 'lines of form' '' draw "$widget" "${sheet[@]}" -o x.svg --set lines.ridges=0.5
+    row 2 'what solids take away has no lines' '' draw "$widget" --look ghost -o x.svg
+    row 0 'warning: what solids take away has no lines' 'x.svg' draw "$widget" --look ghost -o x.svg --lenient
     grep -q 'selects no part' .stderr && complain "what solids take away is there, below the lines"
     printf '{"version":1,"name":"idle","rules":[{"select":"*","lines":"strokes"},{"select":"nosuch","lines":"strokes"}]}' > in-idle.json
     row 0 "warning: rule 1 of look 'idle' selects no part: 'nosuch'" 'x.svg' draw "$gear" --look ./in-idle.json -o x.svg
-    row 0 'warning: 1 solids of set operations have no lines in vector drawings and are left out' 'x.svg' draw "$gear" "$widget" "${sheet[@]}" -o x.svg --lenient
     # Wrong arguments, before any work.
     row 1 '--views goes with vector drawings' '' draw nosuch.stl --views front -o x.png
     row 1 '--plotter goes with vector drawings' '' draw nosuch.stl --plotter
@@ -990,6 +1015,7 @@ group_doctor() {
     printf '#!/bin/sh\nPATH=/nosuch exec %s "$@"\n' "$command" > .alone && chmod +x .alone
     row 0 '' '' doctor; out '^  \.mp4 .* no: ffmpeg is missing \(sudo apt-get install ffmpeg\)$'
     limner=$command
+    row 0 '' '' doctor; out '^  GDAL +([0-9]+\.[0-9]+|no: .*gdal-bin)'; out '^  PROJ +([0-9]+\.[0-9]+|no: .*gdal-bin)'
     row 0 '' '' doctor --json; documented .stdout doctor.md
     # An EGL without any vendor is a machine without drivers.
     export __EGL_VENDOR_LIBRARY_DIRS=$folder/.nothing

@@ -22,6 +22,7 @@ static const fuzz_target targets[] = {
     {"cityjson", fuzz_cityjson, NULL},
     {"geojson", fuzz_geojson, NULL},
     {"footprint", fuzz_footprint, NULL},
+    {"terrain", fuzz_terrain, NULL},
     {"citygml", fuzz_citygml, NULL},
     {"gzip", fuzz_gzip, NULL},
     {"script", fuzz_script, NULL},

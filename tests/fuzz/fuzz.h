@@ -32,6 +32,7 @@ void fuzz_bvh(const uint8_t *bytes, size_t size);
 void fuzz_cityjson(const uint8_t *bytes, size_t size);
 void fuzz_geojson(const uint8_t *bytes, size_t size);
 void fuzz_footprint(const uint8_t *bytes, size_t size);
+void fuzz_terrain(const uint8_t *bytes, size_t size);
 void fuzz_citygml(const uint8_t *bytes, size_t size);
 void fuzz_gzip(const uint8_t *bytes, size_t size);
 void fuzz_script(const uint8_t *bytes, size_t size);

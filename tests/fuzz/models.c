@@ -144,6 +144,45 @@ void fuzz_footprint(const uint8_t *bytes, size_t size)
     mem_free(on.items);
 }
 
+/* What the process that reads rasters hands back: how long the first answer is, then that, then the sides of the grid,
+ * and heights. Whatever is taken has a height everywhere, and things are laid on it. */
+void fuzz_terrain(const uint8_t *bytes, size_t size)
+{
+    geodata_extent   extent;
+    char             system[64];
+    lmn_error        error;
+    size_t           first = size ? bytes[0] : 0;
+    terrain          t = {.low = {-7, 3}, .step = 2.5};
+    city_shape       square = {0}, draped = {0};
+    footprint_points corners = {0}, on = {0};
+    if (size < first + 4)
+        return;
+    fence_bytes answer = {.bytes = (unsigned char *)(uintptr_t)(bytes + 1), .size = first};
+    terrain_take_extent(&extent, system, sizeof system, &answer, "fuzz", &error);
+    t.columns = 2 + bytes[first + 1] % 12;
+    t.rows = 2 + bytes[first + 2] % 12;
+    size_t wanted = (size_t)t.columns * t.rows * sizeof(float), rest = size - first - 3;
+    answer =
+        (fence_bytes){.bytes = (unsigned char *)(uintptr_t)(bytes + first + 3), .size = rest < wanted ? rest : wanted};
+    if (terrain_take_heights(&t, &answer, 400, "fuzz", &error) == LMN_OK) {
+        for (size_t i = 0; i < (size_t)t.columns * t.rows; i++)
+            if (!isfinite(t.heights[i]))
+                __builtin_trap();
+        for (uint32_t i = 0; i < 4; i++)
+            if (!footprint_add_point(&corners, i == 1 || i == 2 ? 11.3 : -9, i > 1 ? 14.1 : 1, 0) ||
+                !city_shape_corner(&square, i))
+                break;
+        if (city_shape_end_ring(&square) && city_shape_end_face(&square, NONE, 0, 0))
+            terrain_drape(&t, &square, corners.items, 0.1, &draped, &on);
+    }
+    mem_free(t.heights);
+    mem_free(t.known);
+    city_shape_release(&square);
+    city_shape_release(&draped);
+    mem_free(corners.items);
+    mem_free(on.items);
+}
+
 void fuzz_citygml(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(import_citygml.read, 'z', bytes, size));

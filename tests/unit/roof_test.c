@@ -344,7 +344,7 @@ static void bodies_are_closed(void **state)
             for (size_t i = 0; i < shape.face_count; i++)
                 if (unevenness(&shape, points.items, i) > 5e-3)
                     fail_msg("%s: face %zu is uneven by %g", name, i, unevenness(&shape, points.items, i));
-            if (form >= 1 || n % 4 == 0)
+            if (form != ROOF_ONION && (form >= 1 || n % 4 == 0)) /* onions reach out over their walls */
                 rows_fit(&shape, points.items, points.count, volume, name);
             counts[form][made]++;
         }
@@ -410,7 +410,9 @@ static void boxes_have_known_roofs(void **state)
                            0.7 * high * under + 0.3 * high * hip,
                            high * under,
                            0.7 * high * (60 - 10 * r) + 0.3 * high * lean,
-                           60 * high / 2};
+                           60 * high / 2,
+                           60 * high * 2 / 3,   /* of a round one; facets leave out a hundredth */
+                           60 * high * 0.6246}; /* frusta between the steps of its profile */
     (void)top;
     city_shape       shape = {0};
     footprint_points points = {0};

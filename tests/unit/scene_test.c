@@ -158,6 +158,37 @@ static void info_is_json_with_its_keys(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Four faces of a tetrahedron, one of them left out, one that stands on an edge, and a second tetrahedron. */
+static void info_tells_of_edges(void **state)
+{
+    (void)state;
+    static const char tetrahedra[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nv 1 1 1\n"
+                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\n%sf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n%s";
+    static const struct {
+        const char *last, *fin;
+        int         edges, borders, non_manifold, bodies, closed;
+    } cases[] = {
+        {"f 2 3 4\n", "", 12, 0, 0, 2, 2}, {"", "", 12, 3, 0, 2, 1}, {"f 2 3 4\n", "f 1 2 9\n", 14, 2, 1, 3, 1}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char       text[400];
+        lmn_scene *s = NULL;
+        snprintf(text, sizeof text, tetrahedra, cases[k].last, cases[k].fin);
+        assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
+        assert_int_equal(add(s, "tetrahedra.obj", text, NULL), LMN_OK);
+        char   *json = lmn_scene_info_json(s);
+        json_t *root = json_loads(json, 0, NULL);
+        json_t *mesh = json_object_get(json_array_get(json_object_get(root, "parts"), 0), "mesh");
+        assert_int_equal(json_integer_value(json_object_get(mesh, "edges")), cases[k].edges);
+        assert_int_equal(json_integer_value(json_object_get(mesh, "borders")), cases[k].borders);
+        assert_int_equal(json_integer_value(json_object_get(mesh, "non_manifold")), cases[k].non_manifold);
+        assert_int_equal(json_integer_value(json_object_get(mesh, "bodies")), cases[k].bodies);
+        assert_int_equal(json_integer_value(json_object_get(mesh, "closed_bodies")), cases[k].closed);
+        json_decref(root);
+        lmn_text_free(json);
+        lmn_scene_destroy(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +198,7 @@ int main(void)
         cmocka_unit_test(failures_leave_the_scene_alone),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(info_is_json_with_its_keys),
+        cmocka_unit_test(info_tells_of_edges),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

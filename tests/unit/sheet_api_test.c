@@ -254,16 +254,48 @@ static void test_not_drawn(void **state)
     assert_int_equal(lmn_draw_check(f.scene, f.look, &how, true, &error), LMN_USAGE); /* lines of vectors do not */
     lmn_look_destroy(&f.look);
     assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
-    assert_int_equal(lmn_look_set(f.look, "scene.cut", "x", &error), LMN_OK);
-    refuse_or_warn(&f, plain, &good, LMN_USAGE, "no-strokes");
     lmn_look_destroy(&f.look);
     f.scene = NULL;
     assert_int_equal(lmn_scene_create(&f.scene, &error), LMN_OK);
     assert_int_equal(lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/csg/widget.csg", NULL, &error), LMN_OK);
-    assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
-    refuse_or_warn(&f, plain, &good, LMN_UNSUPPORTED, "no-strokes");
-    lmn_look_destroy(&f.look);
+    for (int i = 0; i < 3; i++) { /* marks, lines of form, and lines of what is not there */
+        static const char *const looks[] = {"stipple", "technical", "ghost"};
+        assert_int_equal(lmn_look_load(&f.look, looks[i], &error), LMN_OK);
+        if (i == 1)
+            assert_int_equal(lmn_look_set(f.look, "lines.ridges", "0.5", &error), LMN_OK);
+        refuse_or_warn(&f, plain, &good, LMN_UNSUPPORTED, "no-strokes");
+        lmn_look_destroy(&f.look);
+    }
     lmn_scene_destroy(&f.scene);
+}
+
+/* Solids and sections have lines like everything else, and hatching where they are cut. */
+static void test_solids_and_sections(void **state)
+{
+    fixture        f = *(const fixture *)*state;
+    lmn_error      error = {0};
+    lmn_sheet_desc desc = LMN_SHEET_DESC_INIT;
+    desc.verify = true;
+    for (int i = 0; i < 4; i++) {
+        f.scene = NULL;
+        assert_int_equal(lmn_scene_create(&f.scene, &error), LMN_OK);
+        assert_int_equal(lmn_scene_add_file(f.scene, LIMNER_SOURCE_DIR "/examples/csg/widget.csg", NULL, &error),
+                         LMN_OK);
+        assert_int_equal(lmn_look_load(&f.look, "technical", &error), LMN_OK);
+        if (i & 1)
+            assert_int_equal(lmn_look_set(f.look, "scene.cut", "x", &error), LMN_OK);
+        if (i & 2)
+            assert_int_equal(lmn_look_set(f.look, "scene.cut_hatch", "0pt", &error), LMN_OK);
+        lmn_sheet *s = draw(&f, &desc);
+        char      *report = lmn_sheet_report_json(s);
+        assert_non_null(strstr(report, "\"wrong\": 0\n"));
+        assert_int_equal(strstr(report, "\"hatch_lines\"") != NULL, i == 1);
+        assert_int_equal(lmn_sheet_warning_count(s), 0);
+        lmn_text_free(report);
+        lmn_sheet_destroy(&s);
+        lmn_look_destroy(&f.look);
+        lmn_scene_destroy(&f.scene);
+    }
 }
 
 /* --- what stops a drawing ------------------------------------------------------------------------------- */
@@ -427,11 +459,11 @@ static void test_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_report),
-        cmocka_unit_test(test_scale),      cmocka_unit_test(test_without_renderer),
-        cmocka_unit_test(test_not_drawn),  cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_cancelled),  cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_refused),       cmocka_unit_test(test_report),
+        cmocka_unit_test(test_scale),         cmocka_unit_test(test_without_renderer),
+        cmocka_unit_test(test_not_drawn),     cmocka_unit_test(test_solids_and_sections),
+        cmocka_unit_test(test_formats),       cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_same_again),
     };
     return cmocka_run_group_tests_name("sheet_api", tests, set_up, tear_down);
 }

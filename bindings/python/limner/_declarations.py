@@ -69,6 +69,8 @@ LMN_MAP_SHADE = 4
 LMN_MAP_UNCERTAINTY = 5
 LMN_MAP_VELOCITY = 6
 LMN_MAP_DIRECTION = 7
+LMN_PROJECTION_MULTI_PERSPECTIVE = 0
+LMN_PROJECTION_PANORAMA = 1
 LMN_PARAM_BOOL = 0
 LMN_PARAM_INT = 1
 LMN_PARAM_FLOAT = 2
@@ -461,6 +463,16 @@ class lmn_allocator(Structure):
     ]
 
 
+class lmn_projection_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("projection", c_int),
+        ("angle_deg", c_double),
+        ("from", c_double),
+        ("to", c_double),
+    ]
+
+
 class lmn_kind_info(Structure):
     _fields_ = [
         ("name", c_char_p),
@@ -791,6 +803,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_film_desc: lambda: lmn_film_desc(sizeof(lmn_film_desc), 1024, 1024, 24.0, 0, None, lmn_progress_fn(), None),
     lmn_target: lambda: lmn_target(sizeof(lmn_target), 0, 0, 0, 0, 0, LMN_TARGET_DEPTH_IGNORE),
     lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
+    lmn_projection_desc: lambda: lmn_projection_desc(sizeof(lmn_projection_desc), LMN_PROJECTION_MULTI_PERSPECTIVE, 0, 0.25, 0.75),
     lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
     lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0, None, None, 0),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False),
@@ -895,6 +908,8 @@ FUNCTIONS = {
     "lmn_drawing_unproject": (None, [c_void_p, POINTER(c_double), c_double, POINTER(c_double)]),
     "lmn_drawing_camera": (None, [c_void_p, POINTER(c_double), POINTER(c_double)]),
     "lmn_allocator_set": (c_int, [POINTER(lmn_allocator), POINTER(lmn_error)]),
+    "lmn_scene_project": (c_int, [POINTER(c_void_p), c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_projection_desc), POINTER(lmn_error)]),
+    "lmn_projection_name": (c_char_p, [c_int]),
     "lmn_kind_count": (c_size_t, []),
     "lmn_kind_at": (c_bool, [c_size_t, POINTER(lmn_kind_info)]),
     "lmn_technique_at": (c_bool, [c_char_p, c_size_t, POINTER(lmn_technique_info)]),

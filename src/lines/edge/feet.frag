@@ -1,9 +1,7 @@
 /* The edge map, two pixels wide, from pairs of pixels; and where between them an edge runs. Records of edges know it. Where there are none the picture must tell. Two planes that meet are crossed: window depth is affine on planes. Where surfaces part, the pattern of
  * the boundary tells the slant, as it does morphological antialiasing: a straight edge passes the middle between two pixels where the boundary moves on by one. */
 #define OWN_WIDTH
-#include "lines/edge/edge.glsl"
-
-#include "light/piece.glsl"
+#include "lines/edge/found.glsl"
 #include "lines/plane.glsl"
 layout(location = 1) out vec4 out_feet; /* x, y: unit normal of the edge; z: how far it is from the pixel's middle along it; w: 1 where there is one */
 
@@ -70,81 +68,48 @@ vec4 by_pattern(vec2 side, bool by_depth, float depth, float next, uint piece)
     return vec4(normal, dot(normal, side) * (0.5 + height), back.x + ahead.x);
 }
 
+/* The first one that is above 0, as the only one. */
+vec4 first_of(vec4 some)
+{
+    vec4 one = step(0.5, some);
+    return one * vec4(1.0, 1.0 - one.x, (1.0 - one.x) * (1.0 - one.y), (1.0 - one.x) * (1.0 - one.y) * (1.0 - one.z));
+}
+
 vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, vec4 normal_depth, uvec2 id)
 {
-    const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
     vec4 found = vec4(0.0);
     bool stepped = max(max(steps.x, steps.y), max(steps.z, steps.w)) > 0.0;
     vec4 classes = stepped ? steps : max(creases, borders);
     float most = max(max(classes.x, classes.y), max(classes.z, classes.w));
     float longest = 0.0;
-    for (int k = 0; k < 4; k++) {
-        int wanted = classes[k] >= 0.5 * most && (!stepped || steps[k] > 0.0) ? 1 : 0;
-        for (int once = 0; once < wanted; once++) {
-            vec4 crossed = stepped ? vec4(0.0) : crossing(sides[k], depth, beside[k], normal_depth);
-            bool better = crossed.w > 0.0 && (longest < 1000.0 || abs(crossed.z) < abs(found.z));
-            found = better ? crossed : found;
-            longest = better ? 1000.0 : longest;
-            int pattern = longest < 1000.0 ? 1 : 0;
-            for (int again = 0; again < pattern; again++) {
-                vec4 seen = by_pattern(sides[k], stepped, depth, beside[k], piece_of(id));
-                found = seen.w > longest ? vec4(seen.xyz, 1.0) : found;
-                longest = max(longest, seen.w);
-            }
+    /* To the right, left, up and down. One of those that are wanted a turn, so that pixels beside each other, which want different ones, are done in as many turns as one of them
+     * needs; without indices, which software drivers follow through memory. */
+    vec4 left = step(0.5 * most, classes) * (stepped ? vec4(greaterThan(steps, vec4(0.0))) : vec4(1.0));
+    int turns = int(dot(left, vec4(1.0)));
+    for (int i = 0; i < turns; i++) {
+        vec4 one = first_of(left);
+        vec2 side = vec2(one.x - one.y, one.z - one.w);
+        float next = dot(one, beside);
+        left -= one;
+        vec4 crossed = stepped ? vec4(0.0) : crossing(side, depth, next, normal_depth);
+        bool better = crossed.w > 0.0 && (longest < 1000.0 || abs(crossed.z) < abs(found.z));
+        found = better ? crossed : found;
+        longest = better ? 1000.0 : longest;
+        int pattern = longest < 1000.0 ? 1 : 0;
+        for (int again = 0; again < pattern; again++) {
+            vec4 seen = by_pattern(side, stepped, depth, next, piece_of(id));
+            found = seen.w > longest ? vec4(seen.xyz, 1.0) : found;
+            longest = max(longest, seen.w);
         }
     }
     return found;
 }
 
-#if defined(HAS_BARE) && defined(HAS_ID) && PARTS
-/* Surfaces that turn less against each other are one where they meet: cosine. */
-const float ONE_SURFACE = 0.9976;
-
-/* 1 where a border between parts may be drawn, for the four neighbours. Shells that nearly coincide change places from pixel to pixel, so where surfaces go on smoothly, borders
- * are where records say. What has no records is left alone: solids and cut faces. */
-vec4 apart(vec4 steps, vec3 normal, uvec2 id)
-{
-    const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
-    vec4 found = vec4(1.0);
-    for (int k = 0; k < 4; k++) {
-        uint kinds = id.g | textureLod(t_id, (gl_FragCoord.xy + sides[k]) * u_texel, 0.0).g;
-        bool one = abs(dot(normal, neighbour(t_normal_depth, sides[k]).xyz)) > ONE_SURFACE && steps[k] == 0.0;
-        found[k] = one && (kinds & (SURFACE_OPERAND | SURFACE_CUT)) == 0u ? 0.0 : 1.0;
-    }
-    return found;
-}
-#endif
-
-vec4 pairs_at(ivec2 off)
-{
-    ivec2 at = ivec2(gl_FragCoord.xy) + off;
-    return min(at.x, at.y) < 0 ? vec4(0.0) : texelFetch(t_pairs, at, 0);
-}
-
 void main()
 {
-    vec4 own = pairs_at(ivec2(0)), left = pairs_at(ivec2(-1, 0)), down = pairs_at(ivec2(0, -1));
-    vec4 steps = vec4(own.x, left.x, own.y, down.y), both = vec4(own.z, left.z, own.w, down.w);
-    vec4 borders = step(2.0, both), creases = both - 2.0 * borders, foot = vec4(0.0);
-#ifdef HAS_BARE
-    /* What steps beside a crease is the foot of a face too narrow for pixels, and would be drawn in some of them: the surface goes on, or another one is where it ends, as
-     * at kerbs. Outlines there have records of their own. */
-    steps *= texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).b;
-#endif
-    float profile = max(max(steps.x, steps.y), max(steps.z, steps.w));
-#if defined(HAS_BARE) && defined(HAS_ID) && PARTS
-    int bordered = borders != vec4(0.0) ? 1 : 0;
-    for (int once = 0; once < bordered; once++)
-        borders *= apart(steps, neighbour(t_normal_depth, vec2(0.0)).xyz, texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg);
-#endif
-    vec2 inks = vec2(max(max(creases.x, creases.y), max(creases.z, creases.w)), max(max(borders.x, borders.y), max(borders.z, borders.w)));
-#ifdef HAS_BARE
-    /* Records have drawn it already. */
-    vec2 bare = texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).rg;
-    profile *= bare.x;
-    inks *= bare.y;
-#endif
-    int unknown = profile + inks.x + inks.y > 0.0 ? 1 : 0;
+    found_edges found = find_edges();
+    vec4 foot = vec4(0.0);
+    int unknown = found.profile + found.inks.x + found.inks.y > 0.0 ? 1 : 0;
     for (int once = 0; once < unknown; once++) {
         vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
         vec4 beside = vec4(neighbour(t_depth, vec2(1.0, 0.0)).r, neighbour(t_depth, vec2(-1.0, 0.0)).r, neighbour(t_depth, vec2(0.0, 1.0)).r, neighbour(t_depth, vec2(0.0, -1.0)).r);
@@ -152,8 +117,8 @@ void main()
 #if defined(HAS_ID) && PARTS
         id = texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg;
 #endif
-        foot = foot_of(steps, creases, borders, neighbour(t_depth, vec2(0.0)).r, beside, normal_depth, id);
+        foot = foot_of(found.steps, found.creases, found.borders, neighbour(t_depth, vec2(0.0)).r, beside, normal_depth, id);
     }
-    write_edges(1.0 - profile, 1.0 - inks.x, 1.0 - inks.y);
+    write_edges(1.0 - found.profile, 1.0 - found.inks.x, 1.0 - found.inks.y);
     out_feet = foot;
 }

@@ -1,5 +1,9 @@
-/* Which tiles have pairs of pixels that an edge parts and records of edges have not drawn, within reach of one pixel's neighbours. */
-layout(location = 0) out vec4 out_0;
+/* Which tiles have pairs of pixels that an edge parts and records of edges have not drawn, within reach of one pixel's neighbours; and whether lines crowd there. */
+#include "lines/calm.glsl"
+layout(location = 0) out vec4 out_0; /* where each line is on the page is asked */
+#ifdef WRITES_TOO
+layout(location = 1) out vec4 out_calm; /* it is not */
+#endif
 
 const int BESIDE = 2;
 
@@ -16,5 +20,11 @@ void main()
 #endif
             most += ink.x + ink.y;
         }
-    out_0 = vec4(most > 0.0 ? 1.0 : 0.0);
+    bool inked = most > 0.0;
+#ifdef WRITES_TOO
+    bool calm = is_calm(ivec2(gl_FragCoord.xy));
+    out_calm = vec4(inked && calm ? 1.0 : 0.0);
+    inked = inked && !calm;
+#endif
+    out_0 = vec4(inked ? 1.0 : 0.0);
 }

@@ -19,8 +19,8 @@ static void put_edge(float *out, const record_bends *bends, uint32_t edge)
 {
     const edge_mesh *m = bends->m;
     const mesh_edge *e = &m->edges[edge];
-    bool             pair = e->face[1] != EDGE_NO_FACE, closed = m->closed[m->pieces[e->face[0]]];
-    int bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
+    bool pair = e->face[1] != EDGE_NO_FACE && !(e->flags & EDGE_HOLLOW), closed = m->closed[m->pieces[e->face[0]]];
+    int  bits = (e->flags & EDGE_BORDER ? RECORD_BORDER : 0) | (e->flags & EDGE_CREASE ? RECORD_CREASE : 0) |
                (e->flags & EDGE_MATERIAL ? RECORD_MATERIAL : 0) | (pair ? RECORD_PAIR : 0) |
                (closed ? RECORD_CLOSED : 0) | (e->flags & EDGE_ROUNDED ? RECORD_ROUNDED : 0) |
                (e->flags & EDGE_QUIET ? RECORD_QUIET : 0);

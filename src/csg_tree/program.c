@@ -1,4 +1,4 @@
-#include "csg/csg.h"
+#include "csg_tree/program.h"
 
 #include <string.h>
 

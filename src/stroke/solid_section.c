@@ -1,27 +1,26 @@
 /* Sections of solids: what is cut away is one more thing to take away, so that cut faces come out of the set
  * operations like any other surface. Each half-space is a box with one face in its plane and the others far
  * outside. */
-#include "stage/upload_private.h"
+#include "stroke/solid_section.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-/* The inverse of an affine matrix; false when it has none. */
-static bool inverse_of(const mat4 *matrix, mat4 *out)
+/* A box from 0 to 1. */
+void solid_half_space(mesh *out, primitive *p)
 {
-    const double *m = matrix->m;
-    double        c[9], determinant = mat4_cofactors(matrix, c);
-    *out = mat4_identity();
-    if (!(fabs(determinant) > 0))
-        return false;
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 3; column++)
-            out->m[4 * column + row] = c[3 * row + column] / determinant;
-    for (int row = 0; row < 3; row++)
-        for (int k = 0; k < 3; k++)
-            out->m[12 + row] -= out->m[4 * k + row] * m[12 + k];
-    return true;
+    static const vec3     corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const uint32_t indices[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                         1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    *p = (primitive){.vertex_count = 8,
+                     .index_count = 36,
+                     .positions = (vec3 *)(uintptr_t)corners,
+                     .indices = (uint32_t *)(uintptr_t)indices,
+                     .material = NONE,
+                     .bounds = {{0, 0, 0}, {1, 1, 1}}};
+    *out = (mesh){.primitives = p, .primitive_count = 1};
 }
 
 /* From the box 0 … 1 to the half-space of a face within `reach` of a point, world axes. */
@@ -75,19 +74,20 @@ static lmn_status take_cell(solid_form *form, const cut *c, const cut_cell *cell
     return solid_form_take_away(form, operands, (size_t)cell->count, error);
 }
 
-lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, const mat4 *world, int32_t half_space_mesh,
-                            uint32_t **bits, lmn_error *error)
+lmn_status solid_form_cut(solid_form *form, const cut *c, bool spared, const mat4 *world, int32_t half_space_mesh,
+                          solid_cutter **cutters, lmn_error *error)
 {
-    const cut *c = &u->section.cut;
-    mat4       inverse;
-    size_t     own = form->operand_count, capacity = own + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
-    *bits = mem_calloc(capacity, sizeof **bits);
-    if (!*bits)
+    const mat4 inverse = mat4_inverse(world);
+    size_t     capacity = form->operand_count + CUT_CELLS_MAX * CUT_CELL_FACES_MAX;
+    *cutters = mem_alloc(capacity * sizeof **cutters);
+    if (!*cutters)
         return error_memory(error);
-    if (c->cell_count == 0 || form->root == NONE || !inverse_of(world, &inverse))
+    for (size_t i = 0; i < capacity; i++)
+        (*cutters)[i] = (solid_cutter){NONE, false};
+    if (c->cell_count == 0 || form->root == NONE || mat4_is_flat(world))
         return LMN_OK;
     cut_verdict verdict = cut_judge_box(c, box3_transform(form->terms[form->root].box, world));
-    if (verdict == CUT_CROSSED && u->section.spared && u->section.spared[part_index])
+    if (verdict == CUT_CROSSED && spared)
         verdict = CUT_WHOLE;
     if (verdict == CUT_GONE)
         form->root = NONE;
@@ -96,7 +96,7 @@ lmn_status upload_cut_solid(upload *u, solid_form *form, size_t part_index, cons
         size_t first = form->operand_count;
         status = take_cell(form, c, &c->cells[i], world, &inverse, half_space_mesh, error);
         for (size_t k = first; k < form->operand_count; k++)
-            (*bits)[k] = cut_face_bits(c, c->cells[i].faces[k - first].plane, 0, c->cells[i].faces[k - first].positive);
+            (*cutters)[k] = (solid_cutter){c->cells[i].faces[k - first].plane, c->cells[i].faces[k - first].positive};
     }
     if (status == LMN_OK)
         solid_form_prune(form);

@@ -1,11 +1,10 @@
+#include "csg_tree/planes.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "csg/csg.h"
 
-/* Of the extent: beyond what six printed digits and single precision leave unsure, and far below what people model. */
-static const double COINCIDENT = 4e-6;
 enum { NORMAL_CELLS = 512, DISTANCE_CELLS = 4096, KEYS = 4 };
 
 /* Triangles of one plane. */
@@ -62,7 +61,7 @@ static bool lies_in(const finder *f, size_t triangle, const csg_plane *plane)
     for (int k = 0; k < 3; k++) {
         double p[3];
         corner(f, triangle, k, p);
-        if (fabs(dot3(plane->normal, p) - plane->distance) > COINCIDENT * f->extent)
+        if (fabs(dot3(plane->normal, p) - plane->distance) > CSG_COINCIDENT * f->extent)
             return false;
     }
     return true;
@@ -144,7 +143,7 @@ typedef struct neighbours {
 /* Boxes that lie apart by less than what counts as coincident touch. */
 static bool boxes_meet(const finder *f, box3 a, box3 b)
 {
-    float margin = (float)(2 * COINCIDENT * f->extent);
+    float margin = (float)(2 * CSG_COINCIDENT * f->extent);
     return a.min.x <= b.max.x + margin && b.min.x <= a.max.x + margin && a.min.y <= b.max.y + margin &&
            b.min.y <= a.max.y + margin && a.min.z <= b.max.z + margin && b.min.z <= a.max.z + margin;
 }

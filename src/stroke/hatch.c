@@ -1,0 +1,355 @@
+/* Lines of the page are laid over every triangle of a cut face, cut to where a solid ends, joined from triangle to
+ * triangle, and hidden like all lines. */
+#include "stroke/hatch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/work.h"
+#include "stroke/solid.h"
+#include "stroke/stroke_private.h"
+
+#define RADIANS (3.14159265358979323846 / 180)
+/* Stretches that are no farther apart are one, units. */
+#define SAME_END 1e-3
+
+/* How a cut face is hatched: lines at multiples of `apart` across. x to the right, y upwards from the bottom. */
+typedef struct hatching {
+    double along[2], across[2], apart, offset;
+} hatching;
+
+/* A stretch of one line on one triangle. */
+typedef struct stretch {
+    uint32_t item, cap;
+    int64_t  line;
+    double   from, to; /* along */
+    uint32_t triangle; /* of the view */
+} stretch;
+
+typedef struct hatcher {
+    const stroke_view *v;
+    const bool        *parts;
+    double             apart, angle;
+    mat4               to_world; /* from eye space */
+    stretch           *items;
+    size_t             count, capacity;
+    solid_trimmer     *trimmer; /* of the solid at hand */
+    uint32_t           trimmed; /* its item */
+} hatcher;
+
+/* As draughtsmen do, each part and body turns its lines, and what has the same angle has another distance; planes that
+ * meet in a corner differ as well. The numbers are those of light/cut.glsl. */
+static hatching hatching_of(const hatcher *h, uint32_t item, const edge_cap *cap)
+{
+    static const double turns[6] = {0, 90, -15, 105, 15, 75}, axes[3] = {0, 90, 50}, scales[3] = {1, 0.8, 1.25};
+    uint32_t            index = h->v->scene->items[item].part_index + cap->body;
+    double              angle = h->angle + (turns[index % 6] + axes[cap->axis]) * RADIANS;
+    return (hatching){
+        {cos(angle), sin(angle)}, {-sin(angle), cos(angle)}, h->apart * scales[index / 2 % 3], 0.37 * index};
+}
+
+/* --- positions ------------------------------------------------------------------------------------------ */
+
+static void on_page(const stroke_view *v, window_point p, double out[2])
+{
+    out[0] = p.x / v->units + 0.5 * v->camera.width;
+    out[1] = 0.5 * v->camera.height - p.y / v->units;
+}
+
+static void position_on_line(const hatching *g, int64_t line, double along, double out[2])
+{
+    double across = ((double)line + 0.5) * g->apart - g->offset;
+    for (int k = 0; k < 2; k++)
+        out[k] = along * g->along[k] + across * g->across[k];
+}
+
+/* A position of the page on a triangle's plane. */
+static window_point on_plane(const stroke_view *v, uint32_t triangle, const double at[2])
+{
+    const uint32_t *t = v->triangles[triangle].v;
+    window_point    p = v->points[t[0]], q = v->points[t[1]], r = v->points[t[2]];
+    window_point    out = {(int32_t)lrint((at[0] - 0.5 * v->camera.width) * v->units),
+                           (int32_t)lrint((0.5 * v->camera.height - at[1]) * v->units), 0};
+    double          area = window_side(p, q, r), a = window_side(q, r, out) / area, b = window_side(r, p, out) / area;
+    out.z = a * p.z + b * q.z + (1 - a - b) * r.z;
+    return out;
+}
+
+/* Where that is in the world. */
+static double3 in_world(const hatcher *h, window_point p)
+{
+    const stroke_camera *c = &h->v->camera;
+    const double        *m = h->to_world.m, *e = c->projection.m;
+    double               depth = view_depth(h->v, p.z), at[2];
+    at[0] = 2 * p.x / (h->v->units * c->width) + (c->orthographic ? -e[12] : e[8]);
+    at[1] = -2 * p.y / (h->v->units * c->height) + (c->orthographic ? -e[13] : e[9]);
+    double scale = c->orthographic ? 1 : depth, x = at[0] / e[0] * scale, y = at[1] / e[5] * scale, z = -depth;
+    return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
+                     m[2] * x + m[6] * y + m[10] * z + m[14]};
+}
+
+/* --- stretches ------------------------------------------------------------------------------------------ */
+
+static bool put_stretch(hatcher *h, const stretch *s)
+{
+    if (!mem_grow((void **)&h->items, &h->capacity, h->count + 1, sizeof *h->items))
+        return false;
+    h->items[h->count++] = *s;
+    return true;
+}
+
+/* As far as the solid ends with the face. */
+static bool put_trimmed(hatcher *h, const hatching *g, const stretch *s)
+{
+    const stroke_view *v = h->v;
+    const stroke_item *item = &v->scene->items[s->item];
+    const mat4         inverse = mat4_inverse(&item->world);
+    const solid_share *shares;
+    size_t             count;
+    double             ends[2][3];
+    if (!h->trimmer || h->trimmed != s->item) {
+        solid_trimmer_destroy(&h->trimmer);
+        h->trimmer = solid_trimmer_create(v->scene->meshes[item->mesh].solid);
+        h->trimmed = s->item;
+    }
+    for (int k = 0; k < 2; k++) {
+        double page[2];
+        position_on_line(g, s->line, k ? s->to : s->from, page);
+        double3 p = in_world(h, on_plane(v, s->triangle, page));
+        for (int row = 0; row < 3; row++)
+            ends[k][row] =
+                inverse.m[row] * p.x + inverse.m[4 + row] * p.y + inverse.m[8 + row] * p.z + inverse.m[12 + row];
+    }
+    if (!h->trimmer || !solid_trim(h->trimmer, v->triangles[s->triangle].face - v->items[s->item].first_face, ends[0],
+                                   ends[1], &shares, &count))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        stretch part = *s;
+        double  share[2] = {shares[i].from, shares[i].to};
+        if (!v->camera.orthographic) { /* even in the world is not even on the page */
+            for (int k = 0; k < 2; k++) {
+                double       page[2][2], at[3];
+                window_point q;
+                position_on_line(g, s->line, 0, page[0]);
+                for (int row = 0; row < 3; row++)
+                    at[row] = ends[0][row] + share[k] * (ends[1][row] - ends[0][row]);
+                if (!view_position(v, item_position(item, (vec3){(float)at[0], (float)at[1], (float)at[2]}), &q))
+                    return true;
+                on_page(v, q, page[1]);
+                double along = (page[1][0] - page[0][0]) * g->along[0] + (page[1][1] - page[0][1]) * g->along[1];
+                share[k] = (along - s->from) / (s->to - s->from);
+            }
+        }
+        part.from = s->from + share[0] * (s->to - s->from);
+        part.to = s->from + share[1] * (s->to - s->from);
+        if (part.from < part.to && !put_stretch(h, &part))
+            return false;
+    }
+    return true;
+}
+
+/* The least and the greatest of a direction on the page. */
+static void range_of_page(const stroke_view *v, const double way[2], double out[2])
+{
+    out[0] = fmin(0, way[0] * v->camera.width) + fmin(0, way[1] * v->camera.height);
+    out[1] = fmax(0, way[0] * v->camera.width) + fmax(0, way[1] * v->camera.height);
+}
+
+static bool lay_over(hatcher *h, uint32_t triangle, uint32_t item, uint32_t cap, const edge_mesh *m)
+{
+    const stroke_view *v = h->v;
+    hatching           g = hatching_of(h, item, &m->caps[cap]);
+    double             along[3], across[3], page[2], least = INFINITY, most = -INFINITY, lines[2], ends[2];
+    for (int k = 0; k < 3; k++) {
+        on_page(v, v->points[v->triangles[triangle].v[k]], page);
+        along[k] = page[0] * g.along[0] + page[1] * g.along[1];
+        across[k] = page[0] * g.across[0] + page[1] * g.across[1];
+        least = fmin(least, across[k]);
+        most = fmax(most, across[k]);
+    }
+    range_of_page(v, g.across, lines);
+    range_of_page(v, g.along, ends);
+    int64_t first = (int64_t)ceil((fmax(least, lines[0]) + g.offset) / g.apart - 0.5),
+            last = (int64_t)floor((fmin(most, lines[1]) + g.offset) / g.apart - 0.5);
+    for (int64_t n = first; n <= last; n++) {
+        double  at = ((double)n + 0.5) * g.apart - g.offset;
+        stretch s = {item, cap, n, INFINITY, -INFINITY, triangle};
+        for (int k = 0; k < 3; k++) {
+            int next = (k + 1) % 3;
+            if ((across[k] <= at) == (across[next] <= at))
+                continue;
+            double where = along[k] + (at - across[k]) / (across[next] - across[k]) * (along[next] - along[k]);
+            s.from = fmin(s.from, where);
+            s.to = fmax(s.to, where);
+        }
+        s.from = fmax(s.from, ends[0]);
+        s.to = fmin(s.to, ends[1]);
+        if (s.from < s.to && !(m->solid ? put_trimmed(h, &g, &s) : put_stretch(h, &s)))
+            return false;
+    }
+    return true;
+}
+
+/* Of a half-space's box only one side cuts. */
+static bool is_in_plane(const hatcher *h, uint32_t item, const edge_mesh *m, uint32_t face, const edge_cap *cap)
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++) {
+        double3 p = item_position(&h->v->scene->items[item], m->positions[m->faces[face][k]]);
+        most = fmax(most, fabs(p.x * cap->normal[0] + p.y * cap->normal[1] + p.z * cap->normal[2] - cap->offset));
+    }
+    return most <= 1e-4 * h->v->scene->extent;
+}
+
+/* The item of a face of the view. */
+static uint32_t item_of(const stroke_view *v, uint32_t face)
+{
+    uint32_t low = 0, high = (uint32_t)v->scene->item_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (v->items[middle].first_face <= face)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static lmn_status lay_all(hatcher *h, lmn_error *error)
+{
+    const stroke_view *v = h->v;
+    for (uint32_t i = 0; i < v->triangle_count; i++) {
+        uint32_t         face = v->triangles[i].face, item = item_of(v, face), own = face - v->items[item].first_face;
+        const edge_mesh *m = &v->scene->meshes[v->scene->items[item].mesh];
+        if (!m->cap_count || !m->materials || m->materials[own] > EDGE_CAP_MATERIAL(0) ||
+            (h->parts && !h->parts[v->scene->items[item].part_index]))
+            continue;
+        uint32_t cap = (uint32_t)(EDGE_CAP_MATERIAL(0) - m->materials[own]);
+        if (m->solid && (!view_is_front(v, face) || !is_in_plane(h, item, m, own, &m->caps[cap])))
+            continue;
+        if (work_stopped() || !lay_over(h, i, item, cap, m))
+            return error_memory(error);
+    }
+    return LMN_OK;
+}
+
+static int compare_stretches(const void *a, const void *b)
+{
+    const stretch *p = a, *q = b;
+    if (p->item != q->item)
+        return p->item < q->item ? -1 : 1;
+    if (p->cap != q->cap)
+        return p->cap < q->cap ? -1 : 1;
+    if (p->line != q->line)
+        return p->line < q->line ? -1 : 1;
+    return (p->from > q->from) - (p->from < q->from);
+}
+
+static void join_stretches(hatcher *h)
+{
+    size_t kept = 0;
+    if (h->count)
+        qsort(h->items, h->count, sizeof *h->items, compare_stretches);
+    for (size_t i = 0; i < h->count; i++) {
+        stretch *last = kept ? &h->items[kept - 1] : NULL, *s = &h->items[i];
+        if (last && last->item == s->item && last->cap == s->cap && last->line == s->line &&
+            s->from <= last->to + SAME_END)
+            last->to = fmax(last->to, s->to);
+        else
+            h->items[kept++] = *s;
+    }
+    h->count = kept;
+}
+
+/* --- what is seen --------------------------------------------------------------------------------------- */
+
+static bool put_line(hatch_lines *out, const stroke_view *v, const window_segment *s, double from, double to,
+                     uint32_t part)
+{
+    if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
+        return false;
+    hatch_line  *line = &out->items[out->count++];
+    const double at[2] = {from, to};
+    line->part = part;
+    for (int k = 0; k < 2; k++) {
+        double x = s->a.x + at[k] * ((double)s->b.x - s->a.x), y = s->a.y + at[k] * ((double)s->b.y - s->a.y);
+        line->ends[k][0] = (float)(x / v->units + 0.5 * v->camera.width);
+        line->ends[k][1] = (float)(y / v->units + 0.5 * v->camera.height);
+        line->depths[k] = (float)view_depth(v, s->a.z + at[k] * (s->b.z - s->a.z));
+    }
+    return true;
+}
+
+static lmn_status keep_seen(hatch_lines *out, const hatcher *h, lmn_error *error)
+{
+    const stroke_view *v = h->v;
+    window_segment    *segments = mem_calloc(h->count + 1, sizeof *segments);
+    visibility         seen;
+    if (!segments)
+        return error_memory(error);
+    for (size_t i = 0; i < h->count; i++) {
+        const stretch *s = &h->items[i];
+        hatching       g = hatching_of(h, s->item, &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap]);
+        double         ends[2][2];
+        position_on_line(&g, s->line, s->from, ends[0]);
+        position_on_line(&g, s->line, s->to, ends[1]);
+        segments[i] = (window_segment){.a = on_plane(v, s->triangle, ends[0]),
+                                       .b = on_plane(v, s->triangle, ends[1]),
+                                       .ends = {NO_VERTEX, NO_VERTEX},
+                                       .faces = {v->triangles[s->triangle].face, EDGE_NO_FACE}};
+    }
+    lmn_status status = visibility_find(&seen, v, segments, h->count, NULL, NULL, error);
+    for (size_t i = 0; i < h->count && status == LMN_OK; i++)
+        for (uint32_t k = seen.starts[i]; k < seen.starts[i + 1]; k++) {
+            double to = k + 1 < seen.starts[i + 1] ? (double)seen.spans[k + 1].from : 1;
+            if (seen.spans[k].count == 0 && !put_line(out, v, &segments[i], (double)seen.spans[k].from, to,
+                                                      v->scene->items[h->items[i].item].part_index + 1))
+                status = error_memory(error);
+        }
+    if (status == LMN_OK)
+        visibility_release(&seen);
+    mem_free(segments);
+    return status;
+}
+
+lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, double angle, const bool *parts,
+                      lmn_error *error)
+{
+    hatcher h = {.v = v, .parts = parts, .apart = apart, .angle = angle, .to_world = mat4_inverse(&v->camera.view)};
+    memset(out, 0, sizeof *out);
+    lmn_status status = apart > 0 ? lay_all(&h, error) : LMN_OK;
+    join_stretches(&h);
+    if (status == LMN_OK && h.count)
+        status = keep_seen(out, &h, error);
+    solid_trimmer_destroy(&h.trimmer);
+    mem_free(h.items);
+    if (status != LMN_OK) {
+        mem_free(out->items);
+        memset(out, 0, sizeof *out);
+    }
+    return status;
+}
+
+lmn_status hatch_verify(stroke_check *out, const hatch_lines *lines, const stroke_view *v, float apart,
+                        lmn_error *error)
+{
+    stroke_set set = {.strokes = mem_calloc(lines->count + 1, sizeof *set.strokes),
+                      .points = mem_calloc(2 * lines->count + 1, sizeof *set.points),
+                      .stroke_count = lines->count,
+                      .point_count = 2 * lines->count};
+    lmn_status status = set.strokes && set.points ? LMN_OK : error_memory(error);
+    for (size_t i = 0; i < lines->count && status == LMN_OK; i++) {
+        const hatch_line *l = &lines->items[i];
+        set.strokes[i] = (stroke){.part = l->part, .first = (uint32_t)(2 * i), .count = 2};
+        for (int k = 0; k < 2; k++)
+            set.points[2 * i + (size_t)k] =
+                (stroke_point){.x = l->ends[k][0], .y = l->ends[k][1], .depth = l->depths[k]};
+    }
+    if (status == LMN_OK)
+        status = stroke_verify(out, &set, v, apart, NULL, NULL, error);
+    mem_free(set.strokes);
+    mem_free(set.points);
+    return status;
+}
