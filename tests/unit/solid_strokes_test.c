@@ -186,7 +186,7 @@ static void parts_cross_what_is_left(void **state)
     stroke_scene scene = scene_of(s);
     double       length = 0;
     assert_int_equal(scene.item_count, 2);
-    assert_int_equal(stroke_scene_cross(&scene, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_scene_cross(&scene, NULL, 0, NULL, NULL, &error), LMN_OK);
     for (size_t i = 0; i < stroke_scene_crossing_count(&scene); i++) {
         double ends[2][3];
         vec3   outward[2];
