@@ -137,12 +137,13 @@ static lmn_status put_balloon(depict_job *j, const expression *e, const face *wh
     page_place_at(&place, j, where->head, lift);
     lmn_status status = glyph_put_lettering(&letters, j, &place, &words, size, error);
     glyph_mesh_release(&letters);
+    if (status != LMN_OK)
+        return status;
     const double half[2] = {size[0] * 0.62 + height * 1.1, size[1] * 0.66 + height * 1.1};
     place_balloon(j, e, where, half, middle);
     page_place_at(&behind, j, middle, lift);
     page_place_at(&place, j, middle, lift + 0.2 * height);
-    if (status == LMN_OK)
-        status = glyph_put_lettering(&letters, j, &place, &words, size, error);
+    status = glyph_put_lettering(&letters, j, &place, &words, size, error);
     /* The tip is seen at the mouth. */
     page_place_at(&place, j, thought ? where->head : where->mouth, lift);
     page_offset(&behind, place.at, tip);
