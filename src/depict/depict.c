@@ -9,6 +9,7 @@
 #include "base/work.h"
 #include "depict/depict_private.h"
 #include "depict/preview.h"
+#include "depict/staging.h"
 #include "plan/time.h"
 #include "scene/content.h"
 
@@ -81,6 +82,7 @@ static bool has_glyphs(const lmn_scene *scene)
 
 lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
 {
+    scene->staged = false;
     if (!has_glyphs(scene))
         return LMN_OK;
     scene_begin_changes(scene);
@@ -98,22 +100,40 @@ static bool is_hidden(const lmn_scene *s, int32_t n)
     return n != NONE;
 }
 
-/* The box of all that the scene has, wherever it goes. */
+/* The box of all that the scene has, and the size of what pictures are fitted to, wherever it goes. */
 static lmn_status measure_scene(depict_job *j, lmn_error *error)
 {
-    enum { MOMENTS = 8 };
-    const double end = moment_duration(&j->when, j->scene);
-    lmn_status   status = LMN_OK;
+    lmn_status status = LMN_OK;
+    box3       fitted = box3_empty();
     j->box = box3_empty();
-    for (int i = 0; i <= MOMENTS && status == LMN_OK; i++) {
+    for (int i = 0; i < STAGING_MOMENTS && status == LMN_OK; i++) {
         const pose *p = NULL;
-        status = depict_pose(&p, j, end * i / MOMENTS, error);
+        status = depict_pose(&p, j, staging_moment(j, i), error);
         for (size_t k = 0; k < j->scene->part_count && status == LMN_OK; k++)
-            if (!is_hidden(j->scene, j->scene->parts[k].node))
+            if (!is_hidden(j->scene, j->scene->parts[k].node)) {
                 j->box = box3_union(j->box, p->part_boxes[k]);
+                fitted = box3_union(fitted, scene_fitted_box(j->scene, k, p->part_boxes[k]));
+            }
     }
-    j->size = box3_is_empty(j->box) ? 1 : box3_diagonal(j->box);
+    j->size = box3_is_empty(fitted) ? 1 : box3_diagonal(fitted);
     return status;
+}
+
+/* Where no camera is given and the scene is much larger than what is told, it gets a stage. */
+static lmn_status stage_scene(lmn_scene *scene, depict_job *j, const expression_list *expressions, lmn_error *error)
+{
+    const double much = 0.8, whole = j->size;
+    box3         stage = box3_empty();
+    lmn_status   status = j->fixed_view ? LMN_OK : staging_find(&stage, j, expressions, error);
+    if (status != LMN_OK || box3_is_empty(stage))
+        return status;
+    scene->stage = stage;
+    scene->staged = true;
+    status = measure_scene(j, error);
+    if (status != LMN_OK || j->size < much * whole)
+        return status;
+    scene->staged = false;
+    return measure_scene(j, error);
 }
 
 /* The viewer that the description places before a scene: glyphs turn towards it. */
@@ -134,7 +154,8 @@ static lmn_status place_viewer(depict_job *j, const lmn_scene *scene, const lmn_
         p.fit_boxes = swept ? swept : p.part_boxes;
         for (size_t i = 0; i < p.part_count; i++) {
             fitted[i] = !is_hidden(scene, scene->parts[i].node);
-            body.box = fitted[i] ? box3_union(body.box, p.fit_boxes[i]) : body.box;
+            if (fitted[i])
+                body.box = box3_union(body.box, scene_fitted_box(scene, i, p.fit_boxes[i]));
         }
         status = camera_place(&j->camera, desc, &p, &body, error);
         p.fit_boxes = p.part_boxes;
@@ -280,6 +301,8 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     if (status == LMN_OK)
         status = measure_scene(&j, error);
     if (status == LMN_OK)
+        status = stage_scene(scene, &j, expressions, error);
+    if (status == LMN_OK)
         status = place_viewer(&j, scene, desc, error);
     if (status == LMN_OK)
         status = make_glyphs(&j, expressions, error);
@@ -288,6 +311,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     depict_poses_release(&poses);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
+    scene->staged = scene->staged && status == LMN_OK;
     glyphs_release(&j);
     if (said)
         warnings_append(said, &of_glyphs);

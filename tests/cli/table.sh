@@ -960,6 +960,29 @@ group_depict() {
     echo '{"limner_script": 1, "nodes": [{"name": "b", "box": {"size": [1, 1, 1]}, "translation": [0, 3, 0]}],' \
         '"behaviour": {"target": "b", "function": "bounce", "floor": 0.5, "duration": 0.25}}' > in-short.json
     row 0 '' sim.webp simulate in-short.json $small -q -o sim.webp
+    # A ground ten times as large changes nothing of what is seen of the ball on it, unless a camera is given.
+    local size
+    for size in 40 400; do
+        echo '{"limner_script": 1, "nodes": [{"name": "ground", "box": {"size": ['$size', 0.2, '$size']}, "translation": [0, -0.1, 0]},' \
+            '{"name": "ball", "sphere": {"radius": 0.3}, "translation": [0, 2, 0]}],' \
+            '"behaviour": {"target": "ball", "function": "bounce", "floor": 0.3, "velocity": [1, 0, 0], "duration": 2.5}}' > in-ground.json
+        row 0 '' out.png depict in-ground.json --size 64x48 --dpi 96 -q -o out.png
+        cp out.png in-$size.png
+        row 0 '' out.png draw in-ground.json --size 64x48 --dpi 96 -q -o out.png --look storyboard
+        cp out.png in-whole-$size.png
+    done
+    like in-40.png in-400.png 40
+    like in-whole-40.png in-400.png 20 less
+    # Where no font is installed, a noise that nobody wrote is left out, and what somebody wrote is refused.
+    echo "<?xml version=\"1.0\"?><fontconfig><cachedir>$PWD/.fonts</cachedir></fontconfig>" > .fonts.conf
+    export FONTCONFIG_FILE=$PWD/.fonts.conf
+    row 0 "warning: 'POW' is left out: text: no font is installed" out.png depict in-ground.json $small -o out.png --explain
+    cp .stdout in-told.json; cp out.png in-first.png
+    row 0 '' out.png depict in-ground.json $small -o out.png --expressions in-told.json
+    cmp -s out.png in-first.png || complain "expressions without noise draw another picture"
+    echo '[{"target": "ball", "depict": "speech", "text": "Ow"}]' > in-path.json
+    row 2 'no font is installed' '' depict in-ground.json --expressions in-path.json
+    unset FONTCONFIG_FILE
     # A script says what is told of it, and how it is seen.
     local script=$examples/scripts/bounce.json
     row 0 '' bounce.png depict "$script" $small --explain

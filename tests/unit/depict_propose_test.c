@@ -488,6 +488,40 @@ static void boxes_are_no_balls(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* The page is fitted to what is told and to what of a huge ground lies there; a camera that is given, and another
+ * depiction, leave nothing of that. */
+static void grounds_do_not_fill_the_page(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"limner_script\": 1, \"nodes\": [{\"name\": \"ground\", \"box\": {\"size\": [400, 0.2, 400]}, "
+        "\"translation\": [0, -0.1, 0]}, {\"name\": \"far\", \"box\": {}, \"translation\": [100, 0.5, 0]}, "
+        "{\"name\": \"near\", \"box\": {}, \"translation\": [3, 0.5, 0]}, {\"name\": \"ball\", \"sphere\": "
+        "{\"radius\": 0.3}, \"translation\": [0, 2, 0]}], \"behaviour\": {\"target\": \"ball\", \"function\": "
+        "\"bounce\", \"floor\": 0.3, \"velocity\": [1, 0, 0], \"duration\": 2.5}}";
+    lmn_scene    *s = load_or_fail(temp_file("ground.json", text, sizeof text - 1));
+    lmn_draw_desc draw = seen_at(1.5);
+    const box3    unit = {{2.5f, 0, -0.5f}, {3.5f, 1, 0.5f}}, away = {{99.5f, 0, -0.5f}, {100.5f, 1, 0.5f}},
+               ground = {{-200, -0.2f, -200}, {200, 0, 200}};
+    tell_as(s, &draw, NULL, NULL);
+    assert_true(s->staged);
+    assert_true(s->stage.min.x < -0.3f && s->stage.max.x > 2.8f && s->stage.max.y > 2.3f && s->stage.min.y < 0);
+    assert_true(box3_diagonal(s->stage) < 6);
+    assert_true(box3_diagonal(scene_fitted_box(s, 0, ground)) < 6);
+    assert_true(box3_is_empty(scene_fitted_box(s, 1, away)));
+    assert_near(box3_diagonal(scene_fitted_box(s, 2, unit)), box3_diagonal(unit), 0);
+    draw.eye_given = true;
+    vector3_set(draw.eye, 0, 3, 9);
+    vector3_set(draw.up, 0, 1, 0);
+    tell_as(s, &draw, NULL, NULL);
+    assert_false(s->staged);
+    tell_at(s, 1.5, NULL);
+    assert_true(s->staged);
+    assert_int_equal(lmn_depict_clear(s, NULL), LMN_OK);
+    assert_false(s->staged);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -509,6 +543,7 @@ int main(void)
         cmocka_unit_test(round_limbs_are_no_balls),
         cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
+        cmocka_unit_test(grounds_do_not_fill_the_page),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
