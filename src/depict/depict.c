@@ -13,7 +13,8 @@
 #include "plan/time.h"
 #include "scene/content.h"
 
-enum { PASSES = 2 };
+/* Until the viewer stays. What is lifted before a huge ground lies near the eye, and goes with it. */
+enum { PASSES = 2, PASSES_STAGED = 6 };
 
 static const char root_name[] = "glyphs", hidden_key[] = "depicted";
 
@@ -225,12 +226,10 @@ void depict_say_nothing(depict_job *j, const char *format, ...)
     va_end(arguments);
 }
 
-/* What somebody asked for, and cannot see. */
+/* What somebody asked for, or Limner chose, and nobody can see. */
 static void say_without_sign(const depict_job *j, const expression *e)
 {
     char numbered[DEPICT_NAME_SIZE];
-    if (e->line == 0)
-        return;
     warnings_add(j->warnings, WARNING_UNTOLD, "expression %u, '%s' of '%.60s', has no sign: %s", e->number + 1,
                  e->row->characteristic, depict_name_of(j->scene, e->target, numbered),
                  j->nothing[0] ? j->nothing : "nothing of it happens in its interval");
@@ -306,7 +305,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
         status = place_viewer(&j, scene, desc, error);
     if (status == LMN_OK)
         status = make_glyphs(&j, expressions, error);
-    for (int pass = 0; pass < PASSES && status == LMN_OK && moved; pass++)
+    for (int pass = 0; pass < (scene->staged ? PASSES_STAGED : PASSES) && status == LMN_OK && moved; pass++)
         status = turn_to_viewer(&j, expressions, desc, &moved, error);
     depict_poses_release(&poses);
     if (status == LMN_OK)

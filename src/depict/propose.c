@@ -188,7 +188,12 @@ static void tell_size(const proposal *p, const mover *m)
     }
     if (m->scaled <= 1.15)
         return;
-    e = propose(p, m, m->growth >= 1 ? "expand" : "collapse", "its size changes now; behind that by before", m->growth);
+    char       why[96] = "its size changes now; behind that by before";
+    const bool now = p->now >= m->grows.from && p->now <= m->grows.to;
+    if (!now)
+        snprintf(why, sizeof why, "its size changes from %.3g to %.3g s; behind that by before", m->grows.from,
+                 m->grows.to);
+    e = propose(p, m, m->growth >= 1 ? "expand" : "collapse", why, m->growth);
     if (e) {
         e->from = m->grows.from;
         e->to = m->grows.to;

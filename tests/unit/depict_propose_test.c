@@ -88,6 +88,28 @@ static void pulses_grow_or_shrink_as_they_do_now(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A reason names the time of what it tells of: now, or when. */
+static void reasons_name_their_time(void **state)
+{
+    (void)state;
+    static const struct {
+        double      now;
+        const char *because;
+    } rows[] = {{0.5, "its size changes from 1 to 2 s; behind that by before"},
+                {1.5, "its size changes now; behind that by before"}};
+    lmn_scene *s =
+        scene_of(CRATE("late"), "{\"target\": \"late\", \"property\": \"scale\", \"linear\": [[1, 1, 1], [1, 1, 1], "
+                                "[2, 2, 2]], \"duration\": 2}");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        json_t *told = told_of(s, NULL, rows[i].now);
+        assert_string_equal(
+            json_string_value(json_object_get(json_array_get(json_object_get(told, "reasons"), 0), "because")),
+            rows[i].because);
+        json_decref(told);
+    }
+    lmn_scene_destroy(&s);
+}
+
 static void what_changes_its_shape_is_seen_before_and_behind(void **state)
 {
     (void)state;
@@ -543,6 +565,7 @@ int main(void)
         cmocka_unit_test(round_limbs_are_no_balls),
         cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
+        cmocka_unit_test(reasons_name_their_time),
         cmocka_unit_test(grounds_do_not_fill_the_page),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
