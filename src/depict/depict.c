@@ -296,7 +296,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
-        status = time_moment(&j.when, scene, desc, said, error);
+        status = time_moment(&j.when, scene, desc, NULL, error); /* who draws says what is wrong with the time */
     if (status == LMN_OK)
         status = measure_scene(&j, error);
     if (status == LMN_OK)

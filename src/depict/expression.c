@@ -282,6 +282,7 @@ lmn_status expressions_read(expression_list *out, const char *text, const lmn_sc
                             lmn_error *error)
 {
     json_error_t wrong;
+    text += text_byte_order_mark(text, strlen(text));
     reading      r = {.text = text, .size = strlen(text), .scene = scene, .when = when};
     json_t      *root = json_loads(text, JSON_REJECT_DUPLICATES, &wrong), *array = root;
     lmn_status   status;

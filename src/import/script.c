@@ -6,6 +6,7 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "behaviour/clip.h"
 #include "import/access.h"
 
@@ -87,7 +88,8 @@ static void parse(script_reader *r, script_file *f)
         script_fail(r, LMN_LIMIT, "a script has at most %zu bytes", (size_t)LIMIT_LOOK_BYTES * 4);
         return;
     }
-    f->root = json_loadb((const char *)f->data.data, f->data.size, JSON_REJECT_DUPLICATES, &wrong);
+    const size_t mark = text_byte_order_mark((const char *)f->data.data, f->data.size);
+    f->root = json_loadb((const char *)f->data.data + mark, f->data.size - mark, JSON_REJECT_DUPLICATES, &wrong);
     if (f->root && json_is_object(f->root)) {
         check_version(r, f->root);
         read_units(r, f);

@@ -956,6 +956,26 @@ group_depict() {
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain
+    # A byte order mark is no part of the text; texts are cut at whole characters, and do not turn the line round.
+    { printf '\xEF\xBB\xBF'; cat "$examples/scripts/bounce.json"; } > in-mark.json
+    row 0 '' out.png depict in-mark.json $small -q -o out.png
+    cp out.png in-mark.png
+    row 0 '' out.png depict "$examples/scripts/bounce.json" $small -q -o out.png
+    same out.png in-mark.png
+    printf '\xEF\xBB\xBF[{"target": "Nobody", "depict": "path"}]' > in-path.json
+    row 2 "^limner: in-path.json:1:[0-9]+: expression 1: .*'Nobody'" '' depict "$motion" --expressions in-path.json
+    echo '[{"target": "\u202eNobody\u2066", "depict": "path"}]' > in-path.json
+    row 2 "'.u202eNobody.u2066'" '' depict "$motion" --expressions in-path.json
+    printf '[{"target": "Hips", "depict": "a%s"}]' "$(printf 'ä%.0s' {1..60})" > in-path.json
+    row 2 "'a[ä]+'" '' depict "$motion" --expressions in-path.json
+    iconv -f utf-8 -t utf-8 .stderr > .valid 2>&1 || complain "a message is no UTF-8"
+    # What is wrong with the time is said once; words that are allowed are all said.
+    row 0 'later times are drawn' out.png depict "$motion" $small -o out.png --time 99
+    [ "$(grep -c 'later times are drawn' .stderr)" = 1 ] || complain "a warning is said twice"
+    echo '{"limner_script": 1, "nodes": [{"name": "b", "box": {}}], "behaviour": {"simultaneity": [{"target": "b", "constant": [0, 0, 0], "duration": 1}], "fit": "x"}}' > in-bad.json
+    row 2 'stretch, start, centre, end, shrink' '' depict in-bad.json
+    row 0 '' '' depict --help
+    out 'six tenths'
     # A sign that Limner chose itself, and that shows nothing, is said, too.
     row 0 "warning: expression 3, 'motion' of '#3', has no sign: it rests at 2.2" out.png depict "$examples/box-animated.glb" $small -o out.png
     row 1 'cannot both go to standard output' '' depict "$motion" -o - --explain
