@@ -82,8 +82,8 @@ static int check_depiction(const char *path, const json_t *given)
 /* NULL: it is no JSON. Editors put a byte order mark before it. */
 static json_t *read_json(const char *path)
 {
-    FILE  *file = fopen(path, "rb");
-    char   mark[3];
+    FILE   *file = fopen(path, "rb");
+    char    mark[3];
     json_t *root = NULL;
     if (!file)
         return NULL;

@@ -43,11 +43,11 @@ static lmn_status add_child(measuring *m, int32_t index, const behaviour_child *
     double                needed = c->duration >= 0 && n->kind == BEHAVIOUR_TABLE ? c->duration : child->needed;
     if (n->kind == BEHAVIOUR_TABLE && c->duration >= 0 && !(child->needed > 0))
         return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "gives an event a duration");
-    r->own = n->kind == BEHAVIOUR_SEQUENCE ? r->own + needed
-             : n->kind == BEHAVIOUR_TABLE  ? fmax(r->own, c->start + needed)
-             : n->kind == BEHAVIOUR_REPEAT ? needed * n->times
+    r->own = n->kind == BEHAVIOUR_SEQUENCE                      ? r->own + needed
+             : n->kind == BEHAVIOUR_TABLE                       ? fmax(r->own, c->start + needed)
+             : n->kind == BEHAVIOUR_REPEAT                      ? needed * n->times
              : n->fit == FIT_SHRINK && needed > 0 && r->own > 0 ? fmin(r->own, needed)
-                                           : fmax(r->own, needed);
+                                                                : fmax(r->own, needed);
     r->height = child->height + 1 > r->height ? child->height + 1 : r->height;
     r->leaves += child->leaves * (n->kind == BEHAVIOUR_REPEAT ? n->times : 1); /* both below 2^32: no overflow */
     if (r->leaves > BEHAVIOUR_SPANS_MAX)

@@ -235,10 +235,25 @@ static void say_without_sign(const depict_job *j, const expression *e)
                  j->nothing[0] ? j->nothing : "nothing of it happens in its interval");
 }
 
+/* Which of several things a pattern means. */
+static void say_choice(const depict_job *j, const expression *e)
+{
+    static const char *const whose[] = {"target", "partner"};
+    const int32_t            taken[] = {e->target, e->partner};
+    for (int i = 0; i < 2; i++) {
+        char numbered[DEPICT_NAME_SIZE];
+        if (e->choice[i] > 1)
+            warnings_add(j->warnings, WARNING_UNTOLD,
+                         "expression %u, '%s': its %s means %zu things, of which '%.60s' is taken", e->number + 1,
+                         e->row->characteristic, whose[i], e->choice[i], depict_name_of(j->scene, taken[i], numbered));
+    }
+}
+
 static lmn_status make_one(depict_job *j, const expression *e, lmn_error *error)
 {
     const size_t before = j->glyph_count;
     j->nothing[0] = '\0';
+    say_choice(j, e);
     lmn_status status = e->row->depict(j, e, error);
     if (status != LMN_OK)
         return expression_blame(e, j->scene, status, error);

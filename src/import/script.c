@@ -13,7 +13,8 @@
 /* Is it an object that says so near its beginning? */
 static bool recognises(const file_data *file)
 {
-    size_t at = 0, most = file->size < 65536 ? file->size : 65536;
+    size_t at = text_byte_order_mark((const char *)file->data, file->size),
+           most = file->size < 65536 ? file->size : 65536;
     while (at < most && strchr(" \t\r\n", file->data[at]) && file->data[at])
         at++;
     static const char word[] = "\"limner_script\"";

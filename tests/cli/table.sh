@@ -956,6 +956,8 @@ group_depict() {
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain
+    echo '{"limner_script": 1, "nodes": [{"name": "blue", "box": {}}, {"name": "black", "box": {}}, {"name": "brown", "box": {}}, {"name": "red", "box": {}}],' \
+        '"behaviour": {"target": "blue", "linear": [[0, 0, 0], [9, 0, 0]], "duration": 1}}' > in-three.json
     # A byte order mark is no part of the text; texts are cut at whole characters, and do not turn the line round.
     { printf '\xEF\xBB\xBF'; cat "$examples/scripts/bounce.json"; } > in-mark.json
     row 0 '' out.png depict in-mark.json $small -q -o out.png
@@ -969,6 +971,11 @@ group_depict() {
     printf '[{"target": "Hips", "depict": "a%s"}]' "$(printf 'ä%.0s' {1..60})" > in-path.json
     row 2 "'a[ä]+'" '' depict "$motion" --expressions in-path.json
     iconv -f utf-8 -t utf-8 .stderr > .valid 2>&1 || complain "a message is no UTF-8"
+    # Of several things that a pattern means it is said which is taken; nobody is his own partner.
+    echo '[{"target": "b*", "depict": "path"}]' > in-path.json
+    row 0 "warning: expression 1, 'path': its target means 3 things, of which 'blue' is taken" out.png depict in-three.json $small -o out.png --expressions in-path.json
+    echo '[{"target": "blue", "depict": "collision", "partner": "blue"}]' > in-path.json
+    row 2 "^limner: in-path.json:1:[0-9]+: expression 1: the partner is the target itself" '' depict in-three.json --expressions in-path.json
     # What is wrong with the time is said once; words that are allowed are all said.
     row 0 'later times are drawn' out.png depict "$motion" $small -o out.png --time 99
     [ "$(grep -c 'later times are drawn' .stderr)" = 1 ] || complain "a warning is said twice"
