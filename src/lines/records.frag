@@ -57,7 +57,7 @@ float outline_at(vec3 axis, vec2 normal, out bool judged)
     float found = step_at(axis.xy, normal);
     float one = depth_at(floor(axis.xy + away)), other = depth_at(floor(axis.xy - away)), behind = max(one, other);
     float beyond = depth_at(floor(axis.xy + (one > other ? 2.0 : -2.0) * away));
-    int doubtful = is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND) ? 0 : 1;
+    int doubtful = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND) ? 0 : 1;
     judged = false;
     for (int once = 0; once < doubtful; once++) {
         float share = steps_along(axis.xy, normal);

@@ -1,8 +1,8 @@
 /* Steps of depth between pairs of pixels, along an outline. Where it runs out on a smooth body what is behind it is hardly deeper, and pixels find a step here and there: lines would
  * end in dots. What is much deeper is an outline wherever pixels find it. */
 const int STEPS_LEAST = 12, STEPS_MOST = 48; /* pixels that are looked at to either side */
-const float WIDTHS = 5.0;                      /* of the line, as far as that goes */
-const float STEPS_FEW = 0.5, STEPS_MANY = 0.8; /* of them; between them the outline fades out */
+const float WIDTHS = 6.0;                      /* of the line, as far as that goes */
+const float STEPS_FEW = 0.6, STEPS_MANY = 0.8; /* of them; between them the outline fades out */
 const float MUCH_DEEPER = 8.0; /* times the least step, and what its own slope explains */
 
 float step_beside(ivec2 at)

@@ -109,15 +109,16 @@ vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, v
 }
 
 #ifdef HAS_BARE
+const float GOES_ON = 0.9; /* of the places along it */
+
 /* Outlines within a mesh have records. Where pixels find a step that none explains, what is behind it is hardly deeper and it does not go on, there is no line. */
 bool is_doubtful(vec4 steps, float depth, vec4 beside, uvec2 id)
 {
     const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
     bool within = true;
     for (int k = 0; k < 4; k++) {
-        bool nearer = depth < beside[k];
-        float beyond = neighbour(t_depth, nearer ? 2.0 * sides[k] : -sides[k]).r, far = max(depth, beside[k]);
-        bool sure = is_much_deeper(min(depth, beside[k]), far, beyond - far);
+        float beyond = neighbour(t_depth, 2.0 * sides[k]).r - beside[k], before = depth - neighbour(t_depth, -sides[k]).r;
+        bool sure = is_much_deeper(min(depth, beside[k]), max(depth, beside[k]), max(abs(beyond), abs(before)));
 #if defined(HAS_ID) && PARTS
         uvec2 other = textureLod(t_id, (gl_FragCoord.xy + sides[k]) * u_texel, 0.0).rg;
         sure = sure || piece_of(other) != piece_of(id) || ((id.g | other.g) & (SURFACE_OPERAND | SURFACE_CUT)) != 0u;
@@ -145,7 +146,7 @@ void main()
 #ifdef HAS_BARE
         int doubtful = found.profile > 0.0 && foot.w > 0.0 && is_doubtful(found.steps, depth, beside, id) ? 1 : 0;
         for (int again = 0; again < doubtful; again++)
-            found.profile *= step(STEPS_MANY, steps_along(gl_FragCoord.xy + foot.z * foot.xy, foot.xy));
+            found.profile *= step(GOES_ON, steps_along(gl_FragCoord.xy + foot.z * foot.xy, foot.xy));
         foot *= found.profile + found.inks.x + found.inks.y > 0.0 ? 1.0 : 0.0;
 #endif
     }
