@@ -4,6 +4,7 @@
 flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
+#include "light/piece.glsl"
 #include "lines/cover.glsl"
 #include "lines/room.glsl"
 #include "lines/steps.glsl"
@@ -50,6 +51,13 @@ bool is_seen_around(vec3 axis, float at, float size, bool wanted)
     return first == second ? first : third;
 }
 
+#if defined(HAS_ID) && PARTS
+uint piece_at(vec2 at)
+{
+    return piece_of(texelFetch(t_id, ivec2(clamp(at, vec2(0.0), u_far_corner)), 0).rg);
+}
+#endif
+
 /* Of an outline of what is smooth, at a position of its axis: how much of it pixels find there, or, where what is behind it is hardly deeper, all along. */
 float outline_at(vec3 axis, vec2 normal, out bool judged)
 {
@@ -57,7 +65,11 @@ float outline_at(vec3 axis, vec2 normal, out bool judged)
     float found = step_at(axis.xy, normal);
     float one = depth_at(floor(axis.xy + away)), other = depth_at(floor(axis.xy - away)), behind = max(one, other);
     float beyond = depth_at(floor(axis.xy + (one > other ? 2.0 : -2.0) * away));
-    int doubtful = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND) ? 0 : 1;
+    bool sure = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND);
+#if defined(HAS_ID) && PARTS
+    sure = sure || piece_at(axis.xy + away) != piece_at(axis.xy - away);
+#endif
+    int doubtful = sure ? 0 : 1;
     judged = false;
     for (int once = 0; once < doubtful; once++) {
         float share = steps_along(axis.xy, normal);
