@@ -72,7 +72,7 @@ float outline_at(vec3 axis, vec2 normal, out bool judged)
     int doubtful = sure ? 0 : 1;
     judged = false;
     for (int once = 0; once < doubtful; once++) {
-        float share = steps_along(axis.xy, normal);
+        float share = steps_along(axis.xy, normal, found);
         judged = share > 0.0;
         found = smoothstep(STEPS_FEW, STEPS_MANY, share);
     }

@@ -18,14 +18,17 @@ float step_at(vec2 axis, vec2 normal)
     return max(step_beside(clamp(ivec2(axis + 0.5 * normal), ivec2(0), last)), step_beside(clamp(ivec2(axis - 0.5 * normal), ivec2(0), last)));
 }
 
-/* The same along the outline: 1 where it goes on to one side or the other. */
-float steps_along(vec2 axis, vec2 normal)
+/* The same along the outline: 1 where it goes on to one side or the other; `here`: at the position. */
+float steps_along(vec2 axis, vec2 normal, float here)
 {
-    vec2 along = vec2(-normal.y, normal.x), sums = vec2(0.0);
-    int farthest = clamp(int(WIDTHS * u_line_width), STEPS_LEAST, STEPS_MOST);
-    for (int i = 1; i <= farthest; i++)
+    vec2 along = vec2(-normal.y, normal.x), sums = vec2(here);
+    int farthest = clamp(int(WIDTHS * u_line_width), STEPS_LEAST, STEPS_MOST), last = farthest;
+    float share = 1.0 / float(farthest + 1);
+    for (int i = 1; i <= last; i++) {
         sums += vec2(step_at(axis + float(i) * along, normal), step_at(axis - float(i) * along, normal));
-    return (step_at(axis, normal) + max(sums.x, sums.y)) / float(farthest + 1);
+        last = share * (max(sums.x, sums.y) + float(farthest - i)) < STEPS_FEW ? 0 : last;
+    }
+    return share * max(sums.x, sums.y);
 }
 
 /* Is what lies behind, of this window depth and this slope, so much deeper that the step cannot be doubted? */

@@ -146,7 +146,7 @@ void main()
 #ifdef HAS_BARE
         int doubtful = found.profile > 0.0 && foot.w > 0.0 && is_doubtful(found.steps, depth, beside, id) ? 1 : 0;
         for (int again = 0; again < doubtful; again++)
-            found.profile *= step(GOES_ON, steps_along(gl_FragCoord.xy + foot.z * foot.xy, foot.xy));
+            found.profile *= step(GOES_ON, steps_along(gl_FragCoord.xy + foot.z * foot.xy, foot.xy, 1.0));
         foot *= found.profile + found.inks.x + found.inks.y > 0.0 ? 1.0 : 0.0;
 #endif
     }
