@@ -63,18 +63,20 @@ float outline_at(vec3 axis, vec2 normal, out bool judged)
 {
     vec2 away = BEHIND * normal;
     float found = step_at(axis.xy, normal);
-    float one = depth_at(floor(axis.xy + away)), other = depth_at(floor(axis.xy - away)), behind = max(one, other);
-    float beyond = depth_at(floor(axis.xy + (one > other ? 2.0 : -2.0) * away));
-    bool sure = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND);
-#if defined(HAS_ID) && PARTS
-    sure = sure || piece_at(axis.xy + away) != piece_at(axis.xy - away);
-#endif
-    int doubtful = sure ? 0 : 1;
+    int within = 1;
     judged = false;
-    for (int once = 0; once < doubtful; once++) {
-        float share = steps_along(axis.xy, normal, found);
-        judged = share > 0.0;
-        found = smoothstep(STEPS_FEW, STEPS_MANY, share);
+#if defined(HAS_ID) && PARTS
+    within = piece_at(axis.xy + away) != piece_at(axis.xy - away) ? 0 : 1;
+#endif
+    for (int once = 0; once < within; once++) {
+        float one = depth_at(floor(axis.xy + away)), other = depth_at(floor(axis.xy - away)), behind = max(one, other);
+        float beyond = depth_at(floor(axis.xy + (one > other ? 2.0 : -2.0) * away));
+        int doubtful = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND) ? 0 : 1;
+        for (int again = 0; again < doubtful; again++) {
+            float share = steps_along(axis.xy, normal, found);
+            judged = share > 0.0;
+            found = smoothstep(STEPS_FEW, STEPS_MANY, share);
+        }
     }
     return found;
 }

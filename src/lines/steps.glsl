@@ -1,6 +1,7 @@
 /* Steps of depth between pairs of pixels, along an outline. Where it runs out on a smooth body what is behind it is hardly deeper, and pixels find a step here and there: lines would
  * end in dots. What is much deeper is an outline wherever pixels find it. */
 const int STEPS_LEAST = 12, STEPS_MOST = 48; /* pixels that are looked at to either side */
+const int STEPS_NONE = 2; /* where the first few find nothing there is nothing */
 const float WIDTHS = 6.0;                      /* of the line, as far as that goes */
 const float STEPS_FEW = 0.6, STEPS_MANY = 0.8; /* of them; between them the outline fades out */
 const float MUCH_DEEPER = 8.0; /* times the least step, and what its own slope explains */
@@ -26,7 +27,8 @@ float steps_along(vec2 axis, vec2 normal, float here)
     float share = 1.0 / float(farthest + 1);
     for (int i = 1; i <= last; i++) {
         sums += vec2(step_at(axis + float(i) * along, normal), step_at(axis - float(i) * along, normal));
-        last = share * (max(sums.x, sums.y) + float(farthest - i)) < STEPS_FEW ? 0 : last;
+        bool none = i >= STEPS_NONE && max(sums.x, sums.y) == 0.0;
+        last = none || share * (max(sums.x, sums.y) + float(farthest - i)) < STEPS_FEW ? 0 : last;
     }
     return share * max(sums.x, sums.y);
 }
