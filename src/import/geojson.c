@@ -251,12 +251,13 @@ static void put_attributes(geojson_reader *r, int32_t node, json_span properties
     good(r, &s);
 }
 
-static char *id_of(geojson_reader *r, const feature *f)
+static char *id_of(geojson_reader *r, const feature *f, bool *numbered)
 {
     static const char *const keys[] = {"@id", "gml_id", "osm_id", "osm_way_id", "fid", "id", NULL};
     char                     name[40];
     json_span                id = f->id.at ? f->id : geojson_property(f->properties, keys);
-    if (id.at && id.size)
+    *numbered = !id.at || !id.size;
+    if (!*numbered)
         return span_decode(id);
     snprintf(name, sizeof name, "feature-%zu", r->number);
     return mem_copy_text(name);
@@ -450,11 +451,14 @@ static void put_feature(geojson_reader *r, const feature *f)
         return;
     }
     r->guessed_heights += thing.guessed;
-    int32_t node = city_object(&r->builder, id_of(r, f), thing.type, strlen(thing.type));
+    bool    numbered;
+    char   *id = id_of(r, f, &numbered);
+    int32_t node = city_object(&r->builder, id, thing.type, strlen(thing.type));
     if (node == NONE) {
         r->status = r->status == LMN_OK ? error_memory(r->error) : r->status;
         return;
     }
+    r->scene->nodes[node].numbered = numbered;
     put_attributes(r, node, f->properties);
     city_shape_clear(&r->shape);
     r->points.count = 0;
