@@ -558,6 +558,23 @@ static void place_parts(geojson_reader *r)
         qsort(r->parts, r->part_count, sizeof *r->parts, compare_parts);
 }
 
+/* Degrees that no plane holds: why, should nothing come of them. */
+static void note_extent(geojson_reader *r, const extent *e)
+{
+    bool degrees =
+        !r->scene->city.crs && e->low[0] >= -360 && e->high[0] <= 360 && e->low[1] >= -360 && e->high[1] <= 360;
+    if (degrees && (e->low[1] < -90 || e->high[1] > 90))
+        snprintf(r->builder.cause, sizeof r->builder.cause,
+                 "it has latitudes from %.6g to %.6g degrees, and the poles lie at 90 (longitudes come first)",
+                 e->low[1], e->high[1]);
+    else if (degrees && e->high[0] - e->low[0] > 180)
+        snprintf(
+            r->builder.cause, sizeof r->builder.cause,
+            "its longitudes go from %.6g to %.6g degrees, around the Earth or across the antimeridian: files on both "
+            "sides of it are not read",
+            e->low[0], e->high[0]);
+}
+
 static void find_place(geojson_reader *r, json_span features)
 {
     extent    e = nowhere;
@@ -588,6 +605,7 @@ static void find_place(geojson_reader *r, json_span features)
     if (!good(r, &s) || !(e.high[0] >= e.low[0]))
         return;
     r->builder.tally.missing_points = 0; /* counted again when they are read */
+    note_extent(r, &e);
     const char *name = facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84";
     /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
     city_crs_understand(facts, name, e.low, e.high, NULL);

@@ -584,7 +584,16 @@ static void test_refused(void **state)
          "three numbers"},
         {"{\"type\":\"CityJSON\",\"transform\":{\"scale\":[1e300,1,1]},\"CityObjects\":{}}", "three numbers"},
         {"{\"type\":\"Town\",\"x\":\"CityJSON\",\"CityObjects\":{}}", "\"CityJSON\""},
-        {HEAD "\"CityObjects\":{}," CUBE_VERTICES "}", "no triangles"},
+        {HEAD "\"CityObjects\":{}," CUBE_VERTICES "}", "no objects"},
+        {"{\"type\":\"CityJSON\",\"version\":\"9.0\",\"CityObjects\":{}," CUBE_VERTICES "}", "version"},
+        {"{\"type\":\"CityJSON\",\"version\":\"1.1\",\"transform\":{\"scale\":[0,0,0],\"translate\":[0,0,0]},"
+         "\"CityObjects\":{\"a\":{\"type\":"
+         "\"Building\",\"geometry\":[{\"type\":\"MultiSurface\",\"lod\":\"2\",\"boundaries\":[[[0,1,2,3]]]}]}}"
+         "," CUBE_VERTICES "}",
+         "scale"},
+        {HEAD "\"CityObjects\":{\"a\":{\"type\":\"Building\",\"geometry\":[{\"type\":\"Solid\",\"lod\":\"2\","
+              "\"boundaries\":[[[0,1,2,3]]]}]}}," CUBE_VERTICES "}",
+         "nested"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         lmn_scene *s;

@@ -260,12 +260,60 @@ static void other_forms_and_heights_are_counted(void **state)
     }
 }
 
+/* An error names what it is that nothing comes of, and a system that is not known is told. */
+static void causes_are_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rings, *message;
+    } rows[] = {{"[[[8,95],[8.001,95],[8.001,95.001],[8,95]]]", "latitudes"},
+                {"[[[179.999,10],[179.9995,10],[-179.999,10.001],[179.999,10]]]", "antimeridian"},
+                {"[[8,5],[8.1,5],[8.1,5.1],[8,5]]", "not nested"}};
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        char       text[1000];
+        lmn_scene *scene = NULL;
+        lmn_error  error = {0};
+        snprintf(text, sizeof text, FEATURE("{\"type\":\"Polygon\",\"coordinates\":%s}"), rows[i].rings);
+        assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);
+        lmn_status status = lmn_scene_add_file(scene, temp_file("why.geojson", text, strlen(text)), NULL, &error);
+        if (status != LMN_FORMAT || !strstr(error.message, rows[i].message) || strstr(error.hint, "points"))
+            fail_msg("%s: %d %s", rows[i].rings, (int)status, error.message);
+        lmn_scene_destroy(&scene);
+    }
+    static const struct {
+        const char *crs;
+        bool        told;
+    } systems[] = {{"{}", true},
+                   {"{\"properties\":{\"name\":\"EPSG:999999\"}}", true},
+                   {"{\"properties\":{\"name\":\"town grid\"}}", true},
+                   {"{\"properties\":{\"name\":\"urn:ogc:def:crs:EPSG::25832\"}}", false}};
+    for (size_t i = 0; i < COUNT(systems); i++) {
+        char text[1000];
+        bool told = false;
+        snprintf(
+            text, sizeof text,
+            "{\"type\":\"FeatureCollection\",\"crs\":%s,\"features\":[{\"properties\":{\"building\":1},\"geometry\":{"
+            "\"type\":\"Polygon\",\"coordinates\":[[[500000,5e6],[500009,5e6],[500009,5000009],[500000,5e6]]]}}]}",
+            systems[i].crs);
+        lmn_scene *s = load_or_fail(temp_file("system.geojson", text, strlen(text)));
+        for (size_t k = 0; k < s->warnings.count; k++)
+            told = told || strstr(s->warnings.items[k].text, "coordinate system");
+        if (told != systems[i].told)
+            fail_msg("%s", systems[i].crs);
+        lmn_scene_destroy(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strips_are_mitred),           cmocka_unit_test(features_become_a_town),
-        cmocka_unit_test(parts_are_the_building),      cmocka_unit_test(mistakes_are_told_or_counted),
-        cmocka_unit_test(tangled_outlines_are_filled), cmocka_unit_test(other_forms_and_heights_are_counted),
+        cmocka_unit_test(strips_are_mitred),
+        cmocka_unit_test(features_become_a_town),
+        cmocka_unit_test(parts_are_the_building),
+        cmocka_unit_test(mistakes_are_told_or_counted),
+        cmocka_unit_test(tangled_outlines_are_filled),
+        cmocka_unit_test(other_forms_and_heights_are_counted),
+        cmocka_unit_test(causes_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
