@@ -4,14 +4,16 @@
 flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
+#include "light/piece.glsl"
 #include "lines/cover.glsl"
 #include "lines/room.glsl"
+#include "lines/steps.glsl"
 layout(location = 0) out vec4 out_edge;
 layout(location = 1) out vec4 out_bare;
 
 /* What lies beneath a line and so far beyond would only make its side rough: faces about a pixel high come and go there. */
 const float BENEATH = 0.75, WHOLE = 0.9;
-const float APART = 2.0; /* pixels */
+const float APART = 2.0, BEHIND = 1.5; /* pixels */
 
 #ifdef OPEN_BODIES
 /* Where parts of the model are left out, an edge before what is seen may be one of those. */
@@ -49,17 +51,34 @@ bool is_seen_around(vec3 axis, float at, float size, bool wanted)
     return first == second ? first : third;
 }
 
-float step_beside(ivec2 at)
+#if defined(HAS_ID) && PARTS
+uint piece_at(vec2 at)
 {
-    vec2 own = texelFetch(t_pairs, at, 0).xy;
-    return max(max(own.x, own.y), max(texelFetch(t_pairs, max(at - ivec2(1, 0), ivec2(0)), 0).x, texelFetch(t_pairs, max(at - ivec2(0, 1), ivec2(0)), 0).y));
+    return piece_of(texelFetch(t_id, ivec2(clamp(at, vec2(0.0), u_far_corner)), 0).rg);
 }
+#endif
 
-/* How much of an outline the picture has at a position of its axis: depth steps between pixels on its sides. */
-float step_at(vec2 axis, vec2 normal)
+/* Of an outline of what is smooth, at a position of its axis: how much of it pixels find there, or, where what is behind it is hardly deeper, all along. */
+float outline_at(vec3 axis, vec2 normal, out bool judged)
 {
-    ivec2 last = ivec2(u_size) - 1;
-    return max(step_beside(clamp(ivec2(axis + 0.5 * normal), ivec2(0), last)), step_beside(clamp(ivec2(axis - 0.5 * normal), ivec2(0), last)));
+    vec2 away = BEHIND * normal;
+    float found = step_at(axis.xy, normal);
+    int within = 1;
+    judged = false;
+#if defined(HAS_ID) && PARTS
+    within = piece_at(axis.xy + away) != piece_at(axis.xy - away) ? 0 : 1;
+#endif
+    for (int once = 0; once < within; once++) {
+        float one = depth_at(floor(axis.xy + away)), other = depth_at(floor(axis.xy - away)), behind = max(one, other);
+        float beyond = depth_at(floor(axis.xy + (one > other ? 2.0 : -2.0) * away));
+        int doubtful = found > 0.0 && is_much_deeper(axis.z, behind, (beyond - behind) / BEHIND) ? 0 : 1;
+        for (int again = 0; again < doubtful; again++) {
+            float share = steps_along(axis.xy, normal, found);
+            judged = share > 0.0;
+            found = smoothstep(STEPS_FEW, STEPS_MANY, share);
+        }
+    }
+    return found;
 }
 
 /* From the curve over the chord (record_bends.h), as far as its slope is small; `way` turns to it. */
@@ -87,6 +106,7 @@ void main()
     float d = distance_of_curve(at, size, along, way_of_line);
     bool within = min(d, chord_d) <= reach;
     int wanted = is_seen_around(axis, at, size, within) && within ? 1 : 0;
+    bool judged = false; /* pixels that find a step of depth there are to draw none */
     vec2 ink = vec2(0.0), strength = vec2(0.0); /* of outlines and of creases */
     for (int once = 0; once < wanted; once++) {
         vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
@@ -94,9 +114,9 @@ void main()
         /* What is smooth has an outline only where something is behind it. */
         int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
         for (int again = 0; again < uncertain; again++)
-            strength.x = step_at(axis.xy, normal);
+            strength.x = outline_at(axis, normal, judged);
         ink = strength * line_cover(d, length(way_of_line) > 0.01 ? normalize(way_of_line) : normal, half_width);
-        wanted = max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;
+        wanted = judged || max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;
     }
     if (wanted == 0)
         discard;

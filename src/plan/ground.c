@@ -105,7 +105,7 @@ void ground_settle(plan *p)
     const scene_values *v = p->look->wide[KIND_SCENE].values;
     fit_ground         *g = &p->fit.ground;
     *g = (fit_ground){.up = p->scene->up == 'z' ? 2 : 1};
-    if (v->ground == GROUND_NONE || p->has_cut || box3_is_empty(p->fit.box) || !(box3_diagonal(p->fit.box) > 0))
+    if (v->ground == GROUND_NONE || v->cut.text[0] || box3_is_empty(p->fit.box) || !(box3_diagonal(p->fit.box) > 0))
         return;
     g->level = lowest_of(&p->fit, g->up);
     g->there = isfinite(g->level) && (v->ground != GROUND_CAST || stands_level(p, g));

@@ -583,6 +583,8 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->look = look = out->own_look = paper_look_create(look, options->pixels_per_mm * MM_PER_POINT);
     if (!look)
         return error_memory(error);
+    if (options->surfaces_only) /* hatching is lines */
+        ((scene_values *)out->own_look->wide[KIND_SCENE].values)->cut_hatch = 0;
     out->box = out->fit.box = box3_empty();
     out->crease_angle =
         (double)((const scene_values *)look->wide[KIND_SCENE].values)->crease_angle * (3.14159265358979323846 / 180);
@@ -607,7 +609,7 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
                           .part_count = out->part_count,
                           .box = box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
-    if (status == LMN_OK && !options->surfaces_only && !options->parts_only)
+    if (status == LMN_OK && !options->parts_only)
         status = section_find(&out->section, pose, look, options->select, error);
     out->has_cut = out->section.cut.cell_count > 0;
     return status;

@@ -25,7 +25,8 @@ typedef struct stretch {
     uint32_t item, cap;
     int64_t  line;
     double   from, to; /* along */
-    uint32_t triangle; /* of the view */
+    uint32_t triangle; /* of the view, where it begins */
+    uint32_t last;     /* and where it ends: depths are those of triangles there, as needles know none elsewhere */
 } stretch;
 
 typedef struct hatcher {
@@ -175,7 +176,7 @@ static bool lay_over(hatcher *h, uint32_t triangle, uint32_t item, uint32_t cap,
             last = (int64_t)floor((fmin(most, lines[1]) + g.offset) / g.apart - 0.5);
     for (int64_t n = first; n <= last; n++) {
         double  at = ((double)n + 0.5) * g.apart - g.offset;
-        stretch s = {item, cap, n, INFINITY, -INFINITY, triangle};
+        stretch s = {item, cap, n, INFINITY, -INFINITY, triangle, triangle};
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3;
             if ((across[k] <= at) == (across[next] <= at))
@@ -256,7 +257,13 @@ static void join_stretches(hatcher *h)
         stretch *last = kept ? &h->items[kept - 1] : NULL, *s = &h->items[i];
         if (last && last->item == s->item && last->cap == s->cap && last->line == s->line &&
             s->from <= last->to + SAME_END)
-            last->to = fmax(last->to, s->to);
+            *last = (stretch){s->item,
+                              s->cap,
+                              s->line,
+                              last->from,
+                              fmax(last->to, s->to),
+                              last->triangle,
+                              s->to > last->to ? s->last : last->last};
         else
             h->items[kept++] = *s;
     }
@@ -296,7 +303,7 @@ static lmn_status keep_seen(hatch_lines *out, const hatcher *h, lmn_error *error
         position_on_line(&g, s->line, s->from, ends[0]);
         position_on_line(&g, s->line, s->to, ends[1]);
         segments[i] = (window_segment){.a = on_plane(v, s->triangle, ends[0]),
-                                       .b = on_plane(v, s->triangle, ends[1]),
+                                       .b = on_plane(v, s->last, ends[1]),
                                        .ends = {NO_VERTEX, NO_VERTEX},
                                        .faces = {v->triangles[s->triangle].face, EDGE_NO_FACE}};
     }

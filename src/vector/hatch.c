@@ -5,7 +5,7 @@
 #include "vector/vector_private.h"
 
 lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
-                            uint64_t *count, stroke_check *check, lmn_error *error)
+                            const colour *colours, uint64_t *count, stroke_check *check, lmn_error *error)
 {
     hatch_lines lines;
     lmn_status  status = hatch_find(&lines, view, (double)v->cut_hatch,
@@ -23,7 +23,8 @@ lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, cons
         }
         for (int k = 0; k < 4; k++)
             ends[k / 2][k % 2] = ink->origin[k % 2] + (double)l->ends[k / 2][k % 2] / VECTOR_PIXELS_PER_MM;
-        sheet_add_line(ink->page, own, v->cut_colour, ends[0], ends[1], (double)v->cut_width / VECTOR_PIXELS_PER_MM);
+        sheet_add_line(ink->page, own, colours[part - 1], ends[0], ends[1],
+                       (double)v->cut_width / VECTOR_PIXELS_PER_MM);
     }
     *count += lines.count;
     if (status == LMN_OK && check && lines.count)

@@ -529,11 +529,27 @@ static lmn_status draw_lines(vector_job *j, stroke_view *view, const stroke_came
     return status;
 }
 
+/* In layers cut faces are hatched in the ink of the lines, as in pictures. */
+static colour colour_of_hatch(const rule *r, colour otherwise)
+{
+    const technique_use *compose = r ? rule_use(r, KIND_COMPOSE) : NULL;
+    stroke_options       options = {.intersections = false};
+    stroke_style         style;
+    bool layered = compose && compose->technique->compose->layered && vector_rule_strokes(r, &options, &style);
+    return layered ? style.colours[STROKE_CONTOUR] : otherwise;
+}
+
 static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vector_ink *ink, lmn_error *error)
 {
-    stroke_check check = {0};
-    lmn_status   status = vector_put_hatch(ink, view, j->look->wide[KIND_SCENE].values, j->stroked, &j->out->hatches,
-                                         j->wanted->verify ? &check : NULL, error);
+    const scene_values *v = j->look->wide[KIND_SCENE].values;
+    stroke_check        check = {0};
+    colour             *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
+    for (size_t i = 0; colours && i < j->scene->part_count; i++)
+        colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
+    lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours, &j->out->hatches,
+                                                   j->wanted->verify ? &check : NULL, error)
+                                : error_memory(error);
+    mem_free(colours);
     j->out->check.samples += check.samples;
     j->out->check.wrong += check.wrong;
     return status;
@@ -552,7 +568,7 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
-    if (status == LMN_OK && !j->pixels && j->section.cut.cell_count)
+    if (status == LMN_OK && j->section.cut.cell_count)
         status = draw_hatch(j, view, ink, error);
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);

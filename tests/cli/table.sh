@@ -756,6 +756,11 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
     grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"
+    # Where surfaces need pixels, the picture below is cut as the lines are.
+    local pixels=(--look toon --set scene.ground=none --size 64x64 --dpi 96)
+    row 0 '' 'x.svg' draw "$widget" "${pixels[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'
+    row 0 '' 'y.svg' draw "$widget" "${pixels[@]}" -o y.svg
+    [ "$(grep -o 'base64,[^"]*' x.svg | md5sum)" != "$(grep -o 'base64,[^"]*' y.svg | md5sum)" ] || complain "lines of a section over the picture of the whole"
     # What has no strokes is said.
     row 2 "^limner: $widget: marks lie on meshes: 1 solids of set operations" '' draw "$widget" --look stipple -o x.svg
     row 2 'lines of form' '' draw "$widget" "${sheet[@]}" -o x.svg --set lines.ridges=0.5

@@ -32,6 +32,7 @@ static void draw_box(const float colour[3], uint8_t *out)
     DO(lmn_scene_add_mesh(scene, &mesh, &node.mesh, &error));
     DO(lmn_scene_add_node(scene, &node, NULL, &error));
     DO(lmn_look_load(&look, "draft", &error));
+    DO(lmn_look_set(look, "scene.ground", "none", &error)); /* its shadow would take room on the page */
     desc.width = desc.height = SIDE;
     DO(lmn_draw(&drawing, renderer, scene, look, &desc, &error));
     memcpy(out, lmn_drawing_pixels(drawing, NULL, NULL), 4 * PIXELS);

@@ -5,6 +5,7 @@
 #include "cut/cut.h"
 #include "stroke/hatch.h"
 #include "stroke/solid.h"
+#include "stroke/stroke_private.h"
 
 typedef struct lengths {
     double crease, candidate, border, material, hollow;
@@ -256,6 +257,70 @@ static double hatched(const stroke_scene *scene, double apart, bool flat)
     return length * apart / (40 * 40); /* that many units are 1 */
 }
 
+/* The area of a mesh's cut faces as it is seen along a direction. */
+static double cap_area(const stroke_scene *scene, const double way[3])
+{
+    const edge_mesh *m = &scene->meshes[0];
+    double           sum = 0;
+    for (uint32_t i = 0; i < m->face_count; i++) {
+        double3 p[3];
+        if (!m->materials || m->materials[i] > EDGE_CAP_MATERIAL(0))
+            continue;
+        for (int k = 0; k < 3; k++)
+            p[k] = item_position(&scene->items[0], m->positions[m->faces[i][k]]);
+        const double a[3] = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
+                     b[3] = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z};
+        for (int k = 0; k < 3; k++)
+            sum -= 0.5 * way[k] * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+    }
+    return sum;
+}
+
+/* A shaft's cut face has needles for triangles, along its length. */
+static void needles_are_hatched(void **state)
+{
+    (void)state;
+    enum { SHAFT = 14 };
+    bool       parts[64] = {[SHAFT] = true};
+    lmn_scene *s = NULL;
+    pose       at_rest;
+    cut        c;
+    assert_int_equal(lmn_scene_create(&s, NULL), LMN_OK);
+    assert_int_equal(lmn_scene_add_file(s, LIMNER_SOURCE_DIR "/examples/pump.glb", NULL, NULL), LMN_OK);
+    assert_string_equal(s->parts[SHAFT].name, "Idler shaft");
+    const box3 bounds = s->parts[SHAFT].bounds;
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, NULL), LMN_OK);
+    assert_int_equal(cut_parse(&c, "x", bounds, NULL), LMN_OK);
+    stroke_section section = {&c, NULL};
+    for (int k = 0; k < 3; k++) {
+        static const double ways[3][3] = {{-0.6, -0.64, -0.48}, {-0.57735, -0.57735, -0.57735}, {-0.6, -0.48, 0.64}};
+        const double        middle[3] = {0.5 * (double)(bounds.min.x + bounds.max.x),
+                                         0.5 * (double)(bounds.min.y + bounds.max.y),
+                                         0.5 * (double)(bounds.min.z + bounds.max.z)};
+        const double        half = box3_diagonal(bounds), units = 400 / half;
+        stroke_scene        scene;
+        stroke_view        *v;
+        hatch_lines         lines;
+        double              length = 0;
+        stroke_camera camera = look_along(ways[k][0], ways[k][1], ways[k][2], middle, 10 * half, half, true, 800, 800);
+        assert_int_equal(stroke_scene_create_cut(&scene, &at_rest, parts, 0.5, 0, &section, NULL, NULL, NULL), LMN_OK);
+        assert_int_equal(scene.item_count, 1);
+        assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
+        assert_int_equal(hatch_find(&lines, v, 4, 0.7, NULL, NULL), LMN_OK);
+        for (size_t i = 0; i < lines.count; i++)
+            length += hypot((double)lines.items[i].ends[1][0] - (double)lines.items[i].ends[0][0],
+                            (double)lines.items[i].ends[1][1] - (double)lines.items[i].ends[0][1]);
+        double wanted = cap_area(&scene, ways[k]) * units * units;
+        assert_true(wanted > 1000);
+        assert_true(fabs(length * 4 * 0.8 / wanted - 1) < 0.01); /* this part's lines lie closer */
+        mem_free(lines.items);
+        stroke_view_destroy(&v);
+        stroke_scene_release(&scene);
+    }
+    pose_release(&at_rest);
+    lmn_scene_destroy(&s);
+}
+
 /* Lines on cut faces take their area, of solids and of meshes, and of nothing else. */
 static void cut_faces_are_hatched(void **state)
 {
@@ -474,6 +539,7 @@ int main(void)
         cmocka_unit_test(parts_cross_what_is_left),
         cmocka_unit_test(sections_cut_solids),
         cmocka_unit_test(cut_faces_are_hatched),
+        cmocka_unit_test(needles_are_hatched),
         cmocka_unit_test(shells_that_cross_are_decided),
         cmocka_unit_test(walls_that_meet_cancel),
         cmocka_unit_test(open_operands_are_counted),

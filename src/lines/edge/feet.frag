@@ -3,6 +3,9 @@
 #define OWN_WIDTH
 #include "lines/edge/found.glsl"
 #include "lines/plane.glsl"
+#ifdef HAS_BARE
+#include "lines/steps.glsl"
+#endif
 layout(location = 1) out vec4 out_feet; /* x, y: unit normal of the edge; z: how far it is from the pixel's middle along it; w: 1 where there is one */
 
 /* Pixels along the boundary that are looked at, to either side. */
@@ -105,6 +108,27 @@ vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, v
     return found;
 }
 
+#ifdef HAS_BARE
+const float GOES_ON = 0.9; /* of the places along it */
+
+/* Outlines within a mesh have records. Where pixels find a step that none explains, what is behind it is hardly deeper and it does not go on, there is no line. */
+bool is_doubtful(vec4 steps, float depth, vec4 beside, uvec2 id)
+{
+    const vec2 sides[4] = vec2[4](vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0));
+    bool within = true;
+    for (int k = 0; k < 4; k++) {
+        float beyond = neighbour(t_depth, 2.0 * sides[k]).r - beside[k], before = depth - neighbour(t_depth, -sides[k]).r;
+        bool sure = is_much_deeper(min(depth, beside[k]), max(depth, beside[k]), max(abs(beyond), abs(before)));
+#if defined(HAS_ID) && PARTS
+        uvec2 other = textureLod(t_id, (gl_FragCoord.xy + sides[k]) * u_texel, 0.0).rg;
+        sure = sure || piece_of(other) != piece_of(id) || ((id.g | other.g) & (SURFACE_OPERAND | SURFACE_CUT)) != 0u;
+#endif
+        within = within && !(sure && steps[k] > 0.0);
+    }
+    return within;
+}
+#endif
+
 void main()
 {
     found_edges found = find_edges();
@@ -117,7 +141,14 @@ void main()
 #if defined(HAS_ID) && PARTS
         id = texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg;
 #endif
-        foot = foot_of(found.steps, found.creases, found.borders, neighbour(t_depth, vec2(0.0)).r, beside, normal_depth, id);
+        float depth = neighbour(t_depth, vec2(0.0)).r;
+        foot = foot_of(found.steps, found.creases, found.borders, depth, beside, normal_depth, id);
+#ifdef HAS_BARE
+        int doubtful = found.profile > 0.0 && foot.w > 0.0 && is_doubtful(found.steps, depth, beside, id) ? 1 : 0;
+        for (int again = 0; again < doubtful; again++)
+            found.profile *= step(GOES_ON, steps_along(gl_FragCoord.xy + foot.z * foot.xy, foot.xy, 1.0));
+        foot *= found.profile + found.inks.x + found.inks.y > 0.0 ? 1.0 : 0.0;
+#endif
     }
     write_edges(1.0 - found.profile, 1.0 - found.inks.x, 1.0 - found.inks.y);
     out_feet = foot;
