@@ -668,6 +668,7 @@ lmn_status city_builder_close(city_builder *b, lmn_status status)
     if (status == LMN_OK) {
         tell_all(b);
         tell_system(b);
+        warnings_fold(&b->scene->warnings, WARNING_MISSING_FILE, "texture", "textures are missing");
     }
     close_scratch(b);
     return status;

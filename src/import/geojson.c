@@ -294,8 +294,8 @@ static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
     const city_shape *flat = &r->flat;
     uint32_t          first = (uint32_t)r->points.count;
     if (r->builder.terrain)
-        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base, &r->shape,
-                             &r->points);
+        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base + thing->rise,
+                             &r->shape, &r->points);
     bool done = true;
     for (size_t i = 0; i < r->flat_points.count && done; i++) {
         vec3 p = r->flat_points.items[i];
@@ -356,7 +356,7 @@ static bool raise_polygon(geojson_reader *r, const geojson_thing *thing, const d
     uint32_t at = 0;
     for (size_t ring = 0; ring < rings && done; ring++) {
         for (size_t i = 0; i < counts[ring] && done; i++, at++)
-            done = footprint_add_point(&r->flat_points, positions[at][0], positions[at][1], how.base) &&
+            done = footprint_add_point(&r->flat_points, positions[at][0], positions[at][1], how.base + thing->rise) &&
                    city_shape_corner(&r->flat, at);
         done = done && city_shape_end_ring(&r->flat);
     }
@@ -392,7 +392,7 @@ static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s
         return;
     begin_flat(r);
     if (!footprint_strip(&r->flat, &r->flat_points, (const double(*)[2])k->positions, k->position_count, thing->width,
-                         thing->body.base + k->lowest) ||
+                         thing->body.base + thing->rise + k->lowest) ||
         !lay_flat(r, thing))
         no_memory(r);
     if (r->status == LMN_OK && r->street && strcmp(thing->type, "Road") == 0 &&

@@ -149,6 +149,14 @@ static double width_of_road(json_span kind)
     return 5;
 }
 
+/* Wider ways lie over narrower ones, rails over all, by so little that crossings have one outline all the same
+ * (crossings.h): two colours at one height would flicker. */
+static double rise_of_way(double width, bool rail)
+{
+    const double STEP = 0.004, LIMIT = 9; /* m */
+    return STEP * (rail ? LIMIT + 1 : fmin(fmax(floor(width / 1.5), 0), LIMIT));
+}
+
 /* What lies on the ground: a little higher each, so that none flickers through another. */
 static void understand_ground(geojson_thing *out, json_span properties, bool line)
 {
@@ -170,6 +178,7 @@ static void understand_ground(geojson_thing *out, json_span properties, bool lin
         out->is_nothing = tunnel.at && !span_is(tunnel, "no");
         out->cars = way.at && !is_among(way, paths);
         out->body.base = 0.06;
+        out->rise = rise_of_way(out->width, rail.at != NULL);
     } else if (stream.at || is_among(natural, waters) || is_among(landuse, waters) ||
                property(properties, "water").at) {
         out->type = "WaterBody";

@@ -304,6 +304,28 @@ static void causes_are_told(void **state)
     }
 }
 
+/* Ways of different kinds that cross do not lie at one height, where two colours would flicker, but nearly. */
+static void crossing_ways_lie_over_each_other(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"type\":\"FeatureCollection\",\"crs\":{\"properties\":{\"name\":\"EPSG:25832\"}},\"features\":["
+        "{\"properties\":{\"highway\":\"primary\"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0],[90,0]]"
+        "}},"
+        "{\"properties\":{\"highway\":\"residential\"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[20,40],["
+        "20,-40]]}},"
+        "{\"properties\":{\"highway\":\"footway\"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[60,40],[60,-"
+        "40]]}}]}";
+    lmn_scene  *s = load_or_fail(temp_file("ways.geojson", text, sizeof text - 1));
+    const part *ways[3];
+    for (int i = 0; i < 3; i++)
+        ways[i] = part_of(s, "road", "Road", i);
+    for (int i = 0; i < 2; i++)
+        assert_true(ways[i]->bounds.max.z - ways[i + 1]->bounds.max.z > 0.0035f);
+    assert_true(ways[0]->bounds.max.z - ways[2]->bounds.max.z < 0.05f);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +336,7 @@ int main(void)
         cmocka_unit_test(tangled_outlines_are_filled),
         cmocka_unit_test(other_forms_and_heights_are_counted),
         cmocka_unit_test(causes_are_told),
+        cmocka_unit_test(crossing_ways_lie_over_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
