@@ -60,12 +60,10 @@ void warnings_add(warnings *list, warning_code code, const char *format, ...)
 void warnings_fold(warnings *list, warning_code code, const char *beginning, const char *what)
 {
     char   message[WARNING_TEXT_SIZE];
-    size_t kept = 0, first = 0, count = 0, kinds = 0;
+    size_t kept = 0, first = 0, kinds = 0;
     for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].code == code && strncmp(list->items[i].text, beginning, strlen(beginning)) == 0) {
+        if (list->items[i].code == code && strncmp(list->items[i].text, beginning, strlen(beginning)) == 0)
             first = kinds++ ? first : i;
-            count += list->items[i].count;
-        }
     if (kinds < 2)
         return;
     snprintf(message, sizeof message, "%zu %s, the first of them: %.400s", kinds, what, list->items[first].text);
@@ -77,7 +75,7 @@ void warnings_fold(warnings *list, warning_code code, const char *beginning, con
         if (folded)
             mem_free(list->items[i].text);
         if (!folded || i == first)
-            list->items[kept++] = folded ? (warning){code, copy, count} : list->items[i];
+            list->items[kept++] = folded ? (warning){code, copy, 1} : list->items[i];
     }
     list->count = kept;
 }

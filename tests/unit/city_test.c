@@ -347,7 +347,8 @@ static void test_textures(void **state)
     temp_file("red.png", png, sizeof png);
     lmn_scene *s = load_text(HEAD "\"appearance\":{\"textures\":[{\"type\":\"PNG\",\"image\":\"red.png\",\"wrapMode\":"
                                   "\"clamp\"},{\"type\":\"JPG\",\"image\":"
-                                  "\"gone.jpg\"}],\"vertices-texture\":[[0,0],[1,0],[1,0.25],[0,1]]},\"CityObjects\":{"
+                                  "\"gone.jpg\"},{\"type\":\"JPG\",\"image\":\"gone, "
+                                  "too.jpg\"}],\"vertices-texture\":[[0,0],[1,0],[1,0.25],[0,1]]},\"CityObjects\":{"
                                   "\"a\":{\"type\":\"Building\",\"geometry\":[{"
                                   "\"type\":\"MultiSurface\",\"lod\":\"2\",\"boundaries\":[[[4,5,6,7]],[[0,1,5,4]],[[1,"
                                   "2,6,5]]],\"texture\":{\"t\":{\"values\":"
