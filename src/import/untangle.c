@@ -224,35 +224,36 @@ static bool takes_hole(const untangled *u, const untangled_polygon *to, const do
     return true;
 }
 
-/* All holes go behind the outline that they lie in: outlines are one behind the other, so that those of the first are
- * put before the others. */
+/* Holes of one polygon, behind its outline, which is the last ring. */
+static bool add_holes_of(untangled *u, untangled_polygon *to, const double (*positions)[2], const size_t *counts,
+                         size_t rings)
+{
+    bool good = true;
+    for (size_t k = 1, at = counts[0]; k < rings && good; at += counts[k], k++) {
+        if (counts[k] < 3 || !takes_hole(u, to, positions + at, counts[k]))
+            continue;
+        good = add_ring(&u->rings, positions + at, counts[k], false);
+        to->rings++;
+    }
+    return good;
+}
+
+/* Where there are several outlines, which lie one behind the other, the rings are put anew, each with its holes. */
 static bool add_holes(untangled *u, const double (*positions)[2], const size_t *counts, size_t rings)
 {
-    const ring_list outlines = u->rings;
-    bool            good = true;
-    if (u->count == 1)
-        u->polygons[0].rings = 1;
-    else if (rings > 1)
-        u->rings = (ring_list){.positions = NULL};
-    for (size_t p = 0; p < u->count && good && (rings > 1 || p == 0); p++) {
+    if (u->count < 2 || rings < 2)
+        return u->count == 0 || add_holes_of(u, &u->polygons[0], positions, counts, rings);
+    ring_list outlines = u->rings;
+    bool      good = true;
+    u->rings = (ring_list){.positions = NULL};
+    for (size_t p = 0; p < u->count && good; p++) {
         untangled_polygon *to = &u->polygons[p];
-        if (u->count > 1 && rings > 1) {
-            const double(*own)[2] = (const double(*)[2])outlines.positions + to->position;
-            size_t count = outlines.counts[to->first];
-            *to = (untangled_polygon){u->rings.ring_count, 1, u->rings.position_count};
-            good = add_ring(&u->rings, own, count, true);
-        }
-        for (size_t k = 1, at = counts[0]; k < rings && good; at += counts[k], k++) {
-            if (counts[k] < 3 || !takes_hole(u, to, positions + at, counts[k]))
-                continue;
-            good = add_ring(&u->rings, positions + at, counts[k], false);
-            to->rings++;
-        }
+        const double(*own)[2] = (const double(*)[2])outlines.positions + to->position;
+        size_t count = outlines.counts[to->first];
+        *to = (untangled_polygon){u->rings.ring_count, 1, u->rings.position_count};
+        good = add_ring(&u->rings, own, count, true) && add_holes_of(u, to, positions, counts, rings);
     }
-    if (u->count > 1 && rings > 1) {
-        ring_list kept = outlines;
-        ring_list_release(&kept);
-    }
+    ring_list_release(&outlines);
     return good;
 }
 
