@@ -546,20 +546,30 @@ static void numbers_are_no_names(void **state)
         "{\"type\":\"Feature\",\"properties\":{\"building\":\"yes\",\"height\":9,\"name\":\"  \"},\"geometry\":{"
         "\"type\":\"Polygon\",\"coordinates\":[[[20,0],[29,0],[29,9],[20,9],[20,0]]]}},"
         "{\"type\":\"Feature\",\"properties\":{\"building\":\"yes\",\"height\":9},\"geometry\":{"
-        "\"type\":\"Polygon\",\"coordinates\":[[[40,0],[49,0],[49,9],[40,9],[40,0]]]}}]}";
-    lmn_scene    *scene = load_or_fail(temp_file("names.geojson", text, sizeof text - 1));
+        "\"type\":\"Polygon\",\"coordinates\":[[[40,0],[49,0],[49,9],[40,9],[40,0]]]}},"
+        "{\"type\":\"Feature\",\"properties\":{\"highway\":\"residential\"},\"geometry\":{\"type\":\"LineString\","
+        "\"coordinates\":[[-80,-20],[80,-20]]}}]}";
     lmn_look     *look = look_of("\"datum\":\"use\"", "\"labels\":\"name\"");
     lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
     written       list[BOXES_MAX];
     desc.width = desc.height = 512;
-    char  *svg = svg_of(scene, look, &desc);
-    size_t count = read_annotations(svg, list, BOXES_MAX);
-    for (size_t i = 0; i < count; i++)
-        assert_string_equal(list[i].text, "Hall");
-    assert_int_equal(count, 1);
-    free(svg);
+    for (int populate = 0; populate < 2; populate++) {
+        lmn_scene    *scene = NULL;
+        lmn_error     error = {0};
+        lmn_load_desc how = LMN_LOAD_DESC_INIT;
+        how.populate = populate;
+        assert_int_equal(lmn_scene_create(&scene, &error), LMN_OK);
+        assert_int_equal(lmn_scene_add_file(scene, temp_file("names.geojson", text, sizeof text - 1), &how, &error),
+                         LMN_OK);
+        char  *svg = svg_of(scene, look, &desc);
+        size_t count = read_annotations(svg, list, BOXES_MAX);
+        for (size_t i = 0; i < count; i++)
+            assert_string_equal(list[i].text, "Hall");
+        assert_int_equal(count, 1);
+        free(svg);
+        lmn_scene_destroy(&scene);
+    }
     lmn_look_destroy(&look);
-    lmn_scene_destroy(&scene);
 }
 
 /* Words beyond the palette's colours have variations of these, and what is beyond those is told as others. */
