@@ -265,10 +265,9 @@ lmn_status terrain_into_scene(const terrain *t, city_builder *b)
     city_mesh         one = {(int32_t)b->scene->mesh_count - 1, city_word_of_class(type, sizeof type - 1)};
     const city_meshes meshes = {&one, 1, 1};
     int32_t           node = city_object(b, mem_copy_text("terrain"), type, sizeof type - 1);
-    if (node != NONE)
-        b->scene->nodes[node].numbered = true; /* the file has no name for it */
     if (node == NONE)
         return error_memory(b->error);
+    b->scene->nodes[node].numbered = true; /* the file has no name for it */
     b->surfaces[one.word]++;
     if (t->filled && !city_add(&b->scene->city, CITY_REPAIRED, "filled-heights", t->filled))
         return error_memory(b->error);
