@@ -79,11 +79,26 @@ static int check_depiction(const char *path, const json_t *given)
     return EXIT_DONE;
 }
 
+/* NULL: it is no JSON. Editors put a byte order mark before it. */
+static json_t *read_json(const char *path)
+{
+    FILE   *file = fopen(path, "rb");
+    char    mark[3];
+    json_t *root = NULL;
+    if (!file)
+        return NULL;
+    if (fread(mark, 1, sizeof mark, file) != sizeof mark || memcmp(mark, "\xEF\xBB\xBF", sizeof mark) != 0)
+        rewind(file);
+    root = json_loadf(file, 0, NULL);
+    fclose(file);
+    return root;
+}
+
 int depiction_read(depiction *out, const char *path)
 {
     const char *dot = strrchr(path, '.');
     *out = (depiction){NULL, NULL, NULL, {false, 0}, false};
-    json_t *root = dot && strcmp(dot, ".json") == 0 ? json_load_file(path, 0, NULL) : NULL;
+    json_t *root = dot && strcmp(dot, ".json") == 0 ? read_json(path) : NULL;
     /* What is wrong with a script is told when it is read as one. */
     const json_t *given = json_object_get(root, "depiction"), *time = json_object_get(given, "time");
     int           status = given ? check_depiction(path, given) : EXIT_DONE;

@@ -257,6 +257,10 @@ static int check_output(const draw_session *s, const word_list *inputs)
     bool               to_standard = v->output && strcmp(v->output, "-") == 0;
     if (to_standard && v->report && strcmp(v->report, "-") == 0)
         return message_usage("write one of them into a file", "picture and report cannot both go to standard output");
+    if (v->explain && (to_standard || (v->report && strcmp(v->report, "-") == 0)))
+        return message_usage("write the other one into a file",
+                             "what --explain prints and %s cannot both go to standard output",
+                             to_standard ? "picture" : "report");
     if (to_standard && s->frames.given)
         return message_usage("use -o NAME-{frame}.png", "frames cannot go to standard output");
     if (name_has_frame(v->output) && !s->frames.given)

@@ -270,7 +270,9 @@ const command command_depict = {
     .summary = "Draw what happens in models: arrows, ghost images and signs in one still.",
     .detail =
         "Draws as `limner draw` does, with signs that tell the motion. What is told follows from what moves, or from\n"
-        "--expressions (docs/DEPICTION.md).",
+        "--expressions (docs/DEPICTION.md). Defaults of its own, unless a script says others: the look storyboard, "
+        "and\n"
+        "the time at six tenths of the animation, or of --interval.",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .values_size = sizeof(draw_values),

@@ -38,8 +38,15 @@ typedef enum lmn_activity_kind {
     LMN_ACTIVITY_EVENT         /* something happens, without duration */
 } lmn_activity_kind;
 
-/* What a simultaneity does with children that need less time than it has. */
-typedef enum lmn_activity_fit { LMN_FIT_START = 0, LMN_FIT_CENTRE, LMN_FIT_END, LMN_FIT_STRETCH } lmn_activity_fit;
+/* What a simultaneity does with children that need less time than it has; with LMN_FIT_SHRINK it needs as much as the
+ * shortest that lasts, and all others are sped up to that. */
+typedef enum lmn_activity_fit {
+    LMN_FIT_START = 0,
+    LMN_FIT_CENTRE,
+    LMN_FIT_END,
+    LMN_FIT_STRETCH,
+    LMN_FIT_SHRINK
+} lmn_activity_fit;
 
 typedef struct lmn_activity_child {
     uint32_t activity;

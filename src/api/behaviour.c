@@ -116,13 +116,13 @@ static lmn_status take_clip(behaviour_node *n, const lmn_scene *scene, const cha
 static lmn_status make_activity(behaviour_node *out, const lmn_scene *scene, const lmn_activity_desc *d,
                                 const char *caller, lmn_error *error)
 {
-    static const behaviour_fit fits[] = {FIT_START, FIT_CENTRE, FIT_END, FIT_STRETCH};
+    static const behaviour_fit fits[] = {FIT_START, FIT_CENTRE, FIT_END, FIT_STRETCH, FIT_SHRINK};
     *out = behaviour_blank((behaviour_kind)d->kind);
     lmn_status status = content_check_range((double)d->kind, 0, LMN_ACTIVITY_EVENT, "the kind", caller, error);
     if (status == LMN_OK && d->kind == LMN_ACTIVITY_CONSTRAINT)
         status = error_set(error, LMN_USAGE, "%s: constraints are made by lmn_behaviour_add_constraint", caller);
     if (status == LMN_OK)
-        status = content_check_range((double)d->fit, 0, LMN_FIT_STRETCH, "the fit", caller, error);
+        status = content_check_range((double)d->fit, 0, LMN_FIT_SHRINK, "the fit", caller, error);
     if (status == LMN_OK)
         status = take_seconds(&out->duration, d->duration_s, caller, error);
     if (status == LMN_OK)

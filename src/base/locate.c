@@ -1,5 +1,7 @@
 #include "base/locate.h"
 
+#include "base/text.h"
+
 #include <stdbool.h>
 #include <string.h>
 
@@ -88,11 +90,12 @@ static const char *follow(const char *at, const char *end, const locate_step *st
 void locate_on(locate_memo *memo, const char *text, size_t size, const locate_step *steps, size_t count, int *line,
                int *column)
 {
-    const char *end = text + size, *found = skip_blanks(text, end), *value = found;
+    const size_t mark = text_byte_order_mark(text, size);
+    const char  *end = text + size, *found = skip_blanks(text + mark, end), *value = found;
     for (size_t i = 0; i < count && value; i++)
         value = follow(value, end, &steps[i], i < LOCATE_LEVELS ? &memo->levels[i] : NULL, &found);
     if (!memo->counted || found < memo->counted) {
-        memo->counted = text;
+        memo->counted = text + mark;
         memo->line = memo->column = 1;
     }
     for (; memo->counted < found; memo->counted++) {

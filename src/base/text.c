@@ -278,27 +278,56 @@ const char *text_nearest(const char *name, const char *const *candidates, size_t
     return best;
 }
 
+size_t text_byte_order_mark(const char *bytes, size_t size)
+{
+    return size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+}
+
 /* Is it a control character that a terminal would act on? Messages may have lines of their own. */
 static bool is_control(const unsigned char *c)
 {
     return (*c < 0x20 && *c != '\n' && *c != '\t') || *c == 0x7f || (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0);
 }
 
+/* Does it turn the direction of what stands around it? U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069. */
+static bool turns_text(const unsigned char *c)
+{
+    return c[0] == 0xe2 && ((c[1] == 0x80 && (c[2] == 0x8e || c[2] == 0x8f || (c[2] >= 0xaa && c[2] <= 0xae))) ||
+                            (c[1] == 0x81 && c[2] >= 0xa6 && c[2] <= 0xa9));
+}
+
+/* Bytes of the character that begins here; 0: what is there is none, or only the first part of one. */
+static size_t whole_character(const char *text)
+{
+    const unsigned char first = (unsigned char)text[0];
+    const size_t        wanted = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    return strnlen(text, wanted) == wanted && text_is_utf8(text, wanted) ? wanted : 0;
+}
+
 void text_escape_controls(char *text, size_t size)
 {
-    static const char digits[] = "0123456789abcdef";
-    for (size_t i = 0; text[i]; i++) {
+    char shown[8];
+    for (size_t i = 0; text[i];) {
         const unsigned char *c = (const unsigned char *)&text[i];
-        const size_t         length = strlen(text + i), taken = *c == 0xc2 ? 2 : 1;
-        const unsigned char  code = c[taken - 1];
-        if (!is_control(c))
+        const size_t         length = strlen(text + i), character = whole_character(text + i);
+        size_t               taken = character ? character : 1;
+        if (character == 0) /* cut off by a limit, here or where it was quoted */
+            shown[0] = '\0';
+        else if (is_control(c))
+            snprintf(shown, sizeof shown, "\\x%02x", c[character - 1]);
+        else if (turns_text(c))
+            snprintf(shown, sizeof shown, "\\u%04x", 0x2000u | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu));
+        else {
+            i += taken;
             continue;
-        if (i + 4 + (length - taken) >= size) { /* no room: what is behind it goes */
+        }
+        const size_t put = strlen(shown);
+        if (put > taken && i + put + (length - taken) >= size) { /* no room: what is behind it goes */
             text[i] = '\0';
             return;
         }
-        memmove(text + i + 4, text + i + taken, length - taken + 1);
-        memcpy(text + i, (const char[]){'\\', 'x', digits[code >> 4], digits[code & 15]}, 4);
-        i += 3;
+        memmove(text + i + put, text + i + taken, length - taken + 1);
+        memcpy(text + i, shown, put);
+        i += put;
     }
 }

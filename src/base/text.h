@@ -33,10 +33,13 @@ void text_with_point(char *out, const char *printed);
 bool text_glob(const char *pattern, const char *subject);
 /* Is the string valid UTF-8? */
 bool text_is_utf8(const char *bytes, size_t size);
+/* How many bytes of a byte order mark the text begins with: 3 or 0. */
+size_t text_byte_order_mark(const char *bytes, size_t size);
 /* The candidate nearest to `name` by edit distance, or NULL when none is near enough to suggest. */
 const char *text_nearest(const char *name, const char *const *candidates, size_t count);
 
-/* Control characters but line ends and tabs become "\x1b", so that what files have in their names and texts is shown
+/* Control characters but line ends and tabs become "\x1b", those that turn text round "\u202e", and bytes that are no
+ * whole UTF-8 go, such as those of a character that was cut, so that what files have in their names and texts is shown
  * and not done. `size` is the array's; what has no room is cut off. */
 void text_escape_controls(char *text, size_t size);
 

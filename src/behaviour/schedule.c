@@ -43,10 +43,11 @@ static lmn_status add_child(measuring *m, int32_t index, const behaviour_child *
     double                needed = c->duration >= 0 && n->kind == BEHAVIOUR_TABLE ? c->duration : child->needed;
     if (n->kind == BEHAVIOUR_TABLE && c->duration >= 0 && !(child->needed > 0))
         return behaviour_refuse(n, (size_t)index, LMN_FORMAT, m->error, "gives an event a duration");
-    r->own = n->kind == BEHAVIOUR_SEQUENCE ? r->own + needed
-             : n->kind == BEHAVIOUR_TABLE  ? fmax(r->own, c->start + needed)
-             : n->kind == BEHAVIOUR_REPEAT ? needed * n->times
-                                           : fmax(r->own, needed);
+    r->own = n->kind == BEHAVIOUR_SEQUENCE                      ? r->own + needed
+             : n->kind == BEHAVIOUR_TABLE                       ? fmax(r->own, c->start + needed)
+             : n->kind == BEHAVIOUR_REPEAT                      ? needed * n->times
+             : n->fit == FIT_SHRINK && needed > 0 && r->own > 0 ? fmin(r->own, needed)
+                                                                : fmax(r->own, needed);
     r->height = child->height + 1 > r->height ? child->height + 1 : r->height;
     r->leaves += child->leaves * (n->kind == BEHAVIOUR_REPEAT ? n->times : 1); /* both below 2^32: no overflow */
     if (r->leaves > BEHAVIOUR_SPANS_MAX)
@@ -265,7 +266,7 @@ static lmn_status lay_together(laying *l, int32_t index, const position *p)
         if (n->kind == BEHAVIOUR_TABLE) {
             begin = c->start;
             needed = c->duration >= 0 ? c->duration : needed;
-        } else if (n->fit == FIT_STRETCH && needed > 0) {
+        } else if ((n->fit == FIT_STRETCH || n->fit == FIT_SHRINK) && needed > 0) {
             needed = own;
         } else {
             begin = n->fit == FIT_CENTRE ? (own - needed) / 2 : n->fit == FIT_END ? own - needed : 0;

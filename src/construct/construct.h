@@ -90,6 +90,8 @@ typedef struct text_style {
 /* *missing: another font stands in for the one asked for. */
 lmn_status construct_text(region *out, const char *utf8, const text_style *style, facets f, bool *missing,
                           lmn_error *error);
+/* Do the installed fonts have all of it, where others may stand in? Errors: those of construct_text. */
+lmn_status construct_text_check(const char *utf8, const char *font, lmn_error *error);
 
 /* --- extrude.c ------------------------------------------------------------------------------------------ */
 typedef struct linear_extrusion {

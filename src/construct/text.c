@@ -385,3 +385,11 @@ lmn_status construct_text(region *out, const char *utf8, const text_style *style
     mem_free(answer.bytes);
     return status;
 }
+
+lmn_status construct_text_check(const char *utf8, const char *font, lmn_error *error)
+{
+    text_runs  runs = {0};
+    lmn_status status = text_runs_find(&runs, utf8, font, error);
+    text_runs_release(&runs);
+    return status;
+}

@@ -117,22 +117,39 @@ static lmn_status camera_path_depict(depict_job *j, const expression *e, lmn_err
     return status;
 }
 
-/* From the middle of one frame to that of the next. */
-static lmn_status put_flow(depict_job *j, const expression *e, const camera_shot *s, double from, double to,
-                           lmn_error *error)
+/* What of the way from the middle of one frame to that of the next lies within a time: dashed where it is to come; a
+ * head where it ends. */
+static lmn_status put_flow_part(depict_job *j, const expression *e, const camera_shot *s, double from, double to,
+                                glyph_tense when, bool ends, lmn_error *error)
 {
     enum { STEPS = 32 };
     const camera_values *v = e->values;
+    const double         width = 1.2 * (double)v->width * camera_shot_height(s);
     glyph_mesh           m = {0};
     double               points[STEPS + 1][3];
     for (int i = 0; i <= STEPS; i++)
         camera_shot_point(s, from + (to - from) * i / STEPS, 0, 0, points[i]);
-    const glyph_tense when = from >= e->now ? GLYPH_FUTURE : GLYPH_PAST;
     glyph_put_arrow(&m, j, (const double(*)[3])points, STEPS + 1,
-                    &(arrow_style){.width = 1.2 * (double)v->width * camera_shot_height(s), .tail = 0.5, .head = 2.4});
+                    &(arrow_style){.width = width,
+                                   .dash = when == GLYPH_FUTURE ? 1.2 * width : 0,
+                                   .gap = 0.7 * width,
+                                   .tail = when == GLYPH_FUTURE ? 1 : 0.5,
+                                   .head = ends ? 2.4 : 0});
     lmn_status status =
         glyph_put(j, &m, &(glyph_label){"flow-arrow", e->target, when, depict_tint(when, v->colour)}, error);
     glyph_mesh_release(&m);
+    return status;
+}
+
+static lmn_status put_flow(depict_job *j, const expression *e, const camera_shot *s, double from, double to,
+                           lmn_error *error)
+{
+    const double now = fmin(fmax(e->now, from), to);
+    lmn_status   status = LMN_OK;
+    if (now > from)
+        status = put_flow_part(j, e, s, from, now, GLYPH_PAST, now >= to, error);
+    if (now < to && status == LMN_OK)
+        status = put_flow_part(j, e, s, now, to, GLYPH_FUTURE, true, error);
     return status;
 }
 

@@ -9,10 +9,12 @@
 #include "base/work.h"
 #include "depict/depict_private.h"
 #include "depict/preview.h"
+#include "depict/staging.h"
 #include "plan/time.h"
 #include "scene/content.h"
 
-enum { PASSES = 2 };
+/* Until the viewer stays. What is lifted before a huge ground lies near the eye, and goes with it. */
+enum { PASSES = 2, PASSES_STAGED = 6 };
 
 static const char root_name[] = "glyphs", hidden_key[] = "depicted";
 
@@ -81,6 +83,7 @@ static bool has_glyphs(const lmn_scene *scene)
 
 lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
 {
+    scene->staged = false;
     if (!has_glyphs(scene))
         return LMN_OK;
     scene_begin_changes(scene);
@@ -98,22 +101,40 @@ static bool is_hidden(const lmn_scene *s, int32_t n)
     return n != NONE;
 }
 
-/* The box of all that the scene has, wherever it goes. */
+/* The box of all that the scene has, and the size of what pictures are fitted to, wherever it goes. */
 static lmn_status measure_scene(depict_job *j, lmn_error *error)
 {
-    enum { MOMENTS = 8 };
-    const double end = moment_duration(&j->when, j->scene);
-    lmn_status   status = LMN_OK;
+    lmn_status status = LMN_OK;
+    box3       fitted = box3_empty();
     j->box = box3_empty();
-    for (int i = 0; i <= MOMENTS && status == LMN_OK; i++) {
+    for (int i = 0; i < STAGING_MOMENTS && status == LMN_OK; i++) {
         const pose *p = NULL;
-        status = depict_pose(&p, j, end * i / MOMENTS, error);
+        status = depict_pose(&p, j, staging_moment(j, i), error);
         for (size_t k = 0; k < j->scene->part_count && status == LMN_OK; k++)
-            if (!is_hidden(j->scene, j->scene->parts[k].node))
+            if (!is_hidden(j->scene, j->scene->parts[k].node)) {
                 j->box = box3_union(j->box, p->part_boxes[k]);
+                fitted = box3_union(fitted, scene_fitted_box(j->scene, k, p->part_boxes[k]));
+            }
     }
-    j->size = box3_is_empty(j->box) ? 1 : box3_diagonal(j->box);
+    j->size = box3_is_empty(fitted) ? 1 : box3_diagonal(fitted);
     return status;
+}
+
+/* Where no camera is given and the scene is much larger than what is told, it gets a stage. */
+static lmn_status stage_scene(lmn_scene *scene, depict_job *j, const expression_list *expressions, lmn_error *error)
+{
+    const double much = 0.8, whole = j->size;
+    box3         stage = box3_empty();
+    lmn_status   status = j->fixed_view ? LMN_OK : staging_find(&stage, j, expressions, error);
+    if (status != LMN_OK || box3_is_empty(stage))
+        return status;
+    scene->stage = stage;
+    scene->staged = true;
+    status = measure_scene(j, error);
+    if (status != LMN_OK || j->size < much * whole)
+        return status;
+    scene->staged = false;
+    return measure_scene(j, error);
 }
 
 /* The viewer that the description places before a scene: glyphs turn towards it. */
@@ -134,7 +155,8 @@ static lmn_status place_viewer(depict_job *j, const lmn_scene *scene, const lmn_
         p.fit_boxes = swept ? swept : p.part_boxes;
         for (size_t i = 0; i < p.part_count; i++) {
             fitted[i] = !is_hidden(scene, scene->parts[i].node);
-            body.box = fitted[i] ? box3_union(body.box, p.fit_boxes[i]) : body.box;
+            if (fitted[i])
+                body.box = box3_union(body.box, scene_fitted_box(scene, i, p.fit_boxes[i]));
         }
         status = camera_place(&j->camera, desc, &p, &body, error);
         p.fit_boxes = p.part_boxes;
@@ -204,21 +226,34 @@ void depict_say_nothing(depict_job *j, const char *format, ...)
     va_end(arguments);
 }
 
-/* What somebody asked for, and cannot see. */
+/* What somebody asked for, or Limner chose, and nobody can see. */
 static void say_without_sign(const depict_job *j, const expression *e)
 {
     char numbered[DEPICT_NAME_SIZE];
-    if (e->line == 0)
-        return;
     warnings_add(j->warnings, WARNING_UNTOLD, "expression %u, '%s' of '%.60s', has no sign: %s", e->number + 1,
                  e->row->characteristic, depict_name_of(j->scene, e->target, numbered),
                  j->nothing[0] ? j->nothing : "nothing of it happens in its interval");
+}
+
+/* Which of several things a pattern means. */
+static void say_choice(const depict_job *j, const expression *e)
+{
+    static const char *const whose[] = {"target", "partner"};
+    const int32_t            taken[] = {e->target, e->partner};
+    for (int i = 0; i < 2; i++) {
+        char numbered[DEPICT_NAME_SIZE];
+        if (e->choice[i] > 1)
+            warnings_add(j->warnings, WARNING_UNTOLD,
+                         "expression %u, '%s': its %s means %zu things, of which '%.60s' is taken", e->number + 1,
+                         e->row->characteristic, whose[i], e->choice[i], depict_name_of(j->scene, taken[i], numbered));
+    }
 }
 
 static lmn_status make_one(depict_job *j, const expression *e, lmn_error *error)
 {
     const size_t before = j->glyph_count;
     j->nothing[0] = '\0';
+    say_choice(j, e);
     lmn_status status = e->row->depict(j, e, error);
     if (status != LMN_OK)
         return expression_blame(e, j->scene, status, error);
@@ -276,18 +311,21 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
     j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
-        status = time_moment(&j.when, scene, desc, said, error);
+        status = time_moment(&j.when, scene, desc, NULL, error); /* who draws says what is wrong with the time */
     if (status == LMN_OK)
         status = measure_scene(&j, error);
+    if (status == LMN_OK)
+        status = stage_scene(scene, &j, expressions, error);
     if (status == LMN_OK)
         status = place_viewer(&j, scene, desc, error);
     if (status == LMN_OK)
         status = make_glyphs(&j, expressions, error);
-    for (int pass = 0; pass < PASSES && status == LMN_OK && moved; pass++)
+    for (int pass = 0; pass < (scene->staged ? PASSES_STAGED : PASSES) && status == LMN_OK && moved; pass++)
         status = turn_to_viewer(&j, expressions, desc, &moved, error);
     depict_poses_release(&poses);
     if (status == LMN_OK)
         status = change_scene(scene, &j, expressions, error);
+    scene->staged = scene->staged && status == LMN_OK;
     glyphs_release(&j);
     if (said)
         warnings_append(said, &of_glyphs);

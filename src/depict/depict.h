@@ -41,6 +41,7 @@ typedef struct expression {
     double           from, to, now;   /* seconds; what is before `now` is past, what is after it future */
     uint32_t         number;          /* among all expressions: seeds what is random */
     int              line, column;    /* where it was read; 0: it was not */
+    size_t           choice[2];       /* how many things the names of target and partner mean; the first is taken */
     void            *values;          /* of row->params; owned */
 } expression;
 

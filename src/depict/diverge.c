@@ -145,51 +145,75 @@ static const param split_params[] = {
                     .doc = "Length of the heads, in breadths; 0: none."),
     PARAM_FLOAT_ROW(split_values, apart, .def = 0.02, .min = 0.0001, .max = 10, .soft_max = 1, .unit = UNIT_FRACTION,
                     .doc = "How far things are from going together when the stem ends, in radii."),
-    PARAM_COLOUR_ROW(split_values, colour, .def_colour = {0.72f, 0.74f, 0.78f, 1}, .doc = "Of the stem."),
-    PARAM_COLOUR_ROW(split_values, branches, .def_colour = {0.87f, 0.25f, 0.19f, 1}, .doc = "Of branches."),
+    PARAM_COLOUR_ROW(split_values, colour, .def_colour = {0, 0, 0, 0},
+                     .doc = "Of the stem; none: grey for the past, red for the future."),
+    PARAM_COLOUR_ROW(split_values, branches, .def_colour = {0, 0, 0, 0},
+                     .doc = "Of branches; none: grey for the past, red for the future."),
 };
 
 enum { SPLIT_STEPS = 64 };
 
-static lmn_status put_stem(depict_job *j, const expression *e, const pieces *p, double split, double width,
-                           lmn_error *error)
+enum { STEM = -1 };
+
+typedef struct split_way {
+    const pieces *pieces;
+    int           piece; /* STEM: of all together */
+    double        split; /* when they part */
+    double        from, to;
+    double        width;
+} split_way;
+
+/* A branch leaves the stem as the stem goes on, and comes to its piece's own way over a third of its time. */
+static void split_way_at(const split_way *w, const expression *e, double seconds, double out[3])
+{
+    const double f = w->to > w->split ? (seconds - w->split) / (w->to - w->split) : 0, u = fmin(3 * f, 1),
+                 own = u * u * u * (10 + u * (6 * u - 15)), span = (w->split - e->from) / SPLIT_STEPS;
+    double straight[3], before[3], at[3];
+    if (w->piece == STEM) {
+        middle_of_all(w->pieces, seconds, out);
+        return;
+    }
+    middle_of_all(w->pieces, w->split, straight);
+    middle_of_all(w->pieces, w->split - span, before);
+    for (int k = 0; k < 3 && span > 0; k++)
+        straight[k] += (straight[k] - before[k]) / span * (seconds - w->split);
+    piece_at(w->pieces, (size_t)w->piece, seconds, at);
+    vector3_mix(out, straight, at, own);
+}
+
+/* What of it lies within a time: branches end in heads. */
+static lmn_status put_split_part(depict_job *j, const expression *e, const split_way *w, double from, double to,
+                                 glyph_tense when, lmn_error *error)
 {
     const split_values *v = e->values;
+    const bool          stem = w->piece == STEM, ends = !stem && to >= w->to;
+    const arrow_style   style = {.width = w->width,
+                                 .dash = when == GLYPH_FUTURE ? 2.5 * w->width : 0,
+                                 .gap = 1.4 * w->width,
+                                 .tail = stem && from <= e->from ? 0.5 : 1,
+                                 .head = ends ? (double)v->head : 0,
+                                 .short_of = ends ? 1.2 * w->pieces->items[w->piece].radius : 0};
     double              points[SPLIT_STEPS + 1][3];
     glyph_mesh          m = {0};
     for (int i = 0; i <= SPLIT_STEPS; i++)
-        middle_of_all(p, e->from + (split - e->from) * i / SPLIT_STEPS, points[i]);
-    glyph_put_arrow(&m, j, (const double(*)[3])points, SPLIT_STEPS + 1, &(arrow_style){.width = width, .tail = 0.5});
-    lmn_status status = glyph_put(j, &m, &(glyph_label){"stem", e->target, GLYPH_PAST, v->colour}, error);
+        split_way_at(w, e, from + (to - from) * i / SPLIT_STEPS, points[i]);
+    glyph_put_arrow(&m, j, (const double(*)[3])points, SPLIT_STEPS + 1, &style);
+    const glyph_label label = {stem ? "stem" : "branch", e->target, when,
+                               depict_tint(when, stem ? v->colour : v->branches)};
+    lmn_status        status = glyph_put(j, &m, &label, error);
     glyph_mesh_release(&m);
     return status;
 }
 
-/* It leaves the stem as the stem goes on, and comes to its piece's own way over a third of the time. */
-static lmn_status put_branch(depict_job *j, const expression *e, const pieces *p, size_t piece, double split,
-                             double width, lmn_error *error)
+/* Solid up to now, dashed behind it. */
+static lmn_status put_split_way(depict_job *j, const expression *e, const split_way *w, lmn_error *error)
 {
-    const split_values *v = e->values;
-    double              points[SPLIT_STEPS + 1][3], end[3], before[3], span = (split - e->from) / 64;
-    glyph_mesh          m = {0};
-    middle_of_all(p, split, end);
-    middle_of_all(p, split - span, before);
-    for (int i = 0; i <= SPLIT_STEPS; i++) {
-        const double f = (double)i / SPLIT_STEPS, seconds = split + (e->to - split) * f, u = fmin(3 * f, 1),
-                     own = u * u * u * (10 + u * (6 * u - 15));
-        double straight[3], at[3];
-        vector3_copy(straight, end);
-        for (int k = 0; k < 3 && span > 0; k++)
-            straight[k] += (end[k] - before[k]) / span * (seconds - split);
-        piece_at(p, piece, seconds, at);
-        vector3_mix(points[i], straight, at, own);
-    }
-    glyph_put_arrow(
-        &m, j, (const double(*)[3])points, SPLIT_STEPS + 1,
-        &(arrow_style){
-            .width = width / 2, .tail = 1, .head = (double)v->head, .short_of = 1.2 * p->items[piece].radius});
-    lmn_status status = glyph_put(j, &m, &(glyph_label){"branch", e->target, GLYPH_FUTURE, v->branches}, error);
-    glyph_mesh_release(&m);
+    const double now = fmin(fmax(e->now, w->from), w->to);
+    lmn_status   status = LMN_OK;
+    if (now > w->from)
+        status = put_split_part(j, e, w, w->from, now, GLYPH_PAST, error);
+    if (now < w->to && status == LMN_OK)
+        status = put_split_part(j, e, w, now, w->to, GLYPH_FUTURE, error);
     return status;
 }
 
@@ -204,9 +228,9 @@ static lmn_status split_depict(depict_job *j, const expression *e, lmn_error *er
         const double radius = p.items[0].radius, width = (double)v->width * radius,
                      split = pieces_parting(&p, e->from, e->to, (double)v->apart * radius);
         if (split > e->from)
-            status = put_stem(j, e, &p, split, width, error);
+            status = put_split_way(j, e, &(split_way){&p, STEM, split, e->from, split, width}, error);
         for (size_t i = 0; i < p.count && split < e->to && status == LMN_OK; i++)
-            status = put_branch(j, e, &p, i, split, width, error);
+            status = put_split_way(j, e, &(split_way){&p, (int)i, split, split, e->to, width / 2}, error);
     }
     pieces_release(&p);
     return status;
@@ -216,7 +240,7 @@ const depiction depiction_split_path = {
     "split-path",
     NULL,
     "One arrow that splits smoothly into several: the way that the things in the target have together, then the ways "
-    "of each.",
+    "of each; solid up to now, dashed where they will be.",
     split_params,
     PARAM_COUNT(split_params),
     sizeof(split_values),

@@ -41,7 +41,7 @@ expression *expression_add(expression_list *l, const depiction *row, int32_t tar
         return NULL;
     }
     params_set_defaults(row->params, row->param_count, values);
-    l->items[l->count] = (expression){row, target, NONE, from, to, now, (uint32_t)l->count, 0, 0, values};
+    l->items[l->count] = (expression){row, target, NONE, from, to, now, (uint32_t)l->count, 0, 0, {1, 1}, values};
     return &l->items[l->count++];
 }
 
@@ -81,6 +81,24 @@ int32_t depict_find_node(const lmn_scene *scene, const char *name)
     return NONE;
 }
 
+static bool is_named(const node *n, const char *name)
+{
+    return n->name && !n->removed && text_glob(name, n->name);
+}
+
+/* How many things a name means, of which depict_find_node takes the first: more than one only of patterns. */
+static size_t count_meant(const lmn_scene *scene, const char *name)
+{
+    size_t count = 0;
+    if (!strpbrk(name, "*?"))
+        return 1;
+    for (size_t i = 0; i < scene->node_count; i++)
+        count += is_named(&scene->nodes[i], name);
+    for (size_t i = 0; i < scene->part_count; i++)
+        count += !is_named(&scene->nodes[scene->parts[i].node], name) && text_glob(name, scene->parts[i].path);
+    return count;
+}
+
 const char *depict_semantics(const lmn_scene *scene, int32_t node_index)
 {
     const node *n = &scene->nodes[node_index];
@@ -93,12 +111,14 @@ const char *depict_semantics(const lmn_scene *scene, int32_t node_index)
 /* --- reading ---------------------------------------------------------------------------------------------------------
  */
 
-static lmn_status read_node(int32_t *out, const json_t *one, const char *key, const lmn_scene *scene, lmn_error *error)
+static lmn_status read_node(int32_t *out, size_t *meant, const json_t *one, const char *key, const lmn_scene *scene,
+                            lmn_error *error)
 {
     const char *name = json_string_value(json_object_get(one, key));
     if (!name)
         return error_set(error, LMN_USAGE, "an expression needs \"%s\", the name of a node", key);
     *out = depict_find_node(scene, name);
+    *meant = count_meant(scene, name);
     if (*out != NONE)
         return LMN_OK;
     error_set(error, LMN_USAGE, "\"%s\" is '%.120s'; there is no such node", key, name);
@@ -230,13 +250,16 @@ static lmn_status read_one(expression_list *out, const reading *r, const json_t 
     double           from, to, now;
     const depiction *row = NULL;
     const char      *bad = NULL;
+    size_t           choice[2] = {1, 1};
     if (!json_is_object(one))
         return wrong_at(r, NULL, error_set(error, LMN_USAGE, "an expression is an object"), error);
-    lmn_status status = read_node(&target, one, "target", r->scene, error);
+    lmn_status status = read_node(&target, &choice[0], one, "target", r->scene, error);
     if (status != LMN_OK)
         return wrong_at(r, "target", status, error);
     if (json_object_get(one, "partner"))
-        status = read_node(&partner, one, "partner", r->scene, error);
+        status = read_node(&partner, &choice[1], one, "partner", r->scene, error);
+    if (status == LMN_OK && partner == target)
+        status = error_set(error, LMN_USAGE, "the partner is the target itself: nothing happens between them");
     if (status != LMN_OK)
         return wrong_at(r, "partner", status, error);
     status = read_row(&row, one, r->scene, target, error);
@@ -249,6 +272,7 @@ static lmn_status read_one(expression_list *out, const reading *r, const json_t 
     if (!e)
         return error_memory(error);
     e->partner = partner;
+    memcpy(e->choice, choice, sizeof choice);
     find_place(r, NULL, &e->line, &e->column);
     return read_values(e, r, one, error);
 }
@@ -282,9 +306,10 @@ lmn_status expressions_read(expression_list *out, const char *text, const lmn_sc
                             lmn_error *error)
 {
     json_error_t wrong;
-    reading      r = {.text = text, .size = strlen(text), .scene = scene, .when = when};
-    json_t      *root = json_loads(text, JSON_REJECT_DUPLICATES, &wrong), *array = root;
-    lmn_status   status;
+    text += text_byte_order_mark(text, strlen(text));
+    reading    r = {.text = text, .size = strlen(text), .scene = scene, .when = when};
+    json_t    *root = json_loads(text, JSON_REJECT_DUPLICATES, &wrong), *array = root;
+    lmn_status status;
     if (json_is_object(root)) {
         array = json_object_get(root, "expressions");
         r.steps[r.step_count++] = (locate_step){"expressions", 0};

@@ -61,7 +61,7 @@ static lmn_status flatten(lettering_line *out, const region *letters, lmn_error 
 
 static lmn_status set_line(lettering_line *out, const char *text, lmn_error *error)
 {
-    const text_style font = {.size = 1, .spacing = 1, .font = "sans:bold", .fallback = true};
+    const text_style font = {.size = 1, .spacing = 1, .font = LETTERING_FONT, .fallback = true};
     region           letters = {0};
     bool             missing;
     *out = (lettering_line){.text = mem_copy_text(text)};

@@ -155,7 +155,8 @@ static lmn_status motion_depict(depict_job *j, const expression *wanted, lmn_err
         if (vector3_length(velocity) > 1e-6 * t.radius) {
             find_rear(j, vertices, count, velocity, rear, v->count);
             put_lines(&m, j, e, &t, (const double(*)[3])rear);
-        }
+        } else
+            depict_say_nothing(j, "it rests at %g s", e->now);
         status = glyph_put(j, &m, &(glyph_label){"motion-lines", e->target, GLYPH_PAST, v->colour}, error);
     }
     glyph_mesh_release(&m);

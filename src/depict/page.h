@@ -42,6 +42,8 @@ void glyph_put_cloud(glyph_mesh *m, const page_place *p, double half_width, doub
 
 /* --- lettering.c -------------------------------------------------------------------------------------------------- */
 
+#define LETTERING_FONT "sans:bold"
+
 /* Lines of text, each around the middle, all around the place. */
 typedef struct lettering_style {
     const char *text;   /* "|" begins a line */

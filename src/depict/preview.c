@@ -51,7 +51,9 @@ static void put_glyph(preview *out, const glyph *g, size_t i)
                                      .skin = NONE,
                                      .camera = NONE,
                                      .light = NONE,
-                                     .solid = NONE};
+                                     .solid = NONE,
+                                     .attributes = &out->mark,
+                                     .attribute_count = 1};
     s->parts[s->part_count++] = (part){.node = (int32_t)s->node_count++, .bounds = p->bounds};
 }
 
@@ -63,6 +65,8 @@ lmn_status preview_open(preview *out, const depict_job *j, const expression_list
         count += !j->glyphs[i].label.overlay;
     if (!take_arrays(out, j->scene, count))
         return error_memory(error);
+    memcpy(out->key, NODE_GLYPH, sizeof NODE_GLYPH);
+    out->mark = (attribute){out->key, out->key};
     for (size_t i = 0, put = 0; i < j->glyph_count; i++)
         if (!j->glyphs[i].label.overlay)
             put_glyph(out, &j->glyphs[i], put++);

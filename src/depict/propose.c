@@ -6,9 +6,11 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/work.h"
+#include "construct/construct.h"
 #include "depict/depict_private.h"
 #include "depict/groups.h"
 #include "depict/movers.h"
+#include "depict/page.h"
 
 enum { MOVERS_TOLD = 6, STILLS_MOST = 5 };
 
@@ -22,6 +24,13 @@ typedef struct proposal {
 /* --- what is told
  * ------------------------------------------------------------------------------------------------------- */
 
+static void set_text(expression *e, const char *key, const char *text)
+{
+    for (size_t i = 0; e && i < e->row->param_count; i++)
+        if (strcmp(e->row->params[i].key, key) == 0)
+            param_set_text(&e->row->params[i], e->values, text, NULL);
+}
+
 static expression *propose(const proposal *p, const mover *m, const char *characteristic, const char *why,
                            double measure)
 {
@@ -34,13 +43,6 @@ static expression *propose(const proposal *p, const mover *m, const char *charac
                               json_pack("{s:s,s:s,s:s,s:f}", "target", depict_name_of(s, m->node, numbered), "depict",
                                         characteristic, "because", why, "measure", measure));
     return e;
-}
-
-static void set_text(expression *e, const char *key, const char *text)
-{
-    for (size_t i = 0; e && i < e->row->param_count; i++)
-        if (strcmp(e->row->params[i].key, key) == 0)
-            param_set_text(&e->row->params[i], e->values, text, NULL);
 }
 
 static void set_number(expression *e, const char *key, double number)
@@ -186,7 +188,12 @@ static void tell_size(const proposal *p, const mover *m)
     }
     if (m->scaled <= 1.15)
         return;
-    e = propose(p, m, m->growth >= 1 ? "expand" : "collapse", "its size changes now; behind that by before", m->growth);
+    char       why[96] = "its size changes now; behind that by before";
+    const bool now = p->now >= m->grows.from && p->now <= m->grows.to;
+    if (!now)
+        snprintf(why, sizeof why, "its size changes from %.3g to %.3g s; behind that by before", m->grows.from,
+                 m->grows.to);
+    e = propose(p, m, m->growth >= 1 ? "expand" : "collapse", why, m->growth);
     if (e) {
         e->from = m->grows.from;
         e->to = m->grows.to;
@@ -342,6 +349,37 @@ static bool tells_motion(const proposal *p, size_t first)
     return false;
 }
 
+/* The noise that an expression has; NULL: it is of no kind that has any. */
+static const char *noise_of(const expression *e)
+{
+    for (size_t i = 0; i < e->row->param_count; i++)
+        if (strcmp(e->row->params[i].key, "text") == 0)
+            return ((const param_words *)((const char *)e->values + e->row->params[i].offset))->text;
+    return NULL;
+}
+
+/* A noise that nobody wrote costs nobody the picture. */
+static lmn_status leave_out_noises(const proposal *p, lmn_error *error)
+{
+    bool said = false;
+    for (size_t i = 0; i < p->out->count; i++) {
+        expression *e = &p->out->items[i];
+        lmn_error   why = {0};
+        const char *noise = noise_of(e);
+        if (!noise || !noise[0])
+            continue;
+        lmn_status status = construct_text_check(noise, LETTERING_FONT, &why);
+        if (status == LMN_MEMORY)
+            return error_memory(error);
+        if (status != LMN_OK && !said)
+            warnings_add(p->job.warnings, WARNING_UNTOLD, "'%s' is left out: %s", noise, why.message);
+        said = said || status != LMN_OK;
+        if (status != LMN_OK)
+            set_text(e, "text", "");
+    }
+    return LMN_OK;
+}
+
 static lmn_status tell_all(const proposal *p, mover_list *movers, lmn_error *error)
 {
     lmn_status status = LMN_OK;
@@ -394,6 +432,8 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
         status = tell_groups(movers.items, movers.count, &p, error);
     if (status == LMN_OK)
         status = tell_all(&p, &movers, error);
+    if (status == LMN_OK)
+        status = leave_out_noises(&p, error);
     movers_release(&movers);
     depict_poses_release(&poses);
     return status == LMN_OK ? work_check(error) : status;

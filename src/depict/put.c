@@ -74,7 +74,7 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
         return status;
     }
     int32_t added = (int32_t)s->node_count - 1;
-    status = scene_set_attribute(s, added, "glyph", label->glyph, error);
+    status = scene_set_attribute(s, added, NODE_GLYPH, label->glyph, error);
     if (status == LMN_OK && s->nodes[label->of].name)
         status = scene_set_attribute(s, added, "of", s->nodes[label->of].name, error);
     if (status == LMN_OK && label->sketchy)

@@ -6,13 +6,15 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "behaviour/clip.h"
 #include "import/access.h"
 
 /* Is it an object that says so near its beginning? */
 static bool recognises(const file_data *file)
 {
-    size_t at = 0, most = file->size < 65536 ? file->size : 65536;
+    size_t at = text_byte_order_mark((const char *)file->data, file->size),
+           most = file->size < 65536 ? file->size : 65536;
     while (at < most && strchr(" \t\r\n", file->data[at]) && file->data[at])
         at++;
     static const char word[] = "\"limner_script\"";
@@ -87,7 +89,8 @@ static void parse(script_reader *r, script_file *f)
         script_fail(r, LMN_LIMIT, "a script has at most %zu bytes", (size_t)LIMIT_LOOK_BYTES * 4);
         return;
     }
-    f->root = json_loadb((const char *)f->data.data, f->data.size, JSON_REJECT_DUPLICATES, &wrong);
+    const size_t mark = text_byte_order_mark((const char *)f->data.data, f->data.size);
+    f->root = json_loadb((const char *)f->data.data + mark, f->data.size - mark, JSON_REJECT_DUPLICATES, &wrong);
     if (f->root && json_is_object(f->root)) {
         check_version(r, f->root);
         read_units(r, f);

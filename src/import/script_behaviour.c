@@ -132,7 +132,7 @@ static void read_modifier(script_reader *r, json_t *object, int32_t index, behav
 
 static void read_kind(script_reader *r, json_t *object, int32_t index, behaviour_kind kind)
 {
-    static const char *const fits[] = {"stretch", "start", "centre", "end", NULL};
+    static const char *const fits[] = {"stretch", "start", "centre", "end", "shrink", NULL};
     const char              *name;
     json_t                  *list;
     if (kind < BEHAVIOUR_REVERSE) {

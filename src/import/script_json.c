@@ -154,8 +154,12 @@ int script_choice(script_reader *r, json_t *object, const char *key, const char 
             return (int)count;
     if (text && script_enter(r, key, 0)) {
         const char *nearest = text_nearest(text, words, count);
-        script_fail(r, LMN_FORMAT, "'%s' cannot be '%.60s'; it is one of %s, %s%s%s …", key, text, words[0], words[1],
-                    nearest ? ", perhaps " : "", nearest ? nearest : "");
+        char        all[300] = "";
+        size_t      used = 0;
+        for (size_t i = 0; i < count && used < sizeof all; i++)
+            used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", words[i]);
+        script_fail(r, LMN_FORMAT, "'%s' cannot be '%.60s'; it is one of %s%s%s%s", key, text, all,
+                    nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
         script_leave(r);
     }
     return otherwise;

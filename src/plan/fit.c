@@ -195,9 +195,13 @@ void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view)
     const mat4 identity = mat4_identity();
     begin(&m, view);
     for (size_t i = 0; i < body->part_count && body->fitted; i++) {
-        bool ghost = body->pose->scene->parts[i].ghost;
-        if (body->fitted[i] && (ghost || !measure_mesh(&m, body, i)))
-            measure_box(&m, &identity, ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i]);
+        const bool ghost = body->pose->scene->parts[i].ghost;
+        const box3 whole = ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i],
+                   box = ghost ? whole : scene_fitted_box(body->pose->scene, i, whole);
+        if (!body->fitted[i] || box3_is_empty(box))
+            continue;
+        if (ghost || memcmp(&box, &whole, sizeof box) != 0 || !measure_mesh(&m, body, i))
+            measure_box(&m, &identity, box);
     }
     measure_block(&m);
     for (int axis = 0; axis < 2; axis++)

@@ -300,7 +300,7 @@ static void fit_to(plan *p, size_t part_index, bool ghost)
 {
     const box3 *now = p->pose->part_boxes, *ever = p->pose->fit_boxes;
     p->box = box3_union(p->box, ghost ? fitted_box(p, now, part_index) : now[part_index]);
-    box3 box = ghost ? fitted_box(p, ever, part_index) : ever[part_index];
+    box3 box = ghost ? fitted_box(p, ever, part_index) : scene_fitted_box(p->scene, part_index, ever[part_index]);
     p->fitted[part_index] = true;
     p->ghost_boxes[part_index] = box;
     p->fit.box = box3_union(p->fit.box, box);

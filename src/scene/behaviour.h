@@ -20,7 +20,7 @@ typedef enum behaviour_kind {
 } behaviour_kind;
 
 /* What a simultaneity does with children that need less time than it has. */
-typedef enum behaviour_fit { FIT_STRETCH, FIT_START, FIT_CENTRE, FIT_END } behaviour_fit;
+typedef enum behaviour_fit { FIT_STRETCH, FIT_START, FIT_CENTRE, FIT_END, FIT_SHRINK } behaviour_fit;
 
 /* A time to value map. Numbers are in the units of the property. */
 typedef enum map_kind {

@@ -345,6 +345,17 @@ bool node_is_overlay(const node *n)
     return has_attribute(n, NODE_OVERLAY);
 }
 
+box3 scene_fitted_box(const lmn_scene *scene, size_t part_index, box3 box)
+{
+    const double small = 0.5;
+    if (!scene->staged || has_attribute(&scene->nodes[scene->parts[part_index].node], NODE_GLYPH))
+        return box;
+    const box3 within = box3_intersection(box, scene->stage);
+    if (!box3_is_empty(within) && box3_diagonal(box) <= small * box3_diagonal(scene->stage))
+        return box;
+    return within;
+}
+
 bool node_throws_shadow(const node *n)
 {
     return !has_attribute(n, NODE_SHADOWLESS);

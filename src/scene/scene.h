@@ -227,8 +227,10 @@ struct lmn_scene {
     size_t            solid_count, solid_capacity;
     struct behaviour *behaviour;  /* scene/behaviour.h; NULL: none */
     letterings        letterings; /* what signs were written with */
-    city_facts        city;       /* where it lies and what of city data it consists of; empty of other models */
-    part             *parts;      /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
+    box3              stage;      /* pictures are fitted to what of large parts lies in it, if `staged` */
+    bool              staged;
+    city_facts        city;  /* where it lies and what of city data it consists of; empty of other models */
+    part             *parts; /* ordinary ones, and behind them all ghosts, so that these change nobody's id */
     size_t            part_count, ghost_count;
     char            **files; /* paths as they were given, one per merged file */
     size_t            file_count, file_capacity;
@@ -347,6 +349,10 @@ bool node_is_surface(const node *n);
 /* Does it lie over the picture, which is not fitted to it? Attribute NODE_OVERLAY. */
 #define NODE_OVERLAY "overlay"
 bool node_is_overlay(const node *n);
+/* What of a part's box pictures are fitted to: of a scene with a stage, all of signs and of what is small and reaches
+ * into it, and what of others lies in it. */
+#define NODE_GLYPH "glyph"
+box3 scene_fitted_box(const lmn_scene *scene, size_t part_index, box3 box);
 /* Signs throw no shadow. Attribute NODE_SHADOWLESS. */
 #define NODE_SHADOWLESS "shadowless"
 bool     node_throws_shadow(const node *n);

@@ -961,10 +961,61 @@ group_depict() {
     row 1 '--interval' '' draw "$motion" --interval 0:1
     row 1 '--frames does not go with depict' '' depict "$motion" --frames 0:3:24 -o 'x-{frame}.png'
     row 1 '--explain' '' simulate "$motion" --explain
+    echo '{"limner_script": 1, "nodes": [{"name": "blue", "box": {}}, {"name": "black", "box": {}}, {"name": "brown", "box": {}}, {"name": "red", "box": {}}],' \
+        '"behaviour": {"target": "blue", "linear": [[0, 0, 0], [9, 0, 0]], "duration": 1}}' > in-three.json
+    # A byte order mark is no part of the text; texts are cut at whole characters, and do not turn the line round.
+    { printf '\xEF\xBB\xBF'; cat "$examples/scripts/bounce.json"; } > in-mark.json
+    row 0 '' out.png depict in-mark.json $small -q -o out.png
+    cp out.png in-mark.png
+    row 0 '' out.png depict "$examples/scripts/bounce.json" $small -q -o out.png
+    same out.png in-mark.png
+    printf '\xEF\xBB\xBF[{"target": "Nobody", "depict": "path"}]' > in-path.json
+    row 2 "^limner: in-path.json:1:[0-9]+: expression 1: .*'Nobody'" '' depict "$motion" --expressions in-path.json
+    echo '[{"target": "\u202eNobody\u2066", "depict": "path"}]' > in-path.json
+    row 2 "'.u202eNobody.u2066'" '' depict "$motion" --expressions in-path.json
+    printf '[{"target": "Hips", "depict": "a%s"}]' "$(printf 'ä%.0s' {1..60})" > in-path.json
+    row 2 "'a[ä]+'" '' depict "$motion" --expressions in-path.json
+    iconv -f utf-8 -t utf-8 .stderr > .valid 2>&1 || complain "a message is no UTF-8"
+    # Of several things that a pattern means it is said which is taken; nobody is his own partner.
+    echo '[{"target": "b*", "depict": "path"}]' > in-path.json
+    row 0 "warning: expression 1, 'path': its target means 3 things, of which 'blue' is taken" out.png depict in-three.json $small -o out.png --expressions in-path.json
+    echo '[{"target": "blue", "depict": "collision", "partner": "blue"}]' > in-path.json
+    row 2 "^limner: in-path.json:1:[0-9]+: expression 1: the partner is the target itself" '' depict in-three.json --expressions in-path.json
+    # What is wrong with the time is said once; words that are allowed are all said.
+    row 0 'later times are drawn' out.png depict "$motion" $small -o out.png --time 99
+    [ "$(grep -c 'later times are drawn' .stderr)" = 1 ] || complain "a warning is said twice"
+    echo '{"limner_script": 1, "nodes": [{"name": "b", "box": {}}], "behaviour": {"simultaneity": [{"target": "b", "constant": [0, 0, 0], "duration": 1}], "fit": "x"}}' > in-bad.json
+    row 2 'stretch, start, centre, end, shrink' '' depict in-bad.json
+    row 0 '' '' depict --help
+    out 'six tenths'
+    # A sign that Limner chose itself, and that shows nothing, is said, too.
+    row 0 "warning: expression 3, 'motion' of '#3', has no sign: it rests at 2.2" out.png depict "$examples/box-animated.glb" $small -o out.png
+    row 1 'cannot both go to standard output' '' depict "$motion" -o - --explain
     # A film of all that happens, by a command that reads the scene twice and ends.
     echo '{"limner_script": 1, "nodes": [{"name": "b", "box": {"size": [1, 1, 1]}, "translation": [0, 3, 0]}],' \
         '"behaviour": {"target": "b", "function": "bounce", "floor": 0.5, "duration": 0.25}}' > in-short.json
     row 0 '' sim.webp simulate in-short.json $small -q -o sim.webp
+    # A ground ten times as large changes nothing of what is seen of the ball on it, unless a camera is given.
+    local size
+    echo '[{"target": "ball", "depict": "path"}, {"target": "ball", "depict": "still"}]' > in-ball.json
+    for size in 40 400; do
+        echo '{"limner_script": 1, "nodes": [{"name": "ground", "box": {"size": ['$size', 0.2, '$size']}, "translation": [0, -0.1, 0]},' \
+            '{"name": "ball", "sphere": {"radius": 0.3}, "translation": [0, 2, 0]}],' \
+            '"behaviour": {"target": "ball", "function": "bounce", "floor": 0.3, "velocity": [1, 0, 0], "duration": 2.5}}' > in-ground.json
+        row 0 '' out.png depict in-ground.json --size 64x48 --dpi 96 -q -o out.png --expressions in-ball.json
+        cp out.png in-$size.png
+    done
+    cmp -s in-40.png in-400.png || like in-40.png in-400.png 40
+    # Where no font is installed, a noise that nobody wrote is left out, and what somebody wrote is refused.
+    echo "<?xml version=\"1.0\"?><fontconfig><cachedir>$PWD/.fonts</cachedir></fontconfig>" > .fonts.conf
+    export FONTCONFIG_FILE=$PWD/.fonts.conf
+    row 0 "warning: 'POW' is left out: text: no font is installed" out.png depict in-ground.json $small -o out.png --explain
+    cp .stdout in-told.json; cp out.png in-first.png
+    row 0 '' out.png depict in-ground.json $small -o out.png --expressions in-told.json
+    cmp -s out.png in-first.png || complain "expressions without noise draw another picture"
+    echo '[{"target": "ball", "depict": "speech", "text": "Ow"}]' > in-path.json
+    row 2 'no font is installed' '' depict in-ground.json --expressions in-path.json
+    unset FONTCONFIG_FILE
     # A script says what is told of it, and how it is seen.
     local script=$examples/scripts/bounce.json
     row 0 '' bounce.png depict "$script" $small --explain

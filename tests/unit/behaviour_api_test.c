@@ -210,12 +210,16 @@ static void test_fits_are_those_asked_for(void **state)
     (void)state;
     static const struct {
         lmn_activity_fit fit;
-        double           from, to;
-    } rows[] = {{LMN_FIT_START, 0, 1}, {LMN_FIT_CENTRE, 1.5, 2.5}, {LMN_FIT_END, 3, 4}, {LMN_FIT_STRETCH, 0, 4}};
+        double           from, to, long_to;
+    } rows[] = {{LMN_FIT_START, 0, 1, 4},
+                {LMN_FIT_CENTRE, 1.5, 2.5, 4},
+                {LMN_FIT_END, 3, 4, 4},
+                {LMN_FIT_STRETCH, 0, 4, 4},
+                {LMN_FIT_SHRINK, 0, 1, 1}};
     lmn_scene               *s = scene_of_nodes(2);
     const lmn_activity_child both[] = {{along(s, 1, 4), 0, 0}, {along(s, 2, 1), 0, 0}};
     uint32_t                 whole = 0;
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lmn_activity_desc desc = LMN_ACTIVITY_DESC_INIT;
         desc.kind = LMN_ACTIVITY_SIMULTANEITY;
         desc.children = both;
@@ -228,6 +232,8 @@ static void test_fits_are_those_asked_for(void **state)
         assert_true(lmn_dynamics_lifetime_at(d, 1, &of));
         assert_true(of.node == 2 && of.from_s == rows[i].from && of.to_s == rows[i].to);
         assert_int_equal(of.activity, both[1].activity);
+        assert_true(lmn_dynamics_lifetime_at(d, 0, &of));
+        assert_true(of.node == 1 && of.from_s == 0 && of.to_s == rows[i].long_to);
         lmn_dynamics_destroy(&d);
     }
     lmn_scene_destroy(&s);

@@ -59,7 +59,8 @@ static double needs_inside(const lmn_scene *s, int32_t index)
         double one = needs(s, n->children[i].node);
         if (n->kind == BEHAVIOUR_TABLE)
             one = n->children[i].start + (n->children[i].duration >= 0 ? n->children[i].duration : one);
-        sum = n->kind == BEHAVIOUR_SEQUENCE ? sum + one : fmax(sum, one);
+        const bool shortest = n->kind == BEHAVIOUR_SIMULTANEITY && n->fit == FIT_SHRINK && one > 0 && sum > 0;
+        sum = n->kind == BEHAVIOUR_SEQUENCE ? sum + one : shortest ? fmin(sum, one) : fmax(sum, one);
     }
     if (n->kind == BEHAVIOUR_REPEAT)
         sum *= n->times;
@@ -113,7 +114,7 @@ static void simulate(const lmn_scene *s, int32_t index, double t, double given, 
             begin = n->children[i].start;
             one = n->children[i].duration >= 0 ? n->children[i].duration : one;
         } else if (n->kind == BEHAVIOUR_SIMULTANEITY) {
-            one = n->fit == FIT_STRETCH && one > 0 ? own : one;
+            one = (n->fit == FIT_STRETCH || n->fit == FIT_SHRINK) && one > 0 ? own : one;
             begin = n->fit == FIT_CENTRE ? (own - one) / 2 : n->fit == FIT_END ? own - one : 0;
         }
         bool last = n->kind != BEHAVIOUR_SEQUENCE || begin + one >= own * (1 - 1e-12); /* it has its end */
@@ -142,7 +143,7 @@ static int32_t random_graph(lmn_scene *s, random_source *r, int depth)
     for (size_t i = 0; i < count; i++)
         children[i] = i > 0 && random_below(r, 4) == 0 ? children[0] : random_graph(s, r, depth - 1); /* shared */
     int32_t index = add_group(s, kind, children, count);
-    at(s, index)->fit = (behaviour_fit)random_below(r, 4);
+    at(s, index)->fit = (behaviour_fit)random_below(r, 5);
     at(s, index)->times = 1 + (uint32_t)random_below(r, 3);
     at(s, index)->exponent = kind == BEHAVIOUR_CREEP ? 1 + 2 * random_unit(r) : 1;
     for (size_t i = 0; i < count && kind == BEHAVIOUR_TABLE; i++) {

@@ -88,6 +88,28 @@ static void pulses_grow_or_shrink_as_they_do_now(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A reason names the time of what it tells of: now, or when. */
+static void reasons_name_their_time(void **state)
+{
+    (void)state;
+    static const struct {
+        double      now;
+        const char *because;
+    } rows[] = {{0.5, "its size changes from 1 to 2 s; behind that by before"},
+                {1.5, "its size changes now; behind that by before"}};
+    lmn_scene *s =
+        scene_of(CRATE("late"), "{\"target\": \"late\", \"property\": \"scale\", \"linear\": [[1, 1, 1], [1, 1, 1], "
+                                "[2, 2, 2]], \"duration\": 2}");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        json_t *told = told_of(s, NULL, rows[i].now);
+        assert_string_equal(
+            json_string_value(json_object_get(json_array_get(json_object_get(told, "reasons"), 0), "because")),
+            rows[i].because);
+        json_decref(told);
+    }
+    lmn_scene_destroy(&s);
+}
+
 static void what_changes_its_shape_is_seen_before_and_behind(void **state)
 {
     (void)state;
@@ -488,6 +510,40 @@ static void boxes_are_no_balls(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* The page is fitted to what is told and to what of a huge ground lies there; a camera that is given, and another
+ * depiction, leave nothing of that. */
+static void grounds_do_not_fill_the_page(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"limner_script\": 1, \"nodes\": [{\"name\": \"ground\", \"box\": {\"size\": [400, 0.2, 400]}, "
+        "\"translation\": [0, -0.1, 0]}, {\"name\": \"far\", \"box\": {}, \"translation\": [100, 0.5, 0]}, "
+        "{\"name\": \"near\", \"box\": {}, \"translation\": [3, 0.5, 0]}, {\"name\": \"ball\", \"sphere\": "
+        "{\"radius\": 0.3}, \"translation\": [0, 2, 0]}], \"behaviour\": {\"target\": \"ball\", \"function\": "
+        "\"bounce\", \"floor\": 0.3, \"velocity\": [1, 0, 0], \"duration\": 2.5}}";
+    lmn_scene    *s = load_or_fail(temp_file("ground.json", text, sizeof text - 1));
+    lmn_draw_desc draw = seen_at(1.5);
+    const box3    unit = {{2.5f, 0, -0.5f}, {3.5f, 1, 0.5f}}, away = {{99.5f, 0, -0.5f}, {100.5f, 1, 0.5f}},
+               ground = {{-200, -0.2f, -200}, {200, 0, 200}};
+    tell_as(s, &draw, NULL, NULL);
+    assert_true(s->staged);
+    assert_true(s->stage.min.x < -0.3f && s->stage.max.x > 2.8f && s->stage.max.y > 2.3f && s->stage.min.y < 0);
+    assert_true(box3_diagonal(s->stage) < 6);
+    assert_true(box3_diagonal(scene_fitted_box(s, 0, ground)) < 6);
+    assert_true(box3_is_empty(scene_fitted_box(s, 1, away)));
+    assert_near(box3_diagonal(scene_fitted_box(s, 2, unit)), box3_diagonal(unit), 0);
+    draw.eye_given = true;
+    vector3_set(draw.eye, 0, 3, 9);
+    vector3_set(draw.up, 0, 1, 0);
+    tell_as(s, &draw, NULL, NULL);
+    assert_false(s->staged);
+    tell_at(s, 1.5, NULL);
+    assert_true(s->staged);
+    assert_int_equal(lmn_depict_clear(s, NULL), LMN_OK);
+    assert_false(s->staged);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -509,6 +565,8 @@ int main(void)
         cmocka_unit_test(round_limbs_are_no_balls),
         cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
+        cmocka_unit_test(reasons_name_their_time),
+        cmocka_unit_test(grounds_do_not_fill_the_page),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

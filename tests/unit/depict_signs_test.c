@@ -593,7 +593,7 @@ static void frames_are_what_the_camera_sees(void **state)
     position(sign_at(scene, "frame", 0), 0, corner);
     ribbon_point(sign_at(scene, "rails", 0), 0, rail);
     assert_near(vector3_distance(corner, rail), 0, 1e-4);
-    tell_as(scene, &draw, "[{\"target\": \"eye\", \"depict\": \"shot-flow\", \"count\": 4}]", NULL);
+    tell_as(scene, &draw, "[{\"target\": \"eye\", \"depict\": \"shot-flow\", \"count\": 4, \"now\": 0}]", NULL);
     assert_int_equal(count_of(scene, "frame"), 4);
     assert_int_equal(count_of(scene, "flow-arrow"), 3);
     lmn_error       error = {0};
@@ -739,7 +739,7 @@ static void stems_branch_smoothly(void **state)
     (void)state;
     lmn_scene *scene = jets_scene(true);
     double     end[3], a[3], b[3], straight[3];
-    tell_at(scene, 1, "[{\"target\": \"jets\", \"depict\": \"split-path\"}]");
+    tell_at(scene, 1, "[{\"target\": \"jets\", \"depict\": \"split-path\", \"now\": 9}]");
     assert_int_equal(count_of(scene, "stem"), 1);
     assert_int_equal(count_of(scene, "branch"), 3);
     const primitive *stem = sign_at(scene, "stem", 0);
@@ -768,6 +768,57 @@ static void stems_branch_smoothly(void **state)
         tips += b[1];
     }
     assert_near(tips, 0, 0.01);
+    lmn_scene_destroy(&scene);
+}
+
+/* Ribbons that hang together: a solid arrow has one, and its head. */
+static size_t ribbons_of(const primitive *p)
+{
+    size_t   count = 0;
+    uint32_t end = 0;
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        uint32_t low = p->indices[i], high = low;
+        for (int k = 1; k < 3; k++) {
+            low = p->indices[i + (uint32_t)k] < low ? p->indices[i + (uint32_t)k] : low;
+            high = p->indices[i + (uint32_t)k] > high ? p->indices[i + (uint32_t)k] : high;
+        }
+        count += low >= end;
+        end = high + 1 > end ? high + 1 : end;
+    }
+    return count;
+}
+
+static void check_tense(const lmn_scene *s, const char *glyph, const char *when, size_t count, bool dashed)
+{
+    for (size_t i = 0; i < count; i++) {
+        const primitive *p = glyph_at(s, glyph, when, i);
+        assert_non_null(p);
+        assert_true(dashed ? ribbons_of(p) > 3 : ribbons_of(p) <= 2);
+    }
+    assert_null(glyph_at(s, glyph, when, count));
+}
+
+/* What was is solid, what will be in dashes, wherever now lies: of ways that split, and of shots. */
+static void all_ways_are_dashed_from_now_on(void **state)
+{
+    (void)state;
+    static const struct {
+        double now;
+        size_t past_stems, future_stems, past_branches, future_branches;
+    } rows[] = {{0, 0, 1, 0, 3}, {0.5, 1, 1, 0, 3}, {1.5, 1, 0, 3, 3}, {2, 1, 0, 3, 0}};
+    lmn_scene *scene = jets_scene(true);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        tell_at(scene, rows[i].now, "[{\"target\": \"jets\", \"depict\": \"split-path\"}]");
+        check_tense(scene, "stem", "past", rows[i].past_stems, false);
+        check_tense(scene, "stem", "future", rows[i].future_stems, true);
+        check_tense(scene, "branch", "past", rows[i].past_branches, false);
+        check_tense(scene, "branch", "future", rows[i].future_branches, true);
+    }
+    lmn_scene_destroy(&scene);
+    scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/closeup.json");
+    tell_at(scene, 0.5, "[{\"target\": \"eye\", \"depict\": \"shot-flow\", \"count\": 3, \"focus\": 2}]");
+    check_tense(scene, "flow-arrow", "past", 1, false);
+    check_tense(scene, "flow-arrow", "future", 2, true);
     lmn_scene_destroy(&scene);
 }
 
@@ -1025,6 +1076,7 @@ int main(void)
         cmocka_unit_test(insets_go_where_room_is),
         cmocka_unit_test(bursts_go_outward),
         cmocka_unit_test(stems_branch_smoothly),
+        cmocka_unit_test(all_ways_are_dashed_from_now_on),
         cmocka_unit_test(causes_are_shown),
         cmocka_unit_test(streaks_lie_behind),
         cmocka_unit_test(proposals_tell_patterns_apart),

@@ -71,7 +71,7 @@ class Behaviour:
         return self._group("sequence", children, name, duration)
 
     def together(self, *children: int, fit: str = "start", name: str | None = None, duration: float = 0) -> int:
-        """All at once; fit: what shorter ones do, "start", "centre", "end" or "stretch"."""
+        """All at once; fit: what shorter ones do, "start", "centre", "end", "stretch", or "shrink": all last as long as the shortest."""
         return self._group("simultaneity", children, name, duration, fit=_choice("fit", fit, _FITS))
 
     def table(self, *rows: Child, name: str | None = None, duration: float = 0) -> int:
