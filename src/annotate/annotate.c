@@ -6,9 +6,12 @@ static const sheet_values *values_of(const lmn_look *look)
     return look->wide[KIND_FINISH].values;
 }
 
-bool annotate_wants_visible(const lmn_look *look)
+bool annotate_wants_visible(const lmn_look *look, const lmn_scene *scene)
 {
-    return values_of(look)->labels.text[0] != '\0';
+    bool mapped = true;
+    for (size_t i = 0; i < scene->part_count && mapped; i++)
+        mapped = scene->parts[i].triangles > 0 && scene->nodes[scene->parts[i].node].mesh != NONE;
+    return values_of(look)->labels.text[0] && !mapped;
 }
 
 bool annotate_wanted(const lmn_look *look)

@@ -12,15 +12,15 @@ typedef struct annotated_view {
     const plan        *plan;
     const view_camera *camera;
     double             box[4];  /* where it lies: x, y, width, height, mm */
-    const uint64_t    *visible; /* per part, how much of it is seen, in any unit; NULL: all of all of them */
+    const uint64_t    *visible; /* per part without triangles, how much of it is seen, in any unit; NULL: all */
     double             unit_mm; /* of the scene's unit; 0: unknown */
     colour             ground;  /* of the page */
 } annotated_view;
 
 /* Does the look want anything of this? */
 bool annotate_wanted(const lmn_look *look);
-/* Does it want to know which parts are seen? */
-bool annotate_wants_visible(const lmn_look *look);
+/* Does it want to know which parts are seen? Of triangles it finds that out itself. */
+bool annotate_wants_visible(const lmn_look *look, const lmn_scene *scene);
 
 /* Adds a group "annotations" below `parent` (−1: none). Warns of what cannot be told. Errors: LMN_MEMORY. */
 lmn_status annotate(sheet *page, int32_t parent, const annotated_view *view, warnings *warnings, lmn_error *error);

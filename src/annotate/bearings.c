@@ -4,30 +4,70 @@
 
 #include "annotate/annotate_private.h"
 
-/* On the page, seen from the scene's middle; false where it points along the view. North is +Y where Z is up, as
- * surveyors have it, and −Z where Y is. */
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* North and up in the middle of what is seen. North is +Y where Z is up, as surveyors have it, and −Z where Y is. */
+static void find_directions(const lmn_scene *scene, double north[3], double zenith[3])
+{
+    bool z = scene->up == 'z', bent = dot(scene->zenith, scene->zenith) > 0;
+    for (int k = 0; k < 3; k++) {
+        north[k] = bent ? scene->north[k] : z ? k == 1 : -(k == 2);
+        zenith[k] = bent ? scene->zenith[k] : k == (z ? 2 : 1);
+    }
+}
+
+/* Is the ground in the middle of the view seen from below? */
+static bool is_from_below(const annotation *a, double falls)
+{
+    const view_camera *c = a->view->camera;
+    const plan        *p = a->view->plan;
+    bool               z = p->scene->up == 'z';
+    double             lowest = (double)(z ? p->box.min.z : p->box.min.y);
+    return c->orthographic ? falls < -1e-3 : c->eye[z ? 2 : 1] < lowest;
+}
+
+/* On the page, in its middle: right and up; false where it points along the view. Ground on which the view hardly
+ * falls, or above which it looks, is tilted towards the viewer around the page's level, so that ahead is up. */
 static bool find_north(const annotation *a, double out[2])
 {
-    const plan *p = a->view->plan;
-    double      middle[3], ahead[3], from[2], to[2], step = 1e-3 * fmax(box3_diagonal(p->box), 1e-9);
-    box3_middle(p->box, middle);
+    const double  TILT = 10 * 0.017453292519943295, LEVEL = 1e-3;
+    const double *m = a->view->camera->view.m;
+    double        north[3], zenith[3], axes[3][3], seen[3], length = 0;
+    find_directions(a->view->plan->scene, north, zenith);
     for (int k = 0; k < 3; k++)
-        ahead[k] = middle[k];
-    ahead[p->scene->up == 'z' ? 1 : 2] += p->scene->up == 'z' ? step : -step;
-    if (!annotation_project(a, middle, from) || !annotation_project(a, ahead, to))
-        return false;
-    double length = hypot(to[0] - from[0], to[1] - from[1]);
+        for (int c = 0; c < 3; c++)
+            axes[k][c] = m[4 * c + k]; /* right, up, back */
+    for (int k = 0; k < 3; k++)
+        seen[k] = dot(axes[k], north);
+    double falls = dot(axes[2], zenith), up[2] = {dot(axes[0], zenith), dot(axes[1], zenith)},
+           wide = hypot(up[0], up[1]);
+    if (falls < sin(TILT) && wide > LEVEL && !is_from_below(a, falls)) {
+        /* The page's upright, and what of north lies along and across it. */
+        double angle = TILT - atan2(falls, wide);
+        double along = (seen[0] * up[0] + seen[1] * up[1]) / wide, across = (seen[0] * up[1] - seen[1] * up[0]) / wide;
+        along = along * cos(angle) - seen[2] * sin(angle);
+        seen[0] = (along * up[0] + across * up[1]) / wide;
+        seen[1] = (along * up[1] - across * up[0]) / wide;
+    }
+    length = hypot(seen[0], seen[1]);
     for (int k = 0; k < 2; k++)
-        out[k] = length > 0 ? (to[k] - from[k]) / length : 0;
-    return length > 0;
+        out[k] = length > 0 ? seen[k] / length : 0;
+    out[1] = -out[1]; /* down the page, as sheets have it */
+    return length > 1e-9;
 }
 
 void annotate_north(annotation *a)
 {
     const double *page = a->view->box;
     double        north[2], size = 2.4 * a->letter;
-    if (!find_north(a, north))
+    if (!find_north(a, north)) {
+        warnings_add(a->warnings, WARNING_UNUSED,
+                     "north lies along the view, which no needle can tell (finish.north_arrow)");
         return;
+    }
     double middle[2] = {page[0] + page[2] - 2.2 * size, page[1] + 2.2 * size};
     double right[2] = {-north[1], north[0]};
     float  half[2][4][2];

@@ -1,11 +1,12 @@
-/* Labels: flags on upright leaders over what they name. The most important come first; each takes the lowest place
- * over its part at which neither the flag nor the leader touches what is there already, and is left out where there is
- * none. */
+/* Labels: flags on upright leaders over what they name, where that is seen. The most important come first; each takes
+ * the lowest place over its pin at which neither the flag nor the leader touches what is there already, and is left out
+ * where there is none. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "annotate/annotate_private.h"
+#include "annotate/seen.h"
 #include "base/memory.h"
 #include "export/export.h"
 #include "scene/content.h"
@@ -17,23 +18,35 @@ typedef struct label {
     int32_t     node; /* that states it */
     box3        box;  /* of all parts that it holds for */
     double      weight, at[2];
+    double      seen, sum[2]; /* pixels of the map, and their places */
+    double      wanted[2];    /* where its pin would be best, pixels */
+    double      best, pin[2]; /* the pixel of its own that is nearest to that, and how far it is */
+    bool        unmapped;     /* of parts that no map shows */
 } label;
 
 typedef struct label_list {
     label   *items;
     size_t   count;
     int32_t *of_node; /* per node of the scene: its label; NONE: none yet */
+    int32_t *of_part; /* per part: its label; NONE: none */
 } label_list;
+
+/* Blanks alone would be an empty flag. */
+static bool has_letters(const char *text)
+{
+    return text && text[strspn(text, " \t\r\n")];
+}
 
 static const char *stated_by(const node *n, const char *key)
 {
     for (size_t i = 0; i < n->attribute_count; i++)
-        if (strcmp(n->attributes[i].key, key) == 0 && n->attributes[i].value && n->attributes[i].value[0])
+        if (strcmp(n->attributes[i].key, key) == 0 && has_letters(n->attributes[i].value))
             return n->attributes[i].value;
     return NULL;
 }
 
-/* The nearest node on the way to the root that states the text; without a stated name, what nodes are called. */
+/* The nearest node on the way to the root that states the text; without a stated name, what nodes are called by their
+ * file. */
 static bool find_owner(const lmn_scene *scene, int32_t from, const char *key, int32_t *index, const char **text)
 {
     bool names = strcmp(key, "name") == 0;
@@ -41,11 +54,19 @@ static bool find_owner(const lmn_scene *scene, int32_t from, const char *key, in
         for (int32_t at = from; at >= 0 && (size_t)at < scene->node_count; at = scene->nodes[at].parent) {
             const node *n = &scene->nodes[at];
             *index = at;
-            *text = !called ? stated_by(n, key) : !node_is_surface(n) && n->name && n->name[0] ? n->name : NULL;
+            *text = !called                                                       ? stated_by(n, key)
+                    : !node_is_surface(n) && !n->numbered && has_letters(n->name) ? n->name
+                                                                                  : NULL;
             if (*text)
                 return true;
         }
     return false;
+}
+
+/* Of triangles, which the map shows. */
+static bool is_mapped(const lmn_scene *scene, size_t part)
+{
+    return scene->nodes[scene->parts[part].node].mesh != NONE && scene->parts[part].triangles > 0;
 }
 
 /* Several parts below one node that states the text share its label. */
@@ -55,37 +76,107 @@ static void collect(const annotation *a, label_list *list)
     for (size_t i = 0; i < p->part_count && i < p->pose->part_count; i++) {
         int32_t     index = NONE;
         const char *text = NULL;
-        uint64_t    seen = a->view->visible ? a->view->visible[i] : 1;
+        bool        mapped = is_mapped(p->scene, i);
+        uint64_t    seen = mapped || !a->view->visible ? 1 : a->view->visible[i];
         if (!p->selected[i] || !seen || box3_is_empty(p->pose->part_boxes[i]) ||
             !find_owner(p->scene, p->scene->parts[i].node, a->how->labels.text, &index, &text))
             continue;
         if (list->of_node[index] == NONE) {
             list->of_node[index] = (int32_t)list->count;
-            list->items[list->count++] = (label){.text = text, .node = index, .box = box3_empty()};
+            list->items[list->count++] =
+                (label){.text = text, .node = index, .box = box3_empty(), .best = INFINITY, .unmapped = true};
         }
         label *l = &list->items[list->of_node[index]];
         l->box = box3_union(l->box, p->pose->part_boxes[i]);
-        l->weight += (double)seen;
+        l->unmapped = l->unmapped && !mapped;
+        list->of_part[i] = mapped ? list->of_node[index] : NONE;
     }
 }
 
-/* The middle of its top, on the sheet; false where that is not on it. Where no number says how important it is, what
- * shows most comes first. */
-static bool place(const annotation *a, label *l)
+/* --- pins ----------------------------------------------------------------------------------------------- */
+
+static label *label_at(const label_list *list, const seen_map *map, int x, int y)
 {
-    const lmn_scene *scene = a->view->plan->scene;
-    int              up = scene->up == 'z' ? 2 : 1;
-    double           top[3];
+    if (x < 0 || y < 0 || x >= map->width || y >= map->height)
+        return NULL;
+    int32_t part = map->parts[(size_t)y * (size_t)map->width + (size_t)x];
+    return part == NONE || list->of_part[part] == NONE ? NULL : &list->items[list->of_part[part]];
+}
+
+/* The middle of its top, on the sheet; false where that is behind the viewer. */
+static bool find_top(const annotation *a, const label *l, double out[2])
+{
+    int    up = a->view->plan->scene->up == 'z' ? 2 : 1;
+    double top[3];
     box3_middle(l->box, top);
     top[up] = up == 2 ? (double)l->box.max.z : (double)l->box.max.y;
-    const char *by = a->how->labels_by.text[0] ? scene_attribute_of(scene, l->node, a->how->labels_by.text) : NULL;
-    if (a->how->labels_by.text[0])
-        l->weight = by ? strtod(by, NULL) : -INFINITY;
-    else if (!a->view->visible)
-        l->weight = camera_size_of(a->view->camera, l->box, 1000);
-    const double *page = a->view->box;
-    return annotation_project(a, top, l->at) && l->at[0] > page[0] && l->at[0] < page[0] + page[2] &&
-           l->at[1] > page[1] && l->at[1] < page[1] + page[3];
+    return annotation_project(a, top, out);
+}
+
+/* The middle of its top where that is seen, else the middle of what is seen of it. */
+static void want_pins(const annotation *a, label_list *list, const seen_map *map)
+{
+    const double *page = a->view->box, per_mm = map->width / page[2];
+    for (int y = 0; y < map->height; y++)
+        for (int x = 0; x < map->width; x++) {
+            label *l = label_at(list, map, x, y);
+            if (!l)
+                continue;
+            l->seen++;
+            l->sum[0] += x;
+            l->sum[1] += y;
+        }
+    for (size_t i = 0; i < list->count; i++) {
+        label *l = &list->items[i];
+        double top[2];
+        for (int k = 0; k < 2; k++)
+            l->wanted[k] = l->seen > 0 ? l->sum[k] / l->seen : 0;
+        if (!find_top(a, l, top))
+            continue;
+        for (int k = 0; k < 2; k++)
+            top[k] = floor(fmin(fmax((top[k] - page[k]) * per_mm, -1), 1e6));
+        if (label_at(list, map, (int)top[0], (int)top[1]) == l)
+            memcpy(l->wanted, top, sizeof top);
+    }
+}
+
+/* The nearest pixel of its own, before all one that has only such around it. */
+static void find_pins(label_list *list, const seen_map *map)
+{
+    enum { ALONE = 100000000 };
+    for (int y = 0; y < map->height; y++)
+        for (int x = 0; x < map->width; x++) {
+            label *l = label_at(list, map, x, y);
+            if (!l)
+                continue;
+            double across = x - l->wanted[0], down = y - l->wanted[1], far = across * across + down * down;
+            if (far >= l->best)
+                continue;
+            for (int k = 0; k < 9 && far < ALONE; k++)
+                far += label_at(list, map, x + k % 3 - 1, y + k / 3 - 1) == l ? 0 : ALONE;
+            if (far >= l->best)
+                continue;
+            l->best = far;
+            l->pin[0] = x + 0.5;
+            l->pin[1] = y + 0.5;
+        }
+}
+
+/* False where nothing of it is seen. Where no number says how important it is, what shows most comes first. */
+static bool place(const annotation *a, label *l, const seen_map *map)
+{
+    const lmn_scene *scene = a->view->plan->scene;
+    const double    *page = a->view->box;
+    const char      *by = a->how->labels_by.text[0] ? scene_attribute_of(scene, l->node, a->how->labels_by.text) : NULL;
+    l->weight = a->how->labels_by.text[0] ? (by ? strtod(by, NULL) : -INFINITY)
+                : l->unmapped             ? camera_size_of(a->view->camera, l->box, 1000)
+                                          : l->seen;
+    for (int k = 0; k < 2; k++)
+        l->at[k] = page[k] + l->pin[k] * page[2 + k] / (k ? map->height : map->width);
+    if (!l->unmapped)
+        return l->seen > 0;
+    return find_top(a, l, l->at) && l->at[0] > page[0] && l->at[0] < page[0] + page[2] && l->at[1] > page[1] &&
+           l->at[1] < page[1] + page[3];
 }
 
 static int by_weight(const void *x, const void *y)
@@ -127,11 +218,11 @@ static bool raise(annotation *a, const label *l, double width)
     return false;
 }
 
-static lmn_status put(annotation *a, label_list *list, lmn_error *error)
+static lmn_status put(annotation *a, label_list *list, const seen_map *map, lmn_error *error)
 {
     size_t kept = 0, placed = 0;
     for (size_t i = 0; i < list->count; i++)
-        if (place(a, &list->items[i]))
+        if (place(a, &list->items[i], map))
             list->items[kept++] = list->items[i];
     qsort(list->items, kept, sizeof *list->items, by_weight);
     for (size_t i = 0; i < kept && placed < (size_t)a->how->labels_most; i++) {
@@ -141,7 +232,7 @@ static lmn_status put(annotation *a, label_list *list, lmn_error *error)
             return status;
         placed += raise(a, &list->items[i], width);
     }
-    if (list->count == 0)
+    if (kept == 0)
         warnings_add(a->warnings, WARNING_NO_MATCH, "no part that is seen has '%s' (finish.labels)",
                      a->how->labels.text);
     return LMN_OK;
@@ -150,16 +241,26 @@ static lmn_status put(annotation *a, label_list *list, lmn_error *error)
 lmn_status annotate_labels(annotation *a, lmn_error *error)
 {
     const plan *p = a->view->plan;
+    seen_map    map = {.parts = NULL};
     label_list  list = {.items = mem_calloc(p->part_count, sizeof *list.items),
-                        .of_node = mem_alloc((p->scene->node_count + 1) * sizeof *list.of_node)};
-    lmn_status  status = list.items && list.of_node ? LMN_OK : error_memory(error);
+                        .of_node = mem_alloc((p->scene->node_count + 1) * sizeof *list.of_node),
+                        .of_part = mem_alloc((p->part_count + 1) * sizeof *list.of_part)};
+    lmn_status  status = list.items && list.of_node && list.of_part ? LMN_OK : error_memory(error);
     for (size_t i = 0; status == LMN_OK && i < p->scene->node_count; i++)
         list.of_node[i] = NONE;
+    for (size_t i = 0; status == LMN_OK && i < p->part_count; i++)
+        list.of_part[i] = NONE;
+    if (status == LMN_OK)
+        status = seen_make(&map, a->view, error);
     if (status == LMN_OK) {
         collect(a, &list);
-        status = put(a, &list, error);
+        want_pins(a, &list, &map);
+        find_pins(&list, &map);
+        status = put(a, &list, &map, error);
     }
+    seen_release(&map);
     mem_free(list.items);
     mem_free(list.of_node);
+    mem_free(list.of_part);
     return status;
 }

@@ -12,6 +12,15 @@ static colour mixed(colour a, colour b, float f)
     return (colour){a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b), 1};
 }
 
+/* What parts without an entry's colour are called; NULL: there are none that have the same colour for it. */
+static const char *rest_of(const datum *d)
+{
+    return !(d->other.a > 0) ? NULL
+           : d->beyond_count ? (d->other_count ? "others, no value" : "others")
+           : d->other_count  ? "no value"
+                             : NULL;
+}
+
 /* The longest line, its letters alone. */
 static lmn_status measure(const annotation *a, double *out, lmn_error *error)
 {
@@ -21,6 +30,11 @@ static lmn_status measure(const annotation *a, double *out, lmn_error *error)
         double width;
         status = export_text_width(&width, d->entries[i].text, a->letter, error);
         *out = fmax(*out, status == LMN_OK ? width + 2.4 * a->letter : 0);
+    }
+    if (rest_of(d) && status == LMN_OK) {
+        double width = 0;
+        status = export_text_width(&width, rest_of(d), a->letter, error);
+        *out = fmax(*out, width + 2.4 * a->letter);
     }
     return status;
 }
@@ -39,14 +53,15 @@ static void put_ramp(annotation *a, double left, double top, double row)
     sheet_add_rectangle(a->page, a->group, a->ink, left, top, 1.6 * a->letter, high, a->letter * 0.05);
 }
 
-static void put_rows(annotation *a, double left, double top, double row, bool other)
+static void put_rows(annotation *a, double left, double top, double row)
 {
     const datum *d = &a->view->plan->datum;
     double       swatch = 1.6 * a->letter, line = a->letter * 0.05;
+    const char  *rest = rest_of(d);
     bool         ramp = d->is_ramp && d->entry_count > 1;
     if (ramp)
         put_ramp(a, left, top + 0.5 * row, row);
-    for (size_t i = 0; i < d->entry_count + (other ? 1 : 0); i++) {
+    for (size_t i = 0; i < d->entry_count + (rest ? 1 : 0); i++) {
         double middle = top + ((double)i + 0.5) * row, high = 0.4 * row;
         bool   last = i == d->entry_count;
         if (!ramp || last) {
@@ -54,8 +69,8 @@ static void put_rows(annotation *a, double left, double top, double row, bool ot
                             middle + high);
             sheet_add_rectangle(a->page, a->group, a->ink, left, middle - high, swatch, 2 * high, line);
         }
-        sheet_add_text(a->page, a->group, a->ink, last ? "no value" : d->entries[i].text,
-                       left + swatch + 0.8 * a->letter, middle + 0.36 * a->letter, a->letter, -1);
+        sheet_add_text(a->page, a->group, a->ink, last ? rest : d->entries[i].text, left + swatch + 0.8 * a->letter,
+                       middle + 0.36 * a->letter, a->letter, -1);
     }
 }
 
@@ -64,20 +79,18 @@ lmn_status annotate_legend(annotation *a, lmn_error *error)
     const datum  *d = &a->view->plan->datum;
     const double *page = a->view->box;
     double        width, row = 1.5 * a->letter, inset = 0.9 * a->letter;
-    bool          other = d->other_count > 0 && d->other.a > 0;
     if (!d->colours || d->entry_count == 0)
         return LMN_OK;
     lmn_status status = measure(a, &width, error);
     if (status != LMN_OK)
         return status;
-    width = fmax(width, other ? 6.5 * a->letter : 0);
-    double high = row * ((double)d->entry_count + (other ? 1 : 0)) + 1.9 * a->letter;
+    double high = row * ((double)d->entry_count + (rest_of(d) ? 1 : 0)) + 1.9 * a->letter;
     double left = page[0] + 1.5 * a->letter, bottom = page[1] + page[3] - 1.5 * a->letter;
     double box[4] = {left, bottom - high - 2 * inset, left + width + 2 * inset, bottom};
     annotation_fill(a, a->paper, box[0], box[1], box[2], box[3]);
     sheet_add_rectangle(a->page, a->group, a->ink, box[0], box[1], box[2] - box[0], box[3] - box[1], a->letter * 0.07);
     sheet_add_text(a->page, a->group, a->ink, d->name, left + inset, box[1] + inset + 0.8 * a->letter, a->letter, -1);
-    put_rows(a, left + inset, box[1] + inset + 1.7 * a->letter, row, other);
+    put_rows(a, left + inset, box[1] + inset + 1.7 * a->letter, row);
     annotation_take(a, box);
     return LMN_OK;
 }

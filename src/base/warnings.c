@@ -57,6 +57,29 @@ void warnings_add(warnings *list, warning_code code, const char *format, ...)
     add(list, code, message, 1);
 }
 
+void warnings_fold(warnings *list, warning_code code, const char *beginning, const char *what)
+{
+    char   message[WARNING_TEXT_SIZE];
+    size_t kept = 0, first = 0, kinds = 0;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->items[i].code == code && strncmp(list->items[i].text, beginning, strlen(beginning)) == 0)
+            first = kinds++ ? first : i;
+    if (kinds < 2)
+        return;
+    snprintf(message, sizeof message, "%zu %s, the first of them: %.400s", kinds, what, list->items[first].text);
+    char *copy = mem_copy_text(message);
+    if (!copy)
+        return;
+    for (size_t i = 0; i < list->count; i++) {
+        bool folded = list->items[i].code == code && strncmp(list->items[i].text, beginning, strlen(beginning)) == 0;
+        if (folded)
+            mem_free(list->items[i].text);
+        if (!folded || i == first)
+            list->items[kept++] = folded ? (warning){code, copy, 1} : list->items[i];
+    }
+    list->count = kept;
+}
+
 void warnings_append(warnings *list, const warnings *more)
 {
     for (size_t i = 0; i < more->count; i++)

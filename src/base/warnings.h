@@ -49,6 +49,9 @@ const char *warning_code_text(warning_code code);
 /* Adds a warning, of which the log is told, or counts it again. When memory is gone it is dropped: a warning is never
  * worth an error. */
 void warnings_add(warnings *list, warning_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* Makes one warning of all of a code that begin alike, if there are several: how many there are of what, and the first.
+ */
+void warnings_fold(warnings *list, warning_code code, const char *beginning, const char *what);
 void warnings_append(warnings *list, const warnings *more);
 void warnings_release(warnings *list);
 

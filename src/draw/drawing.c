@@ -438,7 +438,7 @@ static lmn_status draw_picture(lmn_drawing **out, lmn_renderer *r, const lmn_sce
         return error_memory(error);
     }
     session    s;
-    lmn_status status = annotates(look, options) && annotate_wants_visible(look)
+    lmn_status status = annotates(look, options) && annotate_wants_visible(look, scene)
                             ? draw_maps(d, r, scene, look, desc, false, error)
                             : LMN_OK;
     if (status != LMN_OK) {

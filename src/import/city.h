@@ -41,20 +41,21 @@ typedef struct city_tally {
 } city_tally;
 
 typedef struct city_builder {
-    const import_job    *job;
-    lmn_scene           *scene;
-    lmn_error           *error;
-    const vec3          *points; /* less the origin, z up */
-    size_t               point_count;
-    int32_t              plain; /* material */
-    city_tally           tally;
-    uint64_t             surfaces[64]; /* a word, and behind the last those without one */
-    struct terrain      *terrain;      /* NULL: none, or not read yet */
+    const import_job *job;
+    lmn_scene        *scene;
+    lmn_error        *error;
+    const vec3       *points; /* less the origin, z up */
+    size_t            point_count;
+    int32_t           plain; /* material */
+    city_tally        tally;
+    uint64_t          surfaces[64]; /* a word, and behind the last those without one */
+    struct terrain   *terrain;      /* NULL: none, or not read yet */
+    char              cause[160];   /* what is wrong with the file as such, for when nothing comes of it; "": nothing */
     struct city_scratch *scratch;
 } city_builder;
 
 lmn_status city_builder_open(city_builder *b, const import_job *job, lmn_error *error);
-/* Puts what was counted into the scene's facts and warnings. */
+/* Puts what was counted into the scene's facts and warnings. Errors: LMN_FORMAT (there is nothing to draw: why). */
 lmn_status city_builder_close(city_builder *b, lmn_status status);
 /* Reads the terrain that the caller has named, if he has, once the city's place is known. */
 lmn_status city_builder_terrain(city_builder *b);

@@ -1,5 +1,6 @@
 /* City models to scenes, whatever format they came in. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include "base/memory.h"
 #include "import/build.h"
 #include "import/city.h"
+#include "import/city_crs.h"
 #include "import/terrain.h"
 
 typedef struct face_key {
@@ -607,6 +609,52 @@ static void tell_all(const city_builder *b)
             city_add(&b->scene->city, CITY_SURFACES, i < city_word_count ? city_words[i] : "other", b->surfaces[i]);
 }
 
+/* Nothing came of the file: the first cause that is known. */
+static lmn_status nothing_made(const city_builder *b)
+{
+    const city_tally *t = &b->tally;
+    const struct {
+        uint64_t    count;
+        const char *text, *hint;
+    } rows[] = {
+        {t->no_lod, "objects have no geometry of the level of detail that is asked for", "ask for another one: --lod"},
+        {t->bad_geometry, "geometries are not nested as their type says", NULL},
+        {t->unknown_types, "geometries are of types that are not known", NULL},
+        {t->missing_points, "faces or positions refer to points that do not exist, or are no numbers", NULL},
+        {t->degenerate, "faces have no area", NULL},
+        {t->points, "geometries consist of points",
+         "points alone are not drawn; export the model with its surfaces or lines"},
+        {t->no_geometry, "objects have no geometry", NULL},
+    };
+    char        cause[200] = "it has no objects of a city";
+    const char *hint = NULL;
+    if (b->cause[0])
+        snprintf(cause, sizeof cause, "%s", b->cause);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !b->cause[0]; i++)
+        if (rows[i].count) {
+            snprintf(cause, sizeof cause, "%llu %s", (unsigned long long)rows[i].count, rows[i].text);
+            hint = rows[i].hint;
+            break;
+        }
+    error_in_file(b->error, LMN_FORMAT, b->job->path, 0, "nothing to draw: the file has no triangles or lines: %s",
+                  cause);
+    if (hint)
+        error_hint(b->error, "%s", hint);
+    return LMN_FORMAT;
+}
+
+/* Coordinates of an unknown system are taken as metres: that may be wrong. */
+static void tell_system(const city_builder *b)
+{
+    const city_facts *facts = &b->scene->city;
+    if (!facts->crs && !facts->geographic)
+        warnings_add(&b->scene->warnings, WARNING_APPROXIMATE,
+                     "the file does not say in which coordinate system it lies; its numbers are taken as metres");
+    else if (facts->crs && !city_crs_is_known(facts->crs))
+        warnings_add(&b->scene->warnings, WARNING_APPROXIMATE,
+                     "the coordinate system '%.80s' is not known; its numbers are taken as metres", facts->crs);
+}
+
 lmn_status city_builder_close(city_builder *b, lmn_status status)
 {
     if (status == LMN_OK)
@@ -615,8 +663,13 @@ lmn_status city_builder_close(city_builder *b, lmn_status status)
         status = terrain_into_scene(b->terrain, b);
     terrain_free(b->terrain);
     b->terrain = NULL;
-    if (status == LMN_OK)
+    if (status == LMN_OK && b->scene->mesh_count == 0)
+        status = nothing_made(b);
+    if (status == LMN_OK) {
         tell_all(b);
+        tell_system(b);
+        warnings_fold(&b->scene->warnings, WARNING_MISSING_FILE, "texture", "textures are missing");
+    }
     close_scratch(b);
     return status;
 }

@@ -62,6 +62,13 @@ static bool is_web_code(long code)
     return code == 3857 || code == 3785 || code == 900913 || code == 102100 || code == 102113;
 }
 
+/* EPSG gives its systems numbers from 1024 on, and has none beyond 32767; 900913 and 102100 are others' for 3857. */
+bool city_crs_is_known(const char *name)
+{
+    const long code = epsg_code(name);
+    return strstr(name, "CRS84") != NULL || (code >= 1024 && code <= 32767) || is_web_code(code);
+}
+
 static bool is_geographic(const char *name, const double low[3], const double high[3], bool *latitude_first)
 {
     *latitude_first = false;

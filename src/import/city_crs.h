@@ -18,4 +18,7 @@ void city_crs_local(const city_facts *facts, bool latitude_first, double p[3]);
  * unknown. */
 void city_crs_plane_name(const char *name, char *out, size_t size);
 
+/* Can what is called like this be a system of EPSG's register, or is it CRS84? */
+bool city_crs_is_known(const char *name);
+
 #endif

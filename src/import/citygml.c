@@ -108,6 +108,8 @@ static void parse(citygml_reader *r)
     }
     if (r->status == LMN_OK && (xmlParseChunk(parser, NULL, 0, 1) != 0 || !parser->wellFormed))
         tell_error(r, parser);
+    if (r->status == LMN_OK && !memmem(bytes, size < 65536 ? size : 65536, "CityModel", 9))
+        snprintf(r->builder.cause, sizeof r->builder.cause, "it is XML, but no CityModel");
     if (parser->myDoc)
         xmlFreeDoc(parser->myDoc);
     xmlFreeParserCtxt(parser);

@@ -122,6 +122,8 @@ static void read_transform(cityjson_reader *r, json_span span)
         else
             scan_skip(&s);
     }
+    if (r->scale[0] == 0 || r->scale[1] == 0)
+        snprintf(r->builder.cause, sizeof r->builder.cause, "'scale' of its 'transform' is 0");
     cityjson_good(r, &s);
 }
 
@@ -151,6 +153,10 @@ static void check_version(cityjson_reader *r, const cityjson_document *d)
         warnings_add(&r->scene->warnings, WARNING_APPROXIMATE,
                      "this file says that it is CityJSON %.*s; it is read as if it were 2.0",
                      (int)(d->version.size < 20 ? d->version.size : 20), d->version.at ? d->version.at : "?");
+        if (d->version.at)
+            snprintf(r->builder.cause, sizeof r->builder.cause,
+                     "its version is '%.*s'; CityJSON 1.0, 1.1 and 2.0 are read",
+                     (int)(d->version.size < 20 ? d->version.size : 20), d->version.at);
     }
 }
 

@@ -16,6 +16,7 @@
 #include "import/json_scan.h"
 #include "import/ring.h"
 #include "import/street.h"
+#include "import/untangle.h"
 
 enum { POSITIONS_MAX = 1000000 };
 
@@ -38,11 +39,12 @@ typedef struct geojson_reader {
     city_shape        shape, flat; /* flat: one area or strip before it lies on the terrain */
     footprint_points  points, flat_points;
     rings             rings;
+    untangled         untangled; /* the polygon that is read */
     city_meshes       props[PROPS];
     street           *street; /* NULL: nobody asks for more than the file has */
     double (*parts)[3];       /* middles of buildings' parts, by x */
     size_t   part_count, part_capacity;
-    uint64_t guessed_heights, flat_roofs, other_roofs, places;
+    uint64_t guessed_heights, limited_heights, flat_roofs, other_roofs, places;
     size_t   number;
 } geojson_reader;
 
@@ -251,12 +253,13 @@ static void put_attributes(geojson_reader *r, int32_t node, json_span properties
     good(r, &s);
 }
 
-static char *id_of(geojson_reader *r, const feature *f)
+static char *id_of(geojson_reader *r, const feature *f, bool *numbered)
 {
     static const char *const keys[] = {"@id", "gml_id", "osm_id", "osm_way_id", "fid", "id", NULL};
     char                     name[40];
     json_span                id = f->id.at ? f->id : geojson_property(f->properties, keys);
-    if (id.at && id.size)
+    *numbered = !id.at || !id.size;
+    if (!*numbered)
         return span_decode(id);
     snprintf(name, sizeof name, "feature-%zu", r->number);
     return mem_copy_text(name);
@@ -291,8 +294,8 @@ static bool lay_flat(geojson_reader *r, const geojson_thing *thing)
     const city_shape *flat = &r->flat;
     uint32_t          first = (uint32_t)r->points.count;
     if (r->builder.terrain)
-        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base, &r->shape,
-                             &r->points);
+        return terrain_drape(r->builder.terrain, flat, r->flat_points.items, 0.1 + 4 * thing->body.base + thing->rise,
+                             &r->shape, &r->points);
     bool done = true;
     for (size_t i = 0; i < r->flat_points.count && done; i++) {
         vec3 p = r->flat_points.items[i];
@@ -329,6 +332,37 @@ static bool has_parts(const geojson_reader *r)
     return false;
 }
 
+/* One polygon whose rings cross nothing. */
+static bool raise_polygon(geojson_reader *r, const geojson_thing *thing, const double (*positions)[2],
+                          const size_t *counts, size_t rings)
+{
+    const bool   obstacle = thing->is_building || strcmp(thing->type, "WaterBody") == 0;
+    footprint    how = thing->body;
+    roof_made    made = ROOF_AS_ASKED;
+    bool         done = !r->street || !obstacle || street_add_obstacle(r->street, positions, counts[0]);
+    const double ground = r->builder.terrain && thing->is_building
+                              ? terrain_lowest(r->builder.terrain, positions, counts[0])
+                              : r->rings.lowest;
+    how.base += ground;
+    how.eaves += ground;
+    how.ridge += ground;
+    if (thing->is_building) {
+        done = done && footprint_raise(&r->shape, &r->points, &how, positions, counts, rings, &made);
+        r->flat_roofs += made == ROOF_MADE_FLAT;
+        r->other_roofs += made == ROOF_OTHERWISE || (made == ROOF_AS_ASKED && thing->other_roof);
+        return done;
+    }
+    begin_flat(r);
+    uint32_t at = 0;
+    for (size_t ring = 0; ring < rings && done; ring++) {
+        for (size_t i = 0; i < counts[ring] && done; i++, at++)
+            done = footprint_add_point(&r->flat_points, positions[at][0], positions[at][1], how.base + thing->rise) &&
+                   city_shape_corner(&r->flat, at);
+        done = done && city_shape_end_ring(&r->flat);
+    }
+    return done && city_shape_end_face(&r->flat, NONE, CITY_NO_WORD, 0) && lay_flat(r, thing);
+}
+
 static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan *s)
 {
     if (!read_polygon(r, s))
@@ -338,36 +372,11 @@ static void add_polygon(geojson_reader *r, const geojson_thing *thing, json_scan
         r->builder.tally.coarser++;
         return;
     }
-    footprint how = thing->body;
-    roof_made made = ROOF_AS_ASKED;
-    double    ground = r->builder.terrain
-                           ? terrain_lowest(r->builder.terrain, (const double(*)[2])k->positions, k->counts[0])
-                           : k->lowest;
-    how.base += ground;
-    how.eaves += ground;
-    how.ridge += ground;
-    bool done = true;
-    if (thing->is_building) {
-        done = footprint_raise(&r->shape, &r->points, &how, (const double(*)[2])k->positions, k->counts, k->ring_count,
-                               &made);
-        done = done && (!r->street || street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]));
-        r->flat_roofs += made == ROOF_MADE_FLAT;
-        r->other_roofs += made == ROOF_OTHERWISE;
-    } else {
-        if (r->street && strcmp(thing->type, "WaterBody") == 0)
-            done = street_add_obstacle(r->street, (const double(*)[2])k->positions, k->counts[0]);
-        begin_flat(r);
-        uint32_t at = (uint32_t)r->flat_points.count;
-        for (size_t i = 0; i < k->position_count && done; i++)
-            done = footprint_add_point(&r->flat_points, k->positions[i][0], k->positions[i][1],
-                                       thing->body.base + k->lowest);
-        for (size_t ring = 0; ring < k->ring_count && done; ring++) {
-            for (size_t i = 0; i < k->counts[ring] && done; i++)
-                done = city_shape_corner(&r->flat, at++);
-            done = done && city_shape_end_ring(&r->flat);
-        }
-        done = done && city_shape_end_face(&r->flat, NONE, CITY_NO_WORD, 0) && lay_flat(r, thing);
-    }
+    untangled *u = &r->untangled;
+    bool       done = untangle(u, (const double(*)[2])k->positions, k->counts, k->ring_count);
+    for (size_t i = 0; i < u->count && done; i++)
+        done = raise_polygon(r, thing, (const double(*)[2])u->rings.positions + u->polygons[i].position,
+                             u->rings.counts + u->polygons[i].first, u->polygons[i].rings);
     if (!done)
         no_memory(r);
 }
@@ -383,7 +392,7 @@ static void add_line(geojson_reader *r, const geojson_thing *thing, json_scan *s
         return;
     begin_flat(r);
     if (!footprint_strip(&r->flat, &r->flat_points, (const double(*)[2])k->positions, k->position_count, thing->width,
-                         thing->body.base + k->lowest) ||
+                         thing->body.base + thing->rise + k->lowest) ||
         !lay_flat(r, thing))
         no_memory(r);
     if (r->status == LMN_OK && r->street && strcmp(thing->type, "Road") == 0 &&
@@ -450,11 +459,15 @@ static void put_feature(geojson_reader *r, const feature *f)
         return;
     }
     r->guessed_heights += thing.guessed;
-    int32_t node = city_object(&r->builder, id_of(r, f), thing.type, strlen(thing.type));
+    r->limited_heights += thing.limited;
+    bool    numbered;
+    char   *id = id_of(r, f, &numbered);
+    int32_t node = city_object(&r->builder, id, thing.type, strlen(thing.type));
     if (node == NONE) {
         r->status = r->status == LMN_OK ? error_memory(r->error) : r->status;
         return;
     }
+    r->scene->nodes[node].numbered = numbered;
     put_attributes(r, node, f->properties);
     city_shape_clear(&r->shape);
     r->points.count = 0;
@@ -545,6 +558,23 @@ static void place_parts(geojson_reader *r)
         qsort(r->parts, r->part_count, sizeof *r->parts, compare_parts);
 }
 
+/* Degrees that no plane holds: why, should nothing come of them. */
+static void note_extent(geojson_reader *r, const extent *e)
+{
+    bool degrees =
+        !r->scene->city.crs && e->low[0] >= -360 && e->high[0] <= 360 && e->low[1] >= -360 && e->high[1] <= 360;
+    if (degrees && (e->low[1] < -90 || e->high[1] > 90))
+        snprintf(r->builder.cause, sizeof r->builder.cause,
+                 "it has latitudes from %.6g to %.6g degrees, and the poles lie at 90 (longitudes come first)",
+                 e->low[1], e->high[1]);
+    else if (degrees && e->high[0] - e->low[0] > 180)
+        snprintf(
+            r->builder.cause, sizeof r->builder.cause,
+            "its longitudes go from %.6g to %.6g degrees, around the Earth or across the antimeridian: files on both "
+            "sides of it are not read",
+            e->low[0], e->high[0]);
+}
+
 static void find_place(geojson_reader *r, json_span features)
 {
     extent    e = nowhere;
@@ -575,6 +605,7 @@ static void find_place(geojson_reader *r, json_span features)
     if (!good(r, &s) || !(e.high[0] >= e.low[0]))
         return;
     r->builder.tally.missing_points = 0; /* counted again when they are read */
+    note_extent(r, &e);
     const char *name = facts->crs ? facts->crs : "urn:ogc:def:crs:OGC:1.3:CRS84";
     /* RFC 7946, section 3.1.1: longitude first, whatever the system's own order is. */
     city_crs_understand(facts, name, e.low, e.high, NULL);
@@ -661,10 +692,14 @@ static void read_document(geojson_reader *r)
 static void tell(geojson_reader *r)
 {
     city_facts *facts = &r->scene->city;
-    bool        done = (!r->guessed_heights || city_add(facts, CITY_REPAIRED, "guessed-heights", r->guessed_heights)) &&
-                (!r->flat_roofs || city_add(facts, CITY_REPAIRED, "flat-roofs", r->flat_roofs)) &&
-                (!r->other_roofs || city_add(facts, CITY_REPAIRED, "other-roofs", r->other_roofs)) &&
-                (!r->places || city_add(facts, CITY_SKIPPED, "points", r->places));
+    bool        done =
+        (!r->guessed_heights || city_add(facts, CITY_REPAIRED, "guessed-heights", r->guessed_heights)) &&
+        (!r->limited_heights || city_add(facts, CITY_REPAIRED, "limited-heights", r->limited_heights)) &&
+        (!r->untangled.crossing || city_add(facts, CITY_REPAIRED, "self-crossing-footprints", r->untangled.crossing)) &&
+        (!r->untangled.stray_holes || city_add(facts, CITY_SKIPPED, "stray-holes", r->untangled.stray_holes)) &&
+        (!r->flat_roofs || city_add(facts, CITY_REPAIRED, "flat-roofs", r->flat_roofs)) &&
+        (!r->other_roofs || city_add(facts, CITY_REPAIRED, "other-roofs", r->other_roofs)) &&
+        (!r->places || city_add(facts, CITY_SKIPPED, "points", r->places));
     if (!done)
         no_memory(r);
 }
@@ -690,6 +725,7 @@ static lmn_status read_geojson(const import_job *job, lmn_error *error)
     mem_free(r->rings.positions);
     mem_free(r->rings.counts);
     mem_free(r->parts);
+    untangle_release(&r->untangled);
     for (int i = 0; i < PROPS; i++)
         mem_free(r->props[i].items);
     street_free(r->street);

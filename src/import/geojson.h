@@ -9,6 +9,9 @@
 typedef struct geojson_thing {
     const char *type;                             /* class of CityGML: "Building", "Road" … */
     bool        is_building, is_nothing, guessed; /* guessed: nobody says how high it is */
+    bool        limited;                          /* a height is more than anything's, and was cut off */
+    bool        other_roof;                       /* its roof's form is none that is drawn, and another one is */
+    double      rise;                             /* of roads: as much over the others that they cross, m */
     double      width;                            /* of lines, m */
     bool        is_part;                          /* of a building, which another feature is the outline of */
     bool        cars;                             /* of roads: they are for cars */

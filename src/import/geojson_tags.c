@@ -6,7 +6,8 @@
 
 #include "import/geojson.h"
 
-#define STOREY 3.0 /* m, as Simple 3D Buildings takes it */
+#define STOREY  3.0    /* m, as Simple 3D Buildings takes it */
+#define HIGHEST 5000.0 /* m */
 
 json_span geojson_property(json_span properties, const char *const *keys)
 {
@@ -59,20 +60,29 @@ static bool is_among(json_span value, const char *const *words)
     return false;
 }
 
-static roof_form roof_of(json_span shape)
+/* `other`: it is drawn as another form, or as none. */
+static roof_form roof_of(json_span shape, bool *other)
 {
     static const struct {
         const char *word;
         roof_form   form;
-    } rows[] = {{"gabled", ROOF_GABLED},      {"hipped", ROOF_HIPPED},     {"half-hipped", ROOF_HIPPED},
-                {"side_hipped", ROOF_HIPPED}, {"saltbox", ROOF_GABLED},    {"pyramidal", ROOF_PYRAMIDAL},
-                {"cone", ROOF_PYRAMIDAL},     {"mansard", ROOF_MANSARD},   {"mansard-flat", ROOF_MANSARD_FLAT},
-                {"gambrel", ROOF_GAMBREL},    {"skillion", ROOF_SKILLION}, {"lean_to", ROOF_SKILLION},
-                {"dome", ROOF_DOME},          {"onion", ROOF_ONION},       {"double_saltbox", ROOF_GABLED},
-                {"half_hipped", ROOF_HIPPED}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (span_is(shape, rows[i].word))
+        bool        other;
+    } rows[] = {{"flat", ROOF_FLAT, false},           {"gabled", ROOF_GABLED, false},
+                {"hipped", ROOF_HIPPED, false},       {"half-hipped", ROOF_HIPPED, true},
+                {"half_hipped", ROOF_HIPPED, true},   {"side_hipped", ROOF_HIPPED, true},
+                {"saltbox", ROOF_GABLED, true},       {"double_saltbox", ROOF_GABLED, true},
+                {"pyramidal", ROOF_PYRAMIDAL, false}, {"cone", ROOF_PYRAMIDAL, false},
+                {"mansard", ROOF_MANSARD, false},     {"mansard-flat", ROOF_MANSARD_FLAT, false},
+                {"gambrel", ROOF_GAMBREL, false},     {"skillion", ROOF_SKILLION, false},
+                {"lean_to", ROOF_SKILLION, false},    {"dome", ROOF_DOME, false},
+                {"onion", ROOF_ONION, false}};
+    *other = false;
+    for (size_t i = 0; shape.at && i < sizeof rows / sizeof *rows; i++)
+        if (span_is(shape, rows[i].word)) {
+            *other = rows[i].other;
             return rows[i].form;
+        }
+    *other = shape.at && shape.size;
     return ROOF_FLAT;
 }
 
@@ -89,20 +99,30 @@ static void read_direction(footprint *body, json_span value)
     body->direction = body->has_direction ? degrees * 0.017453292519943295 : 0;
 }
 
+/* In units of so many metres; what reaches higher than anything stands is cut off there. */
+static double height_of(json_span value, double unit, geojson_thing *out)
+{
+    double number = number_of(value);
+    bool   limited = number * unit > HIGHEST;
+    out->limited = out->limited || limited;
+    return limited ? HIGHEST / unit : number;
+}
+
 static void understand_building(geojson_thing *out, json_span properties)
 {
     static const char *const heights[] = {"height", "building:height", "measuredHeight", "Height", "HEIGHT", NULL};
     static const char *const storeys[] = {"building:levels", "storeysAboveGround", "levels", "num_floors", NULL};
     static const char *const bases[] = {"min_height", "building:min_height", NULL};
-    double                   high = number_of(geojson_property(properties, heights)),
-           levels = number_of(geojson_property(properties, storeys)),
-           base = number_of(geojson_property(properties, bases)), roof = number_of(property(properties, "roof:height")),
-           roof_levels = number_of(property(properties, "roof:levels"));
+    double                   high = height_of(geojson_property(properties, heights), 1, out),
+           levels = height_of(geojson_property(properties, storeys), STOREY, out),
+           base = height_of(geojson_property(properties, bases), 1, out),
+           roof = height_of(property(properties, "roof:height"), 1, out),
+           roof_levels = height_of(property(properties, "roof:levels"), STOREY, out);
     json_span part = property(properties, "building:part");
     out->type = part.at ? "BuildingPart" : "Building";
     out->is_part = part.at && !span_is(part, "no");
     out->is_building = true;
-    out->body.roof = roof_of(property(properties, "roof:shape"));
+    out->body.roof = roof_of(property(properties, "roof:shape"), &out->other_roof);
     read_direction(&out->body, property(properties, "roof:direction"));
     if (!(roof > 0))
         roof = out->body.roof == ROOF_FLAT ? 0 : roof_levels > 0 ? roof_levels * STOREY : STOREY;
@@ -110,8 +130,8 @@ static void understand_building(geojson_thing *out, json_span properties)
     /* A stated height is that of the roof's top; storeys end at the eaves. */
     double eaves = high > 0 ? fmax(high - roof, 0.3 * high) : (levels > 0 ? levels : 2) * STOREY;
     out->body.base = base > 0 ? base : 0;
-    out->body.eaves = fmax(fmin(eaves, 5000), out->body.base + 0.1);
-    out->body.ridge = out->body.roof == ROOF_FLAT && high > 0 ? fmax(fmin(high, 5000), out->body.eaves)
+    out->body.eaves = fmax(eaves, out->body.base + 0.1);
+    out->body.ridge = out->body.roof == ROOF_FLAT && high > 0 ? fmax(high, out->body.eaves)
                                                               : out->body.eaves + (high > 0 ? high - eaves : roof);
 }
 
@@ -127,6 +147,14 @@ static double width_of_road(json_span kind)
         if (span_is(kind, rows[i].kind))
             return rows[i].metres;
     return 5;
+}
+
+/* Wider ways lie over narrower ones, rails over all, by so little that crossings have one outline all the same
+ * (crossings.h): two colours at one height would flicker. */
+static double rise_of_way(double width, bool rail)
+{
+    const double STEP = 0.004, LIMIT = 9; /* m */
+    return STEP * (rail ? LIMIT + 1 : fmin(fmax(floor(width / 1.5), 0), LIMIT));
 }
 
 /* What lies on the ground: a little higher each, so that none flickers through another. */
@@ -150,6 +178,7 @@ static void understand_ground(geojson_thing *out, json_span properties, bool lin
         out->is_nothing = tunnel.at && !span_is(tunnel, "no");
         out->cars = way.at && !is_among(way, paths);
         out->body.base = 0.06;
+        out->rise = rise_of_way(out->width, rail.at != NULL);
     } else if (stream.at || is_among(natural, waters) || is_among(landuse, waters) ||
                property(properties, "water").at) {
         out->type = "WaterBody";

@@ -422,6 +422,7 @@ static lmn_status into_scene(street *s, city_builder *b, prop_kind kind)
     mem_free(meshes.items);
     if (status != LMN_OK)
         return status;
+    b->scene->nodes[node].numbered = true;
     b->scene->nodes[node].instances = l->items;
     b->scene->nodes[node].instance_count = l->count;
     l->items = NULL;

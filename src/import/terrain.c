@@ -267,6 +267,7 @@ lmn_status terrain_into_scene(const terrain *t, city_builder *b)
     int32_t           node = city_object(b, mem_copy_text("terrain"), type, sizeof type - 1);
     if (node == NONE)
         return error_memory(b->error);
+    b->scene->nodes[node].numbered = true; /* the file has no name for it */
     b->surfaces[one.word]++;
     if (t->filled && !city_add(&b->scene->city, CITY_REPAIRED, "filled-heights", t->filled))
         return error_memory(b->error);

@@ -13,6 +13,7 @@
 typedef struct reading {
     const scene_values *how;
     const char        **values;       /* per part, lent; NULL: none is stated, or it is not drawn */
+    const char        **sorted;       /* the same, equal ones behind each other */
     double             *part_numbers; /* per part; NAN: it has none */
     size_t              count, known;
     bool                numbers; /* all of them are */
@@ -26,13 +27,35 @@ static bool read_number(const char *text, double *out)
     return end != text && *end == '\0' && isfinite(*out);
 }
 
-/* How high a part's top lies over the lowest place of all: what there is where no height is stated. */
-static double height_of(const pose *posed, size_t part)
+/* From where to where a part reaches up: as it was before a projection bent it. Empty: low above high. */
+static void reach_of(const pose *posed, size_t part, double out[2])
 {
-    box3 own = posed->part_boxes[part];
-    bool z = posed->scene->up == 'z';
-    return box3_is_empty(own) ? NAN
-                              : (double)(z ? own.max.z : own.max.y) - (double)(z ? posed->box.min.z : posed->box.min.y);
+    const node *n = &posed->scene->nodes[posed->scene->parts[part].node];
+    bool        z = posed->scene->up == 'z', bent = false;
+    box3        box = box3_empty();
+    for (size_t k = 0; n->mesh != NONE && k < posed->scene->meshes[n->mesh].primitive_count; k++) {
+        const primitive *p = &posed->scene->meshes[n->mesh].primitives[k];
+        bent = bent || p->straight;
+        for (uint32_t i = 0; p->straight && i < p->vertex_count; i++)
+            box = box3_with_point(box, p->straight[i]);
+    }
+    if (!bent)
+        box = posed->part_boxes[part];
+    out[0] = (double)(z ? box.min.z : box.min.y);
+    out[1] = (double)(z ? box.max.z : box.max.y);
+}
+
+/* How high the tops of parts lie over the lowest place of all: what there is where no height is stated. */
+static void measure_heights(reading *r, const pose *posed, const bool *selected)
+{
+    double lowest = INFINITY, own[2];
+    for (size_t i = 0; i < posed->part_count && i < r->count; i++) {
+        reach_of(posed, i, own);
+        lowest = own[0] <= own[1] ? fmin(lowest, own[0]) : lowest;
+        r->part_numbers[i] = selected[i] && own[0] <= own[1] ? own[1] : NAN;
+    }
+    for (size_t i = 0; i < r->count; i++)
+        r->part_numbers[i] -= lowest;
 }
 
 static void read_values(reading *r, const pose *posed, const bool *selected)
@@ -43,15 +66,16 @@ static void read_values(reading *r, const pose *posed, const bool *selected)
     r->numbers = r->how->datum_words.text[0] == '\0';
     r->least = INFINITY;
     r->most = -INFINITY;
+    for (size_t i = 0; i < r->count; i++)
+        r->part_numbers[i] = NAN;
+    if (measures)
+        measure_heights(r, posed, selected);
     for (size_t i = 0; i < r->count; i++) {
         const char *value = selected[i] ? scene_attribute_of(scene, scene->parts[i].node, key) : NULL;
         r->values[i] = value && value[0] ? value : NULL;
-        r->part_numbers[i] = NAN;
         if (r->values[i] && !read_number(r->values[i], &r->part_numbers[i])) {
             r->part_numbers[i] = NAN;
             r->numbers = false;
-        } else if (!r->values[i] && measures && selected[i] && i < posed->part_count) {
-            r->part_numbers[i] = height_of(posed, i);
         }
         r->known += r->values[i] || !isnan(r->part_numbers[i]);
         r->least = fmin(r->least, r->part_numbers[i]);
@@ -145,35 +169,70 @@ static int by_count(const void *a, const void *b)
                                                 : strcmp(one->text, other->text);
 }
 
-/* Words in the given order; else those that there are, the most frequent first. What is beyond the last colour has none
- * of its own. */
-static void show_words(datum *d, const reading *r)
+static int by_text(const void *a, const void *b)
 {
-    const char    *given = r->how->datum_words.text;
-    const palette *p = &r->how->datum_palette;
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* The words that there are, the most frequent first. Returns how many are left out. */
+static size_t find_words(datum *d, reading *r)
+{
+    size_t known = 0, left_out = 0;
+    for (size_t i = 0; i < r->count; i++)
+        if (r->values[i])
+            r->sorted[known++] = r->values[i];
+    qsort(r->sorted, known, sizeof *r->sorted, by_text);
+    for (size_t first = 0, end; first < known; first = end) {
+        datum_entry *last = &d->entries[DATUM_ENTRIES_MAX - 1], now = {.part_count = 0};
+        for (end = first; end < known && strcmp(r->sorted[end], r->sorted[first]) == 0;)
+            end++;
+        snprintf(now.text, sizeof now.text, "%s", r->sorted[first]);
+        now.part_count = end - first;
+        bool full = d->entry_count == DATUM_ENTRIES_MAX;
+        left_out += full;
+        if (full && by_count(&now, last) >= 0)
+            continue;
+        d->entries[full ? d->entry_count - 1 : d->entry_count++] = now;
+        qsort(d->entries, d->entry_count, sizeof *d->entries, by_count);
+    }
+    for (size_t i = 0; i < d->entry_count; i++)
+        d->entries[i].part_count = 0;
+    return left_out;
+}
+
+/* The palette's colours, then the same ones darker, then lighter. */
+static colour word_colour(const palette *p, size_t k)
+{
+    static const float shifts[][2] = {{1, 0}, {0.55f, 0}, {0.5f, 0.5f}, {0.3f, 0}, {0.25f, 0.75f}, {0.75f, 0}};
+    const size_t       round = k / (size_t)p->count, rounds = sizeof shifts / sizeof *shifts;
+    const float       *shift = shifts[round < rounds ? round : rounds - 1];
+    colour             c = p->colours[k % (size_t)p->count];
+    return (colour){shift[0] * c.r + shift[1], shift[0] * c.g + shift[1], shift[0] * c.b + shift[1], c.a};
+}
+
+/* Words in the given order; else those that there are. What is beyond the last entry has none of its own. */
+static void show_words(datum *d, reading *r, warnings *warnings)
+{
+    const char *given = r->how->datum_words.text;
+    size_t      left_out = 0;
     for (const char *at = given; *at;) {
         size_t length = strcspn(at, ",");
         add_word(d, at, length);
         at += length + (at[length] == ',');
     }
-    for (size_t i = 0; i < r->count; i++) {
-        if (!r->values[i])
-            continue;
-        if (!given[0] && !entry_of(d, r->values[i]))
-            add_word(d, r->values[i], strlen(r->values[i]));
-        datum_entry *e = entry_of(d, r->values[i]);
-        if (e)
-            e->part_count++;
-    }
-    if (!given[0])
-        qsort(d->entries, d->entry_count, sizeof *d->entries, by_count);
-    d->entry_count = d->entry_count < (size_t)p->count ? d->entry_count : (size_t)p->count;
+    if (!given[0] && (left_out = find_words(d, r)) > 0)
+        warnings_add(warnings, WARNING_REDUCED,
+                     "'%s' has %zu more values than there are colours for: they are shown as others (scene.datum)",
+                     d->name, left_out);
     for (size_t k = 0; k < d->entry_count; k++)
-        d->entries[k].colour = p->colours[k];
+        d->entries[k].colour = word_colour(&r->how->datum_palette, k);
     for (size_t i = 0; i < r->count; i++) {
-        const datum_entry *e = r->values[i] ? entry_of(d, r->values[i]) : NULL;
-        if (e)
-            d->colours[i] = e->colour;
+        datum_entry *e = r->values[i] ? entry_of(d, r->values[i]) : NULL;
+        d->beyond_count += r->values[i] && !e;
+        if (!e)
+            continue;
+        e->part_count++;
+        d->colours[i] = e->colour;
     }
 }
 
@@ -184,11 +243,16 @@ lmn_status datum_make(datum *out, const pose *posed, const scene_values *values,
     *out = (datum){.colours = NULL};
     if (!values->datum.text[0])
         return LMN_OK;
+    if (values->datum_from > values->datum_to)
+        return error_set(error, LMN_USAGE, "scene.datum_from (%g) is more than scene.datum_to (%g)",
+                         (double)values->datum_from, (double)values->datum_to);
     r.values = mem_calloc(part_count, sizeof *r.values);
     r.part_numbers = mem_calloc(part_count, sizeof *r.part_numbers);
+    r.sorted = mem_calloc(part_count, sizeof *r.sorted);
     out->colours = mem_calloc(part_count, sizeof *out->colours);
-    if (!r.values || !r.part_numbers || !out->colours) {
+    if (!r.values || !r.sorted || !r.part_numbers || !out->colours) {
         mem_free(r.values);
+        mem_free(r.sorted);
         mem_free(r.part_numbers);
         return error_memory(error);
     }
@@ -202,13 +266,15 @@ lmn_status datum_make(datum *out, const pose *posed, const scene_values *values,
     else if (r.numbers)
         show_numbers(out, &r);
     else
-        show_words(out, &r);
+        show_words(out, &r, warnings);
     for (size_t i = 0; i < part_count; i++)
         if (selected[i] && !(out->colours[i].a > 0)) {
             out->colours[i] = values->datum_other;
             out->other_count++;
         }
+    out->other_count -= out->beyond_count;
     mem_free(r.values);
+    mem_free(r.sorted);
     mem_free(r.part_numbers);
     return LMN_OK;
 }

@@ -25,11 +25,12 @@ typedef struct datum {
     bool        is_ramp;
     datum_entry entries[DATUM_ENTRIES_MAX];
     size_t      entry_count, other_count; /* parts without a value */
+    size_t      beyond_count;             /* parts with a value that has no entry; their colour is `other`, too */
 } datum;
 
 /* Of the parts that are drawn. Heights ("height", "measuredHeight") that nobody states are those of the parts' tops
- * over the lowest place of all. Warns where none of them has the attribute. Errors: LMN_MEMORY. Release it also after
- * one. */
+ * over the lowest place of all, before a projection bent them. Warns where none of them has the attribute. Errors:
+ * LMN_MEMORY, LMN_USAGE (a ramp from more to less). Release it also after one. */
 lmn_status datum_make(datum *out, const pose *posed, const scene_values *values, const bool *selected,
                       size_t part_count, warnings *warnings, lmn_error *error);
 void       datum_release(datum *d);

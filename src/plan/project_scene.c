@@ -69,6 +69,7 @@ static bool copy_node(lmn_scene *to, const node *from)
     n->next_sibling = from->next_sibling;
     n->hidden = from->hidden;
     n->removed = from->removed;
+    n->numbered = from->numbered;
     n->attributes = from->attribute_count ? mem_alloc(from->attribute_count * sizeof *n->attributes) : NULL;
     bool good = copy_text(&n->name, from->name) && (n->attributes || !from->attribute_count);
     for (size_t i = 0; i < from->attribute_count && good; i++) {
@@ -236,6 +237,14 @@ static void say_view(lmn_draw_desc *desc, const view_camera *c)
     }
 }
 
+/* North is +Y where Z is up, as surveyors have it, and −Z where Y is. */
+static void keep_directions(lmn_scene *to, const projection_map *map, char up)
+{
+    const double north[3] = {0, up == 'z' ? 1 : 0, up == 'z' ? 0 : -1}, zenith[3] = {0, up != 'z', up == 'z'};
+    projection_lean(map, north, to->north);
+    projection_lean(map, zenith, to->zenith);
+}
+
 lmn_status project_scene(lmn_scene **out, const lmn_scene *scene, lmn_draw_desc *desc, const lmn_projection_desc *how,
                          lmn_error *error)
 {
@@ -262,6 +271,8 @@ lmn_status project_scene(lmn_scene **out, const lmn_scene *scene, lmn_draw_desc 
         warnings_append(&made->warnings, &warned);
     if (status == LMN_OK)
         status = bend_all(made, &map, &p, error);
+    if (status == LMN_OK)
+        keep_directions(made, &map, scene->up);
     if (status != LMN_OK) {
         scene_free(made);
         made = NULL;

@@ -27,6 +27,15 @@ void projection_to_world(const projection_map *m, const double frame[3], double 
         out[k] = m->origin[k] + frame[0] * m->axes[0][k] + frame[1] * m->axes[1][k] + frame[2] * m->axes[2][k];
 }
 
+void projection_lean(const projection_map *m, const double way[3], double out[3])
+{
+    double ahead = dot3(m->axes[1], way), upward = dot3(m->axes[2], way);
+    double c = cos(m->lean), s = sin(m->lean);
+    for (int k = 0; k < 3; k++)
+        out[k] = dot3(m->axes[0], way) * m->axes[0][k] + (ahead * c - upward * s) * m->axes[1][k] +
+                 (ahead * s + upward * c) * m->axes[2][k];
+}
+
 /* Level axes, the second along the view. False: it looks straight up or down. */
 static bool lay_frame(projection_map *m, const view_camera *c, int up)
 {
@@ -85,6 +94,18 @@ static void lay_joints(projection_map *m)
     }
 }
 
+/* Where the middle ray of the view, this high over the ground, first meets it. */
+static double lean_in_the_middle(const projection_map *m, double height, double down)
+{
+    enum { STEPS = 512 };
+    for (int k = 0; k < STEPS; k++) {
+        double turned = m->angle * k / STEPS, along = m->from + m->radius * sin(turned);
+        if (height - along * tan(down) <= m->radius * (1 - cos(turned)))
+            return turned;
+    }
+    return m->angle;
+}
+
 static lmn_status lay_bend(projection_map *m, const view_camera *c, box3 box, int up, const lmn_projection_desc *how,
                            lmn_draw_desc *desc, lmn_error *error)
 {
@@ -114,6 +135,7 @@ static lmn_status lay_bend(projection_map *m, const view_camera *c, box3 box, in
     m->from = near + how->from * size;
     m->radius = (how->to - how->from) * size / m->angle;
     lay_joints(m);
+    m->lean = lean_in_the_middle(m, c->eye[up] - m->origin[up], down);
     if (height[1] <= TALLEST * m->radius)
         return LMN_OK;
     error_set(error, LMN_UNSUPPORTED, "the scene is %.3g high, too tall for ground that bends within %.3g", height[1],

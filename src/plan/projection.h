@@ -18,6 +18,7 @@ typedef struct projection_map {
     const projection_row *row;
     double                origin[3], axes[3][3];
     double from, radius, angle; /* of the curve: where it begins, how tight and how long it is, radians */
+    double lean;                /* how far the ground leans in the middle of the view, radians */
     int    pieces, plane_count;
     double planes[PROJECTION_PLANES_MOST][3]; /* right · [0] + ahead · [1] − [2]: 0 on the plane, below before it */
 } projection_map;
@@ -44,5 +45,7 @@ const projection_row *projection_row_of(int projection);
 /* Places of the world, as they are and in the map's frame. */
 void projection_to_frame(const projection_map *m, const double world[3], double out[3]);
 void projection_to_world(const projection_map *m, const double frame[3], double out[3]);
+/* What a direction of the world becomes on the ground in the middle of the view. */
+void projection_lean(const projection_map *m, const double way[3], double out[3]);
 
 #endif

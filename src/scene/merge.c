@@ -182,6 +182,7 @@ static void move_nodes(lmn_scene *into, lmn_scene *from, char *name, const mat4 
     }
     node *root = scene_append_node(into); /* room was reserved */
     root->name = name;
+    root->numbered = true; /* after the file, which is no name of a thing */
     root->has_matrix = true;
     root->matrix = *position;
     if (into->node_count > 1 && count)

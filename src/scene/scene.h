@@ -144,6 +144,7 @@ typedef struct node {
     int32_t    solid;     /* a node has a mesh or a solid */
     bool       hidden;    /* with all below it, by who uses the library */
     bool       removed;   /* taken out of the scene, and empty */
+    bool       numbered;  /* its file has no name for it: the reader made one of a number */
     bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
     size_t     instance_count; /* 0: the node itself is the one instance */
@@ -239,7 +240,9 @@ struct lmn_scene {
     int               changes_open; /* above 0 the list of parts waits for changes to end, and nothing draws */
     char              up;           /* 'y', 'z', or 0 while empty */
     bool              may_be_empty; /* set by an importer: the file is whole and has nothing to draw */
-    bool     is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */
+    bool is_motion; /* set by an importer: a skeleton of its own that may move a model (import/retarget.h) */
+    /* Of a scene that a projection bent: where north and up are in the middle of what is seen. 0: along the axes. */
+    double   north[3], zenith[3];
     warnings warnings;
     double   load_ms;
 };

@@ -347,11 +347,12 @@ static void test_textures(void **state)
     temp_file("red.png", png, sizeof png);
     lmn_scene *s = load_text(HEAD "\"appearance\":{\"textures\":[{\"type\":\"PNG\",\"image\":\"red.png\",\"wrapMode\":"
                                   "\"clamp\"},{\"type\":\"JPG\",\"image\":"
-                                  "\"gone.jpg\"}],\"vertices-texture\":[[0,0],[1,0],[1,0.25],[0,1]]},\"CityObjects\":{"
+                                  "\"gone.jpg\"},{\"type\":\"JPG\",\"image\":\"gone, "
+                                  "too.jpg\"}],\"vertices-texture\":[[0,0],[1,0],[1,0.25],[0,1]]},\"CityObjects\":{"
                                   "\"a\":{\"type\":\"Building\",\"geometry\":[{"
                                   "\"type\":\"MultiSurface\",\"lod\":\"2\",\"boundaries\":[[[4,5,6,7]],[[0,1,5,4]],[[1,"
                                   "2,6,5]]],\"texture\":{\"t\":{\"values\":"
-                                  "[[[0,0,1,2,3]],[[null]],[[1,0,1,2,3]]]}}}]}}," CUBE_VERTICES "}");
+                                  "[[[0,0,1,2,3]],[[2,0,1,2,3]],[[1,0,1,2,3]]]}}}]}}," CUBE_VERTICES "}");
     assert_int_equal(s->image_count, 1);
     size_t textured = 0;
     for (size_t i = 0; i < s->mesh_count; i++)
@@ -367,6 +368,14 @@ static void test_textures(void **state)
                     assert_true(fabsf(p->uvs[0][v].y - 0.75f) < 1e-6f); /* the file's places are counted from below */
         }
     assert_int_equal(textured, 1);
+    size_t told = 0;
+    for (size_t i = 0; i < s->warnings.count; i++)
+        if (s->warnings.items[i].code == WARNING_MISSING_FILE) {
+            told++;
+            assert_non_null(strstr(s->warnings.items[i].text, "2 textures are missing"));
+            assert_non_null(strstr(s->warnings.items[i].text, "gone"));
+        }
+    assert_int_equal(told, 1);
     lmn_scene_destroy(&s);
 }
 
@@ -584,7 +593,16 @@ static void test_refused(void **state)
          "three numbers"},
         {"{\"type\":\"CityJSON\",\"transform\":{\"scale\":[1e300,1,1]},\"CityObjects\":{}}", "three numbers"},
         {"{\"type\":\"Town\",\"x\":\"CityJSON\",\"CityObjects\":{}}", "\"CityJSON\""},
-        {HEAD "\"CityObjects\":{}," CUBE_VERTICES "}", "no triangles"},
+        {HEAD "\"CityObjects\":{}," CUBE_VERTICES "}", "no objects"},
+        {"{\"type\":\"CityJSON\",\"version\":\"9.0\",\"CityObjects\":{}," CUBE_VERTICES "}", "version"},
+        {"{\"type\":\"CityJSON\",\"version\":\"1.1\",\"transform\":{\"scale\":[0,0,0],\"translate\":[0,0,0]},"
+         "\"CityObjects\":{\"a\":{\"type\":"
+         "\"Building\",\"geometry\":[{\"type\":\"MultiSurface\",\"lod\":\"2\",\"boundaries\":[[[0,1,2,3]]]}]}}"
+         "," CUBE_VERTICES "}",
+         "scale"},
+        {HEAD "\"CityObjects\":{\"a\":{\"type\":\"Building\",\"geometry\":[{\"type\":\"Solid\",\"lod\":\"2\","
+              "\"boundaries\":[[[0,1,2,3]]]}]}}," CUBE_VERTICES "}",
+         "nested"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         lmn_scene *s;
