@@ -332,7 +332,8 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
     if (status == LMN_OK && !copy_lines(&set, all))
         status = error_memory(error);
     set.perspective = !f->camera.orthographic;
-    lift_strokes(&set);
+    if (status == LMN_OK)
+        lift_strokes(&set);
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
     for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
