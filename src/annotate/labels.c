@@ -224,7 +224,8 @@ static lmn_status put(annotation *a, label_list *list, const seen_map *map, lmn_
     for (size_t i = 0; i < list->count; i++)
         if (place(a, &list->items[i], map))
             list->items[kept++] = list->items[i];
-    qsort(list->items, kept, sizeof *list->items, by_weight);
+    if (kept)
+        qsort(list->items, kept, sizeof *list->items, by_weight);
     for (size_t i = 0; i < kept && placed < (size_t)a->how->labels_most; i++) {
         double     width;
         lmn_status status = export_text_width(&width, list->items[i].text, a->letter, error);

@@ -362,7 +362,8 @@ static bool make_fans(arounder *w)
 {
     size_t count = w->half_count, first = 0;
     double widest = -1;
-    qsort(w->halves, count, sizeof *w->halves, compare_halves);
+    if (count)
+        qsort(w->halves, count, sizeof *w->halves, compare_halves);
     if (!mem_grow((void **)&w->halves, &w->half_capacity, 2 * count, sizeof *w->halves) ||
         !mem_grow((void **)&w->fans, &w->fan_capacity, count, sizeof *w->fans))
         return false;
@@ -679,7 +680,8 @@ static bool take_candidate(arounder *w, const solid_candidate *c)
         return take_alone(w, c);
     if (!find_near(w, c->ends[0], length))
         return false;
-    qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
+    if (w->break_count)
+        qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
     double3 p = c->ends[0];
     for (size_t next = 0; done < length;) {
         double  at = end_of_stretch(w, done, length, &next);
@@ -756,7 +758,8 @@ bool solid_trim(solid_trimmer *t, uint32_t face, const double from[3], const dou
         return true;
     if (!find_near(w, a, length))
         return false;
-    qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
+    if (w->break_count)
+        qsort(w->breaks, w->break_count, sizeof *w->breaks, compare_doubles);
     for (size_t next = 0; done < length;) {
         double  at = end_of_stretch(w, done, length, &next);
         double3 q = at == length ? b : double3_plus(a, w->along, at);

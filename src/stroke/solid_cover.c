@@ -176,7 +176,8 @@ static size_t find_stops(solid_covers *c, const solid_cover *covers, size_t coun
         c->stops[2 * i] = covers[i].from;
         c->stops[2 * i + 1] = covers[i].to;
     }
-    qsort(c->stops, 2 * count, sizeof *c->stops, compare_doubles);
+    if (count)
+        qsort(c->stops, 2 * count, sizeof *c->stops, compare_doubles);
     for (size_t i = 0; i < 2 * count; i++)
         if (kept == 0 || c->stops[kept - 1] < c->stops[i])
             c->stops[kept++] = c->stops[i];
@@ -209,7 +210,8 @@ bool solid_covers_count(solid_covers *c, const stroke_view *v, solid_step step, 
         !mem_grow((void **)&c->active, &c->active_capacity, c->count, sizeof *c->active) ||
         !mem_grow((void **)&c->hits, &c->hit_capacity, c->count, sizeof *c->hits))
         return false;
-    qsort(c->items, c->count, sizeof *c->items, compare_covers);
+    if (c->count)
+        qsort(c->items, c->count, sizeof *c->items, compare_covers);
     for (size_t i = 0, end; i < c->count; i = end) {
         for (end = i; end < c->count && c->items[end].item == c->items[i].item;)
             end++;

@@ -49,7 +49,8 @@ static void sort_known(edge_mesh *own)
             v[1] = other;
         }
     }
-    qsort(own->edges, own->edge_count, sizeof *own->edges, compare_known);
+    if (own->edge_count)
+        qsort(own->edges, own->edge_count, sizeof *own->edges, compare_known);
 }
 
 static double3 wide(vec3 p)
