@@ -7,9 +7,6 @@
 #include "plan/lights.h"
 #include "plan/refuse.h"
 
-/* Rays that fall by less than this see the ground edge on: 1 degree. */
-static const double SHADOW_EDGE_ON = 0.0175;
-
 static double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -128,7 +125,7 @@ static const double LONGEST_SHADOW = 1.5;
 static bool find_shadow(mat4 *out, const fit_body *body, const fit_view *view)
 {
     const fit_ground *g = &body->ground;
-    if (!g->shadowed || !(-view->forward[g->up] > SHADOW_EDGE_ON))
+    if (!g->shadowed || !(-view->forward[g->up] > GROUND_EDGE_ON))
         return false;
     mat4 turn = mat4_identity();
     for (int k = 0; k < 3; k++) {

@@ -6,6 +6,9 @@
 #include "look/look.h"
 #include "pose/pose.h"
 
+/* Rays that fall by less than this see the ground edge on: 1 degree. */
+#define GROUND_EDGE_ON 0.0175
+
 /* The ground that what is fitted stands on. */
 typedef struct fit_ground {
     bool   there, shadowed; /* shadowed: a light's shadow on it is drawn, and fitted with what throws it */

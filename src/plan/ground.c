@@ -5,13 +5,10 @@
 #include "base/groups.h"
 #include "light/light.h"
 
-/* Rays that rise or fall by less than this see the plane edge on: 1 degree. */
-static const double EDGE_ON = 0.0175;
-
 static bool is_seen_from_above(const view_camera *c, int up, double level, double size)
 {
     double forward = -c->view.m[4 * up + 2];
-    return c->orthographic ? forward < -EDGE_ON : c->eye[up] - level > EDGE_ON * size;
+    return c->orthographic ? forward < -GROUND_EDGE_ON : c->eye[up] - level > GROUND_EDGE_ON * size;
 }
 
 /* Of the vertices, which boxes of turned parts would lie below. */
