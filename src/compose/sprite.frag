@@ -8,7 +8,10 @@ layout(location = 0) out vec4 out_0;
 /* Parts that other figures draw are here for their edges alone. */
 bool is_own(ivec2 at)
 {
-#ifdef HAS_COMPLEMENT
+#if defined(SHARED_LAYERS)
+    uint surface = texelFetch(t_id, at, 0).g;
+    return (surface & SURFACE_COMPLEMENT) == 0u && int((surface >> SURFACE_INDEX_BITS) & SURFACE_FIGURE_MASK) == u_figure;
+#elif defined(HAS_COMPLEMENT)
     return (texelFetch(t_id, at, 0).g & SURFACE_COMPLEMENT) == 0u;
 #else
     return true;

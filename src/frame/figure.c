@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 /* The sum of the lengths that matter with these values. */
 static float lengths_of(const param *params, size_t count, const void *values)
 {
@@ -70,4 +72,82 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
     if (!f->maps)
         window_figure(f, s);
     return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
+}
+
+/* --- where passes are drawn --------------------------------------------------------------------------------------- */
+
+/* The tiles that what lies in a box of the world, and its lines, can reach. Returns how many. */
+static int mark_box(const frame *f, tile_grid *t, box3 in_world, int reach, bool full)
+{
+    int pixels[4], first[2], last[2], count = 0;
+    camera_pixels(&f->camera, in_world, f->width, f->height, reach, pixels);
+    for (int k = 0; k < 2; k++) {
+        const int low = pixels[k] - t->band[k], end = low + pixels[2 + k], most = (k ? t->rows : t->columns) - 1;
+        first[k] = low > 0 ? low / t->size : 0;
+        last[k] = end <= 0 || pixels[2 + k] <= 0 ? -1 : (end - 1) / t->size;
+        last[k] = last[k] < most ? last[k] : most;
+    }
+    for (int y = first[1]; y <= last[1]; y++)
+        for (int x = first[0]; x <= last[0]; x++, count++)
+            t->full[y][x] = t->full[y][x] || full;
+    return count;
+}
+
+/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, or no memory. */
+static bool mark_triangles(const frame *f, tile_grid *t, const primitive *from, const part_pose *posed,
+                           const mat4 *world, int reach)
+{
+    vec3 *at = from->line_count ? NULL : mem_alloc((from->vertex_count + 1) * sizeof *at);
+    if (!at)
+        return false;
+    pose_vertices(posed, from, NULL, NULL, from->vertex_count, at, NULL);
+    for (uint32_t i = 0; i < from->vertex_count; i++)
+        at[i] = mat4_transform_point(world, at[i]);
+    for (uint32_t i = 0; i + 2 < from->index_count; i += 3) {
+        box3 box = box3_empty();
+        for (uint32_t k = i; k < i + 3; k++)
+            box = box3_with_point(box, at[from->indices[k]]);
+        mark_box(f, t, box, reach, true);
+    }
+    mem_free(at);
+    return true;
+}
+
+static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
+{
+    enum { TILES_FEW = 48, TRIANGLES_FEW = 2048 };
+    const pose *now = f->up->pose;
+    const node *n = &f->plan->scene->nodes[f->plan->scene->parts[part].node];
+    const mesh *m = n->mesh == NONE ? NULL : &f->plan->scene->meshes[n->mesh];
+    if (m && m->primitive_count == 1 && node_draw_count(n) == 1 && n->solid == NONE &&
+        m->primitives[0].index_count <= 3 * TRIANGLES_FEW && !now->parts[part].primitive_count &&
+        mark_box(f, t, now->part_boxes[part], reach, false) > TILES_FEW) {
+        const mat4 world = pose_instance(now, part, 0);
+        if (mark_triangles(f, t, &m->primitives[0], &now->parts[part], &world, reach))
+            return;
+    }
+    mark_box(f, t, now->part_boxes[part], reach, true);
+}
+
+/* Passes over a figure of a few things that lie apart are drawn where these are. */
+void figure_find_boxes(frame *f, figure_state *s)
+{
+    enum { PARTS_MOST = 4096 }; /* of more, some are everywhere */
+    const plan *p = f->plan;
+    if (f->maps || s->figure->part_count > PARTS_MOST)
+        return;
+    tile_grid *t = mem_alloc(sizeof *t);
+    s->boxes = mem_alloc(TILE_BOXES_MAX * sizeof *s->boxes);
+    if (t && s->boxes) {
+        const int reach = figure_reach(s->figure);
+        tiles_start(t, s->pixels);
+        memset(t->full, 0, sizeof t->full);
+        for (size_t i = 0; i < p->part_count; i++)
+            if (s->figure->designated[i])
+                mark_part(f, t, i, reach);
+        s->box_count = tiles_boxes(t, 0, s->pixels, s->boxes);
+    } else {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    }
+    mem_free(t);
 }

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "layer/layer.h"
 
-static void release_targets(frame *f, figure_state *s)
+void figure_release(frame *f, figure_state *s)
 {
     for (int i = 0; i < TARGET_COUNT; i++)
         gpu_target_release(f->g, s->targets[i]);
@@ -61,6 +61,21 @@ static void draw_sprite(frame *f, figure_state *s)
         collect_figure(f, s);
 }
 
+void figure_finish(frame *f, figure_state *s)
+{
+    s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+    if (s->figure->deferred) {
+        passes_prepare(f, s);
+        raster_shade_deferred(f, s);
+    }
+    if (s->targets[TARGET_SHADE])
+        marks_draw(f, s, s->targets[TARGET_SHADE]);
+    figure_find_boxes(f, s);
+    draw_sprite(f, s);
+    mem_free(s->edges);
+    mem_free(s->boxes);
+}
+
 void frame_draw_figure(frame *f, const figure *fig)
 {
     figure_state s;
@@ -72,17 +87,9 @@ void frame_draw_figure(frame *f, const figure *fig)
         raster_direct(f, &s);
     } else {
         raster_figure(f, &s);
-        s.geometry = s.targets[TARGET_NORMAL_DEPTH];
-        if (fig->deferred) {
-            passes_prepare(f, &s);
-            raster_shade_deferred(f, &s);
-        }
-        if (s.targets[TARGET_SHADE])
-            marks_draw(f, &s, s.targets[TARGET_SHADE]);
-        draw_sprite(f, &s);
-        mem_free(s.edges);
+        figure_finish(f, &s);
     }
-    release_targets(f, &s);
+    figure_release(f, &s);
 }
 
 static void draw_figures(frame *f)
@@ -95,8 +102,12 @@ static void draw_figures(frame *f)
             return;
         }
         if (!p->figures[i].layered) {
-            if (&p->figures[i] != f->mirror)
+            const size_t together = together_count(f, &p->figures[i], p->figure_count - i);
+            if (together > 1)
+                together_draw(f, &p->figures[i], together);
+            else if (&p->figures[i] != f->mirror)
                 frame_draw_figure(f, &p->figures[i]);
+            next = together > 1 ? i + together : next;
             continue;
         }
         while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX &&

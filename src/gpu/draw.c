@@ -82,9 +82,17 @@ static bool is_integer(gpu_format format)
     return format == GPU_R32UI || format == GPU_RG32UI || format == GPU_RGBA32UI;
 }
 
+/* Nothing outside of its box is looked at, and all of a picture is cleared faster than a large part of it: where drivers
+ * do not draw, they note it. */
+static bool clears_all(const gpu_pass *pass)
+{
+    const gpu_texture *any = pass->colour_count ? pass->colours[0] : pass->depth;
+    return 2 * (int64_t)pass->clear_box[2] * pass->clear_box[3] >= (int64_t)any->width * any->height;
+}
+
 static void clear_targets(const gpu_pass *pass)
 {
-    set_scissor(pass->clear_box);
+    set_scissor(clears_all(pass) ? (const int[4]){0} : pass->clear_box);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (int i = 0; i < pass->colour_count; i++) {
         const float *v = pass->clear_values[i];
