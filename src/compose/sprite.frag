@@ -55,15 +55,17 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     find_positions(pixel);
-    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     vec4 ink = vec4(0.0);
 #ifdef PERTURBED
+    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     depth = depth_around(fill_position());
     vec4 fill = depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
 #else
-    /* Ink of further line techniques is folded into the fill, outside the boundary, too. */
-    vec4 fill = is_own(pixel) ? shade_at(fill_position()) : vec4(0.0);
+    /* Ink of further line techniques is folded into the fill, outside the boundary, too. Here all is looked up at the pixel itself, once. */
+    bool own = is_own(pixel);
+    float fill_depth = own ? texelFetch(t_depth, pixel, 0).r : 1.0, depth = fill_depth;
+    vec4 fill = own ? shade_at(fill_position()) : vec4(0.0);
 #endif
 #ifdef HAS_LINES
 #ifdef MERGED
@@ -74,7 +76,11 @@ void main()
 #else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 position = line_position(i);
+#ifdef PERTURBED
         float line_depth = own_depth(pixel_at(position));
+#else
+        float line_depth = fill_depth;
+#endif
         vec4 own_ink = copy_ink(ink_at(position), i);
 #ifdef PERTURBED
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;

@@ -79,18 +79,9 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
 /* The tiles that what lies in a box of the world, and its lines, can reach. Returns how many. */
 static int mark_box(const frame *f, tile_grid *t, box3 in_world, int reach, bool full)
 {
-    int pixels[4], first[2], last[2], count = 0;
+    int pixels[4];
     camera_pixels(&f->camera, in_world, f->width, f->height, reach, pixels);
-    for (int k = 0; k < 2; k++) {
-        const int low = pixels[k] - t->band[k], end = low + pixels[2 + k], most = (k ? t->rows : t->columns) - 1;
-        first[k] = low > 0 ? low / t->size : 0;
-        last[k] = end <= 0 || pixels[2 + k] <= 0 ? -1 : (end - 1) / t->size;
-        last[k] = last[k] < most ? last[k] : most;
-    }
-    for (int y = first[1]; y <= last[1]; y++)
-        for (int x = first[0]; x <= last[0]; x++, count++)
-            t->full[y][x] = t->full[y][x] || full;
-    return count;
+    return tiles_mark(t, pixels, full);
 }
 
 /* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, or no memory. */
@@ -141,7 +132,7 @@ void figure_find_boxes(frame *f, figure_state *s)
     if (t && s->boxes) {
         const int reach = figure_reach(s->figure);
         tiles_start(t, s->pixels);
-        memset(t->full, 0, sizeof t->full);
+        tiles_clear(t);
         for (size_t i = 0; i < p->part_count; i++)
             if (s->figure->designated[i])
                 mark_part(f, t, i, reach);

@@ -49,7 +49,7 @@ static void draw_sprite(frame *f, figure_state *s)
     /* Lines that are folded into the fill would move with it. */
     bool one_by_one =
         !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
-    s->filled = true;
+    s->filled = !s->apart;
     for (int k = KIND_LAYERS; k < KIND_MOTION; k++) {
         bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
         if (wanted && !(one_by_one && (k == KIND_LINES || k == KIND_COMPOSE)))

@@ -20,6 +20,9 @@ typedef struct tile_grid {
 
 /* --- tiles.c --- */
 void tiles_start(tile_grid *t, const int band[4]); /* all full */
+void tiles_clear(tile_grid *t);                    /* none full */
+/* The tiles that a box of pixels meets become full, unless they are only counted. Returns how many. */
+int tiles_mark(tile_grid *t, const int box[4], bool full);
 /* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles
  * at the rim of the band reach `margin` beyond it. Returns how many. */
 size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
@@ -41,6 +44,7 @@ typedef struct figure_state {
     float             rear;        /* layered: opacity */
     int (*boxes)[4];               /* where passes are drawn; NULL: all of `pixels`; layered: the stack's, else owned */
     size_t       box_count;
+    bool         apart;  /* its fill is on the page, with others': only its lines are composed */
     bool         filled; /* the fill is drawn with these lines */
     bool         ground; /* what is shaded is the ground; its light lies beside its colour */
     double       near, far;

@@ -77,6 +77,63 @@ static void take_back(figure_state *s, gpu_texture *const *lent)
             s->targets[t] = NULL;
 }
 
+/* Is the figure its fill with lines of geometry on it? Then all fills can be drawn at once, before the lines, which are
+ * in few places. */
+static bool may_stand_apart(const figure *fig)
+{
+    const technique_use *compose = rule_use(fig->rule, KIND_COMPOSE);
+    const pass          *p = compose ? compose->technique->passes : NULL;
+    return !fig->deferred && compose && compose->technique->pass_count == 1 && !p->geometry &&
+           p->writes == TARGET_PAGE && p->blend == BLEND_OVER && !rule_merged_detection(fig->rule) &&
+           technique_draws_strokes(fig->rule->uses[KIND_LINES][0].technique);
+}
+
+static bool stand_apart(const figure_state *states, int count)
+{
+    bool apart = count > 1;
+    for (int i = 0; i < count; i++)
+        apart = apart && may_stand_apart(states[i].figure);
+    return apart;
+}
+
+/* The fills of all figures as one figure without lines. */
+static void draw_fills(frame *f, figure_state *states, int count, gpu_texture *const *lent)
+{
+    const plan  *p = f->plan;
+    rule         bare = *states[0].figure->rule;
+    figure       all = *states[0].figure;
+    figure_state s = states[0];
+    bool        *designated = mem_calloc(p->part_count + 1, sizeof *designated);
+    if (!designated) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    bare.use_counts[KIND_LINES] = 0;
+    all.rule = &bare;
+    all.designated = designated;
+    all.complement = false;
+    all.part_count = 0;
+    for (size_t i = 0; i < p->part_count; i++) {
+        for (int k = 0; k < count; k++)
+            designated[i] = designated[i] || states[k].figure->designated[i];
+        all.part_count += designated[i];
+        all.complement = all.complement || (p->opaque[i] && !designated[i]);
+    }
+    s.figure = &all;
+    s.shared = false;
+    s.filled = true;
+    for (int k = 1; k < count; k++) {
+        camera_widen_pixels(s.pixels, states[k].pixels);
+        camera_widen_pixels(s.around, states[k].around);
+    }
+    lend(&s, lent);
+    figure_find_boxes(f, &s);
+    passes_run_kind(f, &s, KIND_COMPOSE);
+    take_back(&s, lent);
+    mem_free(s.boxes);
+    mem_free(designated);
+}
+
 void together_draw(frame *f, const figure *figures, size_t count)
 {
     figure_state *states = mem_calloc(count, sizeof *states);
@@ -92,7 +149,11 @@ void together_draw(frame *f, const figure *figures, size_t count)
         }
     if (opened)
         raster_together(f, states, opened, lent);
+    const bool apart = stand_apart(states, opened);
+    if (apart && !gpu_failed(f->g))
+        draw_fills(f, states, opened, lent);
     for (int i = 0; i < opened; i++) {
+        states[i].apart = apart;
         lend(&states[i], lent);
         figure_finish(f, &states[i]);
         take_back(&states[i], lent);
