@@ -84,24 +84,75 @@ static int mark_box(const frame *f, tile_grid *t, box3 in_world, int reach, bool
     return tiles_mark(t, pixels, full);
 }
 
-/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, or no memory. */
+/* Where a triangle's edge from a to b is inside of the rows between low and high: what it adds to a range of columns. */
+static void widen_columns(double range[2], const double a[2], const double b[2], double low, double high)
+{
+    for (int end = 0; end < 2; end++) {
+        const double *p = end ? b : a, row = end ? high : low;
+        if (p[1] >= low && p[1] <= high) {
+            range[0] = fmin(range[0], p[0]);
+            range[1] = fmax(range[1], p[0]);
+        }
+        if ((a[1] < row) != (b[1] < row)) {
+            const double x = a[0] + (row - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            range[0] = fmin(range[0], x);
+            range[1] = fmax(range[1], x);
+        }
+    }
+}
+
+/* The tiles that a triangle on the page, and its lines, can reach: row after row of tiles. */
+static void mark_triangle(tile_grid *t, double corners[3][2], int reach)
+{
+    double lowest = INFINITY, highest = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        lowest = fmin(lowest, corners[k][1] - reach);
+        highest = fmax(highest, corners[k][1] + reach);
+    }
+    for (int row = 0; row < t->rows; row++) {
+        const double low = t->band[1] + row * t->size, high = low + t->size;
+        double       range[2] = {INFINITY, -INFINITY};
+        if (high < lowest || low > highest)
+            continue;
+        for (int k = 0; k < 3; k++)
+            widen_columns(range, corners[k], corners[(k + 1) % 3], low - reach, high + reach);
+        if (range[1] >= range[0]) {
+            const double from = fmax(floor(range[0]) - reach, t->band[0] - 1.0),
+                         to = fmin(ceil(range[1]) + reach + 1, t->band[0] + t->band[2] + 1.0);
+            if (to > from)
+                tiles_mark(t, (int[]){(int)from, t->band[1] + row * t->size, (int)(to - from), t->size}, true);
+        }
+    }
+}
+
+/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, lies behind the eye, or
+ * there is no memory. */
 static bool mark_triangles(const frame *f, tile_grid *t, const primitive *from, const part_pose *posed,
                            const mat4 *world, int reach)
 {
+    mat4  seen = mat4_multiply(&f->camera.view, world), clip = mat4_multiply(&f->camera.projection, &seen);
     vec3 *at = from->line_count ? NULL : mem_alloc((from->vertex_count + 1) * sizeof *at);
-    if (!at)
-        return false;
-    pose_vertices(posed, from, NULL, NULL, from->vertex_count, at, NULL);
-    for (uint32_t i = 0; i < from->vertex_count; i++)
-        at[i] = mat4_transform_point(world, at[i]);
-    for (uint32_t i = 0; i + 2 < from->index_count; i += 3) {
-        box3 box = box3_empty();
-        for (uint32_t k = i; k < i + 3; k++)
-            box = box3_with_point(box, at[from->indices[k]]);
-        mark_box(f, t, box, reach, true);
+    double(*pixels)[2] = at ? mem_alloc((from->vertex_count + 1) * sizeof *pixels) : NULL;
+    bool good = pixels != NULL;
+    if (good)
+        pose_vertices(posed, from, NULL, NULL, from->vertex_count, at, NULL);
+    for (uint32_t i = 0; i < from->vertex_count && good; i++) {
+        const double *m = clip.m, p[3] = {(double)at[i].x, (double)at[i].y, (double)at[i].z};
+        const double  w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
+        good = w > 0;
+        for (int k = 0; k < 2 && good; k++)
+            pixels[i][k] = ((m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k]) / w * 0.5 + 0.5) *
+                           (k ? f->height : f->width);
     }
+    for (uint32_t i = 0; i + 2 < from->index_count && good; i += 3) {
+        double corners[3][2];
+        for (uint32_t k = 0; k < 3; k++)
+            memcpy(corners[k], pixels[from->indices[i + k]], sizeof corners[k]);
+        mark_triangle(t, corners, reach);
+    }
+    mem_free(pixels);
     mem_free(at);
-    return true;
+    return good;
 }
 
 static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
