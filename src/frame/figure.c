@@ -109,11 +109,11 @@ static void mark_triangle(tile_grid *t, double corners[3][2], int reach)
         lowest = fmin(lowest, corners[k][1] - reach);
         highest = fmax(highest, corners[k][1] + reach);
     }
-    for (int row = 0; row < t->rows; row++) {
+    const int first = (int)fmin(fmax((lowest - t->band[1]) / t->size, 0), t->rows),
+              end = (int)fmin(fmax((highest - t->band[1]) / t->size + 1, 0), t->rows);
+    for (int row = first; row < end; row++) {
         const double low = t->band[1] + row * t->size, high = low + t->size;
         double       range[2] = {INFINITY, -INFINITY};
-        if (high < lowest || low > highest)
-            continue;
         for (int k = 0; k < 3; k++)
             widen_columns(range, corners[k], corners[(k + 1) % 3], low - reach, high + reach);
         if (range[1] >= range[0]) {
@@ -162,7 +162,7 @@ static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
     const node *n = &f->plan->scene->nodes[f->plan->scene->parts[part].node];
     const mesh *m = n->mesh == NONE ? NULL : &f->plan->scene->meshes[n->mesh];
     if (m && m->primitive_count == 1 && node_draw_count(n) == 1 && n->solid == NONE &&
-        m->primitives[0].index_count <= 3 * TRIANGLES_FEW && !now->parts[part].primitive_count &&
+        m->primitives[0].index_count <= 3 * TRIANGLES_FEW && !pose_part_deforms(&now->parts[part]) &&
         mark_box(f, t, now->part_boxes[part], reach, false) > TILES_FEW) {
         const mat4 world = pose_instance(now, part, 0);
         if (mark_triangles(f, t, &m->primitives[0], &now->parts[part], &world, reach))
