@@ -157,15 +157,16 @@ static bool mark_triangles(const frame *f, tile_grid *t, const primitive *from, 
 
 static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
 {
-    enum { TILES_FEW = 48, TRIANGLES_FEW = 2048 };
+    enum { TILES_FEW = 48, TRIANGLES_A_TILE = 2 }; /* of more, all tiles have some */
     const pose *now = f->up->pose;
     const node *n = &f->plan->scene->nodes[f->plan->scene->parts[part].node];
     const mesh *m = n->mesh == NONE ? NULL : &f->plan->scene->meshes[n->mesh];
     if (m && m->primitive_count == 1 && node_draw_count(n) == 1 && n->solid == NONE &&
-        m->primitives[0].index_count <= 3 * TRIANGLES_FEW && !pose_part_deforms(&now->parts[part]) &&
-        mark_box(f, t, now->part_boxes[part], reach, false) > TILES_FEW) {
+        !pose_part_deforms(&now->parts[part])) {
+        const int  tiles = mark_box(f, t, now->part_boxes[part], reach, false);
         const mat4 world = pose_instance(now, part, 0);
-        if (mark_triangles(f, t, &m->primitives[0], &now->parts[part], &world, reach))
+        if (tiles > TILES_FEW && m->primitives[0].index_count <= 3 * TRIANGLES_A_TILE * (uint32_t)tiles &&
+            mark_triangles(f, t, &m->primitives[0], &now->parts[part], &world, reach))
             return;
     }
     mark_box(f, t, now->part_boxes[part], reach, true);
