@@ -108,6 +108,6 @@ void main()
     vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
-    out_0 = colour;
+    out_0 = vec4(mix(colour.rgb, u_ghost.rgb * colour.a, u_ghost.a), colour.a);
     gl_FragDepth = depth;
 }

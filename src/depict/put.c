@@ -94,8 +94,16 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
         status = scene_set_attribute(s, added, "of", s->nodes[label->of].name, error);
     if (status == LMN_OK && label->sketchy)
         status = scene_set_attribute(s, added, "sketchy", "true", error);
-    /* A ghost image stands in the scene. */
-    if (status == LMN_OK && strcmp(label->glyph, "still") != 0)
+    if (label->pale > 0) {
+        char own[10];
+        colour_print(label->own, own);
+        if (status == LMN_OK)
+            status = scene_set_attribute(s, added, NODE_PALE, (const char[]){(char)('0' + label->pale), '\0'}, error);
+        if (status == LMN_OK)
+            status = scene_set_attribute(s, added, NODE_TINT, own, error);
+    }
+    /* The image of now stands in the scene. */
+    if (status == LMN_OK && (strcmp(label->glyph, "still") != 0 || label->when != GLYPH_PRESENT))
         status = scene_set_attribute(s, added, NODE_SHADOWLESS, "true", error);
     if (status == LMN_OK && label->overlay)
         status = scene_set_attribute(s, added, NODE_OVERLAY, "true", error);

@@ -116,15 +116,19 @@ static void bend_find(shape_change *c, const expression *e, const depict_target 
 /* --- copies ----------------------------------------------------------------------------------------------------------
  */
 
-static colour paler(const lmn_scene *s, const primitive *p, const still_values *v, double fade)
+/* That of the material; of those of past and future another one where somebody gave it. */
+static colour own_colour(const lmn_scene *s, const primitive *p, const still_values *v, bool other_time)
 {
-    colour c = {0.75f, 0.75f, 0.75f, 1};
-    if (p->material != NONE) {
-        const vec4 *own = &s->materials[p->material].base_colour;
-        c = (colour){colour_from_linear(own->x), colour_from_linear(own->y), colour_from_linear(own->z), 1};
-    }
-    if (v->colour.a > 0 && fade > 0)
-        c = v->colour;
+    if (v->colour.a > 0 && other_time)
+        return v->colour;
+    if (p->material == NONE)
+        return (colour){0.75f, 0.75f, 0.75f, 1};
+    const vec4 *own = &s->materials[p->material].base_colour;
+    return (colour){colour_from_linear(own->x), colour_from_linear(own->y), colour_from_linear(own->z), 1};
+}
+
+static colour paler(colour c, double fade)
+{
     c.r += (1 - c.r) * (float)fade;
     c.g += (1 - c.g) * (float)fade;
     c.b += (1 - c.b) * (float)fade;
@@ -274,7 +278,10 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                  : seconds < e->now ? GLYPH_PAST
                                                     : GLYPH_FUTURE,
                                  {0}};
-    lmn_status          status = depict_pose(&p, j, seconds, error);
+    /* By looks in ink the nearest ones, too, are to be told from it. */
+    const double pale = apart > 0 ? (double)v->fade * (0.55 + 0.6 * fabs(seconds - e->now) / apart) : 0;
+    label.pale = is_now ? 0 : (int)fmin(fmax(round(pale * PALE_MOST), pale > 0), PALE_MOST);
+    lmn_status status = depict_pose(&p, j, seconds, error);
     now->posed = NULL;
     if (status == LMN_OK && !is_now)
         status = depict_pose(&now->posed, j, e->now, error);
@@ -286,7 +293,8 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
         for (size_t k = 0; t->parts[i] && k < pieces * draws && status == LMN_OK; k++) {
             const primitive *from = &j->scene->meshes[mesh_index].primitives[k / draws];
             label.sketchy = v->sketchy;
-            label.tint = paler(j->scene, from, v, is_now ? 0 : fade);
+            label.own = own_colour(j->scene, from, v, !is_now);
+            label.tint = is_now ? label.own : paler(label.own, fade);
             status = put_primitive(j, p, i, k % draws, k / draws, change, now, &label, error);
         }
     }

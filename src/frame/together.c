@@ -96,8 +96,34 @@ static bool stand_apart(const figure_state *states, int count)
     return apart;
 }
 
+/* One figure's fill alone. */
+static void draw_fill(frame *f, const figure_state *from, gpu_texture *const *lent)
+{
+    rule         bare = *from->figure->rule;
+    figure       fill = *from->figure;
+    figure_state s = *from;
+    bare.use_counts[KIND_LINES] = 0;
+    fill.rule = &bare;
+    s.figure = &fill;
+    s.filled = true;
+    lend(&s, lent);
+    figure_find_boxes(f, &s);
+    passes_run_kind(f, &s, KIND_COMPOSE);
+    take_back(&s, lent);
+    mem_free(s.boxes);
+}
+
+/* Are all fills composed alike? Those of ghost images are paler. */
+static bool fill_alike(const figure_state *states, int count)
+{
+    bool alike = true;
+    for (int i = 1; i < count; i++)
+        alike = alike && states[i].figure->rule->pale == states[0].figure->rule->pale;
+    return alike;
+}
+
 /* The fills of all figures as one figure without lines. */
-static void draw_fills(frame *f, figure_state *states, int count, gpu_texture *const *lent)
+static void draw_all_fills(frame *f, figure_state *states, int count, gpu_texture *const *lent)
 {
     const plan  *p = f->plan;
     rule         bare = *states[0].figure->rule;
@@ -132,6 +158,15 @@ static void draw_fills(frame *f, figure_state *states, int count, gpu_texture *c
     take_back(&s, lent);
     mem_free(s.boxes);
     mem_free(designated);
+}
+
+static void draw_fills(frame *f, figure_state *states, int count, gpu_texture *const *lent)
+{
+    if (fill_alike(states, count))
+        draw_all_fills(f, states, count, lent);
+    else
+        for (int i = 0; i < count; i++)
+            draw_fill(f, &states[i], lent);
 }
 
 void together_draw(frame *f, const figure *figures, size_t count)
