@@ -25,13 +25,13 @@ vec2 shadow_slope(vec3 normal)
  * tone. */
 float lit_fraction(vec3 eye, vec3 normal, vec3 light)
 {
-    /* Off the surface by as much as a texel of it can rise; what is looked at farther away is so by its plane. */
+    /* What is looked at is as deep as its surface's plane is there; off that by as much as normals and planes can differ within a texel. */
     float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
-    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 1.5 * slope)), 1.0)).xyz;
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.35 + 0.4 * slope)), 1.0)).xyz;
     vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low;
     ivec2 position = ivec2(low) - 1, last = textureSize(t_shadow, 0) - 1;
     float side = clamp(u_shadow_pixel * (u_perspective > 0.5 ? -eye.z : 1.0), 1.0, 3.0), reach = 0.5 * side + 0.5, sum = 0.0;
-    vec2 rise = shadow_slope(normal) * min(side - 1.0, 1.0);
+    vec2 rise = shadow_slope(normal);
     const vec4 steps = vec4(-1.0, 0.0, 1.0, 2.0);
     vec4 across = clamp(reach - abs(steps - fraction.x), 0.0, 1.0), along = clamp(reach - abs(steps - fraction.y), 0.0, 1.0);
     vec4 depths = at.z + rise.x * (steps - fraction.x);
