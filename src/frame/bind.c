@@ -236,8 +236,13 @@ const technique_use *rule_inked_lines(const rule *r)
 }
 
 static const gpu_format formats[TEXEL_FORMAT_COUNT] = {
-    [TEXEL_R8] = GPU_R8,         [TEXEL_RGBA16F] = GPU_RGBA16F,   [TEXEL_RGBA32F] = GPU_RGBA32F,
-    [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F, [TEXEL_RGBA32UI] = GPU_RGBA32UI,
+    [TEXEL_R8] = GPU_R8,
+    [TEXEL_RGBA8] = GPU_RGBA8,
+    [TEXEL_RGBA16F] = GPU_RGBA16F,
+    [TEXEL_RGBA32F] = GPU_RGBA32F,
+    [TEXEL_RG32UI] = GPU_RG32UI,
+    [TEXEL_DEPTH32F] = GPU_DEPTH32F,
+    [TEXEL_RGBA32UI] = GPU_RGBA32UI,
 };
 
 const target_row *target_row_of(const figure_state *s, target t)
