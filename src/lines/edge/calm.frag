@@ -1,4 +1,4 @@
-/* Lines of tiles where so many crowd that each is finer than two thirds of a pixel: as ink of the two pixels that an edge parts. Where exactly between them it runs is not to be seen there, and costs
+/* Lines of tiles where so many crowd that each is finer than half a pixel: as ink of the two pixels that an edge parts. Where exactly between them it runs is not to be seen there, and costs
  * most of what lines cost. */
 #define OWN_WIDTH
 #include "lines/edge/found.glsl"

@@ -44,6 +44,22 @@ size_t strokes_edge_record_count(const edge_mesh *m)
     return (size_t)m->edge_count + m->line_count;
 }
 
+double strokes_gentlest_turn(const edge_mesh *m)
+{
+    const double flat = 1 - 1e-5; /* faces in one plane: seen from the same side */
+    double       least = 3.14159265358979323846;
+    for (uint32_t i = 0; i < m->edge_count && least > 0; i++) {
+        const mesh_edge *e = &m->edges[i];
+        if (e->face[1] == EDGE_NO_FACE || (e->flags & (EDGE_HOLLOW | EDGE_BORDER | EDGE_ROUNDED)))
+            continue;
+        vec3   n = m->normals[e->face[0]], o = m->normals[e->face[1]];
+        double cosine = (e->flags & EDGE_TWISTED ? -1 : 1) * (double)(n.x * o.x + n.y * o.y + n.z * o.z);
+        if (cosine < flat)
+            least = fmin(least, !(e->flags & EDGE_CREASE) ? 0 : e->turn > 0 ? (double)e->turn : acos(fmax(cosine, -1)));
+    }
+    return least;
+}
+
 static float *put_drawn_lines(float *at, const edge_mesh *m)
 {
     for (uint32_t i = 0; i < m->line_count; i++, at += EDGE_RECORD_FLOATS) {
