@@ -6,6 +6,7 @@
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
 
+#include <math.h>
 #include <string.h>
 
 /* In a record's bits, of what is wanted: outlines. */
@@ -112,20 +113,21 @@ static bool may_be_long(const frame *f, const stroke_item *item)
 }
 
 /* Can it have outlines that are no creases? */
-static bool may_be_smooth(const stroke_store *store, const stroke_item *item, double crease)
+static bool may_be_smooth(const stroke_store *store, const stroke_item *item, double faint)
 {
-    return store->scene.meshes[item->mesh].moves || (double)store->turns[item->mesh] <= crease;
+    return store->scene.meshes[item->mesh].moves || (double)store->turns[item->mesh] <= faint;
 }
 
-/* From which turn on creases show in outlines, radians (records.vert). */
-static double crease_of(const technique_use *use)
+/* Pixels take for creases only what turns by more than facets may. Creases of meshes have been judged by feature: for
+ * them so much of those angles is enough. Radians; "faint" or "crease". */
+static double judged_angle(const technique_use *use, const char *key)
 {
-    const double judged = 2.0 / 3, surely = 1.01;
+    const double judged = 2.0 / 3;
     double       degrees = 180;
     for (size_t i = 0; i < use->technique->param_count; i++)
-        if (strcmp(use->technique->params[i].key, "faint") == 0)
+        if (strcmp(use->technique->params[i].key, key) == 0)
             degrees = (double)*(const float *)param_field(&use->technique->params[i], use->values);
-    return surely * judged * degrees * (3.14159265358979323846 / 180);
+    return judged * degrees * (3.14159265358979323846 / 180);
 }
 
 static bool is_drawn(const frame *f, const figure_state *s, const stroke_item *item)
@@ -140,11 +142,11 @@ static void draw_some(frame *f, figure_state *s, const pass *p, stroke_store *st
 {
     gpu_program *drawing = gpu_failed(f->g) ? NULL : program(f, s, p, use, which);
     bool         begun = false, open = has_open_bodies(f);
-    double       crease = crease_of(use);
+    double       faint = judged_angle(use, "faint"), crease = judged_angle(use, "crease");
     for (uint32_t i = 0; i < store->scene.item_count && drawing && !gpu_failed(f->g); i++) {
         const stroke_item *item = &store->scene.items[i];
         if (!is_drawn(f, s, item) || (!(which & SHORT_EDGES) && !open && !may_be_long(f, item)) ||
-            ((which & SMOOTH_OUTLINES) && !may_be_smooth(store, item, crease)))
+            ((which & SMOOTH_OUTLINES) && !may_be_smooth(store, item, 1.01 * faint)))
             continue;
         if (!begun) {
             gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
@@ -152,6 +154,7 @@ static void draw_some(frame *f, figure_state *s, const pass *p, stroke_store *st
             uniforms_set(f->g, use_own_set(KIND_LINES, use));
             uniforms_set(f->g, use_common_set(KIND_LINES, use));
             reads_set(f, s, p, NULL);
+            gpu_set_vec2(f->g, "u_judged", (float)cos(faint), (float)cos(crease));
             gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
             gpu_set_int(f->g, "u_wanted", RECORD_OUTLINE | RECORD_BORDER | RECORD_CREASE);
             gpu_set_int(f->g, "u_inside", has_open_bodies(f) || !eye_is_outside(f));

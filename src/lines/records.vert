@@ -23,13 +23,7 @@ vec3 on_page(vec4 clip)
     return vec3(position.xy * u_size, position.z);
 }
 
-/* Pixels take for creases only what turns by more than facets may. Creases of meshes have been judged by feature: for them so much of those angles is enough. */
-const float JUDGED = 2.0 / 3.0;
-
-float judged(float cosine)
-{
-    return cos(JUDGED * acos(clamp(cosine, -1.0, 1.0)));
-}
+uniform vec2 u_judged; /* cosines of so much of `faint` and of `crease` */
 
 /* The code of a record (lines/record.glsl); 0 where there is no line. */
 float code_of(int line)
@@ -37,7 +31,7 @@ float code_of(int line)
     int bits = int(a_begin.w);
     /* Whole chains are as strong as they are in the mean, so that none ends where one of its edges turns less. */
     float cosine = a_first.w > 0.0 ? cos(a_first.w) : dot(a_first.xyz, a_second.xyz);
-    float faint = judged(u_line_faint), sharp = judged(u_line_crease);
+    float faint = u_judged.x, sharp = u_judged.y;
     float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
     float quiet = (bits & RECORD_QUIET) != 0 ? RECORDED_QUIET : 0.0;
     return line == INNER ? -crease : line != PROFILE ? quiet : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
@@ -91,13 +85,8 @@ void place_edge(float code)
 
 /* Positions along the edge are looked at STEP apart, in pixels, of long ones MOST, so that those wholly hidden cost no fragments; and by turns in each
  * of PARTS_OF_EDGE, so that the first few tell of the whole edge. Of short ones fragments are told which positions are seen, so that none has to look for itself. */
-#ifdef SHORT_EDGES
-const float STEP = 1.0;
-const int MOST = SEEN_BITS;
-#else
 const float STEP = 2.0;
 const int MOST = 120;
-#endif
 const int PARTS_OF_EDGE = 4;
 /* What a rim hides, less than a pixel beside it, is seen here and there as pixels have their middles, in many places with less weight than this; what is before all, with half or
  * more nearly everywhere. One place of the one kind counts as many of the other; the first few tell which it is. */
