@@ -1,6 +1,5 @@
-/* relief: terrain as maps show it: tints by height, hills shaded by the light, contour lines. Tints and shades are those
- * of map-makers' handbooks (Imhof, Cartographic Relief Presentation, 1965); contours lie where the surface passes whole
- * multiples of the interval, in the heights of the file. */
+/* relief: terrain as maps show it: tints by height, hills shaded by the light, contour lines. Contours lie where the
+ * surface passes whole multiples of the interval, in the heights of the file. */
 #include "surface/surface.h"
 
 typedef struct relief {
@@ -38,7 +37,7 @@ static const param params[] = {
 const technique surface_relief = {
     .name = "relief",
     .doc = "Terrain as maps show it: tints by height, shaded hills, contour lines.",
-    .example = "{\"select\": \"@terrain\", \"surface\": {\"technique\": \"relief\", \"interval\": 5}}",
+    .example = "{\"surface\": {\"technique\": \"relief\", \"palette\": [\"#cfdfbb\", \"#efe3b8\", \"#fff8f0\"]}}",
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(relief),
