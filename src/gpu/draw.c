@@ -82,9 +82,17 @@ static bool is_integer(gpu_format format)
     return format == GPU_R32UI || format == GPU_RG32UI || format == GPU_RGBA32UI;
 }
 
-static void clear_targets(const gpu_pass *pass)
+/* A software driver clears a whole picture by filling memory, but draws a box: outside of it nobody cares. */
+static bool clears_all(const gpu *g, const gpu_pass *pass, const gpu_texture *any)
 {
-    set_scissor(pass->clear_box);
+    enum { FILLS_FASTER = 8 };
+    const int *box = pass->clear_box;
+    return g->capabilities.software && (int64_t)box[2] * box[3] * FILLS_FASTER > (int64_t)any->width * any->height;
+}
+
+static void clear_targets(const gpu *g, const gpu_pass *pass, const gpu_texture *any)
+{
+    set_scissor(clears_all(g, pass, any) ? (const int[4]){0} : pass->clear_box);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (int i = 0; i < pass->colour_count; i++) {
         const float *v = pass->clear_values[i];
@@ -112,7 +120,7 @@ void gpu_pass_begin(gpu *g, const gpu_pass *pass)
     const gpu_texture *any = pass->colour_count ? pass->colours[0] : pass->depth;
     glViewport(0, 0, any->width, any->height);
     if (pass->clear)
-        clear_targets(pass);
+        clear_targets(g, pass, any);
     set_scissor(pass->scissor);
     memcpy(g->box, pass->scissor[2] > 0 ? pass->scissor : (const int[]){0, 0, any->width, any->height}, sizeof g->box);
 }

@@ -73,6 +73,7 @@ static const struct {
     {"surface", "frame", "windows are too small here to have frames; analytic.city has some that do"},
     {"surface", "frame_colour", "likewise"},
     {"surface", "bars", "likewise"},
+    {"surface", "sea", "nothing here lies level at height 0"},
     {"scene", "ground_edge", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_hatch", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_angle", "the parts do not stand on one level; analytic.ground has a block that does"},
