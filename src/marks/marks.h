@@ -50,6 +50,7 @@ typedef struct flow_end {
 typedef struct mark_line {
     vec3  a, b, normal;
     vec3  middle, middle_normal; /* of the whole stroke: where its tone is decided, so that it is drawn whole */
+    vec3  middle_direction;      /* along it there, unit: pieces of strokes that flow have none */
     float light, perspective;    /* priorities */
     float span; /* 0: two thresholds (EX-01). Else the light priority is the top of a layer that is this wide, and
                  * within it the share that light asks for is multiplied by that of distance, so that one order serves
@@ -82,6 +83,8 @@ typedef struct marks {
     const uint32_t *parts; /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
+/* Tells all pieces of a stroke, in their order, how it runs at its middle. Returns which piece that is. */
+size_t mark_stroke_middle(mark_line *pieces, size_t count);
 
 /* Area of a surface. */
 double mark_surface_area(const mark_surface *s);
@@ -293,8 +296,9 @@ typedef struct mark_style {
                                                    mark_flow_room */
     int32_t series;
     float   shadow, light, contrast,
-        texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */
-    bool white;  /* marks stand for light */
+        texture;      /* tone without and in full light; its bend; fraction of the surface's own brightness */
+    bool white;       /* marks stand for light */
+    bool by_priority; /* a stroke is there where its light priority reaches the tone, whatever ink that makes */
     bool pixels; /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same
                     tone */
     colour ink;
