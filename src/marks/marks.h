@@ -83,7 +83,8 @@ typedef struct marks {
     const uint32_t *parts; /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
-/* Tells all pieces of a stroke, in their order, how it runs at its middle. Returns which piece that is. */
+/* Tells all pieces of a stroke, of which there is one at least, in their order, how it runs at its middle. Returns
+ * which piece that is. */
 size_t mark_stroke_middle(mark_line *pieces, size_t count);
 
 /* Area of a surface. */

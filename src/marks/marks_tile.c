@@ -342,7 +342,7 @@ static void close_stroke(mark_line *lines, size_t count, uint32_t number)
     }
     const mark_line *m = &lines[mark_stroke_middle(lines, count)];
     float            own = m->to - m->from, s = own > 0 ? fminf((0.5f * m->length - m->from) / own, 1) : 0.5f;
-    vec3             at = {m->a.x + s * (m->b.x - m->a.x), m->a.y + s * (m->b.y - m->a.y), m->a.z + s * (m->b.z - m->a.z)};
+    vec3 at = {m->a.x + s * (m->b.x - m->a.x), m->a.y + s * (m->b.y - m->a.y), m->a.z + s * (m->b.z - m->a.z)};
     for (size_t i = 0; i < count; i++) {
         lines[i].middle = at;
         lines[i].middle_normal = m->normal;

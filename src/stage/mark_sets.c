@@ -79,7 +79,8 @@ static int by_perspective(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* A unit vector as one number that floats have exactly: a face and its place on the octahedron, twelve bits each way. */
+/* A unit vector as one number that floats have exactly: a face and its place on the octahedron, twelve bits each way.
+ */
 static float packed_direction(vec3 d)
 {
     const float most = 2047;
@@ -99,7 +100,8 @@ static void write_line(float (*r)[4], const mark_line *l)
     memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, l->perspective}, sizeof *r);
     memcpy(r[2], (float[]){l->middle.x, l->middle.y, l->middle.z, l->bright}, sizeof *r);
     memcpy(r[3], (float[]){l->middle_normal.x, l->middle_normal.y, l->middle_normal.z, l->density}, sizeof *r);
-    memcpy(r[4], (float[]){l->from / length, l->to / length, packed_direction(l->middle_direction), l->span}, sizeof *r);
+    memcpy(r[4], (float[]){l->from / length, l->to / length, packed_direction(l->middle_direction), l->span},
+           sizeof *r);
 }
 
 /* How wide strips are, six bits each, as one number that floats have exactly. */

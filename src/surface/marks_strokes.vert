@@ -61,35 +61,14 @@ float fraction_there(mark_position m, vec3 direction, float d)
 #endif
 }
 
-/* What strokes side by side with this ink cover; and the ink of all sets for a darkness, each as far as its own strokes go. */
-float cover_of_ink(float ink)
-{
-    float v = ink - 0.311, sum = v + 0.769;
-    return v <= 0.0 ? ink : 0.311 + (sum - sqrt(sum * sum - 2.5961 * v)) / 1.688;
-}
-
-float ink_of_strokes(float darkness, float darkest)
-{
-    float wanted = max(1.0 - darkness, 1e-4), bare = 1.0, ink = 0.0, most = cover_of_ink(darkest * a_along.w);
-    if (a_along.w <= 0.0)
-        return -log(wanted);
-    for (int set = 0; set < 4; set++) {
-        float c = float(set) * a_along.w < 0.99 ? min(clamp(1.0 - wanted / bare, 0.0, 1.0), most) : 0.0, over = max(c - 0.311, 0.0);
-        float even = c + 0.156 * over * over / (1.08 - c);
-        ink += even + CROWDED * (-log(max(1.0 - c, 1e-3)) - even);
-        bare *= 1.0 - c;
-    }
-    return ink;
-}
-
 /* Fraction of its width that the stroke has; `fraction`: of strokes that shall be there for where they are. */
 float ink_of_stroke(mark_position m, float fraction)
 {
     float darkest = u_width * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
     bool equalised = u_equalised || a_along.w > 0.0;
-    float light_fraction = clamp(equalised ? ink_of_strokes(darkness, darkest) / darkest : darkness, 0.0, 1.0);
+    float light_fraction = clamp(equalised ? ink_of_strokes(darkness, darkest, a_along.w, CROWDED) / darkest : darkness, 0.0, 1.0);
     if (a_along.w > 0.0)
-        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_fraction) / a_along.w, 0.0, 1.0) * fraction, 1.0);
+        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_fraction) / a_along.w, 0.0, 1.0) * fraction, 1.0, u_fade);
     float lack = max((1.0 - light_fraction) * (1.0 + u_fade) - a_from.w, (1.0 - clamp(fraction, 0.0, 1.0)) * (1.0 + u_fade) - a_to.w);
     return clamp(1.0 - lack / u_fade, 0.0, 1.0);
 }

@@ -283,6 +283,24 @@ static void distance(void)
         }
 }
 
+/* From far away only the first dots of the set are looked at: as many as the darkest place of the figure needs. */
+static void darkest(void)
+{
+    static const double diameters[] = {1.5, 3, 6};
+    shot_view           view = halftone_view(SIDE, SIDE, SIDE);
+    for (int k = 0; k < 3; k++) {
+        char surface[200];
+        shot s;
+        snprintf(surface, sizeof surface,
+                 "stipple\",\"count\":400000,\"diameter\":%g,\"texture\":0,\"shadow\":0,\"light\":0", diameters[k]);
+        if (!draw_wall(&s, surface, "", &view))
+            return;
+        check_near("EX-30", halftone_mean(&s, 40, 40, SIDE - 80, SIDE - 80), 0.98, 0.02,
+                   "ink of dots of %g px where it is darkest", diameters[k]);
+        shot_release(&s);
+    }
+}
+
 /* --- strokes are drawn whole (EX-12, EX-26) --------------------------------------------------------------- */
 
 enum { ROWS = 24 };
@@ -596,9 +614,10 @@ static void rims(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"light", light},           {"white", white},           {"distance", distance},
-                                       {"whole", whole},           {"around", around},         {"joints", joints},
-                                       {"near-plane", near_plane}, {"indication", indication}, {"rims", rims}};
+    static const check_case cases[] = {{"light", light},     {"white", white},           {"distance", distance},
+                                       {"darkest", darkest}, {"whole", whole},           {"around", around},
+                                       {"joints", joints},   {"near-plane", near_plane}, {"indication", indication},
+                                       {"rims", rims}};
     halftone_begin_kept("marks");
     int status = check_main(argc, argv, "marks", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -210,6 +210,35 @@ static void waves(void)
     }
 }
 
+/* Every further octave has half the height and half the length of the one before: slopes add up as squares, and what is
+ * made of n octaves is as high as what is made of one. */
+static void octaves(void)
+{
+    double first = 0, squares = 0;
+    for (int n = 1; n <= 4; n++) {
+        double sum = 0, all = 0;
+        for (int seed = 0; seed < 4; seed++) {
+            char settings[128];
+            shot field;
+            snprintf(settings, sizeof settings, "\"lock\":\"screen\",\"octaves\":%d,\"seed\":%d,\"scale\":96", n, seed);
+            if (wall_field(&field, settings, &front))
+                for (int y = RIM; y < field.height - RIM - 1; y++)
+                    for (int x = RIM; x < field.width - RIM - 1; x++)
+                        for (int c = 0; c < 2; c++) {
+                            double across = at(&field, x + 1, y, c) - at(&field, x, y, c),
+                                   up = at(&field, x, y + 1, c) - at(&field, x, y, c);
+                            sum += across * across + up * up;
+                            all += at(&field, x, y, c) * at(&field, x, y, c);
+                        }
+            shot_release(&field);
+        }
+        squares += pow(0.25, n - 1);
+        first = n == 1 ? sum / all : first;
+        check_near("S02", sum / all / first / (n / squares), 1, 0.2,
+                   "%d octaves: squares of slopes, of one octave's, against %.2f", n, n / squares);
+    }
+}
+
 static void tiles(void)
 {
     static const int cases[][2] = {{128, 32}, {100, 30}, {90, 60}};
@@ -1019,24 +1048,11 @@ static void narrow_parts(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"noise", noise},
-        {"seeds", seeds_and_time},
-        {"waves", waves},
-        {"tiles", tiles},
-        {"middle", middle},
-        {"turbulence", turbulence},
-        {"rim", rim},
-        {"distances", distances},
-        {"coherence", coherence},
-        {"standstill", standstill},
-        {"panned", panned},
-        {"moved part", moved_part},
-        {"continuity", continuity},
-        {"enlarged", enlarged},
-        {"outside", outside},
-        {"normal", by_normal},
-        {"curvature", by_curvature},
-        {"narrow", narrow_parts},
+        {"noise", noise},           {"seeds", seeds_and_time},   {"waves", waves},           {"octaves", octaves},
+        {"tiles", tiles},           {"middle", middle},          {"turbulence", turbulence}, {"rim", rim},
+        {"distances", distances},   {"coherence", coherence},    {"standstill", standstill}, {"panned", panned},
+        {"moved part", moved_part}, {"continuity", continuity},  {"enlarged", enlarged},     {"outside", outside},
+        {"normal", by_normal},      {"curvature", by_curvature}, {"narrow", narrow_parts},
     };
     int status = check_main(argc, argv, "sketch_field", cases, sizeof cases / sizeof *cases);
     shot_end();
