@@ -218,12 +218,10 @@ typedef enum mark_law {
     MARK_LAW_DOT     /* for dots, which do not get smaller */
 } mark_law;
 
-/* 1 − t of the thesis' thresholds (EX-03, EX-04): fraction of the marks to be drawn at an eye-space position when all
- * are drawn face-on at distance `d`. Not clamped. */
-double mark_fraction_by_distance(const double position[3], double d);
-double mark_fraction_by_slope(const double position[3], const double normal[3]);
-/* Both together, by one of the laws (EX-05). `direction`: unit, of a line. The last two laws are exact off the
- * picture's middle too. Without perspective d is a number to a unit of length. */
+/* Fraction of the marks to be drawn at an eye-space position when all are drawn face-on at distance `d`, not clamped:
+ * 1 − t of the thesis' thresholds for distance and slope together, or by another law (EX-03 to EX-05). `direction`:
+ * unit, of a line. The last two laws are exact off the picture's middle too. Without perspective d is a number to a
+ * unit of length. */
 double mark_fraction(mark_law law, const double position[3], const double normal[3], const double direction[3],
                      double d, bool orthographic);
 

@@ -26,16 +26,6 @@ size_t mark_stroke_middle(mark_line *pieces, size_t count)
     return middle;
 }
 
-double mark_fraction_by_distance(const double position[3], double d)
-{
-    return d / fmax(sqrt(dot3(position, position)), 1e-30);
-}
-
-double mark_fraction_by_slope(const double position[3], const double normal[3])
-{
-    return fabs(dot3(position, normal)) / fmax(sqrt(dot3(position, position)), 1e-30);
-}
-
 double mark_page_area(const double position[3], const double normal[3], double focal, bool orthographic)
 {
     double depth = fmax(-position[2], 1e-30);

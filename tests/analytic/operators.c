@@ -185,8 +185,8 @@ static void steps(void)
             check_near(k < 2 ? "E06" : "P4", channel(&drawing, 64, 60, 0), wanted, 1.5 / 255, "step %g, %s",
                        table[i][0], lines[k]);
             check_near(k < 2 ? "E06" : "P4", channel(&drawing, 63, 60, 0), wanted, 1.5 / 255, "  on the near side");
-            check_near("E07", channel(&drawing, 64, 60, 1), k < 2 ? 1 : channel(&drawing, 64, 60, 1), 1.5 / 255,
-                       "  and no inner line there");
+            /* Saito's second order tells a step, too. */
+            check_near("E07", channel(&drawing, 64, 60, 1), k < 2 ? 1 : 1 - step, 1.5 / 255, "  and its inner channel");
             shot_release(&drawing);
         }
         shape_release(&s);
@@ -333,13 +333,6 @@ static void thousandth(void)
             check_at_least("E19", found, 60, "rows of 60 in which a step of 1/1000 is a line: %s, %s", lines[k],
                            parallel ? "parallel" : "central");
             check_at_most("E19", false_ink, 0, "ink beside it");
-            twin_map map;
-            twin_map_make(&map, &drawing);
-            for (int i = 0; i < map.width * map.height; i++)
-                map.depth[i] = floor(map.depth[i] * 255 + 0.5) / 255;
-            if (parallel)
-                check_near("E19", twin_four_tap(&map, 64, 60, 1, true).profile, 1, 0, "in 8 bits the step is gone");
-            twin_map_release(&map);
             shot_release(&drawing);
             shape_release(&joined);
             shape_release(&s);
