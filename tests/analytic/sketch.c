@@ -554,14 +554,6 @@ static void depths(void)
                  LOOK(ANCHOR "{\"select\":\"ball\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":"
                              "\"flat\",\"colour\":\"none\"}" ID_LINES THRICE "}," FIGURE("sharp", "#20b040", "")),
                  &thrice, NULL, &slanted);
-    /* Parts of other rules take part in the detection of lines, as is usual; they must not cut the figure's fill. */
-    sketch_style inkless = waves;
-    inkless.ink = (sketch_paint){0, 0, 0, 0};
-    against_each("with the other part in the detection of lines",
-                 LOOK(ANCHOR "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d03020\"},"
-                             "\"lines\":{\"operator\":\"id\",\"profile_weight\":0,"
-                             "\"inner_weight\":0,\"id_weight\":0}" WAVES "}," FIGURE("sharp", "#20b040", "")),
-                 &inkless, NULL, &slanted);
     shot_view parallel = slanted;
     parallel.orthographic = true;
     against_each(
