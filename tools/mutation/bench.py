@@ -71,7 +71,8 @@ def list_tests(build):
 
 
 class Bench:
-    def __init__(self, work, table):
+    def __init__(self, work, table, seconds_more):
+        self.seconds_more = seconds_more
         self.tree, self.build, self.table = work / "tree", work / "build", table
         self.work, self.tests, self.baseline = work, [], {}
         self.mutated = None  # (path, right text, its times)
@@ -151,7 +152,7 @@ class Bench:
 
     def run(self, test, baseline):
         """Runs a test until it ends, says that it is red, or has had its time: (green, seconds of CPU, what it said)."""
-        limit = TIMES_SLOWER * baseline + SECONDS_MORE if baseline is not None else 1200
+        limit = TIMES_SLOWER * baseline + self.seconds_more if baseline is not None else 1200
         environment = {**self.environment, **test["environment"]}
         log = self.work / "test.log"
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
