@@ -29,9 +29,9 @@ void main()
     /* Far from its own depth only what is turned as it is can be its surface. */
     float like = dot(seen.xyz, v_normal);
     cover *= step(abs(seen.w - depth), tolerance * clamp(2.0 * like, 0.15, 1.0));
-    /* Only a stroke's own ends are round. Where pieces meet, a pixel is of one of them, so that no ink is there twice (EX-26). */
+    /* Where pieces meet, a pixel is of one of them, so that no ink is there twice (EX-26). Ends that do not run out are cut off, too. */
     float slack = JOINT_SLACK * inversesqrt(max(square, 1e-6));
-    if ((v_run.x > TIP && foot < -slack) || (v_run.y < 1.0 - TIP && foot > 1.0 + slack))
+    if (((v_run.x > TIP || v_run.z <= 0.0) && foot < -slack) || ((v_run.y < 1.0 - TIP || v_run.z <= 0.0) && foot > 1.0 + slack))
         cover = 0.0;
     out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
 }
