@@ -660,6 +660,33 @@ static double mean_drift(const drift *d, position_class class)
     return d->count[class] ? d->sum[class] / (double)d->count[class] : INFINITY;
 }
 
+/* Row C23: with lock=screen the field belongs to the page, whoever looks from where. */
+static void page_locked(void)
+{
+    shape s = {0};
+    shot  first;
+    model(&s);
+    shot_view view = frame_view(0);
+    if (field_of(&first, &s, "\"lock\":\"screen\",\"amount\":6", &view)) {
+        for (int frame = 7; frame < 30; frame += 11) {
+            shot now;
+            view = frame_view(frame);
+            if (field_of(&now, &s, "\"lock\":\"screen\",\"amount\":6", &view)) {
+                double worst = 0;
+                int    both = 0;
+                for (int i = 0; i < now.width * now.height; i++) /* it is there where something is drawn */
+                    for (int c = 0; c < 3 && isfinite(now.depth[i]) && isfinite(first.depth[i]); c++, both++)
+                        worst = fmax(worst, fabs((double)(now.uncertainty[i][c] - first.uncertainty[i][c])));
+                check_at_least("C23", both, 10000, "values of the field on the page, seen from elsewhere");
+                check_at_most("C23", worst, 0, "  difference");
+            }
+            shot_release(&now);
+        }
+    }
+    shot_release(&first);
+    shape_release(&s);
+}
+
 /* The field of a turning, approaching model, frame by frame, for one that stays on the model, one on the page and
  * one that is new in each frame. */
 static void coherence(void)
@@ -1048,11 +1075,26 @@ static void narrow_parts(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"noise", noise},           {"seeds", seeds_and_time},   {"waves", waves},           {"octaves", octaves},
-        {"tiles", tiles},           {"middle", middle},          {"turbulence", turbulence}, {"rim", rim},
-        {"distances", distances},   {"coherence", coherence},    {"standstill", standstill}, {"panned", panned},
-        {"moved part", moved_part}, {"continuity", continuity},  {"enlarged", enlarged},     {"outside", outside},
-        {"normal", by_normal},      {"curvature", by_curvature}, {"narrow", narrow_parts},
+        {"noise", noise},
+        {"seeds", seeds_and_time},
+        {"waves", waves},
+        {"page", page_locked},
+        {"octaves", octaves},
+        {"tiles", tiles},
+        {"middle", middle},
+        {"turbulence", turbulence},
+        {"rim", rim},
+        {"distances", distances},
+        {"coherence", coherence},
+        {"standstill", standstill},
+        {"panned", panned},
+        {"moved part", moved_part},
+        {"continuity", continuity},
+        {"enlarged", enlarged},
+        {"outside", outside},
+        {"normal", by_normal},
+        {"curvature", by_curvature},
+        {"narrow", narrow_parts},
     };
     int status = check_main(argc, argv, "sketch_field", cases, sizeof cases / sizeof *cases);
     shot_end();

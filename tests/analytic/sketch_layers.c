@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "csg_scenes.h"
 #include "scenes.h"
 #include "sketch_twin.h"
 
@@ -166,6 +167,30 @@ static void whole_pictures(void)
             shot_release(&drawn);
             shot_release(&other);
         }
+}
+
+/* Solids, whose surfaces are in no mesh, are sketched as meshes are: a spanner, and trees made from seeds. */
+static void sketched_solids(void)
+{
+    for (int k = 0; k < 3; k++) {
+        csg                 c = {0};
+        shot                drawn;
+        char                path[512];
+        const layered_case *style = &cases[k];
+        if (k == 0)
+            csg_spanner(&c);
+        else
+            csg_random(&c, CSG_CONVEX, 40 + (uint32_t)k);
+        csg_colour(&c);
+        snprintf(path, sizeof path, "%s", check_path("sketched.csg"));
+        if (csg_write(&c, path) && shot_take(&drawn, path, look_of(style, "auto", NULL), NULL, &views[k])) {
+            sketch_tally t = against_layers(&drawn, &style->style, NULL);
+            check_at_least("S10", drawn.layer_count, 2, "layers of a solid");
+            sketch_check("S10", &t, &drawn, style->fraction, "  sketched");
+            shot_release(&drawn);
+        }
+        csg_release(&c);
+    }
 }
 
 /* What is displaced far gets into parts of the page where the layer itself is not: none of them may be left out. */
@@ -495,9 +520,9 @@ static void field_of_front(void)
 int main(int argc, char **argv)
 {
     static const check_case all[] = {
-        {"whole", whole_pictures}, {"far", far_away},        {"pieces", pieces},
-        {"opaque", opaque_amid},   {"shared", shared_edges}, {"once", inked_once},
-        {"hatched", hatched},      {"producers", producers}, {"field", field_of_front},
+        {"whole", whole_pictures}, {"solids", sketched_solids}, {"far", far_away},    {"pieces", pieces},
+        {"opaque", opaque_amid},   {"shared", shared_edges},    {"once", inked_once}, {"hatched", hatched},
+        {"producers", producers},  {"field", field_of_front},
     };
     int status = check_main(argc, argv, "sketch_layers", all, sizeof all / sizeof *all);
     shot_end();
