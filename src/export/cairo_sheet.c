@@ -46,9 +46,52 @@ char *cairo_clean_text(const char *words)
     return copy;
 }
 
+/* Arcs as cubics of at most a quarter of a turn, which are off by less than 3e-4 of the radius. */
+static void add_arc(cairo_t *c, const sheet_piece *arc)
+{
+    int    pieces = (int)ceil(fabs(arc->sweep) / 1.571);
+    double step = arc->sweep / pieces, handle = 4.0 / 3 * tan(step / 4);
+    for (int i = 0; i < pieces; i++) {
+        double points[3][2], begin = arc->from + i * step, end = begin + step;
+        double unit[3][2] = {{cos(begin) - handle * sin(begin), sin(begin) + handle * cos(begin)},
+                             {cos(end) + handle * sin(end), sin(end) - handle * cos(end)},
+                             {cos(end), sin(end)}};
+        for (int k = 0; k < 3; k++) {
+            double x = arc->radii[0] * unit[k][0], y = arc->radii[1] * unit[k][1];
+            points[k][0] = arc->centre[0] + cos(arc->turn) * x - sin(arc->turn) * y;
+            points[k][1] = arc->centre[1] + sin(arc->turn) * x + cos(arc->turn) * y;
+        }
+        cairo_curve_to(c, points[0][0], points[0][1], points[1][0], points[1][1], points[2][0], points[2][1]);
+    }
+}
+
+static void add_pieces(painter *w, const sheet_path *path)
+{
+    cairo_t     *c = w->context;
+    const float *from = w->s->points[path->first];
+    cairo_move_to(c, (double)from[0], (double)from[1]);
+    for (uint32_t i = 0; i < path->piece_count; i++) {
+        const sheet_piece *p = &w->s->pieces[path->first_piece + i];
+        switch (p->kind) {
+        case SHEET_LINE: cairo_line_to(c, p->end[0], p->end[1]); break;
+        case SHEET_ARC: add_arc(c, p); break;
+        case SHEET_CUBIC:
+            cairo_curve_to(c, p->controls[0][0], p->controls[0][1], p->controls[1][0], p->controls[1][1], p->end[0],
+                           p->end[1]);
+            break;
+        }
+    }
+    if (path->closed || path->filled)
+        cairo_close_path(c);
+}
+
 static void add_path(painter *w, const sheet_path *path, bool dots)
 {
     cairo_t *c = w->context;
+    if (path->piece_count && !dots) {
+        add_pieces(w, path);
+        return;
+    }
     for (uint32_t i = 0; i < path->count; i++) {
         const float *p = w->s->points[path->first + i];
         if (i == 0 || dots)
@@ -60,10 +103,21 @@ static void add_path(painter *w, const sheet_path *path, bool dots)
         cairo_close_path(c);
 }
 
+/* Dashed lines are drawn one by one. */
 static bool same_pen(const sheet_path *a, const sheet_path *b)
 {
-    bool dashes = a->dash > 0 ? a->dash == b->dash && a->gap == b->gap && a->phase == b->phase : !(b->dash > 0);
-    return a->filled == b->filled && a->width == b->width && a->cap == b->cap && dashes;
+    return a == b || (a->filled == b->filled && a->width == b->width && a->cap == b->cap && !a->dash_count && !b->dash_count);
+}
+
+static void set_dashes(painter *w, const sheet_path *path)
+{
+    double few[64], *lengths = path->dash_count > 64 ? mem_alloc(path->dash_count * sizeof *lengths) : few;
+    w->failed = w->failed || !lengths;
+    for (uint32_t i = 0; lengths && i < path->dash_count; i++)
+        lengths[i] = (double)w->s->dashes[path->first_dash + i];
+    cairo_set_dash(w->context, lengths, lengths ? (int)path->dash_count : 0, (double)path->phase);
+    if (lengths != few)
+        mem_free(lengths);
 }
 
 static void draw_paths(painter *w, const sheet_item *item)
@@ -79,8 +133,7 @@ static void draw_paths(painter *w, const sheet_item *item)
             cairo_fill(c);
             continue;
         }
-        const double dashes[2] = {(double)first->dash, (double)first->gap};
-        cairo_set_dash(c, dashes, first->dash > 0 && !dots ? 2 : 0, first->dash > 0 ? (double)first->phase : 0);
+        set_dashes(w, first);
         cairo_set_line_cap(c, dots || first->cap == SHEET_CAP_ROUND ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_line_width(c, (double)first->width);
         cairo_stroke(c);
