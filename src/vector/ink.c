@@ -160,8 +160,9 @@ static bool is_near(float a, float b)
  * parts of one. `pattern` gets dash, gap and the phase. */
 static bool is_regular(const float (*dashes)[2], size_t count, float pattern[3])
 {
-    float dash = count > 2 ? dashes[1][1] - dashes[1][0] : fmaxf(dashes[0][1], dashes[1][1] - dashes[1][0]),
-          gap = dashes[1][0] - dashes[0][1], first = dashes[0][1], last = dashes[count - 1][1] - dashes[count - 1][0];
+    if (count < 3)
+        return false; /* two may be anything */
+    float dash = dashes[1][1] - dashes[1][0], gap = dashes[1][0] - dashes[0][1], first = dashes[0][1], last = dashes[count - 1][1] - dashes[count - 1][0];
     for (size_t i = 1; i < count; i++)
         if (!is_near(dashes[i][0] - dashes[i - 1][1], gap) ||
             (i + 1 < count && !is_near(dashes[i][1] - dashes[i][0], dash)))
