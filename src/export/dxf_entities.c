@@ -214,11 +214,20 @@ static void put_pieces(dxf_writer *w, const sheet_item *item, const sheet_path *
     }
 }
 
+/* The border of an area is one entity; of curves that this has no room for, their points. */
+static bool has_one_border(const sheet *s, const sheet_path *path)
+{
+    for (uint32_t i = 0; i < path->piece_count; i++)
+        if (sort_of(&s->pieces[path->first_piece + i]) != 0)
+            return path->piece_count == 1;
+    return true;
+}
+
 static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *path)
 {
     const float(*points)[2] = (const float(*)[2])w->s->points + path->first;
     bool closed = path->closed || path->filled;
-    if (path->piece_count) {
+    if (path->piece_count && (!path->filled || has_one_border(w->s, path))) {
         put_pieces(w, item, path);
         return;
     }

@@ -286,6 +286,19 @@ static void fit_path(fitter *f, const sheet_path *path)
         }
 }
 
+/* Dashes end with the line that they are of: a curve is longer than its chords. */
+static void stretch_dashes(const fitter *f, sheet_path *path)
+{
+    double        length = 0, before = length_of(f, 0, f->count - 1);
+    const double *from = f->points[0];
+    for (size_t i = 0; i < f->piece_count; from = f->pieces[i++].end)
+        length += fit_length(&f->pieces[i], from);
+    float by = before > 0 ? (float)(length / before) : 1;
+    for (uint32_t i = 0; i < path->dash_count; i++)
+        f->s->dashes[path->first_dash + i] *= by;
+    path->phase *= by;
+}
+
 static void keep_pieces(fitter *f, sheet_path *path)
 {
     sheet *s = f->s;
@@ -294,6 +307,8 @@ static void keep_pieces(fitter *f, sheet_path *path)
         f->failed = true;
         return;
     }
+    if (path->dash_count && f->piece_count)
+        stretch_dashes(f, path);
     if (f->piece_count)
         memcpy(s->pieces + s->piece_count, f->pieces, f->piece_count * sizeof *s->pieces);
     path->first_piece = (uint32_t)s->piece_count;

@@ -271,6 +271,24 @@ static bool find_controls(sheet_piece *out, const fit_run *r, const unknowns *q,
     return true;
 }
 
+double fit_length(const sheet_piece *piece, const double from[2])
+{
+    enum { STEPS = 64 };
+    double sum = 0, before[2] = {from[0], from[1]}, at[2];
+    if (piece->kind == SHEET_LINE)
+        return hypot(piece->end[0] - from[0], piece->end[1] - from[1]);
+    if (piece->kind == SHEET_ARC && piece->radii[0] == piece->radii[1])
+        return piece->radii[0] * fabs(piece->sweep);
+    for (int i = 1; i <= STEPS; i++, memcpy(before, at, sizeof before)) {
+        if (piece->kind == SHEET_ARC)
+            ellipse_at(piece, from, (double)i / STEPS, at);
+        else
+            cubic_at(piece, from, (double)i / STEPS, at);
+        sum += hypot(at[0] - before[0], at[1] - before[1]);
+    }
+    return sum;
+}
+
 /* Handles that point backwards, or are longer than what they bend, make loops. */
 static bool is_sound(const sheet_piece *c, const double from[2], double length)
 {

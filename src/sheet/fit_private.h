@@ -22,6 +22,8 @@ bool fit_ellipse(sheet_piece *out, const fit_run *r);
 /* `begin`, `end`: unit directions that it has there; NULL: any. `parameters` has room for one number a point. */
 bool fit_cubic(sheet_piece *out, const fit_run *r, const double *begin, const double *end, double *parameters);
 
+/* How long a piece is. */
+double fit_length(const sheet_piece *piece, const double from[2]);
 /* The unit direction of a piece where it begins and ends; `from`: where it begins. False: it has none. */
 bool fit_direction(const sheet_piece *piece, const double from[2], bool at_end, double out[2]);
 
