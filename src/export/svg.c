@@ -444,11 +444,11 @@ static void put_pair(svg_pen *pen, char letter, const double position[2], long l
     pen->letter = letter;
 }
 
-/* Arcs of more than a third of a turn are several: their centre comes from both ends, and the nearer these are to half
+/* Arcs of more than 150 degrees are several: their centre comes from both ends, and the nearer these are to half
  * a turn, the less exactly. */
 static void put_arc(svg_pen *pen, const sheet_piece *arc)
 {
-    int pieces = (int)ceil(fabs(arc->sweep) / 2.1);
+    int pieces = (int)ceil(fabs(arc->sweep) / 2.6);
     for (int i = 1; i <= pieces; i++) {
         double    end[2] = {arc->end[0], arc->end[1]};
         long long rounded[2];

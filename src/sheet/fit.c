@@ -18,7 +18,8 @@ typedef struct fitter {
     sheet *s;
     double most;
     double (*points)[2]; /* of the path at hand */
-    size_t       count, point_capacity;
+    double      *arcs;
+    size_t       count, point_capacity, arc_capacity;
     double      *parameters;
     size_t       parameter_capacity;
     sheet_piece *pieces;
@@ -29,7 +30,7 @@ typedef struct fitter {
 
 static fit_run run_of(const fitter *f, size_t first, size_t last)
 {
-    return (fit_run){(const double(*)[2])f->points + first, last - first + 1, f->most};
+    return (fit_run){(const double(*)[2])f->points + first, f->arcs + first, last - first + 1, f->most};
 }
 
 static void put_piece(fitter *f, const sheet_piece *piece, size_t last)
@@ -114,10 +115,7 @@ static size_t reach(try_fn fits, const try_out *t, size_t first, size_t least, s
 
 static double length_of(const fitter *f, size_t first, size_t last)
 {
-    double sum = 0;
-    for (size_t i = first; i < last; i++)
-        sum += hypot(f->points[i + 1][0] - f->points[i][0], f->points[i + 1][1] - f->points[i][1]);
-    return sum;
+    return f->arcs[last] - f->arcs[first];
 }
 
 /* The piece from one point on that is worth most, and its end. */
@@ -129,8 +127,8 @@ static size_t best_piece(fitter *f, size_t first, size_t last, const double *beg
         size_t        least;
     } kinds[] = {{try_line, &cost_of_line, 1},
                  {try_arc, &cost_of_arc, 3},
-                 {try_cubic, &cost_of_cubic, 4},
-                 {try_ellipse, &cost_of_ellipse, ELLIPSE_LEAST}};
+                 {try_ellipse, &cost_of_ellipse, ELLIPSE_LEAST},
+                 {try_cubic, &cost_of_cubic, 4}};
     const try_out t = {f, begin};
     double        best = -1;
     size_t        end = first;
@@ -191,7 +189,7 @@ static bool is_corner(const fitter *f, const double *a, const double *p, const d
 {
     double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]};
     double turn = fabs(atan2(in[0] * on[1] - in[1] * on[0], in[0] * on[0] + in[1] * on[1]));
-    return fmin(hypot(in[0], in[1]), hypot(on[0], on[1])) * turn / 8 > f->most;
+    return fmin(fit_distance(in[0], in[1]), fit_distance(on[0], on[1])) * turn / 8 > f->most;
 }
 
 /* From one corner to the next. */
@@ -216,6 +214,8 @@ static bool take_points(fitter *f, const sheet_path *path)
 {
     if (!mem_grow((void **)&f->points, &f->point_capacity, (size_t)path->count + 1, sizeof *f->points))
         return false;
+    if (!mem_grow((void **)&f->arcs, &f->arc_capacity, (size_t)path->count + 1, sizeof *f->arcs))
+        return false;
     f->count = 0;
     for (uint32_t i = 0; i <= path->count; i++) {
         if (i == path->count && !path->closed && !path->filled)
@@ -224,7 +224,9 @@ static bool take_points(fitter *f, const sheet_path *path)
         const double *before = f->count ? f->points[f->count - 1] : NULL;
         f->points[f->count][0] = (double)p[0];
         f->points[f->count][1] = (double)p[1];
-        if (!before || hypot((double)p[0] - before[0], (double)p[1] - before[1]) > nothing)
+        double step = before ? fit_distance((double)p[0] - before[0], (double)p[1] - before[1]) : 0;
+        f->arcs[f->count] = before ? f->arcs[f->count - 1] + step : 0;
+        if (!before || step > nothing)
             f->count++;
     }
     return true;
@@ -329,6 +331,7 @@ void sheet_fit(sheet *s, double most)
     }
     s->failed = s->failed || f.failed;
     mem_free(f.points);
+    mem_free(f.arcs);
     mem_free(f.parameters);
     mem_free(f.pieces);
     mem_free(f.ends);

@@ -82,7 +82,7 @@ static bool take_ellipse(sheet_piece *out, const double conic[5], const frame *f
         return false;
     double x = (b * e - 2 * c * d) / whole, y = (b * d - 2 * a * e) / whole;
     double rest = 1 - (a * x * x + b * x * y + c * y * y + d * x + e * y);
-    double mean = 0.5 * (a + c), apart = hypot(0.5 * (a - c), 0.5 * b), least = rest / (mean + apart),
+    double mean = 0.5 * (a + c), apart = fit_distance(0.5 * (a - c), 0.5 * b), least = rest / (mean + apart),
            most = rest / (mean - apart);
     if (!(least > 0) || !(most > 0) || !(most < 1e6))
         return false;
@@ -154,7 +154,7 @@ static bool put_ends_on(sheet_piece *e, const double a[2], const double b[2], do
     to_unit(e, a, ua);
     to_unit(e, b, ub);
     to_unit(e, e->centre, centre);
-    double way[2] = {ub[0] - ua[0], ub[1] - ua[1]}, chord = hypot(way[0], way[1]), half = 0.5 * chord;
+    double way[2] = {ub[0] - ua[0], ub[1] - ua[1]}, chord = fit_distance(way[0], way[1]), half = 0.5 * chord;
     if (!(chord > 1e-6) || !(half < 1))
         return false;
     for (int k = 0; k < 2; k++)
@@ -276,7 +276,7 @@ double fit_length(const sheet_piece *piece, const double from[2])
     enum { STEPS = 64 };
     double sum = 0, before[2] = {from[0], from[1]}, at[2];
     if (piece->kind == SHEET_LINE)
-        return hypot(piece->end[0] - from[0], piece->end[1] - from[1]);
+        return fit_distance(piece->end[0] - from[0], piece->end[1] - from[1]);
     if (piece->kind == SHEET_ARC && piece->radii[0] == piece->radii[1])
         return piece->radii[0] * fabs(piece->sweep);
     for (int i = 1; i <= STEPS; i++, memcpy(before, at, sizeof before)) {
@@ -284,7 +284,7 @@ double fit_length(const sheet_piece *piece, const double from[2])
             ellipse_at(piece, from, (double)i / STEPS, at);
         else
             cubic_at(piece, from, (double)i / STEPS, at);
-        sum += hypot(at[0] - before[0], at[1] - before[1]);
+        sum += fit_distance(at[0] - before[0], at[1] - before[1]);
     }
     return sum;
 }
@@ -294,7 +294,7 @@ static bool is_sound(const sheet_piece *c, const double from[2], double length)
 {
     for (int k = 0; k < 2; k++) {
         const double *end = k ? c->end : from, *handle = c->controls[k];
-        if (!(hypot(handle[0] - end[0], handle[1] - end[1]) < 1.5 * length))
+        if (!(fit_distance(handle[0] - end[0], handle[1] - end[1]) < 1.5 * length))
             return false;
     }
     return true;
@@ -304,18 +304,13 @@ bool fit_cubic(sheet_piece *out, const fit_run *r, const double *begin, const do
 {
     enum { ROUNDS = 4 };
     unknowns q = {.count = 0};
-    double   length = 0;
+    double   length = r->arcs[r->count - 1] - r->arcs[0];
     add_unknowns(&q, 0, begin, 1);
     add_unknowns(&q, 1, end, -1);
-    if (r->count < 5)
+    if (r->count < 5 || !(length > 0))
         return false;
-    parameters[0] = 0;
-    for (size_t i = 1; i < r->count; i++) {
-        length += hypot(r->points[i][0] - r->points[i - 1][0], r->points[i][1] - r->points[i - 1][1]);
-        parameters[i] = length;
-    }
-    for (size_t i = 1; i < r->count && length > 0; i++)
-        parameters[i] /= length;
+    for (size_t i = 0; i < r->count; i++)
+        parameters[i] = (r->arcs[i] - r->arcs[0]) / length;
     for (int round = 0; round < ROUNDS; round++) {
         if (!find_controls(out, r, &q, parameters) || !is_sound(out, r->points[0], length))
             return false;

@@ -18,7 +18,7 @@ static double dot(const double a[2], const double b[2])
 
 static double length_between(const double a[2], const double b[2])
 {
-    return hypot(b[0] - a[0], b[1] - a[1]);
+    return fit_distance(b[0] - a[0], b[1] - a[1]);
 }
 
 /* How far a position is from a straight piece. */
@@ -26,13 +26,13 @@ static double distance_from(const double p[2], const double a[2], const double b
 {
     double way[2] = {b[0] - a[0], b[1] - a[1]}, to[2] = {p[0] - a[0], p[1] - a[1]}, square = dot(way, way);
     double at = square > 0 ? fmin(fmax(dot(to, way) / square, 0), 1) : 0;
-    return hypot(to[0] - at * way[0], to[1] - at * way[1]);
+    return fit_distance(to[0] - at * way[0], to[1] - at * way[1]);
 }
 
 /* Half the way to both neighbours. */
 static double weight_of(const fit_run *r, size_t i)
 {
-    return 0.5 * (length_between(r->points[i - 1], r->points[i]) + length_between(r->points[i], r->points[i + 1]));
+    return 0.5 * (r->arcs[i + 1] - r->arcs[i - 1]);
 }
 
 bool fit_line(sheet_piece *out, const fit_run *r, double *square)
@@ -53,29 +53,52 @@ bool fit_line(sheet_piece *out, const fit_run *r, double *square)
 
 /* --- circles -------------------------------------------------------------------------------------------- */
 
+/* Are all points seen from the centre between the first one and what is `sweep` farther on? None may go back by more
+ * than `slack`, radians. */
+static bool keeps_to_sweep(const fit_run *r, const double centre[2], double radius, double sweep, double slack)
+{
+    double direction = sweep > 0 ? 1 : -1, turned = 0, whole = fabs(sweep) + 1e-6, back = -slack * radius * radius,
+           first[2] = {r->points[0][0] - centre[0], r->points[0][1] - centre[1]}, a[2] = {first[0], first[1]},
+           last[2] = {r->points[r->count - 1][0] - centre[0], r->points[r->count - 1][1] - centre[1]},
+           least = -1e-6 * radius * radius;
+    bool narrow = whole < 3; /* then signs of areas say it all */
+    for (size_t i = 1; i < r->count; i++) {
+        double b[2] = {r->points[i][0] - centre[0], r->points[i][1] - centre[1]}, step = direction * cross(a, b);
+        if (step < back || (narrow && (direction * cross(first, b) < least || direction * cross(b, last) < least)))
+            return false;
+        if (!narrow) {
+            turned += direction * atan2(cross(a, b), dot(a, b));
+            if (turned < -1e-6 || turned > whole)
+                return false;
+        }
+        a[0] = b[0];
+        a[1] = b[1];
+    }
+    return narrow || turned > whole - 2e-6;
+}
+
 /* Do lines between points keep to a ring around a circle, from the angle of the first one on by `sweep` and not beyond,
  * without turning back far? Then each point of one has one of the other at its own angle, no farther off. `sum` gets
  * the squares of what points are off. */
 static bool keeps_to_ring(const fit_run *r, const double centre[2], double radius, double sweep, double *sum)
 {
-    double slack = r->most / radius, direction = sweep > 0 ? 1 : -1, turned = 0, whole = fabs(sweep) + 1e-6;
+    double inner = radius - r->most;
     *sum = 0;
-    for (size_t i = 0; i + 1 < r->count; i++) {
-        double a[2] = {r->points[i][0] - centre[0], r->points[i][1] - centre[1]},
-               b[2] = {r->points[i + 1][0] - centre[0], r->points[i + 1][1] - centre[1]},
-               way[2] = {b[0] - a[0], b[1] - a[1]}, square = dot(way, way);
-        double off = hypot(a[0], a[1]) - radius, foot = square > 0 ? -dot(a, way) / square : 0;
-        double angle = direction * atan2(cross(a, b), dot(a, b));
-        if (fabs(off) > r->most || angle < -slack ||
-            (foot > 0 && foot < 1 && fabs(cross(a, way)) / sqrt(square) < radius - r->most))
+    for (size_t i = 0; i < r->count; i++) {
+        double b[2] = {r->points[i][0] - centre[0], r->points[i][1] - centre[1]}, off = fit_distance(b[0], b[1]) - radius;
+        if (fabs(off) > r->most)
             return false;
-        turned += angle;
-        if (turned < -1e-6 || turned > whole)
-            return false;
-        if (i > 0)
-            *sum += off * off * weight_of(r, i);
+        if (i > 0) { /* a chord is nearest to the centre in its middle, or nearly so */
+            const double *p = r->points[i - 1];
+            double a[2] = {p[0] - centre[0], p[1] - centre[1]}, way[2] = {b[0] - a[0], b[1] - a[1]}, square = dot(way, way),
+                   along = -dot(a, way), side = cross(a, way);
+            if (inner > 0 && along > 0 && along < square && side * side < inner * inner * square)
+                return false;
+            if (i + 1 < r->count)
+                *sum += off * off * weight_of(r, i);
+        }
     }
-    return turned > whole - 2e-6;
+    return keeps_to_sweep(r, centre, radius, sweep, r->most / radius);
 }
 
 /* Seen from a point of an arc, its chord is the same angle everywhere: the turn there from one end to the other is half
@@ -83,15 +106,15 @@ static bool keeps_to_ring(const fit_run *r, const double centre[2], double radiu
 static double half_sweep(const fit_run *r)
 {
     const double *a = r->points[0], *b = r->points[r->count - 1];
-    double        sum = 0, weights = 0;
+    double        x = 0, y = 0;
     for (size_t i = 1; i + 1 < r->count; i++) {
         const double *p = r->points[i];
-        double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]}, moves = hypot(in[0], in[1]) * hypot(on[0], on[1]);
-        double weight = moves * moves * weight_of(r, i);
-        sum += weight * atan2(cross(in, on), dot(in, on));
-        weights += weight;
+        double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]};
+        double weight = sqrt(dot(in, in) * dot(on, on)) * weight_of(r, i);
+        x += weight * dot(in, on);
+        y += weight * cross(in, on);
     }
-    return weights > 0 ? sum / weights : 0;
+    return x != 0 || y != 0 ? atan2(y, x) : 0;
 }
 
 bool fit_arc(sheet_piece *out, const fit_run *r, double *square)
@@ -135,7 +158,7 @@ bool fit_circle(sheet_piece *out, const fit_run *r)
     double x = 0.5 * (xz * yy - yz * xy) / whole, y = 0.5 * (yz * xx - xz * xy) / whole;
     double radius = sqrt(z / (double)count + x * x + y * y), centre[2] = {mean[0] + x, mean[1] + y}, direction = area > 0 ? 1 : -1;
     /* It begins at the first point, which is put on it. */
-    double away[2] = {r->points[0][0] - centre[0], r->points[0][1] - centre[1]}, off = hypot(away[0], away[1]) - radius;
+    double away[2] = {r->points[0][0] - centre[0], r->points[0][1] - centre[1]}, off = fit_distance(away[0], away[1]) - radius;
     fit_run nearer = *r;
     nearer.most -= fabs(off);
     for (int k = 0; k < 2; k++)
@@ -173,7 +196,7 @@ bool fit_direction(const sheet_piece *piece, const double from[2], bool at_end, 
         for (int k = 0; k < 2; k++)
             way[k] = at_end ? piece->end[k] - piece->controls[1][k] : piece->controls[0][k] - from[k];
     }
-    double length = hypot(way[0], way[1]);
+    double length = fit_distance(way[0], way[1]);
     if (!(length > 1e-9))
         return false;
     out[0] = way[0] / length;

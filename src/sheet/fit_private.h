@@ -2,13 +2,22 @@
 #ifndef LIMNER_SHEET_FIT_PRIVATE_H
 #define LIMNER_SHEET_FIT_PRIVATE_H
 
+#include <math.h>
+
 #include "sheet/fit.h"
+
+/* Numbers on a sheet are far from what squares overflow at. */
+static inline double fit_distance(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
 
 /* Points that one piece is to go through, from the first to the last. */
 typedef struct fit_run {
     const double (*points)[2];
-    size_t count;
-    double most; /* that piece and lines are apart */
+    const double *arcs; /* along the lines up to each point, mm */
+    size_t        count;
+    double        most; /* that piece and lines are apart */
 } fit_run;
 
 /* Each says whether such a piece lies near enough all along, and makes it. `square` (may be NULL) gets the sum of the
