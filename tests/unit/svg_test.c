@@ -111,6 +111,8 @@ static void test_structure(void **state)
                  "//s:g[@id='view-front'][@clip-path]/s:g[@id='view-front-part-3'][@data-part='3'][@data-name='Wheel "
                  "<left>']/s:g[@class='visible contour']"),
         1);
+    assert_int_equal(count_of(document, "//s:g[@*[local-name()='groupmode']='layer']"), count_of(document, "//s:g"));
+    assert_int_equal(count_of(document, "//s:g[@*[local-name()='label']='Wheel <left>']"), 3); /* one again */
     assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2']"), 1);
     assert_int_equal(count_of(document, "//s:path[@data-line='1f'][@d='M1 2l2.5 2']"),
                      1); /* what rounds to nothing is left out */
