@@ -125,8 +125,8 @@ static int set_number(const option *o, const char *value, option_number *out)
         out->given = true;
         return 0;
     }
-    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g%s%s", o->type == OPTION_WHOLE ? "whole " : "", o->min,
-             o->max, o->unit ? " " : "", o->unit ? o->unit : "");
+    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g%s%s", o->type == OPTION_WHOLE ? "whole " : "",
+             o->min, o->max, o->unit ? " " : "", o->unit ? o->unit : "");
     return wrong_value(o, value, allowed);
 }
 

@@ -112,7 +112,8 @@ static void add_path(painter *w, const sheet_path *path, bool dots)
 
 bool cairo_same_pen(const sheet_path *a, const sheet_path *b)
 {
-    return a == b || (a->filled == b->filled && a->width == b->width && a->cap == b->cap && !a->dash_count && !b->dash_count);
+    return a == b ||
+           (a->filled == b->filled && a->width == b->width && a->cap == b->cap && !a->dash_count && !b->dash_count);
 }
 
 static void set_dashes(painter *w, const sheet_path *path)

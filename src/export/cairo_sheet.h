@@ -1,4 +1,4 @@
-/* What writes sheets through cairo shares. */
+/* What draws sheets through cairo, and what of it writers of PDF take. */
 #ifndef LIMNER_EXPORT_CAIRO_SHEET_H
 #define LIMNER_EXPORT_CAIRO_SHEET_H
 

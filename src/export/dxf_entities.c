@@ -10,7 +10,7 @@
 #define PI 3.14159265358979323846
 
 /* Hundredths of a millimetre: the widths of lines that there are. */
-static const int line_weights[] = {0,  5,  9,  13, 15, 18, 20, 25,  30,  35,  40,  50,
+static const int line_weights[] = {0,  5,  9,  13, 15, 18,  20,  25,  30,  35,  40,  50,
                                    53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211};
 
 static int line_weight(double width)

@@ -79,9 +79,9 @@ static void begin_object(pdf_writer *w, size_t number)
 static void put_stream(pdf_writer *w, const void *bytes, size_t size, const char *entries)
 {
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(COMPRESSION);
-    size_t         most = compressor ? libdeflate_zlib_compress_bound(compressor, size) : 0;
-    unsigned char *packed = compressor ? mem_alloc(most) : NULL;
-    size_t         length = packed ? libdeflate_zlib_compress(compressor, bytes, size, packed, most) : 0;
+    size_t                        most = compressor ? libdeflate_zlib_compress_bound(compressor, size) : 0;
+    unsigned char                *packed = compressor ? mem_alloc(most) : NULL;
+    size_t                        length = packed ? libdeflate_zlib_compress(compressor, bytes, size, packed, most) : 0;
     w->out.failed = w->out.failed || !length;
     text_append(&w->out, "<</Length %zu/Filter/FlateDecode%s>>\nstream\n", length, entries);
     if (length)
@@ -136,8 +136,8 @@ static void put_layers(pdf_writer *w)
 static void put_order(pdf_writer *w)
 {
     size_t    count = w->s->group_count;
-    uint32_t *links = mem_calloc(3 * count + 3, sizeof *links), *first = links, *next = links ? links + count + 1 : NULL,
-             *stack = links ? next + count + 1 : NULL;
+    uint32_t *links = mem_calloc(3 * count + 3, sizeof *links), *first = links,
+             *next = links ? links + count + 1 : NULL, *stack = links ? next + count + 1 : NULL;
     w->out.failed = w->out.failed || !links;
     for (size_t i = count; links && i-- > 0;) {
         size_t parent = (size_t)(w->s->groups[i].parent + 1);

@@ -9,7 +9,7 @@
 enum { PDF_CATALOG = 1, PDF_PAGES, PDF_PAGE, PDF_CONTENTS, PDF_INFO, PDF_FONT, PDF_OTHERS };
 
 typedef struct pdf_picture {
-    size_t         object;  /* of an opaque one; with alpha the next one is its mask */
+    size_t         object; /* of an opaque one; with alpha the next one is its mask */
     int            width, height;
     unsigned char *colours; /* 3 a pixel */
     unsigned char *alpha;   /* NULL: opaque */

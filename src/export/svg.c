@@ -439,7 +439,8 @@ static void put_pair(svg_pen *pen, char letter, const double position[2], long l
     char digits[64];
     for (int k = 0; k < 2; k++)
         rounded[k] = thousandths(position[k]);
-    size_t size = print_pair(digits, pen->letter == letter ? '\0' : letter, rounded[0] - pen->at[0], rounded[1] - pen->at[1]);
+    size_t size =
+        print_pair(digits, pen->letter == letter ? '\0' : letter, rounded[0] - pen->at[0], rounded[1] - pen->at[1]);
     text_append_bytes(&pen->w->out, digits, size);
     pen->letter = letter;
 }
@@ -469,10 +470,10 @@ static void put_arc(svg_pen *pen, const sheet_piece *arc)
 
 static void put_pieces(svg_writer *w, const sheet_path *path)
 {
-    svg_pen       pen = {.w = w};
-    const float  *first = w->s->points[path->first];
-    const double  from[2] = {(double)first[0], (double)first[1]};
-    long long     rounded[2];
+    svg_pen      pen = {.w = w};
+    const float *first = w->s->points[path->first];
+    const double from[2] = {(double)first[0], (double)first[1]};
+    long long    rounded[2];
     put_pair(&pen, 'M', from, rounded);
     memcpy(pen.at, rounded, sizeof rounded);
     for (uint32_t i = 0; i < path->piece_count; i++) {

@@ -197,8 +197,8 @@ static void fit_smooth(fitter *f, size_t first, size_t last)
 {
     size_t begun = f->piece_count;
     for (size_t at = first; at < last && !f->failed;) {
-        sheet_piece piece;
-        double      direction[2];
+        sheet_piece   piece;
+        double        direction[2];
         const double *from = f->piece_count > begun + 1 ? f->pieces[f->piece_count - 2].end : f->points[first];
         bool   known = f->piece_count > begun && fit_direction(&f->pieces[f->piece_count - 1], from, true, direction);
         size_t end = best_piece(f, at, last, known ? direction : NULL, &piece);
@@ -236,7 +236,8 @@ static bool take_points(fitter *f, const sheet_path *path)
 static void begin_at_corner(fitter *f, const sheet_path *path)
 {
     size_t n = f->count - 1, corner = 0;
-    while (corner < n && !is_corner(f, f->points[corner ? corner - 1 : n - 1], f->points[corner], f->points[corner + 1]))
+    while (corner < n &&
+           !is_corner(f, f->points[corner ? corner - 1 : n - 1], f->points[corner], f->points[corner + 1]))
         corner++;
     if (corner == 0 || corner == n || path->dash_count)
         return;

@@ -177,8 +177,8 @@ static bool put_ends_on(sheet_piece *e, const double a[2], const double b[2], do
 bool fit_ellipse(sheet_piece *out, const fit_run *r)
 {
     return find_ellipse(out, r, r->count) && out->radii[1] > 2 * r->most &&
-           put_ends_on(out, r->points[0], r->points[r->count - 1], area_of(r) > 0 ? 1 : -1) &&
-           fabs(out->sweep) > 0.3 && fit_follows(out, ellipse_at, looks_at_arc(out, r->most), r);
+           put_ends_on(out, r->points[0], r->points[r->count - 1], area_of(r) > 0 ? 1 : -1) && fabs(out->sweep) > 0.3 &&
+           fit_follows(out, ellipse_at, looks_at_arc(out, r->most), r);
 }
 
 /* --- cubics --------------------------------------------------------------------------------------------- */
@@ -202,7 +202,7 @@ static int looks_at_cubic(const sheet_piece *c, const double from[2], double mos
     return (int)fmax(ceil(sqrt(0.75 * sqrt(bent) / (LOOK_ERROR * most))), 8);
 }
 
-/* One step towards the parameter at which the curve is nearest to each point. */
+/* One step towards the parameter at which the curve is nearest to each point (Schneider 1990). */
 static void come_nearer(const sheet_piece *c, const fit_run *r, double *parameters)
 {
     const double *from = r->points[0];
@@ -247,24 +247,22 @@ static bool find_controls(sheet_piece *out, const fit_run *r, const unknowns *q,
     int           width = q->count + 1;
     memset(rows, 0, sizeof rows);
     for (size_t i = 1; i + 1 < r->count; i++) {
-        double u = parameters[i], v = 1 - u, first = 3 * u * v * v, second = 3 * u * u * v,
-               share[2] = {first, second}, weight = parameters[i + 1] - parameters[i - 1];
+        double u = parameters[i], v = 1 - u, first = 3 * u * v * v, second = 3 * u * u * v, share[2] = {first, second},
+               weight = parameters[i + 1] - parameters[i - 1];
         for (int k = 0; k < q->count; k++) {
             const double *way = q->way[k];
             double        own = weight * share[q->control[k]];
             for (int j = 0; j < q->count; j++)
                 rows[k * width + j] += own * share[q->control[j]] * (way[0] * q->way[j][0] + way[1] * q->way[j][1]);
             for (int n = 0; n < 2; n++)
-                rows[k * width + q->count] += own * way[n] *
-                                              (r->points[i][n] - from[n] * (v * v * v + first) -
-                                               end[n] * (second + u * u * u));
+                rows[k * width + q->count] +=
+                    own * way[n] * (r->points[i][n] - from[n] * (v * v * v + first) - end[n] * (second + u * u * u));
         }
     }
     if (!solve(rows, q->count, found))
         return false;
-    *out = (sheet_piece){.kind = SHEET_CUBIC,
-                         .end = {end[0], end[1]},
-                         .controls = {{from[0], from[1]}, {end[0], end[1]}}};
+    *out =
+        (sheet_piece){.kind = SHEET_CUBIC, .end = {end[0], end[1]}, .controls = {{from[0], from[1]}, {end[0], end[1]}}};
     for (int k = 0; k < q->count; k++)
         for (int n = 0; n < 2; n++)
             out->controls[q->control[k]][n] += found[k] * q->way[k][n];
@@ -315,10 +313,10 @@ bool fit_cubic(sheet_piece *out, const fit_run *r, const double *begin, const do
         if (!find_controls(out, r, &q, parameters) || !is_sound(out, r->points[0], length))
             return false;
         double there[2];
-        bool   forward = (!begin || (fit_direction(out, r->points[0], false, there) &&
-                                   there[0] * begin[0] + there[1] * begin[1] > 0)) &&
-                       (!end || (fit_direction(out, r->points[0], true, there) &&
-                                 there[0] * end[0] + there[1] * end[1] > 0));
+        bool   forward =
+            (!begin ||
+             (fit_direction(out, r->points[0], false, there) && there[0] * begin[0] + there[1] * begin[1] > 0)) &&
+            (!end || (fit_direction(out, r->points[0], true, there) && there[0] * end[0] + there[1] * end[1] > 0));
         if (forward && fit_follows(out, cubic_at, looks_at_cubic(out, r->points[0], r->most), r))
             return true;
         come_nearer(out, r, parameters);

@@ -85,13 +85,14 @@ static bool keeps_to_ring(const fit_run *r, const double centre[2], double radiu
     double inner = radius - r->most;
     *sum = 0;
     for (size_t i = 0; i < r->count; i++) {
-        double b[2] = {r->points[i][0] - centre[0], r->points[i][1] - centre[1]}, off = fit_distance(b[0], b[1]) - radius;
+        double b[2] = {r->points[i][0] - centre[0], r->points[i][1] - centre[1]},
+               off = fit_distance(b[0], b[1]) - radius;
         if (fabs(off) > r->most)
             return false;
         if (i > 0) { /* a chord is nearest to the centre in its middle, or nearly so */
             const double *p = r->points[i - 1];
-            double a[2] = {p[0] - centre[0], p[1] - centre[1]}, way[2] = {b[0] - a[0], b[1] - a[1]}, square = dot(way, way),
-                   along = -dot(a, way), side = cross(a, way);
+            double        a[2] = {p[0] - centre[0], p[1] - centre[1]}, way[2] = {b[0] - a[0], b[1] - a[1]},
+                   square = dot(way, way), along = -dot(a, way), side = cross(a, way);
             if (inner > 0 && along > 0 && along < square && side * side < inner * inner * square)
                 return false;
             if (i + 1 < r->count)
@@ -109,8 +110,8 @@ static double half_sweep(const fit_run *r)
     double        x = 0, y = 0;
     for (size_t i = 1; i + 1 < r->count; i++) {
         const double *p = r->points[i];
-        double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]};
-        double weight = sqrt(dot(in, in) * dot(on, on)) * weight_of(r, i);
+        double        in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]};
+        double        weight = sqrt(dot(in, in) * dot(on, on)) * weight_of(r, i);
         x += weight * dot(in, on);
         y += weight * cross(in, on);
     }
@@ -156,9 +157,11 @@ bool fit_circle(sheet_piece *out, const fit_run *r)
     if (count < 5 || !(whole > 1e-9 * xx * yy))
         return false;
     double x = 0.5 * (xz * yy - yz * xy) / whole, y = 0.5 * (yz * xx - xz * xy) / whole;
-    double radius = sqrt(z / (double)count + x * x + y * y), centre[2] = {mean[0] + x, mean[1] + y}, direction = area > 0 ? 1 : -1;
+    double radius = sqrt(z / (double)count + x * x + y * y), centre[2] = {mean[0] + x, mean[1] + y},
+           direction = area > 0 ? 1 : -1;
     /* It begins at the first point, which is put on it. */
-    double away[2] = {r->points[0][0] - centre[0], r->points[0][1] - centre[1]}, off = fit_distance(away[0], away[1]) - radius;
+    double away[2] = {r->points[0][0] - centre[0], r->points[0][1] - centre[1]},
+           off = fit_distance(away[0], away[1]) - radius;
     fit_run nearer = *r;
     nearer.most -= fabs(off);
     for (int k = 0; k < 2; k++)

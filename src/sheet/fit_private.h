@@ -39,6 +39,6 @@ bool fit_direction(const sheet_piece *piece, const double from[2], bool at_end, 
 /* Does a curve lie along the lines of a run, neither farther from the other than the run's `most`? `at` gives the
  * curve at 0 … 1; `pieces`: how many straight ones it is looked at in. May say no where the answer is yes. */
 typedef void (*fit_curve_fn)(const sheet_piece *piece, const double from[2], double fraction, double out[2]);
-bool         fit_follows(const sheet_piece *piece, fit_curve_fn at, int pieces, const fit_run *r);
+bool fit_follows(const sheet_piece *piece, fit_curve_fn at, int pieces, const fit_run *r);
 
 #endif

@@ -25,11 +25,11 @@ typedef struct sheet_path {
     uint32_t first, count; /* in the sheet's points */
     bool closed, filled; /* filled: the area that it and the other paths of its item run around (holes run the other way
                             round); else a line */
-    bool      curved; /* it stands for a curve, which sheet_fit may put in its place */
-    float     width;  /* of a line, or diameter of dots, mm */
+    bool      curved;    /* it stands for a curve, which sheet_fit may put in its place */
+    float     width;     /* of a line, or diameter of dots, mm */
     sheet_cap cap;
-    uint32_t  first_dash, dash_count; /* of the sheet's dashes; 0: unbroken */
-    float     phase;                  /* arc at which the pattern is where the path begins, mm */
+    uint32_t  first_dash, dash_count;   /* of the sheet's dashes; 0: unbroken */
+    float     phase;                    /* arc at which the pattern is where the path begins, mm */
     uint32_t  first_piece, piece_count; /* of the sheet's pieces, instead of lines between the points; the first begins
                                            at the first point, the last of a closed path ends there */
 } sheet_path;

@@ -203,8 +203,8 @@ static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t
 {
     const window_segment *s = &c->lines->segments[c->path[i] / 2];
     const float          *weights = c->lines->lines[c->path[i] / 2].weights;
-    double p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
-                   s->a.z + fraction * (s->b.z - s->a.z)};
+    double       p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
+                         s->a.z + fraction * (s->b.z - s->a.z)};
     const double home[2] = {p[0], p[1]};
     if (c->curved)
         curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - fraction : fraction, p);
@@ -246,14 +246,14 @@ static bool clip_to_page(const chainer *c, const chain_point *p, const chain_poi
 
 static chain_point between(const chain_point *p, const chain_point *q, double fraction, int32_t count)
 {
-    return (chain_point){p->x + fraction * (q->x - p->x),
-                         p->y + fraction * (q->y - p->y),
-                         p->z + fraction * (q->z - p->z),
-                         0,
-                         p->weight + (float)fraction * (q->weight - p->weight),
-                         count,
-                         {p->aside[0] + fraction * (q->aside[0] - p->aside[0]),
-                          p->aside[1] + fraction * (q->aside[1] - p->aside[1])}};
+    return (chain_point){
+        p->x + fraction * (q->x - p->x),
+        p->y + fraction * (q->y - p->y),
+        p->z + fraction * (q->z - p->z),
+        0,
+        p->weight + (float)fraction * (q->weight - p->weight),
+        count,
+        {p->aside[0] + fraction * (q->aside[0] - p->aside[0]), p->aside[1] + fraction * (q->aside[1] - p->aside[1])}};
 }
 
 /* One straight piece with one count: cut at the rim of the page. */
@@ -514,8 +514,8 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
         const chain_point *p = &c->points[i];
         if (c->kept[i])
             out->points[out->point_count++] =
-                (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight,
-                               {(float)p->aside[0], (float)p->aside[1]}};
+                (stroke_point){(float)p->x,   (float)p->y, (float)view_depth(c->v, p->z),
+                               (float)p->arc, p->weight,   {(float)p->aside[0], (float)p->aside[1]}};
     }
     s.count = (uint32_t)(out->point_count - s.first);
     out->strokes[out->stroke_count++] = s;

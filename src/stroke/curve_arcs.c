@@ -93,7 +93,8 @@ static bool turns_alone(const polyline *p, size_t i)
 {
     double           most = ALONE * fabs(p->points[i].turn);
     const arc_point *before = &p->points[line_before(p, i)], *behind = end_of(p, i);
-    return p->count > 2 && fabs(p->points[i].turn) > STRAIGHT && (before->kind == ARC_POINT_CORNER || fabs(before->turn) < most) &&
+    return p->count > 2 && fabs(p->points[i].turn) > STRAIGHT &&
+           (before->kind == ARC_POINT_CORNER || fabs(before->turn) < most) &&
            (behind->kind == ARC_POINT_CORNER || fabs(behind->turn) < most);
 }
 

@@ -35,8 +35,8 @@ typedef struct stroke_style {
     float   hidden_fade;  /* opacity is multiplied by it with each pair of surfaces more in front */
     int32_t hidden_depth; /* surfaces in front at most; 0: any number */
     float hidden_crowd; /* hidden lines keep at least this far apart: the more important one stays; 0: all are drawn */
-    bool  keeps_dashed; /* a dashed line of one width is one ribbon with its dashes, for who can dash it himself; else each
-                           dash is a ribbon */
+    bool  keeps_dashed; /* a dashed line of one width is one ribbon with its dashes, for who can dash it himself; else
+                           each  dash is a ribbon */
 } stroke_style;
 
 typedef struct ribbon_point {
@@ -53,7 +53,7 @@ typedef struct ribbon {
     uint64_t     id;
     colour       ink; /* straight alpha, sRGB */
     int32_t      brush;
-    uint32_t     first, count; /* points */
+    uint32_t     first, count;           /* points */
     uint32_t     first_dash, dash_count; /* 0: unbroken */
     bool         closed,
         even; /* closed: ends where it began, the first point once more; even: one width and opacity all along */

@@ -120,8 +120,8 @@ static void put_outline(vector_pen *w, const ribbon_point *points, size_t count,
     if (round)
         add_cap(w, &points[0], (const float[2]){-direction[0], -direction[1]});
     if (!w->failed)
-        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true, .curved = true}, (const float(*)[2])w->points,
-                       w->count);
+        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true, .curved = true},
+                       (const float(*)[2])w->points, w->count);
 }
 
 void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end)
@@ -162,7 +162,8 @@ static bool is_regular(const float (*dashes)[2], size_t count, float pattern[3])
 {
     if (count < 3)
         return false; /* two may be anything */
-    float dash = dashes[1][1] - dashes[1][0], gap = dashes[1][0] - dashes[0][1], first = dashes[0][1], last = dashes[count - 1][1] - dashes[count - 1][0];
+    float dash = dashes[1][1] - dashes[1][0], gap = dashes[1][0] - dashes[0][1], first = dashes[0][1],
+          last = dashes[count - 1][1] - dashes[count - 1][0];
     for (size_t i = 1; i < count; i++)
         if (!is_near(dashes[i][0] - dashes[i - 1][1], gap) ||
             (i + 1 < count && !is_near(dashes[i][1] - dashes[i][0], dash)))

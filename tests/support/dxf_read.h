@@ -34,7 +34,7 @@ typedef struct dxf_file {
     dxf_entity *entities;
     double (*points)[2];
     double *bulges; /* of each point */
-    size_t entity_count, point_count, layer_count;
+    size_t  entity_count, point_count, layer_count;
 } dxf_file;
 
 /* False when it cannot be read. End with dxf_release. */

@@ -234,7 +234,8 @@ static void sample_entity(samples *out, const dxf_file *f, const dxf_entity *e)
     }
     for (size_t k = 0; k + 3 < e->count && e->kind == DXF_SPLINE; k += 3)
         for (int i = 0; i <= 400; i++) {
-            double u = i / 400.0, v = 1 - u, w[4] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u}, at[2] = {0, 0};
+            double u = i / 400.0, v = 1 - u, w[4] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u},
+                   at[2] = {0, 0};
             for (int n = 0; n < 8; n++)
                 at[n % 2] += w[n / 2] * p[k + (size_t)n / 2][n % 2];
             add_sample(out, at[0], at[1]);
@@ -268,7 +269,7 @@ static void test_curves_by_dxflib(void **state)
     print_message("%zu entities, %zu dashed, %.4f and %.4f mm apart\n", read.entity_count, dashed, there, back);
     assert_true(kinds[DXF_CIRCLE] == 1 && kinds[DXF_ARC] == 1 && kinds[DXF_ELLIPSE] == 2 && kinds[DXF_SPLINE] >= 1);
     assert_true(kinds[DXF_POLYLINE] >= 1 && dashed == read.entity_count - 1);
-    assert_true(there < 0.045 && back < 0.045); /* 0.02, and samples are 0.05 apart, or less */
+    assert_true(there < 0.045 && back < 0.045);    /* 0.02, and samples are 0.05 apart, or less */
     for (size_t i = 0; i < read.entity_count; i++) /* one pattern, stretched */
         if (read.entities[i].kind == DXF_ARC)
             assert_true(fabs(read.entities[i].pattern_scale - 1) < 1e-3);
@@ -301,7 +302,8 @@ static void test_curves_by_gdal(void **state)
     assert_true(file >= 0);
     close(file);
     assert_int_equal(file_store(path, bytes.data, bytes.size, &error), LMN_OK);
-    snprintf(command, sizeof command, "ogrinfo -q -al 'DXF:%s' 2>/dev/null || ogrinfo -q -al %s 2>/dev/null", path, path);
+    snprintf(command, sizeof command, "ogrinfo -q -al 'DXF:%s' 2>/dev/null || ogrinfo -q -al %s 2>/dev/null", path,
+             path);
     FILE *told = popen(command, "r");
     sample_shapes(&wanted);
     size_t strings = 0, layers = 0;

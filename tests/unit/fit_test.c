@@ -198,8 +198,8 @@ static void fit_chain(sheet *s, const chain *c, double error)
 {
     sheet_begin(s, 100, 100, 4);
     sheet_add_item(s, SHEET_PATH, 0, (colour){0, 0, 0, 1}, 0);
-    sheet_add_path(s, &(sheet_path){.width = 0.3f, .curved = true, .closed = c->closed},
-                   (const float(*)[2])c->points, c->count);
+    sheet_add_path(s, &(sheet_path){.width = 0.3f, .curved = true, .closed = c->closed}, (const float(*)[2])c->points,
+                   c->count);
     sheet_fit(s, error);
     assert_false(s->failed);
 }
@@ -319,7 +319,8 @@ static void corners_stay(void **state)
     for (int i = 0; i < 5; i++) {
         double least = INFINITY;
         for (int k = 0; k < 5; k++)
-            least = fmin(least, hypot(s.pieces[k].end[0] - (double)zigzag[i][0], s.pieces[k].end[1] - (double)zigzag[i][1]));
+            least = fmin(least,
+                         hypot(s.pieces[k].end[0] - (double)zigzag[i][0], s.pieces[k].end[1] - (double)zigzag[i][1]));
         assert_true(least < 1e-6);
         check_piece(&s.pieces[i], SHEET_LINE, 0, 0, 0);
     }
@@ -347,9 +348,12 @@ static void nothing_is_asked_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nowhere_farther_than_said),  cmocka_unit_test(a_straight_stays_straight),
-        cmocka_unit_test(round_things_are_one_piece), cmocka_unit_test(fillets_keep_their_radius),
-        cmocka_unit_test(corners_stay),               cmocka_unit_test(nothing_is_asked_for),
+        cmocka_unit_test(nowhere_farther_than_said),
+        cmocka_unit_test(a_straight_stays_straight),
+        cmocka_unit_test(round_things_are_one_piece),
+        cmocka_unit_test(fillets_keep_their_radius),
+        cmocka_unit_test(corners_stay),
+        cmocka_unit_test(nothing_is_asked_for),
     };
     return cmocka_run_group_tests_name("fit", tests, NULL, NULL);
 }

@@ -75,16 +75,19 @@ static int count_of(const char *text, const char *word)
 /* A circle, dashed, and a straight line on a layer each, two views, one of which is cut. */
 static void build(sheet *s)
 {
-    const float line[3][2] = {{10, 10}, {20, 10.001f}, {30, 10}};
-    float       circle[60][2];
+    const float        line[3][2] = {{10, 10}, {20, 10.001f}, {30, 10}};
+    float              circle[60][2];
     static const float cosines[5] = {1, 0.809017f, 0.309017f, -0.309017f, -0.809017f};
     for (int i = 0; i < 10; i++) {
         circle[i][0] = 50 + 8 * (i < 5 ? cosines[i] : -cosines[i - 5]);
-        circle[i][1] = 50 + 8 * ((i < 5 ? 1.0f : -1.0f) * (float)(i % 5 == 0 ? 0 : i % 5 == 1 || i % 5 == 4 ? 0.587785 : 0.951057));
+        circle[i][1] = 50 + 8 * ((i < 5 ? 1.0f : -1.0f) * (float)(i % 5 == 0                 ? 0
+                                                                  : i % 5 == 1 || i % 5 == 4 ? 0.587785
+                                                                                             : 0.951057));
     }
     sheet_begin(s, 100, 100, 4);
     sheet_set_title(s, "A (title) \xE2\x80\x94 \xF0\x9F\x98\x80", NULL);
-    uint32_t view = sheet_add_group(s, -1, "view", "view", 0), part = sheet_add_group(s, (int32_t)view, "Wheel", "part", 1),
+    uint32_t view = sheet_add_group(s, -1, "view", "view", 0),
+             part = sheet_add_group(s, (int32_t)view, "Wheel", "part", 1),
              crease = sheet_add_group(s, (int32_t)part, "crease", "visible crease", 0),
              other = sheet_add_group(s, -1, "view-2", "view", 0);
     sheet_clip_group(s, other, 0, 0, 40, 40);
@@ -108,7 +111,7 @@ static void what_is_on_the_page(void **state)
     assert_int_equal(pdf.size, again.size);
     assert_memory_equal(pdf.data, again.data, pdf.size);
     assert_true(check_table(&pdf) >= 11);
-    char *page = content_of(&pdf);
+    char  *page = content_of(&pdf);
     double dash = 0, gap = 0; /* as many as along its chords, which are shorter than the circle by 1.6 % */
     assert_int_equal(sscanf(strstr(page, "\n[") + 2, "%lf %lf ]", &dash, &gap), 2);
     assert_true(dash > 2.03 && dash < 2.036 && gap > 1.015 && gap < 1.018);

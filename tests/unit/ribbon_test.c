@@ -1148,7 +1148,7 @@ int main(void)
                                        cmocka_unit_test(test_colours_and_fading),
                                        cmocka_unit_test(test_dashes),
                                        cmocka_unit_test(test_whole_dashes),
-        cmocka_unit_test(test_closed_dashes),
+                                       cmocka_unit_test(test_closed_dashes),
                                        cmocka_unit_test(test_hidden_dashes),
                                        cmocka_unit_test(test_halos),
                                        cmocka_unit_test(test_halos_at_ends),
