@@ -139,9 +139,11 @@ void edges_bring(frame *f, stroke_store *store, uint32_t index, bool crossings)
     const edge_mesh *m = &store->scene.meshes[mesh];
     if (m->moves && !gpu_failed(f->g))
         bring_seen(f, store, index);
-    else if (!store->edges[mesh] && !gpu_failed(f->g))
+    else if (!store->edges[mesh] && !gpu_failed(f->g)) {
         store->edges[mesh] =
             upload_records(f, EDGE_RECORD_VECTORS, strokes_edge_records(m), strokes_edge_record_count(m));
+        store->turns[mesh] = (float)strokes_gentlest_turn(m);
+    }
     if (!crossings || store->crossings[index] || gpu_failed(f->g))
         return;
     size_t count;

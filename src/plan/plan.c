@@ -183,6 +183,13 @@ static void settle_layers(figure *f, const plan *p, bool as_sprites)
         f->channels |= CHANNEL_VELOCITY;
 }
 
+/* Does the geometry pass tell more than colour and normal? */
+static bool tells_detail(const technique_use *surface)
+{
+    const surface_row *row = surface->technique->surface;
+    return row->detail && row->needs && row->needs(surface->values).walls;
+}
+
 bool shades_with_geometry(const technique_use *surface)
 {
     const technique *t = surface->technique;
@@ -216,7 +223,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
     if (f->complement || as_sprites)
         f->channels |= CHANNEL_ID;
     if (f->deferred)
-        f->channels |= CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO;
+        f->channels |=
+            CHANNEL_NORMAL_DEPTH | CHANNEL_ID | CHANNEL_ALBEDO | (tells_detail(surface) ? CHANNEL_DETAIL : 0);
     if (as_sprites)
         f->channels |= CHANNEL_NORMAL_DEPTH;
     if (wants_rest(p, f))

@@ -18,10 +18,13 @@
 #include "vector/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
+#include "sheet/fit.h"
 #include "light/light.h"
 
 static const double gap_between_views = 12; /* mm */
 static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
+/* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
+static const double simplified_part = 0.25, written_error = 0.0007;
 
 /* What one drawing needs while it is made. */
 typedef struct vector_job {
@@ -462,6 +465,9 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
+    if (j->wanted->smooth > 0)
+        options.simplify = fminf(options.simplify, (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM));
+    style.keeps_dashed = !j->wanted->plotter;
     bool *parts = parts_of(j, r, &count);
     if (!parts)
         return error_memory(error);
@@ -784,6 +790,8 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
         status = finish_page(j, error);
     if (status == LMN_OK && j->wanted->plotter)
         status = vector_order_for_plotter(&s->page, error);
+    if (status == LMN_OK)
+        sheet_fit(&s->page, (1 - simplified_part) * j->wanted->smooth - written_error);
     if (status == LMN_OK && s->page.failed)
         status = error_memory(error);
     return status == LMN_OK ? work_progress(0.95, "drawing", error) : status;
