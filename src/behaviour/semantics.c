@@ -115,8 +115,9 @@ static bool has_its_shape(const lmn_scene *scene, const node *n, const char *sem
 /* Of two nouns the last one says what a thing is: a head lamp is a lamp, an arm rest is a rest. */
 static bool is_of_another(const char *name)
 {
-    static const char *const things[] = {"lamp", "lamps", "light",  "lights", "rest", "rests", "rail",  "handle", "bolt",
-                                         "arch", "phone", "phones", "board",  "band", "brake", "cover", "frame",  "mark"};
+    static const char *const things[] = {"lamp",  "lamps",  "light", "lights", "rest",  "rests",
+                                         "rail",  "handle", "bolt",  "arch",   "phone", "phones",
+                                         "board", "band",   "brake", "cover",  "frame", "mark"};
     for (size_t i = 0; i < sizeof things / sizeof *things; i++)
         if (has_word(name, things[i]))
             return true;

@@ -120,7 +120,7 @@ static void put_run(glyph_mesh *m, const depict_job *j, const course *c, const a
 {
     const double length = course_end(c), end = part->last ? fmax(length - style->short_of, length * 0.3) : length,
                  head = part->last ? head_length(j, c, end, style->head * style->width) : 0, body = end - head;
-    double step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
+    double       step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
     const double tail = style->tail * style->width, along = (1 - style->tail) * style->width / part->whole;
     if (style->dash > 0 && body > 0)
         fit_dashes(j, body, &dash, &step);
@@ -164,7 +164,7 @@ void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[
     const size_t last = m->failed ? 0 : last_run(&way, lengths, 1.5 * style->head * style->width);
     for (size_t r = 0; r < way.run_count && r <= last && !m->failed; r++) {
         const rounded_run *run = &way.runs[r];
-        const course c = {(const double(*)[3])way.points + run->first, lengths + run->first, run->count};
+        const course       c = {(const double(*)[3])way.points + run->first, lengths + run->first, run->count};
         part.last = r == last;
         if (run->count > 1 && course_end(&c) > 0) {
             put_run(m, j, &c, style, &part);

@@ -134,16 +134,16 @@ static lmn_status add_mesh(lmn_scene *s, const depict_job *j, glyph *g, lmn_erro
     bool         failed = false;
     vec3        *normals = flat_normals(j, g, &failed);
     const colour tint = g->label.tint;
-    primitive  p = {.vertex_count = (uint32_t)m->position_count,
-                    .index_count = (uint32_t)m->index_count,
-                    .positions = m->positions,
-                    .normals = normals,
-                    .indices = m->indices,
-                    .lines = m->lines,
-                    .line_count = (uint32_t)m->line_count / 2,
-                    .material = material_for(s, tint)};
-    lmn_status status = p.material == NONE || failed ? error_memory(error) : scene_check_mesh(s, NONE, &p, error);
-    mesh      *added = status == LMN_OK ? scene_append_mesh(s) : NULL;
+    primitive    p = {.vertex_count = (uint32_t)m->position_count,
+                      .index_count = (uint32_t)m->index_count,
+                      .positions = m->positions,
+                      .normals = normals,
+                      .indices = m->indices,
+                      .lines = m->lines,
+                      .line_count = (uint32_t)m->line_count / 2,
+                      .material = material_for(s, tint)};
+    lmn_status   status = p.material == NONE || failed ? error_memory(error) : scene_check_mesh(s, NONE, &p, error);
+    mesh        *added = status == LMN_OK ? scene_append_mesh(s) : NULL;
     if (status == LMN_OK && !added)
         status = error_memory(error);
     if (status != LMN_OK) {

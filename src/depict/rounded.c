@@ -90,9 +90,8 @@ static double radius_at(const page_way *w, size_t i)
 {
     const size_t reach = A_WIDTH / 2, a = i > reach ? i - reach : 0,
                  c = i + reach < w->sample_count ? i + reach : w->sample_count - 1;
-    const double turned = i > 0 && i + 1 < w->sample_count
-                              ? turn_between(w->samples[a], w->samples[i], w->samples[c])
-                              : 0;
+    const double turned =
+        i > 0 && i + 1 < w->sample_count ? turn_between(w->samples[a], w->samples[i], w->samples[c]) : 0;
     const double legs = apart(w->samples[a], w->samples[i]) + apart(w->samples[i], w->samples[c]);
     return turned > 0.1 ? legs / 2 / turned : 10 * w->width;
 }
@@ -117,7 +116,7 @@ static bool mark_sharp(page_way *w, bool *active)
 static void relax(page_way *w)
 {
     enum { ROUNDS = 60, STEPS = 12 };
-    bool  *active = mem_calloc(w->sample_count + 1, sizeof *active);
+    bool *active = mem_calloc(w->sample_count + 1, sizeof *active);
     double(*next)[3] = mem_alloc((w->sample_count + 1) * sizeof *next);
     for (int round = 0; round < ROUNDS && active && next && mark_sharp(w, active); round++)
         for (int step = 0; step < STEPS; step++) {

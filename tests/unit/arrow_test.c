@@ -28,8 +28,8 @@ static int count_folds(const glyph_mesh *m, double least)
 {
     int sides[2] = {0, 0};
     for (size_t i = 0; i + 2 < m->index_count; i += 3) {
-        const vec3  *a = &m->positions[m->indices[i]], *b = &m->positions[m->indices[i + 1]],
-                    *c = &m->positions[m->indices[i + 2]];
+        const vec3 *a = &m->positions[m->indices[i]], *b = &m->positions[m->indices[i + 1]],
+                   *c = &m->positions[m->indices[i + 2]];
         const double area = (double)((b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x)) / 2;
         if (fabs(area) > least)
             sides[area > 0]++;
@@ -64,7 +64,7 @@ static void nothing_folds(void **state)
             for (int k = 0; k < 3; k++)
                 points[i][k] = (i ? points[i - 1][k] : 0) + 2 * random_unit(&r) - 1;
         const double width = 0.05 + 0.35 * random_unit(&r);
-        const int folds = folds_of((const double(*)[3])points, count, width, seed % 2 ? 2.5 * width : 0);
+        const int    folds = folds_of((const double(*)[3])points, count, width, seed % 2 ? 2.5 * width : 0);
         folded += folds > 0;
         empty += folds < 0;
     }
