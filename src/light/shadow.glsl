@@ -8,7 +8,7 @@ uniform float u_shadow_pixel;    /* side of a pixel of the page, in texels, in p
 float lit_once(vec3 eye, vec3 normal)
 {
     vec3 at = (u_shadow_from_eye * vec4(eye + normal * (1.5 * u_shadow_texel.y), 1.0)).xyz;
-    return step(at.z, texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
+    return step(min(at.z, 1.0), texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
 }
 
 /* How the depth of a flat surface rises over the map, for each texel to the right and up. */

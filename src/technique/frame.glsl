@@ -25,6 +25,7 @@ uniform int   u_figure;       /* its number among those that share their layers 
 uniform int   u_layer;        /* 0 = visible */
 uniform float u_rear;         /* opacity of layers behind an uncovered focus, 1 before */
 uniform float u_forward;      /* window depth by which the figure is in front of what it lies on */
+uniform vec4  u_ghost;         /* paper, and how much of the figure's colour it is: of ghost images */
 uniform bool  u_filled;       /* with the fill, not only the lines */
 uniform int   u_iteration;    /* of a pass that is repeated, from 0 */
 
