@@ -185,8 +185,8 @@ static void vectors(void)
         bool  written = look && fputs(halftone_look(tiled_of("light.stx", tone, "")), look) >= 0;
         written = look && fclose(look) == 0 && written;
         snprintf(svg, sizeof svg, "%s", check_path("vectors.svg"));
-        snprintf(arguments, sizeof arguments, "draw %s --look %s --size 600x600 -o %s", check_path("vectors.gltf"),
-                 check_path("vectors.json"), svg);
+        snprintf(arguments, sizeof arguments, "draw %s --look %s --size 600x600 --view %s -o %s",
+                 check_path("vectors.gltf"), check_path("vectors.json"), k % 4 == 1 ? "front" : "iso", svg);
         if (check_that("EX-07", written && halftone_command(LIMNER_COMMAND, arguments, said, sizeof said) == 0,
                        "a file of vectors: %s", said))
             check_near("EX-07", shapes_of_marks(svg), wanted, 0, "strokes of a file of vectors, tone %.3f", tone);
