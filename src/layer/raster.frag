@@ -29,6 +29,9 @@ uniform uint u_surface_id;
 #ifdef AT_ID
 layout(location = AT_ID) out uvec2 out_id;
 #endif
+#ifdef AT_DETAIL
+layout(location = AT_DETAIL) out vec4 out_detail;
+#endif
 #ifdef AT_ALBEDO
 #ifdef INTO_LISTS
 vec4 out_albedo;
@@ -179,6 +182,13 @@ void main()
 #endif
 #ifdef AT_ALBEDO
     out_albedo = vec4(albedo.rgb, u_unlit != 0 ? ALBEDO_UNLIT : albedo.a);
+#endif
+#ifdef AT_DETAIL
+#ifdef HAS_WALLS
+    out_detail = surface_detail();
+#else
+    out_detail = vec4(0.0);
+#endif
 #endif
 #ifdef AT_VELOCITY
     write_moved(v_eye);

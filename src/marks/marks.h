@@ -262,8 +262,9 @@ float mark_ink_of_strokes(float cover, float darkest, float span, float crowded)
 #define FLOW_UNEVEN 0.3
 
 /* How much of the page the lines of a set cover, for a position to be this dark: the first carries it alone up to
- * `crossed`, and what it leaves bare later ones cover alike. */
-double mark_cover_of_set(double darkness, double crossed, int set, int series);
+ * `crossed`, and what it leaves bare later ones cover alike. `steady`: each but the last goes up to `crossed` only, and
+ * the next one begins there. */
+double mark_cover_of_set(double darkness, double crossed, int set, int series, bool steady);
 /* How wide a line is, model units, where `level` is wanted: log2 of the distance of level 0 over the wanted one.
  * `apart`: distance of level 0. */
 /* A line's own width, 1 ± uneven / 2. */
@@ -273,6 +274,9 @@ double mark_flow_swell(const mark_line *line, double uneven);
 double mark_flow_hand(const mark_line *line, const flow_end *end, double pressure, double patchy);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);
+/* How much of the width is left so many distances from where a line runs out, which takes `taper`: all where so much is
+ * covered that lines join, from half of that on more than the tip has. */
+double mark_flow_tip(double to_end, double taper, double tip, double cover, double join);
 double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], double apart, int levels, double level,
                        double cover);
 
@@ -282,18 +286,20 @@ enum { MARK_LIGHTS_MAX = 8, FLOW_ANY_WIDTH = 2 /* of mark_style.widest: no limit
 
 /* How marks look and what decides. */
 typedef struct mark_style {
-    float   diameter;                           /* of dots, or width of strokes, pixels */
-    float   scale;                              /* strokes: mean distance where it is darkest, pixels */
-    float   fade, most;                         /* ramp; how much larger dots may become, times their area */
-    float   taper;                              /* fraction of a stroke over which each end runs out */
-    int32_t law;                                /* mark_law, of strokes */
-    float   crowded;                            /* mark_ink_of_strokes */
-    float   crossed, least, widest, tip, swell; /* lines that flow: darkness from which sets cross; cover below which
-                                                   lines run out; most width, in distances; how pointed ends are;
-                                                   unevenness of widths. `taper` is in distances of lines */
-    float pressure, patchy, stray, room;        /* mark_flow_hand; how far strokes leave their lines, in distances;
-                                                   mark_flow_room */
+    float   diameter;                                 /* of dots, or width of strokes, pixels */
+    float   scale;                                    /* strokes: mean distance where it is darkest, pixels */
+    float   fade, most;                               /* ramp; how much larger dots may become, times their area */
+    float   taper;                                    /* fraction of a stroke over which each end runs out */
+    int32_t law;                                      /* mark_law, of strokes */
+    float   crowded;                                  /* mark_ink_of_strokes */
+    float   crossed, least, widest, tip, join, swell; /* lines that flow: darkness from which sets cross; cover below
+                                                         which lines run out; most width, in distances; how pointed
+                                                         ends are, and the cover from which they are not; unevenness
+                                                         of widths. `taper` is in distances of lines */
+    float pressure, patchy, stray, room; /* mark_flow_hand; how far strokes leave their lines, in distances;
+                                            mark_flow_room */
     int32_t series;
+    bool    steady; /* mark_cover_of_set */
     float   shadow, light, contrast,
         texture;      /* tone without and in full light; its bend; fraction of the surface's own brightness */
     bool white;       /* marks stand for light */

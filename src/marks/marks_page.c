@@ -283,19 +283,19 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     double least = (double)g->style->least;
     double across = across_at(g, l, &p, direction), scale = (double)g->style->scale,
            level = log2(fmax(m->apart * across / scale, 1e-6));
-    double cover =
-        mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set, g->style->series) *
-        mark_flow_swell(l, (double)g->style->swell) *
-        mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
-        mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+    double cover = mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set,
+                                     g->style->series, g->style->steady) *
+                   mark_flow_swell(l, (double)g->style->swell) *
+                   mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
+                   mark_flow_room((double)l->room * across / scale, (double)g->style->room);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
-    double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
-           left = fmin(fmax((double)e->to_end / fmax(taper, 1e-20), 0), 1);
+    double to_end = (double)e->to_end * across / scale;
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
-    return (float)(fmin(width, most) * pow(left, (double)g->style->tip));
+    return (float)(fmin(width, most) * mark_flow_tip(to_end, (double)g->style->taper, (double)g->style->tip, cover,
+                                                     (double)g->style->join));
 }
 
 /* What ends leave of the width. */

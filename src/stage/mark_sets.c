@@ -140,6 +140,7 @@ static void upload_lines(gpu *g, const marks *m, mark_set *out)
     out->lines = true;
     out->levels = m->levels;
     out->apart = m->apart;
+    out->sag = m->sag;
     out->density = INFINITY;
     if (records && order && out->ranks) {
         for (size_t i = 0; i < m->line_count; i++)

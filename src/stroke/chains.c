@@ -27,6 +27,7 @@ typedef struct chain_point {
     double  x, y, z, arc;
     float   weight;
     int32_t count;
+    double  aside[2]; /* as of stroke points */
 } chain_point;
 
 typedef struct chainer {
@@ -202,8 +203,9 @@ static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t
 {
     const window_segment *s = &c->lines->segments[c->path[i] / 2];
     const float          *weights = c->lines->lines[c->path[i] / 2].weights;
-    double p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
-                   s->a.z + fraction * (s->b.z - s->a.z)};
+    double       p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
+                         s->a.z + fraction * (s->b.z - s->a.z)};
+    const double home[2] = {p[0], p[1]};
     if (c->curved)
         curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - fraction : fraction, p);
     return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width,
@@ -211,7 +213,8 @@ static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t
                          p[2],
                          0,
                          weights[0] + (float)fraction * (weights[1] - weights[0]),
-                         count};
+                         count,
+                         {(p[0] - home[0]) / c->v->units, (p[1] - home[1]) / c->v->units}};
 }
 
 static bool put_point(chainer *c, chain_point p)
@@ -243,12 +246,14 @@ static bool clip_to_page(const chainer *c, const chain_point *p, const chain_poi
 
 static chain_point between(const chain_point *p, const chain_point *q, double fraction, int32_t count)
 {
-    return (chain_point){p->x + fraction * (q->x - p->x),
-                         p->y + fraction * (q->y - p->y),
-                         p->z + fraction * (q->z - p->z),
-                         0,
-                         p->weight + (float)fraction * (q->weight - p->weight),
-                         count};
+    return (chain_point){
+        p->x + fraction * (q->x - p->x),
+        p->y + fraction * (q->y - p->y),
+        p->z + fraction * (q->z - p->z),
+        0,
+        p->weight + (float)fraction * (q->weight - p->weight),
+        count,
+        {p->aside[0] + fraction * (q->aside[0] - p->aside[0]), p->aside[1] + fraction * (q->aside[1] - p->aside[1])}};
 }
 
 /* One straight piece with one count: cut at the rim of the page. */
@@ -445,6 +450,8 @@ static void calm(chainer *c)
 /* Of what a depth is off, so much counts beside what the position on the page is: depth may be off by less than half a
  * pixel, so that whoever looks the line up finds it on its surface. */
 #define DEPTH_FRACTION 0.25
+/* The same of what lies aside: less than half a pixel, too. */
+#define ASIDE_FRACTION 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
 static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
@@ -455,7 +462,9 @@ static double distance_from(const chainer *c, const chain_point *p, const chain_
     double away_x = p->x - a->x - fraction * x, away_y = p->y - a->y - fraction * y;
     double depth = (p->z - a->z - fraction * (b->z - a->z)) *
                    (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_FRACTION;
-    return sqrt(away_x * away_x + away_y * away_y + depth * depth);
+    double aside = ASIDE_FRACTION * hypot(p->aside[0] - a->aside[0] - fraction * (b->aside[0] - a->aside[0]),
+                                          p->aside[1] - a->aside[1] - fraction * (b->aside[1] - a->aside[1]));
+    return sqrt(away_x * away_x + away_y * away_y + depth * depth + aside * aside);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
@@ -505,7 +514,8 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
         const chain_point *p = &c->points[i];
         if (c->kept[i])
             out->points[out->point_count++] =
-                (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight};
+                (stroke_point){(float)p->x,   (float)p->y, (float)view_depth(c->v, p->z),
+                               (float)p->arc, p->weight,   {(float)p->aside[0], (float)p->aside[1]}};
     }
     s.count = (uint32_t)(out->point_count - s.first);
     out->strokes[out->stroke_count++] = s;

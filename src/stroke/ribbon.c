@@ -201,7 +201,7 @@ enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_HAND, NOISE_COUNT };
 typedef struct builder {
     ribbon_job   job;
     ribbon_set  *out;
-    size_t       ribbon_capacity, point_capacity;
+    size_t       ribbon_capacity, point_capacity, dash_capacity;
     span_list    inked, dashes, spans;
     hand_pulls   pulls;
     segment_grid grid; /* of visible strokes, where a hand draws */
@@ -517,6 +517,47 @@ static void draw_line(builder *b, const line *l, const float beyond[2], bool das
     }
 }
 
+/* The dashes in `spans` as one ribbon. */
+static void draw_dashes(builder *b, const line *l, const float beyond[2])
+{
+    span  *dashes = b->spans.items, *last = &dashes[b->spans.count - 1];
+    size_t count = b->spans.count, before = b->out->ribbon_count;
+    dashes->from = fmaxf(dashes->from, l->begin);
+    last->to = fminf(last->to, l->end);
+    dashes->from -= dashes->from == l->begin ? beyond[0] : 0;
+    last->to += last->to == l->end ? beyond[1] : 0;
+    emit(b, l, (span){dashes->from, last->to}, true);
+    if (b->failed || b->out->ribbon_count == before)
+        return;
+    if (b->out->dash_count + count > UINT32_MAX ||
+        !mem_grow((void **)&b->out->dashes, &b->dash_capacity, b->out->dash_count + count, sizeof *b->out->dashes)) {
+        b->failed = true;
+        return;
+    }
+    ribbon *r = &b->out->ribbons[before];
+    r->first_dash = (uint32_t)b->out->dash_count;
+    r->dash_count = (uint32_t)count;
+    for (size_t i = 0; i < count; i++) {
+        float *to = b->out->dashes[b->out->dash_count++];
+        to[0] = dashes[i].from - dashes->from;
+        to[1] = dashes[i].to - dashes->from;
+    }
+}
+
+/* A dashed line whole: between two gaps it is one ribbon. */
+static void draw_dashed(builder *b, const line *l, const float beyond[2])
+{
+    for (size_t i = 0; i < b->inked.count && !b->failed; i++) {
+        const span_list one = {.items = &b->inked.items[i], .count = 1};
+        span_list_intersect(&b->spans, &one, &b->dashes);
+        b->failed = b->failed || b->spans.failed;
+        if (b->spans.count > 1)
+            draw_dashes(b, l, beyond);
+        else
+            draw_line(b, l, beyond, true);
+    }
+}
+
 /* A piece of a pull, drawn for the how manieth time. */
 static void draw_piece(builder *b, const stroke_style *style, const line *whole, const hand_pull *pull, int number,
                        int copy, int index, const float onward[2], bool dashed)
@@ -594,6 +635,8 @@ static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t
     b->failed = b->failed || b->inked.failed || b->spans.failed;
     if (s->hidden_by == 0 && hand_draws(b->job.style))
         draw_pulls(b, &l, index, onward, dashed);
+    else if (dashed && b->job.style->keeps_dashed && !l.varies)
+        draw_dashed(b, &l, onward);
     else
         draw_line(b, &l, onward, dashed);
 }
@@ -659,5 +702,6 @@ void ribbon_set_release(ribbon_set *r)
 {
     mem_free(r->ribbons);
     mem_free(r->points);
+    mem_free(r->dashes);
     *r = (ribbon_set){0};
 }

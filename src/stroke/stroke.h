@@ -36,9 +36,11 @@ const char *stroke_class_name(stroke_class c);
 
 typedef struct stroke_point {
     float x, y;
-    float depth;  /* eye depth, file units */
-    float arc;    /* length along the whole chain up to here, units */
-    float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
+    float depth;    /* eye depth, file units */
+    float arc;      /* length along the whole chain up to here, units */
+    float weight;   /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
+    float aside[2]; /* how far it lies off the line of the mesh that it stands for, where curves stand for lines: what
+                       hides the one there hides the other here */
 } stroke_point;
 
 /* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order;

@@ -58,8 +58,9 @@ typedef struct surface_strokes_values {
 typedef struct surface_lines_values {
     mark_values common;
     int32_t     series;
+    bool        steady;
     float scale, length, uneven, groups, overlap, pressure, patchy, stray, turn, slant, crossed, room, least, widest,
-        taper, tip, swell;
+        taper, tip, join, swell;
 } surface_lines_values;
 
 typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV } stroke_placing;

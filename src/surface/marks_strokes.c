@@ -330,12 +330,14 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->least = l->least;
         out->widest = l->widest;
         out->tip = l->tip;
+        out->join = l->join;
         out->swell = l->swell;
         out->pressure = l->pressure;
         out->patchy = l->patchy;
         out->stray = l->stray;
         out->room = l->room;
         out->series = l->series;
+        out->steady = l->steady;
     } else {
         const surface_strokes_values *s = use->values;
         out->diameter = s->width;

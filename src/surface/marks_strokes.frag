@@ -22,7 +22,7 @@ void main()
         depth = 1.0 / depth;
         tolerance *= depth;
     }
-    vec4 seen = texelFetch(t_normal_depth, ivec2(axis), 0);
+    vec4 seen = texelFetch(t_normal_depth, ivec2(clamp(axis, vec2(0.0), u_size - 1.0)), 0);
     float arc = mix(v_run.x, v_run.y, along);
     float half_width = v_depths.w * (v_run.z > 0.0 ? clamp(min(arc, 1.0 - arc) * v_run.z, 0.0, 1.0) : 1.0);
     float cover = clamp(half_width + 0.5 - length(from - along * chord), 0.0, min(2.0 * half_width, 1.0)) * v_ink;

@@ -403,6 +403,38 @@ static void lines_are_hidden_by_what_lies_close(void)
     }
 }
 
+/* A coarse ball, so large that chords of lines leave its facets by pixels: where it is black, lines cover all of it,
+ * also where one stroke ends and the next begins; where it is hardly dark, strokes run out there. */
+static void lines_join_where_it_is_dark(void)
+{
+    static const char *const tones[] = {"\"shadow\":-1,\"light\":0", "\"shadow\":0.8,\"light\":0.8"};
+    double                   bare[2][2] = {{0}};
+    for (int tone = 0; tone < 2; tone++)
+        for (int cut = 0; cut < 2; cut++) {
+            char  surface[256];
+            shape s = {0};
+            shot  drawing;
+            int   seen = 0, light = 0;
+            snprintf(surface, sizeof surface,
+                     "{\"technique\":\"lines\",\"series\":1,\"scale\":\"16px\",\"taper\":6,%s,\"length\":%g}",
+                     tones[tone], cut ? 0.1 : 0.0);
+            shot_view view = {.width = 512, .height = 512, .eye = {3, 4, 5}, .up = {0, 1, 0}, .fov_deg = 4};
+            shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 12, 24, true);
+            if (shot_of_shape(&drawing, &s, "coarse.glb", surface_look(surface, "0.5,0.6,0.7", 0), NULL, &view))
+                for (int i = 0; i < 512 * 512; i++) {
+                    seen += !isinf(drawing.depth[i]);
+                    light += !isinf(drawing.depth[i]) && drawing.picture[4 * i] > 128;
+                }
+            bare[tone][cut] = seen ? (double)light / seen : 1;
+            check_at_least("EX-14", seen, 200000, "pixels of a coarse ball");
+            shot_release(&drawing);
+            shape_release(&s);
+        }
+    check_at_most("EX-14", bare[0][0], 0.002, "share of a black ball that whole lines leave bare");
+    check_at_most("EX-14", bare[0][1], 0.002, "  that strokes leave bare");
+    check_at_least("EX-14", bare[1][1] - bare[1][0], 0.01, "  more where it is light, for strokes run out there");
+}
+
 /* The darkest tone has the shade's colour, the lightest the surface's own. */
 static void shade_tints_the_dark(void)
 {
@@ -883,6 +915,7 @@ int main(int argc, char **argv)
         {"flat", flat_faces_stay_flat},
         {"shade", shade_tints_the_dark},
         {"hidden", lines_are_hidden_by_what_lies_close},
+        {"join", lines_join_where_it_is_dark},
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},

@@ -714,7 +714,7 @@ group_vectors() {
     row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf; has x.pdf '^%PDF-1'; cp x.pdf in-first.pdf
     row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf
     cmp -s x.pdf in-first.pdf || complain "two runs give different files"
-    row 0 '' 'x.dxf' draw "$gear" "${sheet[@]}" -o x.dxf; has x.dxf '^AC1009$'; has x.dxf '^VISIBLE-CONTOUR$'; has x.dxf '^HIDDEN-CREASE$'
+    row 0 '' 'x.dxf' draw "$gear" "${sheet[@]}" -o x.dxf; has x.dxf '^AC1015$'; has x.dxf '^VISIBLE-CONTOUR - '; has x.dxf '^HIDDEN-CREASE - '; has x.dxf '^DASHEDTINY$'
     row 0 '' 'a.svg b.json' draw "$box" "${sheet[@]}" -o a.svg --report b.json --verify; documented b.json report.md
     has b.json '"strokes": \{'; has b.json '"samples": [0-9]{2}'; has b.json '"bytes": [0-9]{3}'; has b.json '"unit": "m"'
     # Pages, scales, views.
@@ -752,7 +752,7 @@ group_vectors() {
         row 0 '' "x.$ending" draw "$widget" "${sheet[@]}" -o x.$ending
         row 0 '' "x.$ending" draw "$gear" "$widget" "${sheet[@]}" -o x.$ending --cut 'box=50%,50%,50%:100%,100%,100%'
     done
-    has x.dxf '^HATCH$'
+    has x.dxf '^HATCH - '
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
     grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"

@@ -229,7 +229,7 @@ static void arcs_meet_without_corners(void **state)
     assert_true(curve < 0.25 * polyline);
 }
 
-/* What turns once or twice between sharp edges is meant, and so is what turns far. */
+/* What turns once or twice between sharp edges is meant, and so is what turns far, or once where nothing else does. */
 static void corners_are_no_arcs(void **state)
 {
     (void)state;
@@ -243,6 +243,8 @@ static void corners_are_no_arcs(void **state)
         {{{0, 0}, {100, 0}, {190, 40}}, 3, false, ARC_POINT_STEP},             /* one bend */
         {{{0, 0}, {100, 0}, {170, 30}, {200, 100}}, 4, false, ARC_POINT_STEP}, /* two, a chamfer */
         {{{0, 0}, {100, 0}, {100, 0}, {150, 40}}, 4, false, ARC_POINT_SMOOTH}, /* nothing between two points */
+        {{{0, 0}, {140, 34}, {240, 34}}, 3, false, ARC_POINT_SMOOTH}, /* along a cone, and on along a cylinder */
+        {{{0, 0}, {140, 34}, {200, 34}, {210, 34}, {300, 34.1}}, 5, false, ARC_POINT_SMOOTH}, /* in pieces */
     };
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
         arc_point p[6];
