@@ -110,27 +110,54 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
     return status == LMN_OK ? scene_set_attribute(s, added, "when", tenses[label->when], error) : status;
 }
 
-static lmn_status add_mesh(lmn_scene *s, glyph_mesh *m, colour tint, lmn_error *error)
+/* Arrows are bands that turn with their way, and are meant as flat: they have the normals of what faces the viewer, so
+ * that no crease is seen where they bend. NULL: others have none, or out of memory. */
+static vec3 *flat_normals(const depict_job *j, const glyph *g, bool *failed)
 {
-    primitive  p = {.vertex_count = (uint32_t)m->position_count,
-                    .index_count = (uint32_t)m->index_count,
-                    .positions = m->positions,
-                    .indices = m->indices,
-                    .lines = m->lines,
-                    .line_count = (uint32_t)m->line_count / 2,
-                    .material = material_for(s, tint)};
-    lmn_status status = p.material == NONE ? error_memory(error) : scene_check_mesh(s, NONE, &p, error);
-    mesh      *added = status == LMN_OK ? scene_append_mesh(s) : NULL;
+    const glyph_mesh *m = &g->mesh;
+    if (strcmp(g->label.glyph, "arrow") != 0)
+        return NULL;
+    vec3 *normals = mem_alloc((m->position_count + 1) * sizeof *normals);
+    *failed = !normals;
+    for (size_t i = 0; normals && i < m->position_count; i++) {
+        const double at[3] = {(double)m->positions[i].x, (double)m->positions[i].y, (double)m->positions[i].z};
+        double       to_eye[3];
+        depict_to_eye(j, at, to_eye);
+        normals[i] = (vec3){(float)to_eye[0], (float)to_eye[1], (float)to_eye[2]};
+    }
+    return normals;
+}
+
+static lmn_status add_mesh(lmn_scene *s, const depict_job *j, glyph *g, lmn_error *error)
+{
+    glyph_mesh  *m = &g->mesh;
+    bool         failed = false;
+    vec3        *normals = flat_normals(j, g, &failed);
+    const colour tint = g->label.tint;
+    primitive    p = {.vertex_count = (uint32_t)m->position_count,
+                      .index_count = (uint32_t)m->index_count,
+                      .positions = m->positions,
+                      .normals = normals,
+                      .indices = m->indices,
+                      .lines = m->lines,
+                      .line_count = (uint32_t)m->line_count / 2,
+                      .material = material_for(s, tint)};
+    lmn_status   status = p.material == NONE || failed ? error_memory(error) : scene_check_mesh(s, NONE, &p, error);
+    mesh        *added = status == LMN_OK ? scene_append_mesh(s) : NULL;
     if (status == LMN_OK && !added)
         status = error_memory(error);
-    if (status != LMN_OK)
+    if (status != LMN_OK) {
+        mem_free(normals);
         return status;
+    }
     added->revision = added->topology = scene_next_revision();
     status = scene_exchange_mesh(s, (int32_t)s->mesh_count - 1, &p, error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
         memset(m, 0, sizeof *m);
-    else
+    } else {
         s->mesh_count--;
+        mem_free(normals);
+    }
     return status;
 }
 
@@ -152,7 +179,7 @@ static lmn_status put_mesh(lmn_scene *s, depict_job *j, size_t i, int32_t *meshe
     if (meshes[i] != NONE)
         return LMN_OK;
     const int32_t twin = find_like(j, i, meshes, false);
-    lmn_status    status = add_mesh(s, &g->mesh, g->label.tint, error);
+    lmn_status    status = add_mesh(s, j, g, error);
     meshes[i] = (int32_t)s->mesh_count - 1;
     if (status == LMN_OK && twin != NONE) {
         s->meshes[meshes[i]].revision = s->meshes[twin].revision;

@@ -9,7 +9,7 @@
 
 typedef struct still_values {
     int32_t count;
-    float   stretch, fade, bend;
+    float   stretch, fade, bend, least;
     bool    sketchy;
     colour  colour;
 } still_values;
@@ -22,6 +22,9 @@ static const param still_params[] = {
                     .doc = "How far speed stretches it and impacts flatten it, volume kept; 0: rigid."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
+    PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
+                           "future: of a figure that sways, the limbs that swing are shown."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -35,6 +38,9 @@ static const param plane_params[] = {
                     .doc = "How far wing tips lag behind the acceleration across the way, in radii at the strongest."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
+    PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
+                           "future: of a figure that sways, the limbs that swing are shown."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -263,6 +269,35 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
     return status;
 }
 
+/* How far the target's vertex that goes farthest is from where it is now. */
+static lmn_status find_farthest(float *out, const depict_job *j, const depict_target *t, const pose *p,
+                                const shape_change *change, const present *now, lmn_error *error)
+{
+    *out = 0;
+    for (size_t i = 0; i < t->part_count; i++) {
+        const node *n = &j->scene->nodes[j->scene->parts[i].node];
+        const mesh *m = t->parts[i] && n->mesh != NONE ? &j->scene->meshes[n->mesh] : NULL;
+        for (size_t k = 0; m && k < m->primitive_count; k++) {
+            const primitive *from = &m->primitives[k];
+            vec3            *then = mem_alloc((from->vertex_count + 1) * sizeof *then),
+                 *there = mem_alloc((from->vertex_count + 1) * sizeof *there);
+            const bool good = then && there;
+            if (good) {
+                place_vertices(then, p, i, 0, from, change);
+                place_vertices(there, now->posed, i, 0, from, &now->change);
+            }
+            for (uint32_t v = 0; v < from->vertex_count && good; v++)
+                *out = fmaxf(*out, fmaxf(fabsf(then[v].x - there[v].x),
+                                         fmaxf(fabsf(then[v].y - there[v].y), fabsf(then[v].z - there[v].z))));
+            mem_free(then);
+            mem_free(there);
+            if (!good)
+                return error_memory(error);
+        }
+    }
+    return LMN_OK;
+}
+
 static lmn_status put_still(depict_job *j, const expression *e, const depict_target *t, double seconds,
                             const shape_change *change, present *now, lmn_error *error)
 {
@@ -284,6 +319,12 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
     now->posed = NULL;
     if (status == LMN_OK && !is_now)
         status = depict_pose(&now->posed, j, e->now, error);
+    const float within = now->within;
+    if (status == LMN_OK && now->posed && v->least > 0) {
+        float farthest;
+        status = find_farthest(&farthest, j, t, p, change, now, error);
+        now->within = fmaxf(within, v->least * farthest);
+    }
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
         const int32_t mesh_index = n->mesh;
@@ -297,6 +338,7 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
             status = put_primitive(j, p, i, k % draws, k / draws, change, now, &label, error);
         }
     }
+    now->within = within;
     return status;
 }
 
