@@ -48,13 +48,14 @@ static void print_table(const json_t *root)
     printf("%s, %.0f triangles, %.0f x %.0f pixels\n",
            text_at(json_object_get(root, "gpu"), "renderer", "unknown driver"), number_at(root, "triangles", 0),
            json_number_value(json_array_get(size, 0)), json_number_value(json_array_get(size, 1)));
-    printf("\n%-20s %10s %8s  passes (ms)\n%-20s %10.2f %8s\n", "look", "ms", "ratio", "plain",
-           number_at(root, "plain_ms", 0), "1.00");
+    printf("\n%-20s %10s %8s %10s %8s  passes (CPU ms)\n%-20s %10.2f %8s %10.2f %8s\n", "look", "ms", "ratio", "CPU ms",
+           "ratio", "plain", number_at(root, "plain_ms", 0), "1.00", number_at(root, "plain_cpu_ms", 0), "1.00");
     json_object_foreach(json_object_get(root, "looks"), name, look)
     {
-        printf("%-20s %10.2f %8.2f ", name, number_at(look, "ms", 0), number_at(look, "ratio", 0));
+        printf("%-20s %10.2f %8.2f %10.2f %8.2f ", name, number_at(look, "ms", 0), number_at(look, "ratio", 0),
+               number_at(look, "cpu_ms", 0), number_at(look, "cpu_ratio", 0));
         json_array_foreach(json_object_get(look, "passes"), i, pass)
-            printf(" %s %.2f", text_at(pass, "name", ""), number_at(pass, "ms", 0));
+            printf(" %s %.2f", text_at(pass, "name", ""), number_at(pass, "cpu_ms", 0));
         printf("\n");
     }
 }

@@ -5,4 +5,7 @@
 /* Milliseconds since some fixed moment. */
 double clock_ms(void);
 
+/* Milliseconds that all threads of this process have computed for. */
+double clock_cpu_ms(void);
+
 #endif

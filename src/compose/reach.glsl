@@ -17,7 +17,7 @@ float neighbour_depth(ivec2 pixel)
     float extent = 0.5 * u_line_width + 1.7; /* rims are soft, and edges up to a pixel off what has depth */
 #if CONTRAST == 1
     extent += max(abs(u_line_offset_x), abs(u_line_offset_y));
-#elif CONTRAST == 3
+#elif CONTRAST >= 3
     extent += max(u_line_width, 1.0);
 #endif
 #ifdef PERTURBED
@@ -35,11 +35,21 @@ float neighbour_depth(ivec2 pixel)
 #ifdef HAS_OVERSHOOT
     least = overshoot_depth(pixel);
 #endif
+#if defined(GL_ARB_texture_gather) && !defined(HAS_COMPLEMENT)
+    /* Four at a time; the last overlap those before. */
+    for (int y = -reach; y <= reach; y += 2)
+        for (int x = -reach; x <= reach; x += 2) {
+            vec2 corner = vec2(pixel + min(ivec2(x, y), reach - 1) + 1);
+            vec4 four = textureGather(t_depth, corner / u_size);
+            least = min(least, min(min(four.x, four.y), min(four.z, four.w)));
+        }
+#else
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
             ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
             if (is_own(at))
                 least = min(least, texelFetch(t_depth, at, 0).r);
         }
+#endif
     return least;
 }

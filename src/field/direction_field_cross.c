@@ -346,7 +346,7 @@ static bool cross(crosser *c)
         return false;
     threads_for(count, PIECE, find_lines, c);
     threads_for(count, PIECE, wish_arms, c);
-    if (!connection_solve(&c->graph, c->arms))
+    if (!connection_solve(&c->graph, c->arms) || !field_join_arms(&c->graph, c->arms))
         return false;
     threads_for(count, PIECE, set_tensors, c);
     return true;

@@ -14,6 +14,9 @@ static const double even = 0.99998; /* cosine of 0.36 degrees: normals of a piec
 /* A neighbour of more than this share of a piece's area is like it; a piece with such ones along more than this share
  * of its rim is a facet. */
 static const double alike = 1.0 / 6, beside_alike = 0.35;
+/* A single triangle or quadrangle, as coarse round things consist of, only if there are hardly any. */
+static const double beside_alike_small = 0.05;
+enum { SMALL_PIECE = 2 };
 /* Pieces lie in one plane when their normals agree so far (sine), and their distances from the middle, diagonal 1. */
 static const double same_slope = 0.02, same_offset = 0.01;
 
@@ -142,8 +145,9 @@ static void measure_rims(plane_finder *f)
 
 static bool is_plane(const plane_piece *piece)
 {
-    return piece->area > 0 && point_dot(piece->normal, piece->normal) > 0 &&
-           piece->beside <= beside_alike * piece->rim && piece->rim > 0;
+    double most = piece->count <= SMALL_PIECE ? beside_alike_small : beside_alike;
+    return piece->area > 0 && point_dot(piece->normal, piece->normal) > 0 && piece->beside <= most * piece->rim &&
+           piece->rim > 0;
 }
 
 /* --- directions ----------------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "field/connection.h"
 #include "field/direction_field.h"
 
 #define NOWHERE UINT32_MAX
@@ -101,6 +102,9 @@ void field_planes_release(field_planes *p);
  * out: what is to stand there. What rough surfaces know is trusted less. False when memory is gone or work is to stop.
  */
 bool field_cross(const field_surface *s, tensor *own, const bool *flat, bool rough);
+/* Islands of arms that lie across those around go over to these, as long as that joins more than what their elements
+ * wish (`g->source`) holds. False when memory is gone or work is to stop. */
+bool field_join_arms(const connection *g, complex_number *arms);
 
 static inline point3 point_add(point3 a, point3 b)
 {

@@ -146,9 +146,26 @@ static void agree_on_windings(field_surface *s, const primitive *m, uint32_t *qu
     }
 }
 
-/* Cuts the adjacency at features and joins corners over all other edges. */
-static void join_corners(field_surface *s, const primitive *m, uint32_t *parents, double cos_feature)
+/* Is an edge shaded as if it were round, though its triangles meet at an angle? Coarse meshes of round things are. */
+static bool shaded_round(const field_surface *s, const primitive *p, const primitive *m, uint32_t h, uint32_t o)
 {
+    const float round_to = 0.985f; /* cosine of 10 degrees */
+    bool        same = same_direction(m, h, o);
+    uint32_t    ends[2][2] = {{h, same ? o : next_corner(o)}, {next_corner(h), same ? next_corner(o) : o}};
+    for (int k = 0; k < 2 && p->normals; k++) {
+        vec3 a = p->normals[p->indices[3 * s->triangles[ends[k][0] / 3] + ends[k][0] % 3]],
+             b = p->normals[p->indices[3 * s->triangles[ends[k][1] / 3] + ends[k][1] % 3]];
+        if (!(a.x * b.x + a.y * b.y + a.z * b.z > round_to))
+            return false;
+    }
+    return p->normals != NULL;
+}
+
+/* Cuts the adjacency at features and joins corners over all other edges. */
+static void join_corners(field_surface *s, const primitive *p, const primitive *m, uint32_t *parents,
+                         double cos_feature)
+{
+    const double sharp = 0.5; /* cosine of an angle at which no shading hides an edge */
     for (uint32_t c = 0; c < 3 * s->triangle_count; c++)
         parents[c] = c;
     for (uint32_t h = 0; h < 3 * s->triangle_count; h++) {
@@ -158,7 +175,8 @@ static void join_corners(field_surface *s, const primitive *m, uint32_t *parents
         point3 a = s->directions[h / 3], b = s->directions[o / 3];
         double cosine = point_dot(a, b) * (s->turned[h / 3] == s->turned[o / 3] ? 1 : -1);
         /* A triangle without a direction goes along with any. */
-        if (cosine < cos_feature && point_dot(a, a) > 0 && point_dot(b, b) > 0) {
+        if (cosine < cos_feature && point_dot(a, a) > 0 && point_dot(b, b) > 0 &&
+            (cosine < sharp || !shaded_round(s, p, m, h, o))) {
             s->opposite[h] = s->opposite[o] = NOWHERE;
             s->features[h] = s->features[o] = s->cut = true;
             continue;
@@ -208,7 +226,7 @@ static void make_normals(size_t begin, size_t end, void *user)
     }
 }
 
-static bool make_elements(field_surface *s, const primitive *m, point3 centre, double feature_angle)
+static bool make_elements(field_surface *s, const primitive *p, const primitive *m, point3 centre, double feature_angle)
 {
     size_t    corner_count = 3 * (size_t)s->triangle_count;
     uint32_t *parents = mem_alloc(corner_count * sizeof *parents);
@@ -216,7 +234,7 @@ static bool make_elements(field_surface *s, const primitive *m, point3 centre, d
     bool      good = parents && seen;
     if (good) {
         agree_on_windings(s, m, parents, seen);
-        join_corners(s, m, parents, feature_angle >= 3.14159 ? -2 : cos(feature_angle) - 1e-6);
+        join_corners(s, p, m, parents, feature_angle >= 3.14159 ? -2 : cos(feature_angle) - 1e-6);
         number_elements(s, parents);
     }
     mem_free(parents);
@@ -251,7 +269,7 @@ static bool make_surface(field_surface *s, const primitive *p, uint32_t *indices
         return false;
     find_scale(s, &m, &centre);
     measure_triangles(s, &m, centre);
-    return make_elements(s, &m, centre, feature_angle);
+    return make_elements(s, p, &m, centre, feature_angle);
 }
 
 lmn_status field_surface_make(field_surface *out, const primitive *p, double feature_angle, lmn_error *error)

@@ -165,6 +165,34 @@ static void set_around(frame *f, const figure_state *s)
                            (float)(whole ? f->height : b[1] + b[3])});
 }
 
+/* Where heights are counted from, in eye space: of all of the figure. */
+static void set_heights(frame *f, const figure_state *s)
+{
+    const lmn_scene  *scene = f->plan->scene;
+    const city_facts *city = &scene->city;
+    const double     *m = f->camera.view.m;
+    const int         axis = scene->up == 'z' ? 2 : 1;
+    box3              box = s->figure->box;
+    double low = (double)(axis == 2 ? box.min.z : box.min.y), high = (double)(axis == 2 ? box.max.z : box.max.y);
+    double up[4] = {m[4 * axis], m[4 * axis + 1], m[4 * axis + 2], -low};
+    for (int k = 0; k < 3; k++) /* of the eye, less that of the lowest */
+        up[3] -= up[k] * m[12 + k];
+    double origin = city->known ? city->origin[2] * (city->metres[1] > 0 ? city->metres[1] : 1) : 0;
+    gpu_set_vec4(f->g, "u_height", (float[]){(float)up[0], (float)up[1], (float)up[2], (float)up[3]});
+    gpu_set_vec2(f->g, "u_heights", (float)(low + origin), (float)fmax(high - low, 1e-30));
+}
+
+/* What ghost images are mixed with: the page's ground, or white paper where it has none. */
+static void set_pale(frame *f, const figure_state *s)
+{
+    float paper[4];
+    frame_ground(f, paper);
+    for (int k = 0; k < 3; k++)
+        paper[k] = paper[3] > 0 ? paper[k] / paper[3] : 1;
+    paper[3] = s->figure->rule->pale;
+    gpu_set_vec4(f->g, "u_ghost", paper);
+}
+
 void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
@@ -186,6 +214,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_float(g, "u_rear", s->rear);
     gpu_set_float(g, "u_forward", forward_of(f, s->figure));
     gpu_set_int(g, "u_filled", s->filled);
+    set_pale(f, s);
     gpu_set_float(g, "u_time", (float)f->time_s);
     if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);
@@ -210,6 +239,8 @@ void frame_set_common(frame *f, const figure_state *s)
         set_first_light(f);
     if (gpu_has_uniform(g, "u_depths"))
         set_depths(f);
+    if (gpu_has_uniform(g, "u_height"))
+        set_heights(f, s);
 }
 
 /* The normal matrix in single precision is scaled so that it neither over- nor underflows. */
@@ -236,8 +267,13 @@ const technique_use *rule_inked_lines(const rule *r)
 }
 
 static const gpu_format formats[TEXEL_FORMAT_COUNT] = {
-    [TEXEL_R8] = GPU_R8,         [TEXEL_RGBA16F] = GPU_RGBA16F,   [TEXEL_RGBA32F] = GPU_RGBA32F,
-    [TEXEL_RG32UI] = GPU_RG32UI, [TEXEL_DEPTH32F] = GPU_DEPTH32F, [TEXEL_RGBA32UI] = GPU_RGBA32UI,
+    [TEXEL_R8] = GPU_R8,
+    [TEXEL_RGBA8] = GPU_RGBA8,
+    [TEXEL_RGBA16F] = GPU_RGBA16F,
+    [TEXEL_RGBA32F] = GPU_RGBA32F,
+    [TEXEL_RG32UI] = GPU_RG32UI,
+    [TEXEL_DEPTH32F] = GPU_DEPTH32F,
+    [TEXEL_RGBA32UI] = GPU_RGBA32UI,
 };
 
 const target_row *target_row_of(const figure_state *s, target t)

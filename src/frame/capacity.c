@@ -67,6 +67,7 @@ static void list_passes(capacity_pass out[PASSES], const plan *p, const capacity
     add_format(&out[1], GPU_RGBA16F, channels & CHANNEL_SHADE);
     add_format(&out[1], GPU_RGBA32F, channels & CHANNEL_REST);
     add_format(&out[1], GPU_RGBA32F, channels & CHANNEL_VELOCITY);
+    add_format(&out[1], GPU_RGBA8, channels & CHANNEL_DETAIL);
     add_format(&out[2], GPU_RGBA32UI, has_solids(p));
     add_format(&out[3], GPU_RGBA32F, w->maps);
     add_format(&out[3], GPU_RG32UI, w->maps);

@@ -80,6 +80,7 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         gpu_set_float(f->g, "u_near_plane", (float)f->camera.near);
         gpu_set_float(f->g, "u_levels", (float)set->levels);
         gpu_set_float(f->g, "u_apart", (float)set->apart);
+        gpu_set_float(f->g, "u_sag", (float)set->sag);
         gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
         mark_style style = {.diameter = 1};
         surface_mark_style(&style, surface);

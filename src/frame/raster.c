@@ -16,7 +16,7 @@ static bool is_drawn(const frame *f, const figure *fig, const draw_item *item)
 
 /* What the geometry pass writes and where. */
 typedef struct outputs {
-    int normal_depth, id, albedo, shade, rest, velocity; /* attachment, −1 = not */
+    int normal_depth, id, albedo, shade, rest, velocity, detail; /* attachment, −1 = not */
     int between[POSE_PAST_MAX - 1]; /* of the steps of the past before the last one, which is the velocity */
 } outputs;
 
@@ -24,12 +24,14 @@ typedef struct outputs {
     {                                                                                                                  \
         -1, -1, -1                                                                                                     \
     }
-static const outputs no_outputs = {-1, -1, -1, -1, -1, -1, NO_STEPS};
+static const outputs no_outputs = {-1, -1, -1, -1, -1, -1, -1, NO_STEPS};
 
 /* One run over the parts. */
 typedef struct raster_job {
     const gpu_pass     *pass;   /* that is drawn into */
-    const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
+    const figure_state *state;  /* of the only figure; NULL: whose part it is of several, or in the stack */
+    const figure_state *states; /* several opaque figures at once; others' parts are the complement of the first */
+    int                 state_count;
     solid_layers       *solids; /* the surfaces of solids, found when first needed */
     const solid_view   *view;   /* that they are found for */
     const layer_stack  *stack;
@@ -90,6 +92,7 @@ static void declare_outputs(text *prelude, const raster_job *job)
                 {"SHADE", job->at.shade},
                 {"REST", job->at.rest},
                 {"VELOCITY", job->at.velocity},
+                {"DETAIL", job->at.detail},
                 {"PAST_1", job->at.between[0]},
                 {"PAST_2", job->at.between[1]},
                 {"PAST_3", job->at.between[2]}};
@@ -143,6 +146,9 @@ static gpu_program *raster_program(frame *f, const figure_state *s, const char *
         uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
         used_textures_declare(&prelude, surface, &s->figure->textures->surface);
         snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface->shader);
+    } else if (job->at.detail >= 0) {
+        uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+        snprintf(path, sizeof path, "%s+layer/raster.frag", surface->technique->surface->detail);
     }
     if (job->inking)
         declare_ink(&prelude, path, sizeof path, f, s, job->inking);
@@ -193,6 +199,8 @@ static void set_pass(frame *f, const raster_job *job, const figure_state *s, int
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
         used_textures_set(f->g, surface, material_made(s->figure, material));
         frame_set_numbers(f, surface);
+    } else if (job->at.detail >= 0) {
+        uniforms_set(f->g, use_own_set(KIND_SURFACE, rule_use(s->figure->rule, KIND_SURFACE)));
     }
     if (job->inking)
         set_ink(f, s, job->inking);
@@ -231,8 +239,9 @@ static bool uses_patches(const raster_job *job, const figure_state *s, const dra
 static bool uses_walls(const raster_job *job, const figure_state *s, const draw_item *item)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
-    return job->at.shade >= 0 && !item->is_cut && surface && surface->technique->surface->needs &&
-           surface->technique->surface->needs(surface->values).walls && gpu_mesh_has_walls(item->mesh);
+    return (job->at.shade >= 0 || job->at.detail >= 0) && !item->is_cut && surface &&
+           surface->technique->surface->needs && surface->technique->surface->needs(surface->values).walls &&
+           gpu_mesh_has_walls(item->mesh);
 }
 
 /* Is anything tied to where the item is when nothing has moved? */
@@ -320,11 +329,22 @@ static const figure_state *layer_owner(const layer_stack *stack, size_t part_ind
     return NULL;
 }
 
+/* The same among figures that share a geometry pass; the first one draws what belongs to none of them. */
+static const figure_state *shared_owner(const frame *f, const raster_job *job, const draw_item *item)
+{
+    for (int i = 0; i < job->state_count; i++)
+        if (job->states[i].figure->designated[item->part_index])
+            return &job->states[i];
+    return f->plan->opaque[item->part_index] ? &job->states[0] : NULL;
+}
+
 /* Whose item it is in this run; NULL: nobody's, it is not drawn. */
 static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
 {
     if (job->only && !job->only[item->part_index])
         return NULL;
+    if (job->states)
+        return shared_owner(f, job, item);
     if (!job->state)
         return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
     if (job->only)
@@ -338,7 +358,7 @@ static const figure_state *owner_of(const frame *f, const raster_job *job, const
 static void set_ids(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, uint32_t order)
 {
     gpu_set_uint(f->g, "u_part_id", item->part_id);
-    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
+    bool other = !job->stack && !job->only && !s->figure->designated[item->part_index];
     gpu_set_uint(f->g, "u_surface_id",
                  item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", order);
@@ -497,10 +517,10 @@ static bool *solids_wanted(frame *f, const raster_job *job)
 /* How the figure wants its solids evaluated; of several figures the first that says so decides. */
 static int32_t evaluation_of(const raster_job *job)
 {
-    int     count = job->state ? 1 : job->stack->count;
+    int     count = job->state ? 1 : job->states ? job->state_count : job->stack->count;
     int32_t evaluation = EVALUATION_AUTO;
     for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
-        const figure_state *s = job->state ? job->state : &job->stack->states[i];
+        const figure_state *s = job->state ? job->state : job->states ? &job->states[i] : &job->stack->states[i];
         evaluation = s->figure->layering.evaluation;
     }
     return evaluation;
@@ -592,6 +612,8 @@ static outputs open_outputs(frame *f, unsigned channels, gpu_texture **targets, 
         o.shade = add_output(f, targets, pass, TARGET_SHADE, far);
     if (channels & CHANNEL_REST)
         o.rest = add_output(f, targets, pass, TARGET_REST, far);
+    if (channels & CHANNEL_DETAIL)
+        o.detail = add_output(f, targets, pass, TARGET_DETAIL, far);
     if (channels & CHANNEL_VELOCITY)
         o.velocity = add_output(f, targets, pass, TARGET_VELOCITY, far);
     pass->depth = targets[TARGET_DEPTH] = frame_acquire(f, TARGET_DEPTH);
@@ -610,6 +632,26 @@ void raster_figure(frame *f, figure_state *s)
     if (!gpu_failed(f->g)) {
         draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
     }
+    watch_stop(&f->profile, w, "", "geometry");
+}
+
+void raster_together(frame *f, const figure_state *states, int count, gpu_texture **targets)
+{
+    stopwatch    w = watch_start(&f->profile);
+    unsigned     channels = 0;
+    gpu_pass     pass = {0};
+    solid_layers solids = {.ready = false};
+    memcpy(pass.scissor, states[0].drawn[0], sizeof pass.scissor);
+    memcpy(pass.clear_box, states[0].drawn[1], sizeof pass.clear_box);
+    for (int i = 0; i < count; i++) {
+        channels |= states[i].figure->channels & ~(unsigned)(states[i].figure->deferred ? CHANNEL_SHADE : 0);
+        camera_widen_pixels(pass.scissor, states[i].drawn[0]);
+        camera_widen_pixels(pass.clear_box, states[i].drawn[1]);
+    }
+    outputs o = open_outputs(f, channels, targets, &pass, states[0].far);
+    if (!gpu_failed(f->g))
+        draw_parts(f, &pass, &(raster_job){.states = states, .state_count = count, .solids = &solids, .at = o});
+    solids_release(f->g, &solids);
     watch_stop(&f->profile, w, "", "geometry");
 }
 
@@ -642,9 +684,10 @@ void raster_enlarged(frame *f, figure_state *s, target into, float pixels)
         double near = f->camera.near, far = f->camera.far;
         camera_set_range(&wide.camera, f->camera.orthographic ? near - more : near * (1 - fmin(more, 0.9)),
                          f->camera.orthographic ? far + more : far * (1 + more));
-        draw_parts(&wide, &pass,
-                   &(raster_job){
-                       .state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1, -1, NO_STEPS}, .enlarge = pixels});
+        draw_parts(
+            &wide, &pass,
+            &(raster_job){
+                .state = s, .solids = &s->solids, .at = {0, -1, -1, -1, -1, -1, -1, NO_STEPS}, .enlarge = pixels});
     }
     gpu_target_release(f->g, depth);
 }
@@ -662,8 +705,9 @@ void raster_shell(frame *f, figure_state *s, target into, float pixels)
 }
 
 /* What shading from the G-buffer reads. */
-static const pass shading = {.reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION, TARGET_REST},
-                             .writes = TARGET_SHADE};
+static const pass shading = {
+    .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION, TARGET_REST, TARGET_DETAIL},
+    .writes = TARGET_SHADE};
 
 void raster_shade_deferred(frame *f, figure_state *s)
 {
@@ -680,11 +724,18 @@ void raster_shade_deferred(frame *f, figure_state *s)
     s->targets[TARGET_SHADE] = frame_acquire(f, TARGET_SHADE);
     gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", path, &prelude);
     if (p && !gpu_failed(f->g)) {
-        gpu_pass pass = {.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true};
+        /* What is there alone: software drivers skip blocks of pixels by the depth test. The ground has no depth. */
+        gpu_texture *depth = s->targets[TARGET_DEPTH];
+        gpu_pass     pass = {.colours = {s->targets[TARGET_SHADE]}, .colour_count = 1, .clear = true};
         memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
         memcpy(pass.clear_box, s->around, sizeof pass.clear_box);
         gpu_pass_begin(f->g, &pass);
-        gpu_use(f->g, p, (gpu_state){0});
+        if (depth) {
+            pass.clear = false;
+            pass.depth = depth;
+            gpu_pass_begin(f->g, &pass);
+        }
+        gpu_use(f->g, p, (gpu_state){.depth_test = depth != NULL, .depth_compare = GPU_GREATER});
         frame_set_common(f, s);
         uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
         used_textures_set(f->g, surface, &s->figure->textures->surface);
@@ -700,7 +751,7 @@ void raster_direct(frame *f, figure_state *s)
     stopwatch w = watch_start(&f->profile);
     gpu_pass  pass = {.colours = {f->page}, .colour_count = 1, .depth = f->page_depth};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1, -1, NO_STEPS}});
+    draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = {-1, -1, -1, 0, -1, -1, -1, NO_STEPS}});
     watch_stop(&f->profile, w, "", "geometry");
 }
 
@@ -713,7 +764,7 @@ void raster_inked(frame *f, figure_state *s, const pass *inking)
     draw_parts(f, &onto,
                &(raster_job){.state = s,
                              .solids = &s->solids,
-                             .at = {-1, -1, -1, 0, -1, -1, NO_STEPS},
+                             .at = {-1, -1, -1, 0, -1, -1, -1, NO_STEPS},
                              .inking = rule_inked_lines(s->figure->rule) ? inking : NULL});
 }
 

@@ -6,10 +6,14 @@
 #include "frame/frame_private.h"
 #include "lines/stroke/strokes.h"
 
+#include <math.h>
 #include <string.h>
 
 /* In a record's bits, of what is wanted: outlines. */
 enum { RECORD_OUTLINE = 32 };
+
+/* Which edges a program draws. */
+enum { SHORT_EDGES = 1, SMOOTH_OUTLINES = 2, KINDS_OF_EDGES = 4 };
 
 /* Pixels tell all that there is about parts no larger than this, points of paper. */
 #define SMALLEST_PART 8.0
@@ -83,15 +87,47 @@ static void open_pictures(frame *f, figure_state *s, const pass *p)
         gpu_pass_begin(f->g, &into);
 }
 
-static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use)
+/* Are bodies open, where parts of the model are left out? Then not all that is nearer is seen. */
+static bool has_open_bodies(const frame *f)
+{
+    return f->plan->has_cut || f->up->has_removed;
+}
+
+static gpu_program *program(frame *f, const figure_state *s, const pass *p, const technique_use *use, int which)
 {
     text prelude = {0};
     uniforms_declare(&prelude, use_own_set(KIND_LINES, use));
     uniforms_declare(&prelude, use_common_set(KIND_LINES, use));
     reads_declare(&prelude, f, s, p, NULL);
-    if (f->plan->has_cut || f->up->has_removed) /* then not all that is nearer is seen */
-        text_append(&prelude, "#define OPEN_BODIES\n");
+    text_append(&prelude, "%s%s%s", has_open_bodies(f) ? "#define OPEN_BODIES\n" : "",
+                which & SHORT_EDGES ? "#define SHORT_EDGES\n" : "",
+                which & SMOOTH_OUTLINES ? "#define SMOOTH_OUTLINES\n" : "");
     return program_of(f, GPU_FLOOR, "lines/records.vert", "lines/records.frag", &prelude);
+}
+
+/* Can it have edges that are not short on the page (lines/record.glsl)? */
+static bool may_be_long(const frame *f, const stroke_item *item)
+{
+    enum { LONGEST_SHORT = 192 };
+    return camera_size_of(&f->camera, f->up->pose->part_boxes[item->part_index], f->height) >= LONGEST_SHORT;
+}
+
+/* Can it have outlines that are no creases? */
+static bool may_be_smooth(const stroke_store *store, const stroke_item *item, double faint)
+{
+    return store->scene.meshes[item->mesh].moves || (double)store->turns[item->mesh] <= faint;
+}
+
+/* Pixels take for creases only what turns by more than facets may. Creases of meshes have been judged by feature: for
+ * them so much of those angles is enough. Radians; "faint" or "crease". */
+static double judged_angle(const technique_use *use, const char *key)
+{
+    const double judged = 2.0 / 3;
+    double       degrees = 180;
+    for (size_t i = 0; i < use->technique->param_count; i++)
+        if (strcmp(use->technique->params[i].key, key) == 0)
+            degrees = (double)*(const float *)param_field(&use->technique->params[i], use->values);
+    return judged * degrees * (3.14159265358979323846 / 180);
 }
 
 static bool is_drawn(const frame *f, const figure_state *s, const stroke_item *item)
@@ -99,29 +135,46 @@ static bool is_drawn(const frame *f, const figure_state *s, const stroke_item *i
     return s->figure->designated[item->part_index] && is_large(f, item->part_index, 1);
 }
 
+/* Edges of one of four kinds: short on the page or not, outlines of what is smooth or not. What only some need costs a
+ * software driver as much as all. */
+static void draw_some(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use,
+                      int which)
+{
+    gpu_program *drawing = gpu_failed(f->g) ? NULL : program(f, s, p, use, which);
+    bool         begun = false, open = has_open_bodies(f);
+    double       faint = judged_angle(use, "faint"), crease = judged_angle(use, "crease");
+    for (uint32_t i = 0; i < store->scene.item_count && drawing && !gpu_failed(f->g); i++) {
+        const stroke_item *item = &store->scene.items[i];
+        if (!is_drawn(f, s, item) || (!(which & SHORT_EDGES) && !open && !may_be_long(f, item)) ||
+            ((which & SMOOTH_OUTLINES) && !may_be_smooth(store, item, 1.01 * faint)))
+            continue;
+        if (!begun) {
+            gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
+            frame_set_common(f, s);
+            uniforms_set(f->g, use_own_set(KIND_LINES, use));
+            uniforms_set(f->g, use_common_set(KIND_LINES, use));
+            reads_set(f, s, p, NULL);
+            gpu_set_vec2(f->g, "u_judged", (float)cos(faint), (float)cos(crease));
+            gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
+            gpu_set_int(f->g, "u_wanted", RECORD_OUTLINE | RECORD_BORDER | RECORD_CREASE);
+            gpu_set_int(f->g, "u_inside", has_open_bodies(f) || !eye_is_outside(f));
+            gpu_settle(f->g);
+            begun = true;
+        }
+        edges_draw(f, store, i, false);
+    }
+}
+
 static void draw(frame *f, figure_state *s, const pass *p, stroke_store *store, const technique_use *use)
 {
-    gpu_program *drawing = gpu_failed(f->g) ? NULL : program(f, s, p, use);
     /* Before the pass begins: making records takes the place of what is bound. */
-    size_t count = store ? store->scene.item_count : 0;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; store && i < store->scene.item_count && !gpu_failed(f->g); i++)
         if (is_drawn(f, s, &store->scene.items[i]))
             edges_bring(f, store, i, false);
     open_pictures(f, s, p);
-    if (drawing && !gpu_failed(f->g)) {
-        gpu_use(f->g, drawing, (gpu_state){.blend = GPU_BLEND_MIN});
-        frame_set_common(f, s);
-        uniforms_set(f->g, use_own_set(KIND_LINES, use));
-        uniforms_set(f->g, use_common_set(KIND_LINES, use));
-        reads_set(f, s, p, NULL);
-        gpu_set_vec2(f->g, "u_far_corner", (float)(f->width - 1), (float)(f->height - 1));
-        gpu_set_int(f->g, "u_wanted", RECORD_OUTLINE | RECORD_BORDER | RECORD_CREASE);
-        gpu_set_int(f->g, "u_inside", f->plan->has_cut || f->up->has_removed || !eye_is_outside(f));
-        gpu_settle(f->g);
-        for (uint32_t i = 0; i < count; i++)
-            if (is_drawn(f, s, &store->scene.items[i]))
-                edges_draw(f, store, i, false);
-    }
+    for (int which = 0; store && which < KINDS_OF_EDGES; which++)
+        if (!(which & SHORT_EDGES) || !has_open_bodies(f))
+            draw_some(f, s, p, store, use, which);
 }
 
 void records_run(frame *f, figure_state *s, const pass *p, const technique_use *use, const char *group)

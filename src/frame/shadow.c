@@ -5,15 +5,14 @@
 
 #include "light/light.h"
 
-enum { SHADOW_SIDE_MOST = 4096, SHADOW_SIDE_LEAST = 512 };
-
-/* Four times as fine as the picture, about; a quarter of that is enough for soft borders. */
+/* Twice as fine as the picture, about; half of that is enough for soft borders. */
 static int side_of(const frame *f, bool soft)
 {
-    int longest = f->width > f->height ? f->width : f->height, side = SHADOW_SIDE_LEAST;
-    while (side < SHADOW_SIDE_MOST && side < 4 * longest)
+    enum { LEAST = 128, MOST = 1024, FINER = 4, MORE = 2 };
+    int longest = f->width > f->height ? f->width : f->height, side = soft ? LEAST : LEAST * FINER;
+    while (side < (soft ? MOST : MOST * FINER) && side < (soft ? longest : longest * MORE))
         side *= 2;
-    return soft ? side / 4 : side;
+    return side;
 }
 
 static double dot(const double a[3], const double b[3])

@@ -10,7 +10,7 @@ stopwatch watch_start(const gpu_profile *p)
     if (!p->on)
         return (stopwatch){0};
     gpu_finish(p->g);
-    return (stopwatch){clock_ms(), gpu_draw_count(p->g)};
+    return (stopwatch){clock_ms(), clock_cpu_ms(), gpu_draw_count(p->g)};
 }
 
 void watch_stop(gpu_profile *p, stopwatch w, const char *group, const char *name)
@@ -32,5 +32,6 @@ void watch_stop(gpu_profile *p, stopwatch w, const char *group, const char *name
         memcpy(t->name, joined, sizeof joined);
     }
     t->ms += clock_ms() - w.start;
+    t->cpu_ms += clock_cpu_ms() - w.cpu_start;
     t->draws += gpu_draw_count(p->g) - w.draws;
 }

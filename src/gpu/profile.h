@@ -1,4 +1,4 @@
-/* Times of passes: wall time between two finishes, in frames of their own. */
+/* Times of passes, between two finishes, in frames of their own. */
 #ifndef LIMNER_GPU_PROFILE_H
 #define LIMNER_GPU_PROFILE_H
 
@@ -6,10 +6,10 @@
 
 enum { PASS_TIMES_MAX = 64 };
 
-/* Wall time of one pass, summed over figures of the same name. */
+/* Time of one pass, summed over figures of the same name: as it passes, and as all threads compute. */
 typedef struct gpu_pass_time {
     char     name[48];
-    double   ms;
+    double   ms, cpu_ms;
     uint64_t draws;
 } gpu_pass_time;
 
@@ -21,7 +21,7 @@ typedef struct gpu_profile {
 } gpu_profile;
 
 typedef struct stopwatch {
-    double   start;
+    double   start, cpu_start;
     uint64_t draws;
 } stopwatch;
 

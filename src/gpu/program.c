@@ -20,7 +20,8 @@ typedef struct source {
     int         file_count;
 } source;
 
-static const char desktop_head[] = "#version 330 core\n", fast_head[] = "#version 430 core\n";
+static const char desktop_head[] = "#version 330 core\n#extension GL_ARB_texture_gather : enable\n",
+                  fast_head[] = "#version 430 core\n";
 static const char es_head[] =
     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
     "precision highp usampler2D;\nprecision highp sampler2DArray;\n";

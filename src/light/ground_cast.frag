@@ -90,19 +90,26 @@ float along_stroke(int stroke, float along)
     return mix(of_stroke(stroke, last), of_stroke(stroke, last + 1), part * part * (3.0 - 2.0 * part));
 }
 
-/* How much of the shadow there is along the stroke around here: strokes taper where it ends. */
-float fullness_at(vec2 pixel)
+#ifndef SOFT
+/* The same by one comparison. */
+float dark_once(vec2 pixel)
+{
+    vec4 eye = on_ground(pixel);
+    return eye.w > 0.0 ? 1.0 - lit_once(eye.xyz, u_ground_plane.xyz) : 0.0;
+}
+#endif
+
+/* How much of the shadow there is along the stroke around here, of which `dark` is there: strokes taper where it ends. */
+float fullness_at(vec2 pixel, float dark)
 {
 #ifdef SOFT
-    return dark_at(pixel);
+    return dark;
 #else
     const int STEPS = 4;
-    float sum = dark_at(pixel);
-    if (sum <= 0.0)
-        return 0.0;
+    float sum = dark;
     for (int i = 1; i <= STEPS; i++) {
         vec2 off = u_ground_along * (3.0 * u_ground_hatch * float(i) / float(STEPS));
-        sum += dark_at(pixel + off) + dark_at(pixel - off);
+        sum += dark_once(pixel + off) + dark_once(pixel - off);
     }
     return clamp(2.0 * sum / float(2 * STEPS + 1) - 1.0, 0.0, 1.0);
 #endif
@@ -111,9 +118,14 @@ float fullness_at(vec2 pixel)
 /* Strokes whose breadth is the shadow's darkness, which nothing but a hand makes uneven; where it is full they leave nothing between. */
 float strokes_at(vec2 pixel)
 {
+#ifndef SOFT
+    if (dark_once(pixel) <= 0.0) /* cheap, and most of the page; what is lost is half a pixel at the border of a stroke */
+        return 0.0;
+#endif
+    float dark = dark_at(pixel);
     vec2 from = pixel - u_anchor;
     float along = dot(from, u_ground_along) / u_ground_hatch, across = dot(from, vec2(-u_ground_along.y, u_ground_along.x)) / u_ground_hatch;
-    float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel);
+    float free = 1.0 - u_ground_strength, covered = 0.0, fullness = fullness_at(pixel, dark);
     int middle = int(floor(across));
     for (int stroke = middle - 1; stroke <= middle + 1 && fullness > 0.0; stroke++) {
         float sway = free * (0.32 * of_stroke(stroke, 0x7000) + 0.3 * along_stroke(stroke, 0.05 * along));

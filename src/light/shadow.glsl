@@ -8,7 +8,7 @@ uniform float u_shadow_pixel;    /* side of a pixel of the page, in texels, in p
 float lit_once(vec3 eye, vec3 normal)
 {
     vec3 at = (u_shadow_from_eye * vec4(eye + normal * (1.5 * u_shadow_texel.y), 1.0)).xyz;
-    return step(at.z, texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
+    return step(min(at.z, 1.0), texelFetch(t_shadow, clamp(ivec2(at.xy / u_shadow_texel.x), ivec2(0), textureSize(t_shadow, 0) - 1), 0).r);
 }
 
 /* How the depth of a flat surface rises over the map, for each texel to the right and up. */
@@ -25,16 +25,25 @@ vec2 shadow_slope(vec3 normal)
  * tone. */
 float lit_fraction(vec3 eye, vec3 normal, vec3 light)
 {
-    /* Off the surface by as much as a texel of it can rise; what is looked at farther away is so by its plane. */
+    /* What is looked at is as deep as its surface's plane is there; off that by as much as normals and planes can differ within a texel. */
     float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
-    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.5 + 1.5 * slope)), 1.0)).xyz;
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.35 + 0.4 * slope)), 1.0)).xyz;
     vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low;
     ivec2 position = ivec2(low) - 1, last = textureSize(t_shadow, 0) - 1;
     float side = clamp(u_shadow_pixel * (u_perspective > 0.5 ? -eye.z : 1.0), 1.0, 3.0), reach = 0.5 * side + 0.5, sum = 0.0;
-    vec2 rise = shadow_slope(normal) * min(side - 1.0, 1.0);
+    vec2 rise = shadow_slope(normal);
     const vec4 steps = vec4(-1.0, 0.0, 1.0, 2.0);
     vec4 across = clamp(reach - abs(steps - fraction.x), 0.0, 1.0), along = clamp(reach - abs(steps - fraction.y), 0.0, 1.0);
     vec4 depths = at.z + rise.x * (steps - fraction.x);
+#ifdef GL_ARB_texture_gather
+    for (int half_ = 0; half_ < 2; half_++) {
+        vec4 a = textureGather(t_shadow, (low + vec2(0.0, 2.0 * float(half_))) / vec2(textureSize(t_shadow, 0))), b = textureGather(t_shadow, (low + vec2(2.0, 2.0 * float(half_))) / vec2(textureSize(t_shadow, 0)));
+        vec4 lower = vec4(a.wz, b.wz), upper = vec4(a.xy, b.xy);
+        int row = 2 * half_;
+        sum += along[row] * dot(step(min(depths + rise.y * (steps[row] - fraction.y), 1.0), lower), across);
+        sum += along[row + 1] * dot(step(min(depths + rise.y * (steps[row + 1] - fraction.y), 1.0), upper), across);
+    }
+#else
     for (int row = 0; row < 4; row++) {
         vec4 nearest;
         for (int column = 0; column < 4; column++)
@@ -42,6 +51,7 @@ float lit_fraction(vec3 eye, vec3 normal, vec3 light)
         /* Beyond all that throws shadows, where nothing is nothing is in the way. */
         sum += along[row] * dot(step(min(depths + rise.y * (steps[row] - fraction.y), 1.0), nearest), across);
     }
+#endif
     return sum / (side * side);
 }
 #endif

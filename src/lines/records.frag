@@ -4,6 +4,10 @@
 flat in vec4 v_begin;
 flat in vec4 v_end;
 flat in vec4 v_look;
+#ifdef SHORT_EDGES
+flat in uvec4 v_seen;
+flat in float v_seen_count;
+#endif
 #include "light/piece.glsl"
 #include "lines/cover.glsl"
 #include "lines/room.glsl"
@@ -43,6 +47,19 @@ bool is_seen(vec3 axis, bool wanted)
 }
 
 /* As most of three positions along the edge are: where faces are about a pixel high, single ones come and go, and lines would be stitches and beads. */
+#ifdef SHORT_EDGES
+uint seen_bit(int place)
+{
+    uvec2 half_of = place < 64 ? v_seen.xy : v_seen.zw;
+    return ((place & 32) == 0 ? half_of.x : half_of.y) >> uint(place & 31) & 1u;
+}
+
+bool is_seen_around(vec3 axis, float at, float size, bool wanted)
+{
+    int last = int(v_seen_count) - 1, place = clamp(int(at * v_seen_count), 0, last), apart = max(int(APART * v_seen_count / max(size, 1.0) + 0.5), 1);
+    return seen_bit(max(place - apart, 0)) + seen_bit(place) + seen_bit(min(place + apart, last)) >= 2u;
+}
+#else
 bool is_seen_around(vec3 axis, float at, float size, bool wanted)
 {
     float apart = APART / max(size, 1e-6);
@@ -50,6 +67,7 @@ bool is_seen_around(vec3 axis, float at, float size, bool wanted)
     bool first = is_seen(axis, wanted), second = is_seen(before, wanted), third = is_seen(behind, wanted && first != second);
     return first == second ? first : third;
 }
+#endif
 
 #if defined(HAS_ID) && PARTS
 uint piece_at(vec2 at)
@@ -111,10 +129,9 @@ void main()
     for (int once = 0; once < wanted; once++) {
         vec2 normal = vec2(-along.y, along.x) / max(size, 1e-6);
         strength = vec2(v_look.x > RECORDED_OUTLINE && v_look.x < RECORDED_QUIET ? 1.0 : 0.0, max(-v_look.x, 0.0));
-        /* What is smooth has an outline only where something is behind it. */
-        int uncertain = v_look.x == RECORDED_OUTLINE ? 1 : 0;
-        for (int again = 0; again < uncertain; again++)
-            strength.x = outline_at(axis, normal, judged);
+#ifdef SMOOTH_OUTLINES /* have a line only where something is behind them */
+        strength.x = outline_at(axis, normal, judged);
+#endif
         ink = strength * line_cover(d, length(way_of_line) > 0.01 ? normalize(way_of_line) : normal, half_width);
         wanted = judged || max(strength.x, strength.y) > 0.0 || v_look.x == RECORDED_QUIET ? wanted : 0;
     }

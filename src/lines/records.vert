@@ -3,6 +3,18 @@
 #include "lines/stroke/quad.glsl"
 #include "lines/stroke/visible.glsl"
 #include "lines/record.glsl"
+#ifdef SHORT_EDGES
+flat out uvec4 v_seen;       /* one bit a position */
+flat out float v_seen_count; /* of them */
+#define DRAWS_SHORT true
+#else
+#define DRAWS_SHORT false
+#endif
+#ifdef SMOOTH_OUTLINES
+#define DRAWS_SMOOTH true
+#else
+#define DRAWS_SMOOTH false
+#endif
 uniform mat4 u_clip; /* from the mesh's axes to clip space */
 
 vec3 on_page(vec4 clip)
@@ -11,13 +23,7 @@ vec3 on_page(vec4 clip)
     return vec3(position.xy * u_size, position.z);
 }
 
-/* Pixels take for creases only what turns by more than facets may. Creases of meshes have been judged by feature: for them so much of those angles is enough. */
-const float JUDGED = 2.0 / 3.0;
-
-float judged(float cosine)
-{
-    return cos(JUDGED * acos(clamp(cosine, -1.0, 1.0)));
-}
+uniform vec2 u_judged; /* cosines of so much of `faint` and of `crease` */
 
 /* The code of a record (lines/record.glsl); 0 where there is no line. */
 float code_of(int line)
@@ -25,7 +31,7 @@ float code_of(int line)
     int bits = int(a_begin.w);
     /* Whole chains are as strong as they are in the mean, so that none ends where one of its edges turns less. */
     float cosine = a_first.w > 0.0 ? cos(a_first.w) : dot(a_first.xyz, a_second.xyz);
-    float faint = judged(u_line_faint), sharp = judged(u_line_crease);
+    float faint = u_judged.x, sharp = u_judged.y;
     float crease = (bits & RECORD_ROUNDED) != 0 ? 1.0 : (bits & RECORD_CREASE) != 0 ? clamp((faint - cosine) / max(faint - sharp, 1e-4), 0.0, 1.0) : 0.0;
     float quiet = (bits & RECORD_QUIET) != 0 ? RECORDED_QUIET : 0.0;
     return line == INNER ? -crease : line != PROFILE ? quiet : (bits & RECORD_BORDER) != 0 ? RECORDED_BORDER : RECORDED_OUTLINE + crease;
@@ -78,26 +84,40 @@ void place_edge(float code)
 }
 
 /* Positions along the edge are looked at STEP apart, in pixels, of long ones MOST, so that those wholly hidden cost no fragments; and by turns in each
- * of PARTS_OF_EDGE, so that the first few tell of the whole edge. */
+ * of PARTS_OF_EDGE, so that the first few tell of the whole edge. Of short ones fragments are told which positions are seen, so that none has to look for itself. */
 const float STEP = 2.0;
-const int MOST = 120, PARTS_OF_EDGE = 4;
+const int MOST = 120;
+const int PARTS_OF_EDGE = 4;
 /* What a rim hides, less than a pixel beside it, is seen here and there as pixels have their middles, in many places with less weight than this; what is before all, with half or
  * more nearly everywhere. One place of the one kind counts as many of the other; the first few tell which it is. */
 const float POORLY = 0.3;
 const int AGAINST = 2, SURELY = 2, OF_SHORT = 4; /* of no more positions than these one will do */
 
-bool is_hidden()
+bool is_hidden(float size)
 {
-    float size = distance(v_begin.xy, v_end.xy);
     int positions = min(int(ceil(max(size, STEP) / STEP)), MOST), parts = min(positions, PARTS_OF_EDGE), each = (positions + parts - 1) / parts;
     int found = 0, score = 0, surely = positions <= OF_SHORT ? 1 : SURELY, turns = each * parts;
     float share = 1.0 / float(turns);
+    bool decided = false;
     for (int i = 0; i < turns; i++) {
-        float at = (float(i % parts * each + i / parts) + 0.5) * share, weight = seen_weight(mix(v_begin.xyz, v_end.xyz, at), POORLY, true);
+        int place = i % parts * each + i / parts;
+        float weight = seen_weight(mix(v_begin.xyz, v_end.xyz, (float(place) + 0.5) * share), POORLY, true);
         found += weight > 0.0 ? 1 : 0;
-        score += weight >= POORLY ? 1 : weight > 0.0 ? -AGAINST : 0;
-        turns = score >= surely || score <= -surely * AGAINST ? 0 : turns;
+        score += decided ? 0 : weight >= POORLY ? 1 : weight > 0.0 ? -AGAINST : 0;
+        bool seen = score >= surely, hidden = score <= -surely * AGAINST;
+        decided = seen || hidden;
+#ifdef SHORT_EDGES
+        uint bit = weight >= ENOUGH ? 1u << uint(place & 31) : 0u;
+        ivec4 word = ivec4(place >> 5) - ivec4(0, 1, 2, 3);
+        v_seen |= bit * uvec4(equal(word, ivec4(0)));
+        turns = hidden ? 0 : turns;
+#else
+        turns = decided ? 0 : turns;
+#endif
     }
+#ifdef SHORT_EDGES
+    v_seen_count = float(each * parts);
+#endif
     return found == 0 ? size <= STEP * float(MOST) : score < 0;
 }
 
@@ -107,8 +127,14 @@ void main()
     float code = code_of(line);
     gl_Position = NOWHERE;
     v_begin = v_end = v_look = vec4(0.0);
+#ifdef SHORT_EDGES
+    v_seen = uvec4(0u);
+    v_seen_count = 0.0;
+#endif
     if (code != 0.0)
         place_edge(code);
-    if (v_look.x != 0.0 && is_hidden())
+    float size = distance(v_begin.xy, v_end.xy);
+    bool wanted = v_look.x != 0.0 && (size <= LONGEST_SHORT) == DRAWS_SHORT && (v_look.x == RECORDED_OUTLINE) == DRAWS_SMOOTH;
+    if (!wanted || is_hidden(size))
         gl_Position = NOWHERE;
 }

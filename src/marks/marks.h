@@ -50,6 +50,7 @@ typedef struct flow_end {
 typedef struct mark_line {
     vec3  a, b, normal;
     vec3  middle, middle_normal; /* of the whole stroke: where its tone is decided, so that it is drawn whole */
+    vec3  middle_direction;      /* along it there, unit: pieces of strokes that flow have none */
     float light, perspective;    /* priorities */
     float span; /* 0: two thresholds (EX-01). Else the light priority is the top of a layer that is this wide, and
                  * within it the share that light asks for is multiplied by that of distance, so that one order serves
@@ -82,6 +83,9 @@ typedef struct marks {
     const uint32_t *parts; /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
+/* Tells all pieces of a stroke, of which there is one at least, in their order, how it runs at its middle. Returns
+ * which piece that is. */
+size_t mark_stroke_middle(mark_line *pieces, size_t count);
 
 /* Area of a surface. */
 double mark_surface_area(const mark_surface *s);
@@ -214,12 +218,10 @@ typedef enum mark_law {
     MARK_LAW_DOT     /* for dots, which do not get smaller */
 } mark_law;
 
-/* 1 − t of the thesis' thresholds (EX-03, EX-04): fraction of the marks to be drawn at an eye-space position when all
- * are drawn face-on at distance `d`. Not clamped. */
-double mark_fraction_by_distance(const double position[3], double d);
-double mark_fraction_by_slope(const double position[3], const double normal[3]);
-/* Both together, by one of the laws (EX-05). `direction`: unit, of a line. The last two laws are exact off the
- * picture's middle too. Without perspective d is a number to a unit of length. */
+/* Fraction of the marks to be drawn at an eye-space position when all are drawn face-on at distance `d`, not clamped:
+ * 1 − t of the thesis' thresholds for distance and slope together, or by another law (EX-03 to EX-05). `direction`:
+ * unit, of a line. The last two laws are exact off the picture's middle too. Without perspective d is a number to a
+ * unit of length. */
 double mark_fraction(mark_law law, const double position[3], const double normal[3], const double direction[3],
                      double d, bool orthographic);
 
@@ -260,8 +262,9 @@ float mark_ink_of_strokes(float cover, float darkest, float span, float crowded)
 #define FLOW_UNEVEN 0.3
 
 /* How much of the page the lines of a set cover, for a position to be this dark: the first carries it alone up to
- * `crossed`, and what it leaves bare later ones cover alike. */
-double mark_cover_of_set(double darkness, double crossed, int set, int series);
+ * `crossed`, and what it leaves bare later ones cover alike. `steady`: each but the last goes up to `crossed` only, and
+ * the next one begins there. */
+double mark_cover_of_set(double darkness, double crossed, int set, int series, bool steady);
 /* How wide a line is, model units, where `level` is wanted: log2 of the distance of level 0 over the wanted one.
  * `apart`: distance of level 0. */
 /* A line's own width, 1 ± uneven / 2. */
@@ -271,6 +274,9 @@ double mark_flow_swell(const mark_line *line, double uneven);
 double mark_flow_hand(const mark_line *line, const flow_end *end, double pressure, double patchy);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);
+/* How much of the width is left so many distances from where a line runs out, which takes `taper`: all where so much is
+ * covered that lines join, from half of that on more than the tip has. */
+double mark_flow_tip(double to_end, double taper, double tip, double cover, double join);
 double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], double apart, int levels, double level,
                        double cover);
 
@@ -280,21 +286,24 @@ enum { MARK_LIGHTS_MAX = 8, FLOW_ANY_WIDTH = 2 /* of mark_style.widest: no limit
 
 /* How marks look and what decides. */
 typedef struct mark_style {
-    float   diameter;                           /* of dots, or width of strokes, pixels */
-    float   scale;                              /* strokes: mean distance where it is darkest, pixels */
-    float   fade, most;                         /* ramp; how much larger dots may become, times their area */
-    float   taper;                              /* fraction of a stroke over which each end runs out */
-    int32_t law;                                /* mark_law, of strokes */
-    float   crowded;                            /* mark_ink_of_strokes */
-    float   crossed, least, widest, tip, swell; /* lines that flow: darkness from which sets cross; cover below which
-                                                   lines run out; most width, in distances; how pointed ends are;
-                                                   unevenness of widths. `taper` is in distances of lines */
-    float pressure, patchy, stray, room;        /* mark_flow_hand; how far strokes leave their lines, in distances;
-                                                   mark_flow_room */
+    float   diameter;                                 /* of dots, or width of strokes, pixels */
+    float   scale;                                    /* strokes: mean distance where it is darkest, pixels */
+    float   fade, most;                               /* ramp; how much larger dots may become, times their area */
+    float   taper;                                    /* fraction of a stroke over which each end runs out */
+    int32_t law;                                      /* mark_law, of strokes */
+    float   crowded;                                  /* mark_ink_of_strokes */
+    float   crossed, least, widest, tip, join, swell; /* lines that flow: darkness from which sets cross; cover below
+                                                         which lines run out; most width, in distances; how pointed
+                                                         ends are, and the cover from which they are not; unevenness
+                                                         of widths. `taper` is in distances of lines */
+    float pressure, patchy, stray, room; /* mark_flow_hand; how far strokes leave their lines, in distances;
+                                            mark_flow_room */
     int32_t series;
+    bool    steady; /* mark_cover_of_set */
     float   shadow, light, contrast,
-        texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */
-    bool white;  /* marks stand for light */
+        texture;      /* tone without and in full light; its bend; fraction of the surface's own brightness */
+    bool white;       /* marks stand for light */
+    bool by_priority; /* a stroke is there where its light priority reaches the tone, whatever ink that makes */
     bool pixels; /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same
                     tone */
     colour ink;

@@ -17,9 +17,14 @@ static double grown(double since)
     return t * t / (2 * FLOW_RAMP) + fmax(since - FLOW_RAMP, 0);
 }
 
-double mark_cover_of_set(double darkness, double crossed, int set, int series)
+double mark_cover_of_set(double darkness, double crossed, int set, int series, bool steady)
 {
     double dark = clamped(darkness), first = dark;
+    if (steady && series > 1) {
+        for (int before = 0; before < set; before++)
+            dark = fmax(dark - crossed, 0) / fmax(1 - crossed, 1e-6);
+        return set + 1 < series ? fmin(dark, crossed) : dark;
+    }
     if (series < 2 || dark <= crossed)
         return set == 0 ? dark : 0;
     /* The first goes on to nine tenths, at a slower pace. */
@@ -52,6 +57,13 @@ double mark_flow_room(double distances, double room)
 {
     double t = room > 0 ? clamped(2 * distances / room - 1) : 1;
     return t * t * (3 - 2 * t);
+}
+
+double mark_flow_tip(double to_end, double taper, double tip, double cover, double join)
+{
+    double t = clamped(2 * cover / join - 1), closed = t * t * (3 - 2 * t);
+    double left = pow(clamped(to_end / fmax(taper, 1e-20)), tip);
+    return left + closed * (1 - left);
 }
 
 double mark_flow_swell(const mark_line *line, double uneven)

@@ -228,19 +228,18 @@ static float stroke_ink(const pager *g, const mark_line *l)
     position_on_page p = find_position(g, l->middle, l->middle_normal, &stretch);
     if (!p.inside || (p.facing <= 0 && !g->backs))
         return 0;
-    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, direction);
-    double length = fmax(sqrt(dot(direction, direction)), 1e-300),
-           own = hypot(hypot((double)l->b.x - (double)l->a.x, (double)l->b.y - (double)l->a.y),
-                       (double)l->b.z - (double)l->a.z);
+    move_direction(&g->view->model_view, l->middle_direction, direction);
+    double length = fmax(sqrt(dot(direction, direction)), 1e-300);
     for (int k = 0; k < 3; k++)
         direction[k] /= length;
     /* Ink where it is darkest, and what all strokes would have, of lines side by side. */
     double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
-    double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
+    double d = g->focal * stretch / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
     double fraction = mark_fraction((mark_law)g->style->law, p.eye, p.normal, direction, d, g->view->orthographic);
-    double ink =
-        (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span, g->style->crowded) /
-        darkest;
+    float  darkness = darkness_at(g, &p, l->bright);
+    bool   equalised = !g->style->by_priority || l->span > 0;
+    double ink = equalised ? (double)mark_ink_of_strokes(darkness, (float)darkest, l->span, g->style->crowded) / darkest
+                           : (double)darkness;
     return mark_line_ink(l, (float)fmin(ink, 1), (float)fraction, g->style->fade);
 }
 
@@ -284,19 +283,19 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     double least = (double)g->style->least;
     double across = across_at(g, l, &p, direction), scale = (double)g->style->scale,
            level = log2(fmax(m->apart * across / scale, 1e-6));
-    double cover =
-        mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set, g->style->series) *
-        mark_flow_swell(l, (double)g->style->swell) *
-        mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
-        mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+    double cover = mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set,
+                                     g->style->series, g->style->steady) *
+                   mark_flow_swell(l, (double)g->style->swell) *
+                   mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
+                   mark_flow_room((double)l->room * across / scale, (double)g->style->room);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
-    double taper = (double)g->style->taper * scale / fmax(across, 1e-20),
-           left = fmin(fmax((double)e->to_end / fmax(taper, 1e-20), 0), 1);
+    double to_end = (double)e->to_end * across / scale;
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
-    return (float)(fmin(width, most) * pow(left, (double)g->style->tip));
+    return (float)(fmin(width, most) * mark_flow_tip(to_end, (double)g->style->taper, (double)g->style->tip, cover,
+                                                     (double)g->style->join));
 }
 
 /* What ends leave of the width. */

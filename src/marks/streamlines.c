@@ -18,6 +18,9 @@ enum { STEPS_MAX = 200000 /* of a line */, STUCK = 12 /* steps that come to noth
 static const double STEP = 0.3;  /* of samples and steps */
 static const double STOP = 0.68; /* nearer to another line lines end, more or less, so that ends do not line up */
 static const double STOP_UNEVEN = 0.08;
+static const double BEYOND = 1;          /* so far they go on there, */
+static const double MEET = 0.4;          /* unless they meet the other line before; */
+static const double ACROSS = 0.6;        /* where the field's arms change, straight on */
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
 static const double LEAST = 5;           /* length of a line that ends at others */
@@ -25,6 +28,7 @@ static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to ed
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
 static const double FADED = 1.2;         /* of an end that runs out, the room is its neighbours' */
 static const double REACH = 3.4;         /* how far gaps are looked for */
+static const double WIDEST = 2.4;        /* gap that its two lines share; beyond, a line has its own room */
 
 typedef struct flow_maker {
     flow_lines         *out;
@@ -82,35 +86,82 @@ static bool comes_round(const flow_maker *m, const flow_position *p, const flow_
     return fabs(arc) > 4 * m->apart && dot(to, to) < reach * reach && dot(p->direction, seed->direction) > 0.8;
 }
 
+/* From where a walk comes round, over the surface to where it began. */
+static line_end go_home(flow_maker *m, flow_position p, const flow_position *seed, double side, double *arc)
+{
+    for (int i = 0; i < STUCK; i++) {
+        d3     to = minus(seed->at, p.at), n = flow_face_normal(m->f, p.triangle);
+        double left = d3_length(to), gone;
+        if (p.triangle == seed->triangle || left < 1e-3 * m->apart)
+            break;
+        p.direction = d3_unit(d3_along(to, n, -dot(to, n)));
+        if (flow_straight(m->f, &p, left, &gone) != FLOW_ON)
+            break;
+        *arc += side * gone;
+        if (gone > 0 && !add_point(m, &p, flow_normal(m->f, &p), *arc))
+            return END_MEMORY;
+    }
+    return END_LOOP;
+}
+
+/* How far a walk may go on beyond where the line runs out; INFINITY: it has not come to that. `straight`: there the
+ * field's arms change. */
+typedef struct beyond_end {
+    double left;
+    bool   straight;
+} beyond_end;
+
+/* One step of a walk. */
+static flow_step step_on(const flow_maker *m, flow_position *p, beyond_end *b, double *gone)
+{
+    double length = fmin(STEP * m->apart, b->left);
+    if (b->straight)
+        return flow_straight(m->f, p, length, gone);
+    flow_step step = flow_along(m->f, p, m->turn, length, gone);
+    if (step != FLOW_TURNED)
+        return step;
+    b->straight = true;
+    b->left = fmin(b->left, ACROSS * m->apart);
+    return FLOW_ON;
+}
+
 /* Walks one way from the seed; `arc` counts upwards forwards and downwards backwards. */
-static line_end walk(flow_maker *m, flow_position p, uint32_t line, double side, double stop, double *arc)
+static line_end walk(flow_maker *m, flow_position p, uint32_t line, double side, double stop, double *arc,
+                     uint32_t *beyond)
 {
     flow_position seed = p;
+    beyond_end    b = {.left = INFINITY};
     double        since = 0;
     int           stuck = 0;
     *arc = 0;
+    *beyond = 0;
     if (side < 0)
         p.direction = (d3){-p.direction.x, -p.direction.y, -p.direction.z};
     seed.direction = p.direction;
-    for (int i = 0; i < STEPS_MAX && stuck < STUCK; i++) {
+    for (int i = 0; i < STEPS_MAX && stuck < STUCK && b.left > 0; i++) {
+        bool      within = isfinite(b.left);
         double    gone;
-        flow_step step = flow_along(m->f, &p, m->turn, STEP * m->apart, &gone);
+        flow_step step = step_on(m, &p, &b, &gone);
         *arc += side * gone;
         since += gone;
+        b.left -= gone;
         stuck = gone < 1e-4 * m->apart ? stuck + 1 : 0;
         if (gone > 0 && !add_point(m, &p, flow_normal(m->f, &p), *arc))
             return END_MEMORY;
-        if (step != FLOW_ON)
-            return step == FLOW_EDGE ? END_EDGE : END_OTHER;
-        if (since < STEP * m->apart)
+        *beyond += within && gone > 0;
+        if (step == FLOW_EDGE)
+            return within ? END_OTHER : END_EDGE;
+        if (since < (within ? 0.3 : 1) * STEP * m->apart)
             continue;
         since = 0;
         flow_sample s = sample_of(m, &p, flow_normal(m->f, &p), line, *arc);
-        if (comes_round(m, &p, &seed, *arc))
-            return END_LOOP;
-        if (flow_grid_is_near(&m->grid, &s, stop * m->apart, 3 * m->apart))
+        if (!within && comes_round(m, &p, &seed, *arc))
+            return go_home(m, p, &seed, side, arc);
+        if (!isfinite(b.left) && flow_grid_is_near(&m->grid, &s, stop * m->apart, 3 * m->apart))
+            b.left = BEYOND * m->apart;
+        if (isfinite(b.left) && flow_grid_is_near(&m->grid, &s, MEET * m->apart, 3 * m->apart))
             return END_OTHER;
-        if (!flow_grid_add(&m->grid, &s))
+        if (!isfinite(b.left) && !flow_grid_add(&m->grid, &s))
             return END_MEMORY;
     }
     return END_OTHER;
@@ -133,7 +184,7 @@ static float rank_of(flow_maker *m)
 }
 
 /* Keeps what was walked as a line; false when memory is gone. */
-static bool keep_line(flow_maker *m, double from, bool closed, const bool bounded[2])
+static bool keep_line(flow_maker *m, double from, bool closed, const bool bounded[2], const uint32_t beyond[2])
 {
     flow_lines *l = m->out;
     if (!mem_grow((void **)&l->lines, &l->line_capacity, l->line_count + 1, sizeof *l->lines) ||
@@ -145,6 +196,7 @@ static bool keep_line(flow_maker *m, double from, bool closed, const bool bounde
                         .level = (uint8_t)m->level,
                         .closed = closed,
                         .bounded = {bounded[0], bounded[1]},
+                        .ends = {beyond[0], (uint32_t)m->count - 1 - beyond[1]},
                         .rank = rank_of(m)};
     for (size_t i = 0; i < m->count; i++) {
         m->points[i].arc -= (float)from;
@@ -153,18 +205,24 @@ static bool keep_line(flow_maker *m, double from, bool closed, const bool bounde
     return true;
 }
 
+static double length_within(const flow_maker *m, const uint32_t beyond[2])
+{
+    return m->count ? (double)m->points[m->count - 1 - beyond[1]].arc - (double)m->points[beyond[0]].arc : 0;
+}
+
 /* Walks both ways from a seed. A line that is too short is none, and leaves nothing in the grid. */
 static bool trace_line(flow_maker *m, const flow_position *seed)
 {
     size_t   samples = m->grid.count;
     uint32_t line = (uint32_t)m->out->line_count;
     double   stop = STOP + STOP_UNEVEN * random_signed(&m->random), back = 0, on = 0;
+    uint32_t beyond[2] = {0, 0}; /* points */
     d3       normal = flow_normal(m->f, seed);
     m->count = 0;
     flow_sample s = sample_of(m, seed, normal, line, 0);
     if (!flow_grid_add(&m->grid, &s))
         return false;
-    line_end first = walk(m, *seed, line, -1, stop, &back), second = END_LOOP;
+    line_end first = walk(m, *seed, line, -1, stop, &back, &beyond[0]), second = END_LOOP;
     turn_around(m->points, m->count);
     if (first == END_MEMORY || !add_point(m, seed, normal, 0))
         return false;
@@ -174,21 +232,21 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
         m->points[0].normal = m->points[m->count - 1].normal;
         m->points[0].triangle = seed->triangle;
     } else {
-        second = walk(m, *seed, line, 1, stop, &on);
+        second = walk(m, *seed, line, 1, stop, &on, &beyond[1]);
         if (second == END_MEMORY)
             return false;
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
-    double length = on - back, least = closed ? 2 : bounded[0] && bounded[1] ? LEAST_BOUNDED : LEAST;
+    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? LEAST_BOUNDED : LEAST;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;
     }
     for (size_t i = samples; i < m->grid.count; i++) {
         m->grid.samples[i].arc -= (float)back;
-        m->grid.samples[i].loop = closed ? (float)length : 0;
+        m->grid.samples[i].loop = closed ? (float)(on - back) : 0;
     }
-    return keep_line(m, back, closed, bounded);
+    return keep_line(m, back, closed, bounded, beyond);
 }
 
 /* Goes straight on over the surface; *stuck: it got no farther. False where the surface ends before. */
@@ -253,6 +311,15 @@ static flow_position position_on(const flow_lines *l, const flow_line *line, uin
     return (flow_position){of(points[i].at), d3_unit(minus(of(after->at), of(before->at))), points[i].triangle};
 }
 
+/* Is a point nearer than this to where a line runs out between others, or beyond it? */
+static bool runs_out(const flow_lines *l, const flow_line *line, uint32_t i, double distance)
+{
+    const flow_point *p = &l->points[line->first];
+    double            arc = (double)p[i].arc;
+    return !line->closed && ((!line->bounded[0] && arc < distance + (double)p[line->ends[0]].arc) ||
+                             (!line->bounded[1] && arc > (double)p[line->ends[1]].arc - distance));
+}
+
 /* Fills the gaps on both sides of a line. */
 static bool fill_beside(flow_maker *m, uint32_t number)
 {
@@ -261,7 +328,7 @@ static bool fill_beside(flow_maker *m, uint32_t number)
         const flow_line  *line = &m->out->lines[number];
         const flow_point *points = &m->out->points[line->first];
         since += i > 0 ? (double)points[i].arc - (double)points[i - 1].arc : 0;
-        if (since < 1.5 * m->apart)
+        if (since < 1.5 * m->apart || runs_out(m->out, line, i, 0))
             continue;
         since = 0;
         d3            normal;
@@ -286,14 +353,6 @@ static bool fill_beside(flow_maker *m, uint32_t number)
 }
 
 /* --- levels --------------------------------------------------------------------------------------------- */
-
-/* Is a point nearer than this to an end with which a line runs out between others? */
-static bool runs_out(const flow_lines *l, const flow_line *line, uint32_t i, double distance)
-{
-    const flow_point *p = &l->points[line->first];
-    double            arc = (double)p[i].arc, rest = (double)p[line->count - 1].arc - arc;
-    return !line->closed && ((!line->bounded[0] && arc < distance) || (!line->bounded[1] && rest < distance));
-}
 
 /* Samples of the lines that there are, for the grid of a level, but for ends that run out. */
 static bool add_samples(flow_maker *m, double without_ends)
@@ -366,7 +425,7 @@ static void measure_spaces(size_t begin, size_t end, void *user)
         /* Every second one will do: what lies between is interpolated. */
         if (after >= FLOW_SPACES || (i & 1))
             continue;
-        flow_grid_gaps(&m->grid, s, 1.8 * m->apart, gaps);
+        flow_grid_gaps(&m->grid, s, WIDEST * m->apart, gaps);
         for (int k = 0; k < 2; k++)
             space += 0.5 * (isfinite(gaps[k]) ? gaps[k] : m->apart);
         m->out->points[line->first + s->point].spaces[after] = (float)space;

@@ -80,7 +80,9 @@ typedef struct flow_line {
     uint8_t  level;
     bool     closed;
     bool     bounded[2]; /* this end lies where the surface or the field ends: there is no other line in the way */
-    float    rank;       /* level at which it comes, between its own and the one before */
+    uint32_t ends[2];    /* the points, from `first`, where it runs out; what lies beyond goes on between lines that are
+                            too near, and is drawn only where lines join */
+    float rank;          /* level at which it comes, between its own and the one before */
 } flow_line;
 
 typedef struct flow_lines {

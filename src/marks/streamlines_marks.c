@@ -56,12 +56,15 @@ static bool is_straight(const flow_point *p, uint32_t first, uint32_t last, doub
     return true;
 }
 
-/* The last point that a piece from `first` may go to. */
-static uint32_t end_of_piece(const flow_cutter *c, const flow_point *p, uint32_t first, uint32_t end)
+/* The last point that a piece from `first` may go to. What lies beyond where a line runs out are pieces of their own.
+ */
+static uint32_t end_of_piece(const flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t first,
+                             uint32_t end)
 {
     uint32_t last = first + 1;
     double   most = c->options->whole ? INFINITY : PIECE * c->options->apart;
-    while (last < end && last - first < POINTS && (double)p[last + 1].arc - (double)p[first].arc < most &&
+    while (last < end && last - first < POINTS && last != line->ends[0] && last != line->ends[1] &&
+           (double)p[last + 1].arc - (double)p[first].arc < most &&
            (c->options->whole || product(p[first].normal, p[last + 1].normal) > BENT) &&
            is_straight(p, first, last + 1, c->options->sag))
         last++;
@@ -87,15 +90,15 @@ static void draw_in_group(flow_end *e, const grouped_stroke *g, double part)
 }
 
 /* How far a point of a stroke is from its nearer end that runs out. */
-static double to_end_of(const flow_line *line, double arc, double from, double to, const bool cut[2],
-                        const grouped_stroke *g)
+static double to_end_of(const flow_line *line, const flow_point *p, double arc, double from, double to,
+                        const bool cut[2], const grouped_stroke *g)
 {
     double away = (double)FLOW_ENDLESS, first = g->grouped && g->forward ? FIRM : 1,
            second = g->grouped && !g->forward ? FIRM : 1;
     if (cut[0] || !(line->closed || line->bounded[0]))
-        away = fmin(away, first * (arc - from));
+        away = fmin(away, first * fmax(arc - (cut[0] ? from : (double)p[line->ends[0]].arc), 0));
     if (cut[1] || !(line->closed || line->bounded[1]))
-        away = fmin(away, second * (to - arc));
+        away = fmin(away, second * fmax((cut[1] ? to : (double)p[line->ends[1]].arc) - arc, 0));
     return away;
 }
 
@@ -129,8 +132,9 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
                    .stroke = (uint32_t)m->stroke_count++};
     /* Of those that flow, enough must be looked at for the ones that grow; whole ones get their share later. */
     l.perspective = (float)(1 - exp2(rank - finest - 0.2));
+    size_t begun = m->line_count;
     for (uint32_t i = first, end; i < last; i = end) {
-        end = end_of_piece(c, p, i, last);
+        end = end_of_piece(c, line, p, i, last);
         if (!mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 1, sizeof *m->lines))
             return false;
         l.a = p[i].at;
@@ -139,13 +143,15 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
         l.normal = p[(i + end + 1) / 2].normal;
         l.from = p[i].arc - (float)from;
         l.to = p[end].arc - (float)from;
-        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, (double)p[i].arc, from, to, cut, g));
-        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, (double)p[end].arc, from, to, cut, g));
+        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, p, (double)p[i].arc, from, to, cut, g));
+        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, p, (double)p[end].arc, from, to, cut, g));
         for (int k = 0; k < 2 && g->grouped; k++)
             draw_in_group(&l.ends[k], g, (double)(k ? l.to : l.from) / (to - from));
         m->lines[m->line_count++] = l;
         m->line_length += (double)l.to - (double)l.from;
     }
+    if (c->options->whole)
+        mark_stroke_middle(&m->lines[begun], m->line_count - begun);
     return true;
 }
 

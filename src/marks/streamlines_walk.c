@@ -8,8 +8,9 @@
 #include "marks/streamlines.h"
 #include "scene/mesh.h"
 
-static const double FEATURE = 0.7; /* radians: edges over which directions do not go on */
-static const double TURNED = 0.64; /* cosine of 50 degrees: more is another arm */
+static const double FEATURE = 0.7;     /* radians: edges over which directions do not go on */
+static const double TURNED = 0.64;     /* cosine of 50 degrees: more is another arm */
+static const double BENT_ASIDE = 0.26; /* radians: 15 degrees */
 static const double HALF_PI = 1.57079632679489662;
 
 /* A triangle laid flat. */
@@ -162,8 +163,30 @@ static uint32_t next_corner(uint32_t h)
     return h % 3 == 2 ? h - 2 : h + 1;
 }
 
+/* Where a plane begins, which has one direction for all of it, lines go on if it is nearly that of what lies beside
+ * it, and there is no crease. */
+static bool agrees_beyond(const flow_surface *f, const flow_position *p, const flat_triangle *here, uint32_t beyond,
+                          const flat_triangle *there)
+{
+    double at[2], by_place[2], from, to;
+    if (dot(here->normal, there->normal) < cos(FEATURE))
+        return false;
+    place_in(here, p, at, by_place);
+    if (!angle_at(f, p->triangle, here, at[0], at[1], &from))
+        return false;
+    place_in(there, p, at, by_place);
+    if (!angle_at(f, beyond, there, at[0], at[1], &to))
+        return false;
+    from += slant_at(f, p->triangle);
+    to += slant_at(f, beyond);
+    d3 line = d3_unit((d3){cos(from) * here->u.x + sin(from) * here->v.x, cos(from) * here->u.y + sin(from) * here->v.y,
+                           cos(from) * here->u.z + sin(from) * here->v.z});
+    double off = atan2(dot(line, there->v), dot(line, there->u)) - to;
+    return fabs(remainder(off, HALF_PI)) < BENT_ASIDE;
+}
+
 /* Into the triangle beyond an edge; false where the surface ends, or the field is parted. */
-static bool go_over(const flow_surface *f, flow_position *p, uint32_t edge, d3 normal)
+static bool go_over(const flow_surface *f, flow_position *p, uint32_t edge, const flat_triangle *here)
 {
     uint32_t other = f->across[edge];
     if (other == UINT32_MAX)
@@ -171,13 +194,15 @@ static bool go_over(const flow_surface *f, flow_position *p, uint32_t edge, d3 n
     flat_triangle t;
     bool          same = f->surface->indices[edge] == f->surface->indices[other];
     uint32_t      a = same ? other : next_corner(other), b = same ? next_corner(other) : other;
-    if (!lay_flat(f, other / 3, &t) || (!same_tensor(f, edge, a) && !same_tensor(f, next_corner(edge), b)))
+    if (!lay_flat(f, other / 3, &t))
+        return false;
+    if (!same_tensor(f, edge, a) && !same_tensor(f, next_corner(edge), b) && !agrees_beyond(f, p, here, other / 3, &t))
         return false;
     /* Directions turn with the normal by the least rotation: about the edge. */
-    double agree = dot(normal, t.normal);
+    double agree = dot(here->normal, t.normal);
     if (agree < -0.9)
         return false;
-    d3 sum = {normal.x + t.normal.x, normal.y + t.normal.y, normal.z + t.normal.z};
+    d3 sum = {here->normal.x + t.normal.x, here->normal.y + t.normal.y, here->normal.z + t.normal.z};
     p->direction = d3_unit(d3_along(p->direction, sum, -dot(p->direction, t.normal) / (1 + agree)));
     p->triangle = other / 3;
     return true;
@@ -195,7 +220,7 @@ static flow_step walk(const flow_surface *f, flow_position *p, const flat_triang
         d3_along((d3){direction[0] * t->u.x, direction[0] * t->u.y, direction[0] * t->u.z}, t->v, direction[1]);
     if (!leaves)
         return FLOW_ON;
-    return go_over(f, p, 3 * p->triangle + (uint32_t)edge, t->normal) ? FLOW_ON : FLOW_EDGE;
+    return go_over(f, p, 3 * p->triangle + (uint32_t)edge, t) ? FLOW_ON : FLOW_EDGE;
 }
 
 flow_step flow_along(const flow_surface *f, flow_position *p, double turn, double length, double *gone)
@@ -267,6 +292,7 @@ lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error
     out->mesh = (primitive){.vertex_count = s->vertex_count,
                             .index_count = 3 * s->triangle_count,
                             .positions = (vec3 *)(uintptr_t)s->positions,
+                            .normals = (vec3 *)(uintptr_t)s->normals,
                             .indices = (uint32_t *)(uintptr_t)s->indices,
                             .material = NONE};
     out->across = mesh_adjacency(&out->mesh);

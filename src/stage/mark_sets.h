@@ -19,6 +19,7 @@ typedef struct mark_set {
     bool                lines;
     int                 levels; /* of lines that flow */
     double              apart;  /* of those, where only the first level is there */
+    double              sag;    /* how far pieces may leave the surface */
     moment              when;   /* of the pose that they are in */
     marks              *made;   /* as they are at rest, on `ground`, of scenes that move; NULL: it does not */
     struct mark_ground *ground;

@@ -33,6 +33,7 @@ static void empty_store(stroke_store *s, gpu *g)
     stroke_scene_release(&s->scene);
     mem_free(s->seen);
     mem_free(s->edges);
+    mem_free(s->turns);
     mem_free(s->crossings);
     mem_free(s->parts);
     *s = (stroke_store){.topologies = topologies};
@@ -70,9 +71,10 @@ static lmn_status fill_store(stroke_store *s, const stroke_store_options *w, lmn
     if (status != LMN_OK)
         return status;
     s->edges = mem_calloc(s->scene.mesh_count, sizeof(gpu_marks *));
+    s->turns = mem_calloc(s->scene.mesh_count, sizeof *s->turns);
     s->crossings = mem_calloc(s->scene.item_count, sizeof(gpu_marks *));
     s->seen = mem_calloc(s->scene.item_count, sizeof *s->seen);
-    return s->edges && s->crossings && s->seen ? LMN_OK : error_memory(error);
+    return s->edges && s->turns && s->crossings && s->seen ? LMN_OK : error_memory(error);
 }
 
 stroke_store *stroke_store_find(stroke_store **slot, gpu *g, const stroke_store_options *options)

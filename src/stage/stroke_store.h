@@ -21,6 +21,7 @@ typedef struct stroke_store {
     stroke_scene      scene;
     stroke_topologies topologies; /* stay when another moment is asked for */
     gpu_marks       **edges;      /* per mesh of the scene; NULL: not made yet */
+    float            *turns;      /* of such a mesh: strokes_gentlest_turn */
     gpu_marks       **crossings;  /* per item, the same */
     stroke_seen      *seen;       /* per item, of meshes that move */
     stroke_view      *view;       /* of the last camera; NULL: none */

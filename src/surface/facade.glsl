@@ -1,5 +1,6 @@
 /* Windows and doors of a wall, without a picture of them. Nienhaus 2005, section 4.8: facade elements composed for each building from sets of texture
  * coordinates, which tell storeys, use and occupancy; row C07. Bays and storeys divide a wall evenly, so none is cut off at its ends. */
+#include "light/point.glsl"
 #include "gpu/hash.glsl"
 
 /* Storeys, 0 where nobody says; use (src/plan/building.h). */
@@ -69,8 +70,9 @@ vec2 panes_of(vec4 opening, bool ground)
 /* Width of a frame, of the shorter side of its window. */
 const float FRAME_MOST = 0.1;
 
-/* What is open in a wall near at hand, one by one. `cells`: bays and storeys. */
-vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
+/* What facades make of a wall: the shares of frames, of dark glass and of lit glass; the wall itself is the rest. Here of what is open near at hand, one by one. `cells`:
+ * bays and storeys. */
+vec3 windows_near(vec2 cells, vec2 pixel)
 {
     vec2 along = v_wall.xy * cells;
     vec2 cell = floor(along), at = along - cell;
@@ -84,27 +86,26 @@ vec3 windows_near(vec3 shade, vec3 tone, vec2 cells, vec2 pixel)
     vec4 around = opening + vec4(-1.0, -1.0, 1.0, 1.0) * (frame_width * pixel.xyxy);
     bool there = opening.z > opening.x;
     float glass = there ? covered(opening, at, pixel) : 0.0;
-    float frame = there && u_frame > 0.0 ? covered(around, at, pixel) - glass : 0.0;
-    float occupied = float(window >> 8) / 16777216.0 < u_occupancy ? 1.0 : 0.0;
-    vec3 pane = shown(mix(u_glass.rgb * tone, u_lit.rgb, occupied));
+    float frame = there && u_frame > 0.0 ? clamp(covered(around, at, pixel) - glass, 0.0, 1.0) : 0.0;
+    float occupied = float(window >> 8) / 16777216.0 < u_occupancy ? 1.0 : 0.0, bars = 0.0;
     int parted = u_bars > 0.0 && glass > 0.0 ? 1 : 0;
     for (int once = 0; once < parted; once++)
-        pane = mix(pane, shown(u_frame_colour.rgb), bars_at(opening, panes_of(opening, cell.y == 0.0), at, pixel));
-    return mix(mix(shade, shown(u_frame_colour.rgb), clamp(frame, 0.0, 1.0)), pane, glass);
+        bars = bars_at(opening, panes_of(opening, cell.y == 0.0), at, pixel);
+    float panes = glass * (1.0 - bars);
+    return vec3(frame * (1.0 - glass) + glass * bars, panes * (1.0 - occupied), panes * occupied);
 }
 
 /* Too small to be seen one by one, windows are the mean of what they are. */
-vec3 windows_far(vec3 shade, vec3 tone, vec2 cells)
+vec3 windows_far(vec2 cells)
 {
     vec2 along = v_wall.xy * cells, cell = floor(along);
     vec4 own = window_of(ivec2(cell), ivec2(cells), 1u);
     vec4 mean_of = window_of(ivec2(0, 1), ivec2(1, 2), 1u);
     float area = own.z > own.x ? max(mean_of.z - mean_of.x, 0.0) * max(mean_of.w - mean_of.y, 0.0) : 0.0;
-    return mix(shade, shown(mix(u_glass.rgb * tone, u_lit.rgb, u_occupancy)), area);
+    return vec3(0.0, area * (1.0 - u_occupancy), area * u_occupancy);
 }
 
-/* `shade` is the wall as it is shown, `tone` what its tone leaves of full light. */
-vec3 with_facade(vec3 shade, vec3 tone)
+vec4 surface_detail()
 {
     float storeys = v_wall.z <= 0.0 ? 0.0 : u_building.x > 0 ? float(u_building.x) : round(v_wall.w / u_storey);
     float bay = facade_style() == FACADE_INDUSTRIAL ? 2.0 * u_bay : u_bay;
@@ -112,11 +113,11 @@ vec3 with_facade(vec3 shade, vec3 tone)
     vec2 pixel = max(fwidth(v_wall.xy) * cells, vec2(1e-6));
     float keeps = clamp((1.0 / max(pixel.x, pixel.y) - 3.0) / 4.0, 0.0, 1.0);
     /* Loops that run once or not at all: software drivers skip loops, not branches. Roofs have no windows, and of most walls of a town nothing is near, or nothing far. */
-    vec3 near = shade, far = shade;
+    vec3 near = vec3(0.0), far = vec3(0.0);
     int is_near = cells.x * cells.y > 0.0 && keeps > 0.0 ? 1 : 0, is_far = cells.x * cells.y > 0.0 && keeps < 1.0 ? 1 : 0;
     for (int once = 0; once < is_near; once++)
-        near = windows_near(shade, tone, cells, pixel);
+        near = windows_near(cells, pixel);
     for (int once = 0; once < is_far; once++)
-        far = windows_far(shade, tone, cells);
-    return mix(far, near, keeps);
+        far = windows_far(cells);
+    return vec4(mix(far, near, keeps), 0.0);
 }

@@ -50,15 +50,17 @@ typedef struct stipple_values {
 typedef struct surface_strokes_values {
     mark_values common;
     int32_t     placed, law, series;
-    float       width, scale, length, turn, uneven, taper, repeat, jitter;
-    param_words strokes;
+    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength;
+    bool        equalised;
+    param_words strokes, indication;
 } surface_strokes_values;
 
 typedef struct surface_lines_values {
     mark_values common;
     int32_t     series;
+    bool        steady;
     float scale, length, uneven, groups, overlap, pressure, patchy, stray, turn, slant, crossed, room, least, widest,
-        taper, tip, swell;
+        taper, tip, join, swell;
 } surface_lines_values;
 
 typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV } stroke_placing;

@@ -41,6 +41,9 @@ static const param params[] = {
                "lie along the form."),
     PARAM_FLOAT_ROW(surface_lines_values, crossed, .def = 0.55, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .only_if = "series>1", .doc = "Darkness from which sets cross."),
+    PARAM_BOOL_ROW(surface_lines_values, steady, .def = 0, .variant = true, .only_if = "series>1",
+                   .doc = "Sets but the last get no darker than where the next begins to cross them, as lines of a pen "
+                          "do; else all swell on."),
     PARAM_FLOAT_ROW(surface_lines_values, room, .toggles = true, .def = 0, .min = 0, .max = 20, .soft_max = 6,
                     .doc = "Faces that are narrower than this, in distances of lines, have fewer, and none below half "
                            "of it; 0: however narrow they are."),
@@ -52,6 +55,9 @@ static const param params[] = {
                     .doc = "Length over which an end runs out, in distances of lines."),
     PARAM_FLOAT_ROW(surface_lines_values, tip, .def = 0.7, .min = 0.2, .max = 2,
                     .doc = "How ends run out: below 1 blunt as a knife's cut, 1 a wedge, above 1 a hair."),
+    PARAM_FLOAT_ROW(surface_lines_values, join, .def = 1, .min = 0.1, .max = 2,
+                    .doc = "Width, fraction of their distance, from which lines no longer run out where they end, "
+                           "but join the next one; from half of it on they run out less."),
     PARAM_FLOAT_ROW(surface_lines_values, swell, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Unevenness of widths from line to line."),
 };

@@ -29,7 +29,7 @@ void main()
         depth = 1.0 / depth;
         tolerance *= depth;
     }
-    vec2 axis = v_ends.xy + at * chord, pixel = floor(axis);
+    vec2 axis = v_ends.xy + at * chord, pixel = clamp(floor(axis), vec2(0.0), u_size - 1.0); /* of lines whose axis is off the page, the nearest one on it */
     vec4 seen = texelFetch(t_normal_depth, ivec2(pixel), 0);
     depth = depth_beside(depth, axis, pixel + 0.5);
     float half_width = max(v_half_width, 0.0);

@@ -8,7 +8,7 @@ layout(location = 3) in vec4 a_to_normal;
 layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model, how broad its face is */
 layout(location = 5) in vec4 a_group;       /* fractions of the stroke drawn up to both ends, how far they are off the line */
 
-uniform float u_near_plane, u_levels, u_apart; /* u_apart: distance of the first level */
+uniform float u_near_plane, u_levels, u_apart, u_sag; /* distance of the first level; how far pieces leave the surface */
 
 flat out vec3 v_normal; /* of its surface, towards the viewer */
 flat out vec4 v_ends;    /* of the piece, pixels */
@@ -28,6 +28,11 @@ float cover_of_set(float dark, float set)
     float first = u_crossed + (0.9 - u_crossed) * (dark - u_crossed) / max(1.0 - u_crossed, 1e-6);
 #if SERIES == 1
     return dark;
+#elif STEADY
+    float left = dark;
+    for (float before = 0.5; before < set; before += 1.0)
+        left = max(left - u_crossed, 0.0) / max(1.0 - u_crossed, 1e-6);
+    return set > float(SERIES) - 1.5 ? left : min(left, u_crossed);
 #else
     if (dark <= u_crossed)
         return set < 0.5 ? dark : 0.0;
@@ -62,6 +67,13 @@ float across_on_page(mark_position m, vec3 direction)
     return u_focal * area * depth / max(length(seen), 0.02);
 }
 
+/* How much of the width is left so many distances from where the line runs out; all where lines join. */
+float tip_at(float to_end, float cover)
+{
+    float left = pow(clamp(to_end / max(u_taper, 1e-20), 0.0, 1.0), u_tip);
+    return mix(left, 1.0, smoothstep(0.5 * u_join, u_join, cover));
+}
+
 /* Half the width of the line at an end, pixels. */
 float half_width_at(mark_position m, vec3 direction, float spaces, float to_end, float drawn)
 {
@@ -77,8 +89,7 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
     cover *= smoothstep(0.5 * u_room, u_room, a_along.w * across / u_scale);
 #endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
-    float taper = u_taper * u_scale / max(across, 1e-20), left = clamp(to_end / max(taper, 1e-20), 0.0, 1.0);
-    return 0.5 * min(strip * cover, u_widest < 2.0 ? u_widest * u_scale : 1e9) * pow(left, u_tip);
+    return 0.5 * min(strip * cover, u_widest < 2.0 ? u_widest * u_scale : 1e9) * tip_at(to_end * across / u_scale, cover);
 }
 
 /* Where the hand puts an end: beside the line, by so many distances; marks/marks_page.c. */
@@ -128,7 +139,8 @@ void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
     vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));
     float size = length(b - a);
     vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
-    float tolerance = 0.75 + 0.5 * steepness(m);
+    float sag = u_sag * u_focal / (u_perspective > 0.5 ? max(-m.eye.z, 1e-20) : 1.0);
+    float tolerance = max(0.75, 0.5 + sag) + max(0.5, sag) * steepness(m);
     v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
     v_depths = vec4(u_perspective > 0.5 ? -1.0 / from.z : -from.z, u_perspective > 0.5 ? -1.0 / to.z : -to.z, tolerance / u_focal, 0.0);

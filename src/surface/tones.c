@@ -48,7 +48,7 @@ static const param params[] = {
                      .doc = "Colour of windows in the lightest tone."),
     PARAM_FLOAT_ROW(tones, occupancy, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .only_if = "facade",
                     .doc = "Fraction of the windows behind which there is light."),
-    PARAM_COLOUR_ROW(tones, lit, .def_colour = {1, 0.86f, 0.5f, 1}, .as_light = true, .only_if = "facade&occupancy",
+    PARAM_COLOUR_ROW(tones, lit, .def_colour = {1, 0.86f, 0.5f, 1}, .only_if = "facade&occupancy",
                      .doc = "Their colour, in any tone."),
     PARAM_FLOAT_ROW(tones, frame, .def = 0.5, .min = 0, .max = 12, .soft_max = 1.5, .unit = UNIT_PT,
                     .only_if = "facade",
@@ -56,7 +56,7 @@ static const param params[] = {
     PARAM_FLOAT_ROW(tones, bars, .def = 0, .min = 0, .max = 12, .soft_max = 1.5, .unit = UNIT_PT, .only_if = "facade",
                     .doc = "Width of the bars that part windows into panes, once these are large enough to be seen, in "
                            "the colour of frames; 0: none."),
-    PARAM_COLOUR_ROW(tones, frame_colour, .def_colour = {0.16f, 0.16f, 0.19f, 1}, .as_light = true, .only_if = "facade",
+    PARAM_COLOUR_ROW(tones, frame_colour, .def_colour = {0.16f, 0.16f, 0.19f, 1}, .only_if = "facade",
                      .doc = "Its colour."),
 };
 
@@ -72,7 +72,10 @@ const technique surface_tones = {
     .params = params,
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(tones),
-    /* Where on its wall a place lies is known while the geometry is drawn. */
-    .surface =
-        &(const surface_row){.shader = "surface/tones.glsl", .direct = true, .forward_when = "facade", .needs = needs},
+    /* Small triangles shade more than their pixels: what is asked of the light is asked once for each that is seen. */
+    .surface = &(const surface_row){.shader = "surface/tones.glsl",
+                                    .direct = true,
+                                    .deferred_when = "facade",
+                                    .detail = "surface/facade.glsl",
+                                    .needs = needs},
 };

@@ -7,6 +7,7 @@ const target_row target_rows[TARGET_COUNT] = {
     [TARGET_ALBEDO] = {"t_albedo", TEXEL_RGBA16F, .owner = OWNER_LAYER, .empty = {1, 1, 1, 0}},
     [TARGET_SHADE] = {"t_shade", TEXEL_RGBA16F, .owner = OWNER_LAYER, .filtered = true},
     [TARGET_REST] = {"t_rest_position", TEXEL_RGBA32F, .owner = OWNER_LAYER},
+    [TARGET_DETAIL] = {"t_detail", TEXEL_RGBA8, .owner = OWNER_LAYER},
     [TARGET_VELOCITY] = {"t_velocity", TEXEL_RGBA32F, .owner = OWNER_LAYER},
     /* The same at steps of the past between now and then, where techniques of motion read several. */
     [TARGET_PAST_1] = {"t_past_1", TEXEL_RGBA32F, .owner = OWNER_FIGURE},

@@ -15,6 +15,7 @@ typedef enum target {
     TARGET_SHADE,
     TARGET_REST,
     TARGET_VELOCITY,
+    TARGET_DETAIL,
     TARGET_PAST_1,
     TARGET_PAST_2,
     TARGET_PAST_3,
@@ -47,6 +48,7 @@ enum { OWN_TARGETS_MAX = 14, TARGET_SLOTS = TARGET_COUNT + OWN_TARGETS_MAX };
 typedef enum target_format {
     TEXEL_NONE,
     TEXEL_R8,
+    TEXEL_RGBA8,
     TEXEL_RGBA16F,
     TEXEL_RGBA32F,
     TEXEL_RG32UI,

@@ -16,7 +16,8 @@ typedef enum channel {
     CHANNEL_ALBEDO = 1 << 2,       /* unlit surface colour, light */
     CHANNEL_SHADE = 1 << 3,        /* the surface technique's colour as it is shown, premultiplied */
     CHANNEL_REST = 1 << 4,         /* of deformed parts: where it is when nothing has moved, in its part's frame; 1 */
-    CHANNEL_VELOCITY = 1 << 5      /* pixels moved over the exposure: right, up; window depth before; 1 */
+    CHANNEL_VELOCITY = 1 << 5,     /* pixels moved over the exposure: right, up; window depth before; 1 */
+    CHANNEL_DETAIL = 1 << 6        /* what the surface technique's detail shader tells of the geometry */
 } channel;
 
 enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
@@ -147,6 +148,9 @@ typedef struct surface_row {
     bool        direct;         /* may be drawn straight onto the page when the rule has no lines */
     bool        forward;        /* always shaded while the geometry is drawn, whatever the layers ask for */
     bool        reflects;       /* wants TARGET_REFLECTION */
+    const char *detail;         /* GLSL file with `vec4 surface_detail()`, four fractions, of what a place is that only
+                                   the geometry pass knows; shading later finds them in t_detail. For walls' meshes
+                                   alone (needs); NULL: nothing */
     const char *light_map_when; /* condition under which it wants t_light_map, the light (its function light_of) laid
                                    out by texture coordinates */
     const char *forward_when;   /* the same as `forward` under this condition on its parameters; NULL: never */

@@ -598,9 +598,36 @@ static lmn_status put_annotations(vector_job *j, const vector_view *v, uint32_t 
     return annotate(&j->out->page, (int32_t)group, &view, &j->out->warnings, error);
 }
 
+/* The part that a group is of, or that around it; 0: none. */
+static uint32_t part_of_group(const sheet *page, uint32_t group)
+{
+    int32_t at = (int32_t)group;
+    while (at >= 0 && !page->groups[at].part)
+        at = page->groups[at].parent;
+    return at >= 0 ? page->groups[at].part : 0;
+}
+
+/* Ghost images are mixed with paper, as in pictures. */
+static void make_paler(vector_job *j, size_t first)
+{
+    sheet       *page = &j->out->page;
+    const colour ground = page->ground.a > 0 ? page->ground : (colour){1, 1, 1, 1};
+    for (size_t i = first; i < page->item_count; i++) {
+        sheet_item    *item = &page->items[i];
+        const uint32_t part = part_of_group(page, item->group);
+        const rule    *r = part > 0 && part <= j->scene->part_count ? plan_rule(&j->plan, part - 1) : NULL;
+        if (!r || r->pale <= 0)
+            continue;
+        item->ink.r += (ground.r - item->ink.r) * r->pale;
+        item->ink.g += (ground.g - item->ink.g) * r->pale;
+        item->ink.b += (ground.b - item->ink.b) * r->pale;
+    }
+}
+
 static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
 {
-    sheet     *page = &j->out->page;
+    sheet       *page = &j->out->page;
+    const size_t first = page->item_count;
     char       name[32];
     lmn_status status = LMN_OK;
     snprintf(name, sizeof name, "view-%s", v->name);
@@ -612,6 +639,7 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
         status = vector_put_fills(page, &ink, v, &j->strokes, &j->plan, report_part, j, error);
     if (status == LMN_OK)
         status = draw_ink(j, v, &ink, error);
+    make_paler(j, first);
     return status == LMN_OK && annotate_wanted(j->look) && !j->wanted->plotter ? put_annotations(j, v, group, error)
                                                                                : status;
 }

@@ -451,6 +451,83 @@ static void depth_cue(void)
     shape_release(&s);
 }
 
+/* A plane of this slope along z, 20 a side, seen from above. */
+static bool take_slope(shot *out, double rises, const char *surface)
+{
+    static char     look[700];
+    const shot_view above = {.width = SIDE,
+                             .height = SIDE,
+                             .eye = {10, 100, 10},
+                             .target = {10, 0, 10},
+                             .up = {0, 0, -1},
+                             .orthographic = true};
+    const char     *path = check_path("%s", "slope.obj");
+    FILE           *file = fopen(path, "w");
+    if (!file)
+        return false;
+    fprintf(file, "v 0 0 0\nv 20 0 0\nv 20 %g 20\nv 0 %g 20\nf 4 3 2 1\n", 20 * rises, 20 * rises);
+    fclose(file);
+    snprintf(look, sizeof look,
+             "{\"version\":2,\"name\":\"r\",\"doc\":\"x.\",\"scene\":{\"light_direction\":[-0.6,0,0.8]},"
+             "\"rules\":[{\"select\":\"*\",\"surface\":{\"technique\":\"relief\",%s},\"lines\":\"none\"}]}",
+             surface);
+    return shot_take(out, path, look, NULL, &above);
+}
+
+/* Contour lines lie where heights are whole multiples, are as wide as they say and leave where they crowd; tints run
+ * from the lowest to the highest; slopes are as much darker as they have less light than level ground. */
+static void relief_is_what_heights_say(void)
+{
+    static const char white[] = "\"palette\":[\"#ffffff\"],\"shade\":0,\"contour_colour\":\"#000000\"";
+    char              surface[300];
+    shot              s;
+    snprintf(surface, sizeof surface, "%s,\"interval\":2,\"contour\":3", white);
+    if (take_slope(&s, 0.5, surface)) {
+        double ink = 0, count = 0, wrong = 0, pixel = 0;
+        for (int k = SIDE + 1; k < SIDE * (SIDE - 1); k++) {
+            if (!s.id[k] || !s.id[k + SIDE] || !s.id[k - SIDE])
+                continue;
+            double height = 100 - (double)s.depth[k], off = fabs(height / 2 - round(height / 2)) * 2;
+            double dark = 1 - s.picture[4 * k] / 255.0;
+            pixel = fabs((double)s.depth[k] - (double)s.depth[k + SIDE]);
+            bool bold = fmod(round(height / 2), 5) == 0;
+            ink += bold ? 0 : dark;
+            count += bold ? 0 : 1;
+            wrong += (off < 1 * pixel && dark < 0.9) || (off > (bold ? 5 : 3) * pixel && dark > 0.1);
+        }
+        check_near("relief", wrong, 0, 0, "places of contour lines that have none, or beside them that have some");
+        /* 3 points are 4 pixels of 1/96 inch; a drawing of this size is as large as one of 1024 pixels on paper. */
+        check_at_least("relief", count, 1000, "pixels compared");
+        check_near("relief", ink / count / (pixel / 2), 3 * 96.0 / 72, 0.5, "width of the lines, pixels");
+        shot_release(&s);
+    }
+    snprintf(surface, sizeof surface, "%s,\"interval\":0.05,\"contour\":1", white);
+    if (take_slope(&s, 2, surface)) {
+        double dark = 0;
+        for (int k = 0; k < SIDE * SIDE; k++)
+            dark = s.id[k] ? fmax(dark, 1 - s.picture[4 * k] / 255.0) : dark;
+        check_near("relief", dark, 0, 0.01, "ink where lines would be closer than three pixels");
+        shot_release(&s);
+    }
+    if (take_slope(&s, 0.5, "\"palette\":[\"#000000\",\"#ffffff\"],\"shade\":0,\"contour\":0")) {
+        double worst = 0;
+        for (int k = 0; k < SIDE * SIDE; k++)
+            if (s.id[k])
+                worst = fmax(worst, fabs(s.picture[4 * k] / 255.0 - (100 - (double)s.depth[k]) / 10));
+        check_at_most("relief", worst, 0.01, "tints against heights");
+        shot_release(&s);
+    }
+    double grey[2] = {0, 0};
+    for (int i = 0; i < 2; i++)
+        if (take_slope(&s, i ? 0.75 : 0.0001,
+                       "\"palette\":[\"#808080\"],\"shade\":1,\"contour\":0,\"sea\":\"#80808000\"")) {
+            grey[i] = s.picture[4 * (SIDE / 2 * SIDE + SIDE / 2)] / 255.0;
+            shot_release(&s);
+        }
+    check_near("relief", grey[0], 0.502, 0.005, "level ground keeps its tint");
+    check_near("relief", grey[1], 0.502 * (1 - 0.75 * 0.2), 0.006, "a slope whose cosine is 0.8 of the level one's");
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -464,6 +541,7 @@ int main(int argc, char **argv)
         {"tones", only_its_tones},
         {"cue", depth_cue},
         {"shadows", shadows_are_where_rays_say},
+        {"relief", relief_is_what_heights_say},
     };
     int status = check_main(argc, argv, "city", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -99,13 +99,16 @@ static double fraction_near(const double *a, const double *b)
 static void same_as_pictures(void)
 {
     static const char *const models[] = {"spot.obj", "gearbox.stl", "house.glb"}, *const looks[] = {"stipple",
-                                                                                                    "strokes", "lines"};
+                                                                                                    "strokes", "lines",
+                                                                                                    "pen"};
     static const char *const surfaces[] = {"\"technique\":\"stipple\",\"shadow\":0.16,\"texture\":0.3",
                                            "\"technique\":\"strokes\"",
                                            "\"technique\":\"lines\",\"length\":0.17,\"groups\":0.6,\"pressure\":0.9,"
-                                           "\"patchy\":0.6,\"stray\":1.2,\"room\":4"};
+                                           "\"patchy\":0.6,\"stray\":1.2,\"room\":4",
+                                           "\"technique\":\"lines\",\"length\":0.2,\"series\":3,\"steady\":true,"
+                                           "\"crossed\":0.35,\"join\":0.4,\"taper\":6"};
     /* Lines that swell pass half a pixel of width, below which pictures and vectors round ink off differently. */
-    static const double drawn[] = {0.99, 0.99, 0.975}, found[] = {0.99, 0.99, 0.935};
+    static const double drawn[] = {0.99, 0.99, 0.975, 0.975}, found[] = {0.99, 0.99, 0.935, 0.935};
     if (!run("command -v rsvg-convert >/dev/null 2>&1")) {
         check_note("rsvg-convert is not installed: vector drawings are not compared with pictures");
         return;

@@ -73,6 +73,7 @@ static const struct {
     {"surface", "frame", "windows are too small here to have frames; analytic.city has some that do"},
     {"surface", "frame_colour", "likewise"},
     {"surface", "bars", "likewise"},
+    {"surface", "sea", "nothing here lies level at height 0"},
     {"scene", "ground_edge", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_hatch", "the parts do not stand on one level; analytic.ground has a block that does"},
     {"scene", "ground_angle", "the parts do not stand on one level; analytic.ground has a block that does"},
@@ -82,6 +83,11 @@ static const struct {
     {"finish", "scale_bar", "it needs a parallel projection; unit.annotate_test has one"},
     {"motion", "shadows", "the looks here have no shadows; engine.streaks_test has some"},
 };
+
+/* Two ends of a range: what is drawn with an end beyond the other one is refused, so the other one gives way. */
+static const struct {
+    const char *kind, *lower, *upper;
+} ranges[] = {{"scene", "datum_from", "datum_to"}};
 
 /* Parameters that change nothing but solids. They are drawn alone, of convex operands, which every path of drawing
  * can. */
@@ -268,6 +274,19 @@ static size_t values_of(const param *p, char values[VALUES_MAX][TEXT_SIZE])
     return count;
 }
 
+static void set_other_end(lmn_look *look, const kind *k, const param *p, const char *value)
+{
+    char   path[HOLD_KEY_SIZE];
+    double number = atof(value);
+    for (size_t i = 0; i < PARAM_COUNT(ranges); i++) {
+        bool is_lower = strcmp(ranges[i].lower, p->key) == 0;
+        if (strcmp(ranges[i].kind, k->name) != 0 || !(is_lower || strcmp(ranges[i].upper, p->key) == 0))
+            continue;
+        hold_key(path, k, is_lower ? ranges[i].upper : ranges[i].lower);
+        lmn_look_set(look, path, (number > 0) == is_lower ? value : "0", NULL);
+    }
+}
+
 /* Does the parameter change the picture? */
 static bool check_param(fixture *f, const kind *k, const technique *t, const param *p)
 {
@@ -293,6 +312,7 @@ static bool check_param(fixture *f, const kind *k, const technique *t, const par
         const char *value = values[(first + i) % count];
         if (lmn_look_set(look, path, value, NULL) != LMN_OK)
             continue;
+        set_other_end(look, k, p, value);
         snprintf(what, sizeof what, "%.60s: %.90s=%.90s", t->name, path, value);
         lmn_drawing *after = draw(f, scene, look, what);
         changed = changed || (after && !are_equal(before, after));

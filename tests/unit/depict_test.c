@@ -116,7 +116,7 @@ static uint64_t glyphs_hash(const lmn_scene *s)
         const node *n = &s->nodes[s->parts[i].node];
         if (n->mesh == NONE || !*value_of(n, "glyph"))
             continue;
-        const primitive     *p = &s->meshes[n->mesh].primitives[0];
+        const primitive     *p = placed_glyph(s, n);
         const unsigned char *bytes = (const unsigned char *)p->positions;
         for (size_t k = 0; k < p->vertex_count * sizeof *p->positions; k++)
             hash = (hash ^ bytes[k]) * 1099511628211u;

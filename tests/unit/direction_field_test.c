@@ -2,6 +2,8 @@
  * the notes on pencils. */
 #include "field_shapes.h"
 
+#include "field/direction_field_private.h"
+
 #include "field/direction_field.h"
 
 static direction_field make_field(const primitive *p)
@@ -668,6 +670,87 @@ static primitive with_triangles(const uint32_t *triangles, uint32_t count)
     return p;
 }
 
+/* A coarse ball: its triangles meet at 42 degrees, a cube's faces at 90. */
+static primitive icosahedron(vec3 normals[12])
+{
+    static const uint32_t faces[60] = {0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
+                                       4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
+                                       6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
+    const float           g = 1.618034f;
+    const vec3            at[12] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    primitive             p = empty_primitive(12, 60);
+    for (int i = 0; i < 12; i++) {
+        float length = sqrtf(at[i].x * at[i].x + at[i].y * at[i].y + at[i].z * at[i].z);
+        p.positions[i] = at[i];
+        normals[i] = (vec3){at[i].x / length, at[i].y / length, at[i].z / length};
+    }
+    memcpy(p.indices, faces, sizeof faces);
+    return p;
+}
+
+/* Edges that are shaded round are none; unless they are sharp. */
+static void shading_says_what_is_an_edge(void **state)
+{
+    (void)state;
+    const vec3 any = {0.57735f, 0.57735f, 0.57735f};
+    vec3       normals[12], same[8] = {any, any, any, any, any, any, any, any};
+    for (int shaded = 0; shaded < 2; shaded++) {
+        primitive       coarse = icosahedron(normals), cube = shared_cube();
+        direction_field field;
+        coarse.normals = shaded ? normals : NULL;
+        assert_int_equal(direction_field_make(&field, &coarse, 0.7, 0, NULL), LMN_OK);
+        assert_true((field.corners == NULL) == shaded); /* not parted */
+        direction_field_release(&field);
+        cube.normals = shaded ? same : NULL;
+        assert_int_equal(direction_field_make(&field, &cube, 0.7, 0, NULL), LMN_OK);
+        assert_true(field.corners != NULL);
+        direction_field_release(&field);
+        coarse.normals = cube.normals = NULL;
+        primitive_release(&coarse);
+        primitive_release(&cube);
+    }
+}
+
+enum { ARMS_SIDE = 12 };
+
+/* A square of nodes that all agree, but for those in a square in it, which lie across. */
+static size_t arms_across(float wish)
+{
+    enum { COUNT = ARMS_SIDE * ARMS_SIDE };
+    uint32_t        starts[COUNT + 1] = {0}, links = 0;
+    connection_link all[4 * COUNT];
+    float           hold[COUNT];
+    complex_number  arms[COUNT], source[COUNT];
+    size_t          across = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        int  x = (int)(i % ARMS_SIDE), y = (int)(i / ARMS_SIDE);
+        bool island = x >= 3 && x < 6 && y >= 4 && y < 7;
+        arms[i] = (complex_number){island ? -0.8f : 0.9f, 0};
+        source[i] = (complex_number){island ? -wish : 0.1f, 0};
+        hold[i] = 1;
+        const int beside[4][2] = {{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}};
+        for (int k = 0; k < 4; k++)
+            if (beside[k][0] >= 0 && beside[k][0] < ARMS_SIDE && beside[k][1] >= 0 && beside[k][1] < ARMS_SIDE)
+                all[links++] = (connection_link){(uint32_t)(beside[k][1] * ARMS_SIDE + beside[k][0]), {1, 0}};
+        starts[i + 1] = links;
+    }
+    connection g = {.count = COUNT, .starts = starts, .links = all, .links_hold = hold, .hold = hold, .source = source};
+    assert_true(field_join_arms(&g, arms));
+    for (uint32_t i = 0; i < COUNT; i++)
+        across += arms[i].re < 0;
+    return across;
+}
+
+/* Nine nodes have twelve links to those around. */
+static void islands_of_arms_join_what_surrounds_them(void **state)
+{
+    (void)state;
+    assert_int_equal(arms_across(0), 0);
+    assert_int_equal(arms_across(1.3f), 0);
+    assert_int_equal(arms_across(1.4f), 9);
+}
+
 static void barely_meshes_are_finite(void **state)
 {
     (void)state;
@@ -848,6 +931,8 @@ int main(void)
         cmocka_unit_test(crosses_turn_no_more_than_they_must),
         cmocka_unit_test(noise_is_looked_through),
         cmocka_unit_test(crosses_stand_along_creases),
+        cmocka_unit_test(shading_says_what_is_an_edge),
+        cmocka_unit_test(islands_of_arms_join_what_surrounds_them),
         cmocka_unit_test(barely_meshes_are_finite),
         cmocka_unit_test(windings_and_copies_do_not_matter),
         cmocka_unit_test(size_and_position_do_not_matter),

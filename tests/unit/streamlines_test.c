@@ -62,6 +62,12 @@ static place3 from_to(vec3 a, vec3 b)
     return (place3){(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
 }
 
+/* Does a piece lie beyond where its line runs out? Nothing is drawn of it but where lines join. */
+static bool lies_beyond(const mark_line *l)
+{
+    return !(l->ends[0].to_end > 0) && !(l->ends[1].to_end > 0);
+}
+
 /* How far the nearest other line to one side is from the middle of a piece; straight through space. */
 static double gap_beside(const marks *m, size_t own, double side, double reach)
 {
@@ -74,7 +80,7 @@ static double gap_beside(const marks *m, size_t own, double side, double reach)
     for (size_t i = 0; i < m->line_count; i++) {
         const mark_line *o = &m->lines[i];
         place3           a = from_to(middle, o->a), b = from_to(middle, o->b);
-        if (o->set != l->set || o->stroke == l->stroke || product3(a, a) > 4 * reach * reach)
+        if (o->set != l->set || o->stroke == l->stroke || lies_beyond(o) || product3(a, a) > 4 * reach * reach)
             continue;
         /* Where it crosses the plane across the piece. */
         double from = product3(a, along), to = product3(b, along);
@@ -102,6 +108,8 @@ static void check_spacing(const char *name, shape s, double apart, double least_
     double *strips = mem_alloc(m.line_count * sizeof *strips), sum = 0, even = 0;
     size_t  count = 0;
     for (size_t i = 0; i < m.line_count; i += 7) {
+        if (lies_beyond(&m.lines[i]))
+            continue;
         double left = gap_beside(&m, i, 1, 2.5 * apart), right = gap_beside(&m, i, -1, 2.5 * apart);
         if (isfinite(left) && isfinite(right))
             strips[count++] = (left + right) / 2 / apart;
@@ -112,7 +120,7 @@ static void check_spacing(const char *name, shape s, double apart, double least_
         sum += strips[i] / (double)count;
         even += fabs(strips[i] - 1) <= 0.15 ? 1.0 / (double)count : 0;
     }
-    printf("%s: %zu lines, strips of %zu pieces: mean %.3f, 5 %% %.2f, median %.2f, 95 %% %.2f; %.0f %% within 15 %%\n",
+    printf("%s: %zu lines, strips of %zu pieces: mean %.3f, 5 %% %.2f, median %.2f, 95 %% %.2f; %.1f %% within 15 %%\n",
            name, m.stroke_count, count, sum, strips[count / 20], strips[count / 2], strips[count * 19 / 20],
            100 * even);
     assert_true(fabs(sum - 1) <= 0.15 && fabs(strips[count / 2] - 1) <= 0.15);
@@ -167,7 +175,7 @@ static void lines_of_a_set_never_cross(void **state)
         for (size_t k = i + 1; k < m.line_count; k++) {
             const mark_line *a = &m.lines[i], *b = &m.lines[k];
             if (fabsf(a->a.x - b->a.x) > 0.5f || fabsf(a->a.y - b->a.y) > 0.5f || fabsf(a->a.z - b->a.z) > 0.5f ||
-                a->stroke == b->stroke || !cross_each_other(a, b))
+                a->stroke == b->stroke || lies_beyond(a) || lies_beyond(b) || !cross_each_other(a, b))
                 continue;
             within += a->set == b->set;
             between += a->set != b->set;
@@ -177,6 +185,54 @@ static void lines_of_a_set_never_cross(void **state)
     assert_true(between > 1000);
     surface_marks_release(&m);
     release_shape(&s);
+}
+
+/* --- what goes on --------------------------------------------------------------------------------------- */
+
+/* Half a tube between two flat flanks that touch it: 2 + π + 2 long, up, round and down. */
+static place3 arch_at(double u, double v)
+{
+    double along = u * (4 + field_pi), angle = fmin(fmax(along - 2, 0), field_pi);
+    double x = -cos(angle), y = along < 2 ? along - 2 : along > 2 + field_pi ? 2 + field_pi - along : sin(angle);
+    return (place3){x, y, 5 * v};
+}
+
+/* Nothing of the form ends where a flank, which has one direction for all of it, begins: no line does either. */
+static void lines_go_on_from_what_bends_to_what_is_flat(void **state)
+{
+    (void)state;
+    shape        s = with_normals(grid_surface(arch_at, 100, 40, false, false, 0.1));
+    marks        m;
+    flow_options options = {.apart = 0.2, .levels = 1, .series = 1, .sag = 0.002, .seed = 1};
+    size_t       ends = 0, over = 0;
+    assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        bool             begins = i == 0 || m.lines[i - 1].stroke != l->stroke,
+             ends_here = i + 1 == m.line_count || m.lines[i + 1].stroke != l->stroke;
+        ends += begins && fabsf(l->a.y) < 0.1f;
+        ends += ends_here && fabsf(l->b.y) < 0.1f;
+        over += (l->a.y < 0) != (l->b.y < 0);
+    }
+    printf("arch: %zu lines, %zu cross from bent to flat, %zu end there\n", m.stroke_count, over, ends);
+    assert_true(over >= 30);
+    assert_int_equal(ends, 0);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
+/* Where so much is covered that lines join they do not run out, where it is light they do. */
+static void ends_run_out_where_it_is_light(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 10; k++) {
+        double away = 0.3 * k, bare = pow(fmin(away / 2.5, 1), 0.7);
+        assert_true(fabs(mark_flow_tip(away, 2.5, 0.7, 0.25, 0.5) - bare) < 1e-12);
+        assert_true(mark_flow_tip(away, 2.5, 0.7, 0.5, 0.5) == 1 && mark_flow_tip(away, 2.5, 0.7, 0.9, 0.5) == 1);
+        double between = mark_flow_tip(away, 2.5, 0.7, 0.375, 0.5);
+        assert_true(fabs(between - (1 + bare) / 2) < 1e-12);
+    }
+    assert_true(mark_flow_tip(0, 0, 1, 0, 1) == 0 && mark_flow_tip(1e-6, 0, 1, 0, 1) == 1);
 }
 
 /* --- ends ----------------------------------------------------------------------------------------------- */
@@ -284,7 +340,20 @@ static void width_keeps_the_tone(void **state)
         for (double dark = 0; dark <= 1.001; dark += 0.05) {
             double bare = 1;
             for (int set = 0; set < series; set++)
-                bare *= 1 - mark_cover_of_set(dark, 0.55, set, series);
+                bare *= 1 - mark_cover_of_set(dark, 0.55, set, series, false);
+            assert_true(fabs(1 - bare - fmin(dark, 1)) < 1e-9);
+        }
+    /* Steady ones, too, one after the other. */
+    for (int series = 1; series <= 4; series++)
+        for (double dark = 0; dark <= 1.001; dark += 0.05) {
+            double bare = 1, before = 0.3;
+            for (int set = 0; set < series; set++) {
+                double cover = mark_cover_of_set(dark, 0.3, set, series, true);
+                assert_true(set + 1 == series || cover <= 0.3);
+                assert_true(cover == 0 || before == 0.3);
+                bare *= 1 - cover;
+                before = cover;
+            }
             assert_true(fabs(1 - bare - fmin(dark, 1)) < 1e-9);
         }
 }
@@ -547,12 +616,20 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_keep_their_distance),   cmocka_unit_test(lines_of_a_set_never_cross),
-        cmocka_unit_test(ends_do_not_line_up),         cmocka_unit_test(levels_leave_earlier_ones_alone),
-        cmocka_unit_test(groups_begin_together),       cmocka_unit_test(groups_keep_the_ink),
-        cmocka_unit_test(rooms_are_as_broad_as_faces), cmocka_unit_test(width_keeps_the_tone),
-        cmocka_unit_test(barely_meshes_have_lines),    cmocka_unit_test(the_same_lines_twice),
-        cmocka_unit_test(memory_may_run_out),          cmocka_unit_test(slanted_lines_lean_on_flat_faces_alone),
+        cmocka_unit_test(lines_keep_their_distance),
+        cmocka_unit_test(lines_of_a_set_never_cross),
+        cmocka_unit_test(lines_go_on_from_what_bends_to_what_is_flat),
+        cmocka_unit_test(ends_run_out_where_it_is_light),
+        cmocka_unit_test(ends_do_not_line_up),
+        cmocka_unit_test(levels_leave_earlier_ones_alone),
+        cmocka_unit_test(groups_begin_together),
+        cmocka_unit_test(groups_keep_the_ink),
+        cmocka_unit_test(rooms_are_as_broad_as_faces),
+        cmocka_unit_test(width_keeps_the_tone),
+        cmocka_unit_test(barely_meshes_have_lines),
+        cmocka_unit_test(the_same_lines_twice),
+        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(slanted_lines_lean_on_flat_faces_alone),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }

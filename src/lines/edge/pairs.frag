@@ -28,25 +28,26 @@ bool even(float slope, float other, float fraction)
     return abs(slope - other) <= fraction * max(abs(slope), abs(other)) + DEPTH_NOISE;
 }
 
+/* Depths along one axis: before this pixel, here, at its neighbour and behind that. */
+struct depth_row {
+    float before, here, next, behind;
+};
+
 /* Does depth go on evenly over this pixel and its neighbour? Faces may be only two pixels wide: then as it does on a plane, from there on or before. */
-bool goes_on(vec2 side)
+bool goes_on(depth_row row)
 {
-    vec4 along = vec4(neighbour(t_depth, -side).r, neighbour(t_depth, vec2(0.0)).r, neighbour(t_depth, side).r, neighbour(t_depth, 2.0 * side).r);
-    vec3 slopes = along.yzw - along.xyz;
+    vec3 slopes = vec3(row.here, row.next, row.behind) - vec3(row.before, row.here, row.next);
     bool both = even(slopes.x, slopes.y, EVEN) && even(slopes.y, slopes.z, EVEN) && even(slopes.x, slopes.z, EVEN);
     return both || even(slopes.x, slopes.y, PLANE) || even(slopes.y, slopes.z, PLANE);
 }
 
-/* x: inner ink, y: id ink between this pixel and the neighbour at `side`. `turned`: the normal was turned to the viewer. */
-vec2 inner_and_id(vec2 side, vec3 normal, bool turned, vec3 ray, uvec2 id)
+/* x: inner ink, y: id ink between this pixel and the neighbour at `side`, whose normal is `other`. `turned`: the normal was turned to the viewer. */
+vec2 inner_and_id(vec2 side, vec3 normal, vec3 other, bool turned, vec3 ray, uvec2 id, depth_row row)
 {
-    vec3 other = neighbour(t_normal_depth, side).xyz;
     bool other_turned = dot(other, ray) > 0.0;
     float cosine = dot(normal, other) * (other_turned ? -1.0 : 1.0);
     /* Interpolated normals may pass the rim of what is seen within a face: turned to the viewer, neighbours are opposite there. */
-    int opposite = turned != other_turned && cosine < -GOES_ON ? 1 : 0;
-    for (int once = 0; once < opposite; once++)
-        cosine *= goes_on(side) ? -1.0 : 1.0;
+    cosine *= turned != other_turned && cosine < -GOES_ON && goes_on(row) ? -1.0 : 1.0;
     float between = 0.0, faint = u_line_faint, crease = u_line_crease;
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
@@ -61,29 +62,21 @@ vec2 inner_and_id(vec2 side, vec3 normal, bool turned, vec3 ray, uvec2 id)
     return vec2(inner, between);
 }
 
-/* Profile ink between this pixel and its neighbour at `side`, of depth `next`; `before` and `behind_next` lie on either side of the two. Where
- * one of the two is empty there is nothing but a profile, and `inks` is cleared. */
-float profile_ink(vec2 side, float before, float depth, float next, float behind_next, float tolerance, inout vec2 inks)
+/* Profile ink between this pixel and its neighbour at `side`. Where one of the two is empty there is nothing but a profile, and `inks` is cleared. */
+float profile_ink(vec2 side, depth_row row, vec4 own, vec4 other, float tolerance, inout vec2 inks)
 {
-    if ((depth >= 1.0) != (next >= 1.0)) {
-        inks = vec2(0.0);
-        return 1.0;
-    }
-    float across = next - depth;
-    float slope_before = depth - before, slope_behind = behind_next - next;
+    bool rim = (row.here >= 1.0) != (row.next >= 1.0);
+    float across = row.next - row.here;
     /* At the rim of the figure the last face may be a pixel wide: its normal tells how steep it is. */
-    int rim = before >= 1.0 || behind_next >= 1.0 ? 1 : 0;
-    for (int once = 0; once < rim; once++) {
-        vec2 off = before >= 1.0 ? vec2(0.0) : side;
-        float steep = dot(slope_of(neighbour(t_normal_depth, off), gl_FragCoord.xy + off), side);
-        slope_before = before >= 1.0 ? steep : slope_before;
-        slope_behind = behind_next >= 1.0 ? steep : slope_behind;
-    }
+    bool from_own = row.before >= 1.0, by_normal = from_own || row.behind >= 1.0;
+    float steep = dot(slope_of(from_own ? own : other, gl_FragCoord.xy + (from_own ? vec2(0.0) : side)), side);
+    float slope_before = from_own ? steep : row.here - row.before, slope_behind = by_normal && row.behind >= 1.0 ? steep : row.behind - row.next;
     float excess = unexplained(slope_before, across, slope_behind);
     /* Where a crease is drawn anyway, a small step more is its own slope, not a second surface behind it: without this, lines
      * along such creases change class from pixel to pixel. */
     excess -= inks.x * 0.5 * max(abs(slope_before), abs(slope_behind));
-    return smoothstep(0.5, 1.0, excess / tolerance);
+    inks = rim ? vec2(0.0) : inks;
+    return rim ? 1.0 : smoothstep(0.5, 1.0, excess / tolerance);
 }
 
 float depth_at(float x, float y)
@@ -91,36 +84,32 @@ float depth_at(float x, float y)
     return neighbour(t_depth, vec2(x, y)).r;
 }
 
-/* Of the pairs that this pixel makes with its neighbours to the right and above: each pair is looked at once. */
+/* Of the pairs that this pixel makes with its neighbours to the right and above: each pair is looked at once, and everything that is asked of its surroundings is fetched once: software
+ * drivers run all of it for all pixels, whatever branches and loops say. */
 void main()
 {
-    float depth = depth_at(0.0, 0.0), right = depth_at(1.0, 0.0), up = depth_at(0.0, 1.0);
-    vec2 steps = vec2(0.0), to_right = vec2(0.0), to_up = vec2(0.0);
-    /* Loops that run once or not at all: software drivers skip loops, not branches, and most pixels are empty. */
-    int busy = min(depth, min(right, up)) < 1.0 ? 1 : 0;
-    for (int once = 0; once < busy; once++) {
-        vec4 normal_depth = neighbour(t_normal_depth, vec2(0.0));
-        /* Normals count as turned to the viewer, so that models of mixed winding show no lines where only the winding changes. */
-        vec3 ray = vec3((2.0 * gl_FragCoord.xy * u_texel - 1.0) * u_unproject * u_perspective, -1.0);
-        bool turned = dot(normal_depth.xyz, ray) > 0.0;
-        vec3 normal = normal_depth.xyz * (turned ? -1.0 : 1.0);
-        float z = normal_depth.w;
-        float tolerance = u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0);
-        tolerance = max(tolerance, DEPTH_NOISE);
-        uvec2 id = uvec2(0u);
+    depth_row across = depth_row(depth_at(-1.0, 0.0), depth_at(0.0, 0.0), depth_at(1.0, 0.0), depth_at(2.0, 0.0));
+    depth_row upwards = depth_row(depth_at(0.0, -1.0), across.here, depth_at(0.0, 1.0), depth_at(0.0, 2.0));
+    vec4 own = neighbour(t_normal_depth, vec2(0.0)), right = neighbour(t_normal_depth, vec2(1.0, 0.0)), up = neighbour(t_normal_depth, vec2(0.0, 1.0));
+    /* Normals count as turned to the viewer, so that models of mixed winding show no lines where only the winding changes. */
+    vec3 ray = vec3((2.0 * gl_FragCoord.xy * u_texel - 1.0) * u_unproject * u_perspective, -1.0);
+    bool turned = dot(own.xyz, ray) > 0.0;
+    vec3 normal = own.xyz * (turned ? -1.0 : 1.0);
+    float z = own.w, tolerance = max(u_line_step * (u_perspective > 0.5 ? u_near * u_far / (z * z) : 1.0), DEPTH_NOISE);
+    uvec2 id = uvec2(0u);
 #ifdef HAS_ID
-        id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
+    id = textureLod(t_id, gl_FragCoord.xy * u_texel, 0.0).rg;
 #endif
-        to_right = inner_and_id(vec2(1.0, 0.0), normal, turned, ray, id);
-        to_up = inner_and_id(vec2(0.0, 1.0), normal, turned, ray, id);
-        float left = depth_at(-1.0, 0.0), down = depth_at(0.0, -1.0);
-        /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
-        float bend = max(abs(left + right - 2.0 * depth), abs(up + down - 2.0 * depth));
-        int bent = bend > 0.5 * tolerance || max(depth, max(right, up)) >= 1.0 ? 1 : 0;
-        for (int again = 0; again < bent; again++) {
-            steps.x = profile_ink(vec2(1.0, 0.0), left, depth, right, depth_at(2.0, 0.0), tolerance, to_right);
-            steps.y = profile_ink(vec2(0.0, 1.0), down, depth, up, depth_at(0.0, 2.0), tolerance, to_up);
-        }
-    }
-    out_edge = vec4(steps, to_right.x + 2.0 * to_right.y, to_up.x + 2.0 * to_up.y);
+    vec2 to_right = inner_and_id(vec2(1.0, 0.0), normal, right.xyz, turned, ray, id, across);
+    vec2 to_up = inner_and_id(vec2(0.0, 1.0), normal, up.xyz, turned, ray, id, upwards);
+    /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
+    float bend = max(abs(across.before + across.next - 2.0 * across.here), abs(upwards.before + upwards.next - 2.0 * upwards.here));
+    bool bent = bend > 0.5 * tolerance || max(across.here, max(across.next, upwards.next)) >= 1.0;
+    vec2 right_inks = to_right, up_inks = to_up;
+    vec2 steps = vec2(profile_ink(vec2(1.0, 0.0), across, own, right, tolerance, right_inks), profile_ink(vec2(0.0, 1.0), upwards, own, up, tolerance, up_inks));
+    steps = bent ? steps : vec2(0.0);
+    to_right = bent ? right_inks : to_right;
+    to_up = bent ? up_inks : to_up;
+    bool busy = min(across.here, min(across.next, upwards.next)) < 1.0;
+    out_edge = busy ? vec4(steps, to_right.x + 2.0 * to_right.y, to_up.x + 2.0 * to_up.y) : vec4(0.0);
 }

@@ -39,9 +39,39 @@ static bool is_always_line(const mesh_edge *e)
     return (e->flags & (EDGE_BORDER | EDGE_CREASE | EDGE_MATERIAL)) != 0;
 }
 
+/* Faces in one plane are seen from the same side, wherever the viewer is: such edges are never lines. */
+static bool is_ever_line(const edge_mesh *m, const mesh_edge *e)
+{
+    const float turned = 1e-10f; /* squared, radians */
+    if (is_always_line(e) || (e->flags & (EDGE_QUIET | EDGE_TWISTED)) || e->face[1] == EDGE_NO_FACE)
+        return true;
+    vec3  n = m->normals[e->face[0]], o = m->normals[e->face[1]];
+    float x = n.x - o.x, y = n.y - o.y, z = n.z - o.z;
+    return x * x + y * y + z * z > turned;
+}
+
 size_t strokes_edge_record_count(const edge_mesh *m)
 {
-    return (size_t)m->edge_count + m->line_count;
+    size_t count = m->line_count;
+    for (uint32_t i = 0; i < m->edge_count; i++)
+        count += is_ever_line(m, &m->edges[i]);
+    return count;
+}
+
+double strokes_gentlest_turn(const edge_mesh *m)
+{
+    const double flat = 1 - 1e-5; /* faces in one plane: seen from the same side */
+    double       least = 3.14159265358979323846;
+    for (uint32_t i = 0; i < m->edge_count && least > 0; i++) {
+        const mesh_edge *e = &m->edges[i];
+        if (e->face[1] == EDGE_NO_FACE || (e->flags & (EDGE_HOLLOW | EDGE_BORDER | EDGE_ROUNDED)))
+            continue;
+        vec3   n = m->normals[e->face[0]], o = m->normals[e->face[1]];
+        double cosine = (e->flags & EDGE_TWISTED ? -1 : 1) * (double)(n.x * o.x + n.y * o.y + n.z * o.z);
+        if (cosine < flat)
+            least = fmin(least, !(e->flags & EDGE_CREASE) ? 0 : e->turn > 0 ? (double)e->turn : acos(fmax(cosine, -1)));
+    }
+    return least;
 }
 
 static float *put_drawn_lines(float *at, const edge_mesh *m)
@@ -65,7 +95,7 @@ float *strokes_edge_records(const edge_mesh *m)
     for (int pass = 0; pass < 2;
          pass++) /* always first, then maybe: neighbours decide alike, which wide processors like */
         for (uint32_t i = 0; i < m->edge_count; i++)
-            if (is_always_line(&m->edges[i]) == (pass == 0)) {
+            if (is_always_line(&m->edges[i]) == (pass == 0) && is_ever_line(m, &m->edges[i])) {
                 put_edge(at, &bends, i);
                 at += EDGE_RECORD_FLOATS;
             }

@@ -44,6 +44,9 @@ typedef enum record_bit {
  * that the file brings, with its lift behind the second position. NULL when memory is gone; the caller frees it. */
 float *strokes_edge_records(const edge_mesh *m);
 size_t strokes_edge_record_count(const edge_mesh *m);
+/* By how much the gentlest edge turns, radians, that may be an outline and is neither border nor rounded crease: 0
+ * where there is one within a smooth surface, pi where there is none. */
+double strokes_gentlest_turn(const edge_mesh *m);
 /* Those that may be lines for one viewer (`u_viewer` of lines/stroke/decide.glsl), in the same order, and hardly any
  * others: of meshes that move, for which all of them would be made and sent for one picture. Sets *count. */
 float *strokes_edge_records_seen(const edge_mesh *m, const float viewer[4], size_t *count);

@@ -47,7 +47,13 @@ bvec2 seen_beside(vec2 pixel, vec3 axis)
 {
     const vec2 X = vec2(1.0, 0.0), Y = vec2(0.0, 1.0);
     vec2 off = axis.xy - pixel - 0.5;
+#ifdef GL_ARB_texture_gather
+    vec2 corner = clamp(pixel, vec2(0.0), u_far_corner), texel = 1.0 / (u_far_corner + 1.0);
+    vec4 ahead = textureGather(t_depth, (corner + 1.0) * texel), before = textureGather(t_depth, corner * texel);
+    float here = ahead.w, left = before.x, right = ahead.z, below = before.z, above = ahead.x;
+#else
     float here = depth_at(pixel), left = depth_at(pixel - X), right = depth_at(pixel + X), below = depth_at(pixel - Y), above = depth_at(pixel + Y);
+#endif
     vec2 slope = vec2(smaller(right - here, here - left), smaller(above - here, here - below));
     float nearer = axis.z - here - dot(slope, off);
     bool seen = here >= 1.0 || nearer <= ROUNDING + SLOPE * (abs(slope.x) + abs(slope.y));
