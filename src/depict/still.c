@@ -201,8 +201,7 @@ static bool find_place(mat4 *out, const pose *p, size_t part, size_t instance, c
     for (int row = 0; row < 3; row++) {
         double moved = c->middle[row] + c->shift[row];
         for (int column = 0; column < 3; column++) {
-            const double e =
-                (row == column ? c->across : 0) + (c->along - c->across) * c->axis[row] * c->axis[column];
+            const double e = (row == column ? c->across : 0) + (c->along - c->across) * c->axis[row] * c->axis[column];
             change.m[4 * column + row] = e;
             moved -= e * c->middle[column];
         }

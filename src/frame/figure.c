@@ -84,7 +84,8 @@ static int mark_box(const frame *f, tile_grid *t, box3 in_world, int reach, bool
     return tiles_mark(t, pixels, full);
 }
 
-/* Where a triangle's edge from a to b is inside of the rows between low and high: what it adds to a range of columns. */
+/* Where a triangle's edge from a to b is inside of the rows between low and high: what it adds to a range of columns.
+ */
 static void widen_columns(double range[2], const double a[2], const double b[2], double low, double high)
 {
     for (int end = 0; end < 2; end++) {
@@ -125,8 +126,8 @@ static void mark_triangle(tile_grid *t, double corners[3][2], int reach)
     }
 }
 
-/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, lies behind the eye, or
- * there is no memory. */
+/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, lies behind the eye,
+ * or there is no memory. */
 static bool mark_triangles(const frame *f, tile_grid *t, const primitive *from, const part_pose *posed,
                            const mat4 *world, int reach)
 {

@@ -159,7 +159,7 @@ gpu_texture *target_of(const frame *f, const figure_state *s, target t);
 void facts_open(frame *f);
 
 /* --- raster.c: the geometry pass --- */
-void raster_figure(frame *f, figure_state *s);                    /* G-buffer, and shade unless deferred */
+void raster_figure(frame *f, figure_state *s); /* G-buffer, and shade unless deferred */
 /* One G-buffer for several figures, with what each asks for; `targets` gets the pictures, the caller's to give back. */
 void raster_together(frame *f, const figure_state *states, int count, gpu_texture **targets);
 void raster_direct(frame *f, figure_state *s);                    /* straight onto the page */

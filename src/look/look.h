@@ -15,7 +15,7 @@ typedef struct rule {
     selector      *selector;
     technique_use *uses[KIND_COUNT]; /* empty for look-wide kinds */
     size_t         use_counts[KIND_COUNT];
-    float          pale;     /* 0 of a look's own rules; of what a plan adds for ghost images: how much of it is paper */
+    float          pale; /* 0 of a look's own rules; of what a plan adds for ghost images: how much of it is paper */
     size_t         paler_of; /* and the rule that would draw them */
 } rule;
 

@@ -217,7 +217,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
                     !perturbed && !f->mover;
     f->reflects = surface && surface->technique->surface->reflects;
     bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
-    f->direct = !as_sprites && r->pale <= 0 && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
+    f->direct =
+        !as_sprites && r->pale <= 0 && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
     f->channels =
         channels_of(r, f->complement || f->part_count > 1 || p->has_cut || figure_has_solids(p, f)) | CHANNEL_SHADE;
     if (f->complement || as_sprites)

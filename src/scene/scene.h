@@ -72,8 +72,8 @@ typedef struct mesh {
     uint64_t   topology; /* the same for its vertices and triangles, wherever they are */
     bool       moved;    /* its vertices have other positions than those that it came with */
     bool       spare;    /* nothing uses it any longer; empty */
-    size_t     twin;     /* 1 + the number of a mesh that has the same content, but for materials, as long as both have the
-                            same revision; 0: none is known */
+    size_t     twin; /* 1 + the number of a mesh that has the same content, but for materials, as long as both have the
+                        same revision; 0: none is known */
 } mesh;
 
 typedef struct image {

@@ -628,8 +628,8 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
 {
     sheet       *page = &j->out->page;
     const size_t first = page->item_count;
-    char       name[32];
-    lmn_status status = LMN_OK;
+    char         name[32];
+    lmn_status   status = LMN_OK;
     snprintf(name, sizeof name, "view-%s", v->name);
     uint32_t   group = sheet_add_group(page, -1, strcmp(v->name, "view") == 0 ? "view" : name, "view", 0);
     vector_ink ink = {page, j->scene, group, {v->box[0], v->box[1]}, j->lines_only};

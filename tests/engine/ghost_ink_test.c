@@ -1,5 +1,5 @@
-/* Ghost images are paler than what is there now, and the older the paler, in every look: a ball on its way, told by four
- * images beside each other, whose ink is what differs from the paper above them. */
+/* Ghost images are paler than what is there now, and the older the paler, in every look: a ball on its way, told by
+ * four images beside each other, whose ink is what differs from the paper above them. */
 #include "checked.h"
 
 #include <math.h>
@@ -107,10 +107,10 @@ static void measure(const fixture *f, const lmn_look *look, double ink[IMAGES])
 /* Every fourth look, from one on. */
 static void ghosts_are_paler_in_every_look(void **state)
 {
-    const size_t    from = *(const size_t *)*state;
-    const double    most = 0.75;
-    fixture         f = {NULL, NULL};
-    int             wrong = 0, drawn = 0;
+    const size_t from = *(const size_t *)*state;
+    const double most = 0.75;
+    fixture      f = {NULL, NULL};
+    int          wrong = 0, drawn = 0;
     load(&f);
     for (size_t i = from; i < lmn_look_count(); i += FOURTHS) {
         lmn_look *look = NULL;
@@ -118,7 +118,7 @@ static void ghosts_are_paler_in_every_look(void **state)
         load_look(&look, lmn_look_name_at(i));
         measure(&f, look, ink);
         const double now = ink[2];
-        const bool   paler = ink[0] < most * now && ink[1] < most * now && ink[3] < most * now && ink[0] < 0.95 * ink[1];
+        const bool paler = ink[0] < most * now && ink[1] < most * now && ink[3] < most * now && ink[0] < 0.95 * ink[1];
         if (now < 0.002)
             print_message("%s: nothing is seen (%g)\n", lmn_look_name_at(i), now);
         else if (!paler)
