@@ -339,9 +339,6 @@ static void open_group(svg_writer *w, uint32_t index)
     if (!w->opened[index])
         text_append(&w->out, " id=\"%s\"", w->ids[index]);
     w->opened[index] = true;
-    put(w, " inkscape:groupmode=\"layer\" inkscape:label=\"");
-    put_escaped(w, g->name && *g->name ? g->name : w->ids[index]);
-    put(w, "\"");
     if (g->css_class && *g->css_class) {
         put(w, " class=\"");
         put_escaped(w, g->css_class);
@@ -352,6 +349,9 @@ static void open_group(svg_writer *w, uint32_t index)
         put_escaped(w, g->name ? g->name : "");
         put(w, "\"");
     }
+    put(w, " inkscape:groupmode=\"layer\" inkscape:label=\"");
+    put_escaped(w, g->name && *g->name ? g->name : w->ids[index]);
+    put(w, "\"");
     if (g->clip[2] > 0)
         text_append(&w->out, " clip-path=\"url(#%s.clip)\"", w->ids[index]);
     put(w, ">\n");
@@ -618,8 +618,7 @@ static void put_item(svg_writer *w, const sheet_item *item)
 static void put_head(svg_writer *w)
 {
     const sheet *s = w->s;
-    put(w, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-           "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"");
+    put(w, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");
     put_number(w, s->width);
     put(w, "mm\" height=\"");
     put_number(w, s->height);
@@ -627,7 +626,7 @@ static void put_head(svg_writer *w)
     put_number(w, s->width);
     put(w, " ");
     put_number(w, s->height);
-    put(w, "\">\n");
+    put(w, "\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\">\n");
     put_element(w, "title", s->title);
     put_element(w, "desc", s->description);
     put_styles(w);

@@ -179,7 +179,7 @@ static void set_heights(frame *f, const figure_state *s)
         up[3] -= up[k] * m[12 + k];
     double origin = city->known ? city->origin[2] * (city->metres[1] > 0 ? city->metres[1] : 1) : 0;
     gpu_set_vec4(f->g, "u_height", (float[]){(float)up[0], (float)up[1], (float)up[2], (float)up[3]});
-    gpu_set_vec2(f->g, "u_heights", (float)(low + origin), (float)fmax(high - low, 1e-30));
+    gpu_set_vec2(f->g, "u_height_range", (float)(low + origin), (float)fmax(high - low, 1e-30));
 }
 
 /* What ghost images are mixed with: the page's ground, or white paper where it has none. */

@@ -420,6 +420,13 @@ static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2]
     }
     if (hides)
         w->hidden(w->user, (const double(*)[3])positions, (size_t)count + 1, behind);
+    /* What is lifted over the nearest plane of all that is drawn is outside: asked again where it lies. */
+    for (int i = 0; i <= count && hides; i++)
+        if (behind[i] == UINT32_MAX) {
+            const double own[1][3] = {
+                {positions[i][0] - lift[0], positions[i][1] - lift[1], positions[i][2] - lift[2]}};
+            w->hidden(w->user, own, 1, &behind[i]);
+        }
     if (hides && w->marks->flow && w->g->style->stray > 0)
         leave_out_strayed(w, (const double(*)[3])positions, lift, (size_t)count + 1, behind);
     for (int i = w->open ? 1 : 0; i <= count; i++) {

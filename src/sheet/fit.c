@@ -11,6 +11,7 @@
 
 /* Numbers that a writer of coordinates needs for a piece, more or less. */
 static const double cost_of_line = 1, cost_of_arc = 2, cost_of_ellipse = 3, cost_of_cubic = 3;
+#define PI 3.14159265358979323846
 static const double nothing = 1e-6; /* mm: points that are one */
 enum { ELLIPSE_LEAST = 8, CUBIC_POINTS_MOST = 600 };
 
@@ -118,6 +119,17 @@ static double length_of(const fitter *f, size_t first, size_t last)
     return f->arcs[last] - f->arcs[first];
 }
 
+/* After how many points a kind of piece is worth more than what there is, whose length this is; at least so many. 0:
+ * not before the last one. */
+static size_t worth_from(const fitter *f, size_t first, size_t last, double length, size_t least)
+{
+    if (first + least > last || length_of(f, first, last) <= length)
+        return 0;
+    while (length_of(f, first, first + least) <= length)
+        least++;
+    return least;
+}
+
 /* The piece from one point on that is worth most, and its end. */
 static size_t best_piece(fitter *f, size_t first, size_t last, const double *begin, sheet_piece *out)
 {
@@ -134,7 +146,8 @@ static size_t best_piece(fitter *f, size_t first, size_t last, const double *beg
     size_t        end = first;
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
         sheet_piece piece;
-        size_t      own = reach(kinds[k].fits, &t, first, kinds[k].least, last, &piece);
+        size_t      least = worth_from(f, first, last, best * *kinds[k].cost, kinds[k].least);
+        size_t      own = least ? reach(kinds[k].fits, &t, first, least, last, &piece) : first;
         double      worth = own > first ? length_of(f, first, own) / *kinds[k].cost : 0;
         if (own > first && worth > best) {
             best = worth;
@@ -184,12 +197,20 @@ static void relax(fitter *f)
 
 /* --- one path ------------------------------------------------------------------------------------------- */
 
-/* Can nothing bent pass here within the error? */
+/* Can nothing bent pass here within the error? A circle through corners so far apart that turn so far leaves its chords
+ * by an eighth of both. */
 static bool is_corner(const fitter *f, const double *a, const double *p, const double *b)
 {
-    double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]};
-    double turn = fabs(atan2(in[0] * on[1] - in[1] * on[0], in[0] * on[0] + in[1] * on[1]));
-    return fmin(fit_distance(in[0], in[1]), fit_distance(on[0], on[1])) * turn / 8 > f->most;
+    double in[2] = {p[0] - a[0], p[1] - a[1]}, on[2] = {b[0] - p[0], b[1] - p[1]},
+           along = in[0] * on[0] + in[1] * on[1],
+           square = fmin(in[0] * in[0] + in[1] * in[1], on[0] * on[0] + on[1] * on[1]), least = 64 * f->most * f->most;
+    if (square * (PI * PI) < least)
+        return false; /* however far it turns */
+    double across = fabs(in[0] * on[1] - in[1] * on[0]), whole = across * across + along * along;
+    if (along > 0 && square * across * across * 2.5 < least * whole) /* the angle is at most 1.571 times its sine */
+        return false;
+    double turn = atan2(across, along);
+    return square * turn * turn > least;
 }
 
 /* From one corner to the next. */

@@ -8,6 +8,8 @@
 #define PI 3.14159265358979323846
 /* Straight pieces that a curve is looked at in are so much nearer to it than it has to be to the lines. */
 #define LOOK_ERROR 0.03
+/* Errors by which points are off their place on a cubic, at which better parameters are not looked for. */
+#define HOPELESS 5
 
 /* --- ellipses ------------------------------------------------------------------------------------------- */
 
@@ -287,6 +289,18 @@ double fit_length(const sheet_piece *piece, const double from[2])
     return sum;
 }
 
+/* Are points so far from where their parameters are that no better ones will help? */
+static bool is_hopeless(const sheet_piece *c, const fit_run *r, const double *parameters)
+{
+    double most = HOPELESS * r->most, at[2];
+    for (size_t i = 1; i + 1 < r->count; i++) {
+        cubic_at(c, r->points[0], parameters[i], at);
+        if (fabs(at[0] - r->points[i][0]) > most || fabs(at[1] - r->points[i][1]) > most)
+            return true;
+    }
+    return false;
+}
+
 /* Handles that point backwards, or are longer than what they bend, make loops. */
 static bool is_sound(const sheet_piece *c, const double from[2], double length)
 {
@@ -310,7 +324,8 @@ bool fit_cubic(sheet_piece *out, const fit_run *r, const double *begin, const do
     for (size_t i = 0; i < r->count; i++)
         parameters[i] = (r->arcs[i] - r->arcs[0]) / length;
     for (int round = 0; round < ROUNDS; round++) {
-        if (!find_controls(out, r, &q, parameters) || !is_sound(out, r->points[0], length))
+        if (!find_controls(out, r, &q, parameters) || !is_sound(out, r->points[0], length) ||
+            is_hopeless(out, r, parameters))
             return false;
         double there[2];
         bool   forward =

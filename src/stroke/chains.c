@@ -17,6 +17,8 @@
 /* The same of polylines of files, which meet at corners as well. */
 #define CROSSES 0.7
 enum {
+    KEPT = 1, /* of points that stay */
+    KEPT_BETWEEN,
     OUTSIDE = -1,
     MEETING_MAX = 24,
     MARKS_MAX = 8
@@ -48,7 +50,7 @@ typedef struct chainer {
     uint8_t              *kept; /* per point */
     uint32_t             *stack;
     size_t                kept_capacity, stack_capacity;
-    size_t                stroke_capacity, out_capacity, mark_capacity;
+    size_t                stroke_capacity, out_capacity, mark_capacity, fine_capacity;
     stroke_mark           marks[MARKS_MAX]; /* of the chain, least ids first */
     size_t                mark_count;
     curve_path            curve;
@@ -468,14 +470,8 @@ static double distance_from(const chainer *c, const chain_point *p, const chain_
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
-static bool simplify(chainer *c, size_t begin, size_t end)
+static void keep_between(chainer *c, size_t begin, size_t end, double limit, uint8_t mark)
 {
-    double limit = c->options->simplify;
-    if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
-        !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
-        return false;
-    memset(c->kept + begin, 0, end - begin + 1);
-    c->kept[begin] = c->kept[end] = 1;
     size_t depth = 0;
     c->stack[depth++] = (uint32_t)begin;
     c->stack[depth++] = (uint32_t)end;
@@ -491,16 +487,47 @@ static bool simplify(chainer *c, size_t begin, size_t end)
         }
         if (!worst)
             continue;
-        c->kept[worst] = 1;
+        c->kept[worst] = mark;
         c->stack[depth++] = (uint32_t)first;
         c->stack[depth++] = (uint32_t)worst;
         c->stack[depth++] = (uint32_t)worst;
         c->stack[depth++] = (uint32_t)last;
     }
+}
+
+/* Marks the points of a stretch that stay, and with another mark those that are kept between them. */
+static bool simplify(chainer *c, size_t begin, size_t end)
+{
+    const stroke_options *w = c->options;
+    if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
+        !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
+        return false;
+    memset(c->kept + begin, 0, end - begin + 1);
+    c->kept[begin] = c->kept[end] = KEPT;
+    keep_between(c, begin, end, w->simplify, KEPT);
+    for (size_t first = begin, i = begin + 1; i <= end && w->fine > 0 && w->fine < w->simplify; i++)
+        if (c->kept[i] == KEPT) {
+            keep_between(c, first, i, w->fine, KEPT_BETWEEN);
+            first = i;
+        }
     return true;
 }
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
+
+/* Behind the point that was put last. */
+static bool put_fine(chainer *c, const chain_point *p)
+{
+    stroke_set   *out = c->out;
+    stroke_point *before = &out->points[out->point_count - 1];
+    if (out->fine_count >= UINT32_MAX ||
+        !mem_grow((void **)&out->fine, &c->fine_capacity, out->fine_count + 1, sizeof *out->fine))
+        return false;
+    out->fine[out->fine_count++] =
+        (stroke_fine){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc - before->arc};
+    before->fine_count++;
+    return true;
+}
 
 static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 {
@@ -512,10 +539,16 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
     s.first = (uint32_t)out->point_count;
     for (size_t i = begin; i <= end; i++) {
         const chain_point *p = &c->points[i];
-        if (c->kept[i])
-            out->points[out->point_count++] =
-                (stroke_point){(float)p->x,   (float)p->y, (float)view_depth(c->v, p->z),
-                               (float)p->arc, p->weight,   {(float)p->aside[0], (float)p->aside[1]}};
+        if (c->kept[i] == KEPT)
+            out->points[out->point_count++] = (stroke_point){.x = (float)p->x,
+                                                             .y = (float)p->y,
+                                                             .depth = (float)view_depth(c->v, p->z),
+                                                             .arc = (float)p->arc,
+                                                             .weight = p->weight,
+                                                             .aside = {(float)p->aside[0], (float)p->aside[1]},
+                                                             .fine = (uint32_t)out->fine_count};
+        else if (c->kept[i] == KEPT_BETWEEN && !put_fine(c, p))
+            return false;
     }
     s.count = (uint32_t)(out->point_count - s.first);
     out->strokes[out->stroke_count++] = s;
@@ -626,6 +659,7 @@ void stroke_set_release(stroke_set *s)
     mem_free(s->strokes);
     mem_free(s->points);
     mem_free(s->marks);
+    mem_free(s->fine);
     memset(s, 0, sizeof *s);
 }
 

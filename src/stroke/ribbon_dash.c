@@ -170,18 +170,11 @@ void ribbon_dash(span_list *out, const ribbon_job *job, const stroke *s, const c
     const dash_pattern wanted = {dash, gap, 0};
     const float       *corners = job->corners ? job->corners + chain->first_corner : NULL;
     section            all = {0, chain->length, chain->closed};
-    float              phase = s->phase;
-    if (style->keeps_dashed && (from > 0 || to < chain->length)) { /* one pattern that ends where the line does */
-        all = (section){from, to, false};
-        phase = 0;
-    }
     if (!chain->corner_count)
-        dash_section(out, all, from, to, &wanted, phase, shortest);
+        dash_section(out, all, from, to, &wanted, s->phase, shortest);
     /* Corners stay on the model, and what lies between them with them. */
     for (size_t i = 0; i <= chain->corner_count && chain->corner_count; i++) {
         all = (section){i ? corners[i - 1] : 0, i < chain->corner_count ? corners[i] : chain->length, false};
-        if (style->keeps_dashed)
-            all = (section){fmaxf(all.from, from), fminf(all.to, to), false};
         if (all.to > from && all.from < to)
             dash_section(out, all, fmaxf(from, all.from), fminf(to, all.to), &wanted, 0, shortest);
     }

@@ -465,8 +465,7 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
-    if (j->wanted->smooth > 0)
-        options.simplify = fminf(options.simplify, (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM));
+    options.fine = (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM);
     style.keeps_dashed = !j->wanted->plotter;
     bool *parts = parts_of(j, r, &count);
     if (!parts)

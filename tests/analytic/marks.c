@@ -46,7 +46,7 @@ static bool write_strokes(const char *name, const priorities *p)
 }
 
 /* The strokes laid out once on a wall, each as far as its priorities say and no other: `more` are further keys. */
-static const char *tiled(const char *file, double tone, const char *more)
+static const char *tiled_of(const char *path, double tone, const char *more)
 {
     static char texts[4][1000];
     static int  next;
@@ -55,8 +55,13 @@ static const char *tiled(const char *file, double tone, const char *more)
     snprintf(text, sizeof texts[0],
              "strokes\",\"placed\":\"uv\",\"strokes\":\"%s\",\"repeat\":1,\"jitter\":0,\"equalised\":false,"
              "\"fade\":0.001,\"taper\":0,\"width\":3,\"texture\":0,\"shadow\":%.9g,\"light\":%.9g%s%s",
-             check_path("%s", file), tone, tone, *more ? "," : "", more);
+             path, tone, tone, *more ? "," : "", more);
     return text;
+}
+
+static const char *tiled(const char *file, double tone, const char *more)
+{
+    return tiled_of(check_path("%s", file), tone, more);
 }
 
 static bool draw_wall(shot *out, const char *surface, const char *finish, const shot_view *view)
@@ -140,6 +145,51 @@ static void light(void)
                        screen ? "as a screen" : "on the wall", tone, there, STROKES, wrong);
             shot_release(&s);
         }
+    }
+}
+
+/* How many shapes the marks of an SVG file are; -1: it has none. */
+static int shapes_of_marks(const char *path)
+{
+    char   text[65536];
+    FILE  *file = fopen(path, "rb");
+    size_t length = file ? fread(text, 1, sizeof text - 1, file) : 0;
+    if (file)
+        fclose(file);
+    text[length] = 0;
+    char *marks = strstr(text, "class=\"marks\""), *end = marks ? strstr(marks, "</g>") : NULL;
+    int   count = 0;
+    for (char *at = marks; at && at < end; at++)
+        count += *at == 'z';
+    return end ? count : -1;
+}
+
+/* Row EX-07: files of vectors have the same strokes; none of the wall is hidden, so it is enough to count them. */
+static void vectors(void)
+{
+    static priorities p;
+    take_all_distances(&p);
+    halftone_scene scene = {0};
+    halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
+    if (!check_that("EX-07", write_strokes("light.stx", &p) && halftone_write(check_path("vectors.gltf"), &scene),
+                    "strokes and a wall"))
+        return;
+    halftone_release(&scene);
+    for (int k = 1; k < 8; k += 2) {
+        double tone = k / 8.0;
+        char   arguments[1024], said[1024], svg[256];
+        int    wanted = 0;
+        for (int i = 0; i < STROKES; i++)
+            wanted += p.light[i] >= tone;
+        FILE *look = fopen(check_path("vectors.json"), "wb"); /* names files from where it lies */
+        bool  written = look && fputs(halftone_look(tiled_of("light.stx", tone, "")), look) >= 0;
+        written = look && fclose(look) == 0 && written;
+        snprintf(svg, sizeof svg, "%s", check_path("vectors.svg"));
+        snprintf(arguments, sizeof arguments, "draw %s --look %s --size 600x600 --view %s -o %s",
+                 check_path("vectors.gltf"), check_path("vectors.json"), k % 4 == 1 ? "front" : "iso", svg);
+        if (check_that("EX-07", written && halftone_command(LIMNER_COMMAND, arguments, said, sizeof said) == 0,
+                       "a file of vectors: %s", said))
+            check_near("EX-07", shapes_of_marks(svg), wanted, 0, "strokes of a file of vectors, tone %.3f", tone);
     }
 }
 
@@ -299,6 +349,36 @@ static void darkest(void)
                    "ink of dots of %g px where it is darkest", diameters[k]);
         shot_release(&s);
     }
+}
+
+/* A flat wall cuts nothing off the strokes that lie on it, however it is turned. */
+static void uncut(void)
+{
+    static priorities p;
+    for (int i = 0; i < STROKES; i++)
+        p.light[i] = p.perspective[i] = 1;
+    if (!check_that("EX-14", write_strokes("uncut.stx", &p), "strokes"))
+        return;
+    for (int tilt = 0; tilt <= 80; tilt += 20)
+        for (int up = 0; up < 2; up++) {
+            double    a = tilt * pi / 180;
+            shot_view view = {.width = SIDE, .height = SIDE, .target = {0.5, 0.5, 0}, .up = {0, 1, 0}, .fov_deg = 30};
+            shot      s;
+            view.without_maps = true;
+            view.eye = (dvec){0.5 + (up ? 0 : 2.6 * sin(a)), 0.5 + (up ? 2.6 * sin(a) : 0), 2.6 * cos(a)};
+            if (!draw_wall(&s, tiled("uncut.stx", 0, ""), "", &view))
+                return;
+            int cut = 0, asked = 0;
+            for (int i = 0; i < STROKES; i++)
+                for (double along = -0.22; along <= 0.22; along += 0.02, asked++) {
+                    dvec at = on_wall(i);
+                    at.x += along / CELLS;
+                    cut += ink_at(&s, at) < 0.9;
+                }
+            check_that("EX-14", cut == 0, "turned by %d degrees: %d of %d places of strokes are cut by their own wall",
+                       tilt, cut, asked);
+            shot_release(&s);
+        }
 }
 
 /* --- strokes are drawn whole (EX-12, EX-26) --------------------------------------------------------------- */
@@ -614,10 +694,10 @@ static void rims(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"light", light},     {"white", white},           {"distance", distance},
-                                       {"darkest", darkest}, {"whole", whole},           {"around", around},
-                                       {"joints", joints},   {"near-plane", near_plane}, {"indication", indication},
-                                       {"rims", rims}};
+    static const check_case cases[] = {{"light", light},           {"vectors", vectors},       {"white", white},
+                                       {"distance", distance},     {"darkest", darkest},       {"uncut", uncut},
+                                       {"whole", whole},           {"around", around},         {"joints", joints},
+                                       {"near-plane", near_plane}, {"indication", indication}, {"rims", rims}};
     halftone_begin_kept("marks");
     int status = check_main(argc, argv, "marks", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -569,6 +569,31 @@ static void feathers_cross_the_border(void)
     check_at_most("S1", along / fmax(across, 1), 0.5, "changes of ink along the light beside those across it");
 }
 
+/* A wall hardly turned into the light has no blacks from which strokes could reach over it. */
+static void walls_are_not_feathered(void)
+{
+    shot_view view = {
+        .width = 256, .height = 256, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 20};
+    shape  s = {0};
+    shot   drawing;
+    double ink = 0, seen = 0;
+    shape_box(&s, "wall", dvec_of(-1, -1, -0.1), dvec_of(1, 1, 0));
+    const char *look =
+        surface_look("{\"technique\":\"toon\",\"bands\":1,\"light\":1,\"highlight\":0,\"ink\":\"#000000\","
+                     "\"blacks\":0.9,\"feather\":0.3,\"spacing\":\"8px\"}",
+                     "1,0,0.1", 0);
+    if (shot_of_shape(&drawing, &s, "wall.glb", look, NULL, &view))
+        for (int i = 0; i < 256 * 256; i++)
+            if (!isinf(drawing.depth[i])) {
+                ink += ink_at(&drawing, i);
+                seen++;
+            }
+    check_at_least("S1", seen, 10000, "pixels of a wall beyond the blacks by less than feathers reach");
+    check_at_most("S1", ink, 0, "  their ink");
+    shot_release(&drawing);
+    shape_release(&s);
+}
+
 /* --- Watercolour ------------------------------------------------------------------------------------------- */
 
 static bool take_washed(shot *out, bool ball, const char *more, const char *light)
@@ -919,6 +944,7 @@ int main(int argc, char **argv)
         {"blacks", blacks_lie_away_from_the_light},
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},
+        {"walls", walls_are_not_feathered},
         {"pigment", pigment_takes_light},
         {"pools", pigment_pools},
         {"flows", pigment_flows},
