@@ -24,7 +24,8 @@ static const double ACROSS = 0.6;        /* where the field's arms change, strai
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
 static const double LEAST = 5;           /* length of a line that ends at others */
-static const double LEAST_BOUNDED = 0.4; /* and of one that runs from edge to edge */
+static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to edge, */
+static const double LEAST_NARROW = 0.3;  /* and of one across a face that is narrower than lines are apart */
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
 static const double FADED = 1.2;         /* of an end that runs out, the room is its neighbours' */
 static const double REACH = 3.4;         /* how far gaps are looked for */
@@ -260,7 +261,8 @@ static bool trace_line(flow_maker *m, const flow_position *seed)
             return false;
     }
     bool   closed = first == END_LOOP, bounded[2] = {first == END_EDGE, second == END_EDGE};
-    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? LEAST_BOUNDED : LEAST;
+    double across = (double)m->f->rooms[seed->triangle] < m->apart ? LEAST_NARROW : LEAST_BOUNDED;
+    double length = length_within(m, beyond), least = closed ? 2 : bounded[0] && bounded[1] ? across : LEAST;
     if (m->count < 2 || length < least * m->apart) {
         flow_grid_shorten(&m->grid, samples);
         return true;
