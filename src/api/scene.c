@@ -63,6 +63,8 @@ lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, c
                          full->lod);
     if (!(full->populate >= 0 && full->populate <= 4))
         return error_set(error, LMN_USAGE, "%s: `populate` %g is not between 0 and 4", caller, full->populate);
+    if (!(full->deflection >= 0 && full->deflection <= 1e9))
+        return error_set(error, LMN_USAGE, "%s: `deflection` %g is not between 0 and 1e9", caller, full->deflection);
     for (size_t i = 0; i < full->define_count; i++)
         if (!full->defines || !full->defines[i])
             return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,

@@ -579,6 +579,7 @@ class lmn_load_desc(Structure):
         ("lod", c_char_p),
         ("terrain", c_char_p),
         ("populate", c_double),
+        ("deflection", c_double),
     ]
 
 
