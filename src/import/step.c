@@ -1,6 +1,8 @@
 /* STEP: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the faces, with
  * their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
 #define _GNU_SOURCE /* memmem */
+#include "import/step.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -283,9 +285,9 @@ static void read_nodes(step_reader *s)
         read_node(s, i);
 }
 
-static lmn_status read_answer(const import_job *job, const fence_bytes *answer, lmn_error *error)
+lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, size_t size, lmn_error *error)
 {
-    step_reader s = {.job = job, .r = fence_read(answer->bytes, answer->size), .error = error, .plain = NONE};
+    step_reader s = {.job = job, .r = fence_read(bytes, size), .error = error, .plain = NONE};
     char       *unit_name = take_name(&s);
     const void *from = fence_take(&s.r, sizeof(float));
     float       coarser = 1;
@@ -336,7 +338,7 @@ static lmn_status read_step(const import_job *job, lmn_error *error)
     if (status == LMN_OK)
         status = import_progress(job, 0.7, "reading", error);
     if (status == LMN_OK)
-        status = read_answer(job, &answer, error);
+        status = step_answer_read(job, answer.bytes, answer.size, error);
     mem_free(answer.bytes);
     if (status != LMN_OK)
         error_file(error, job->path);

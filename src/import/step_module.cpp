@@ -419,10 +419,9 @@ bool is_made_up(const std::string &name)
            name.find_first_not_of("0123456789 ") == std::string::npos;
 }
 
-Colour colour_of_label(const TDF_Label &label)
+Colour colour_of_label(const XCAFDoc_ColorTool &colours, const TDF_Label &label)
 {
     Quantity_ColorRGBA value;
-    XCAFDoc_ColorTool  colours;
     Colour             out;
     for (XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {
         TDF_Label where;
@@ -451,7 +450,8 @@ void matrix_of(const TopLoc_Location &location, double out[16])
 class Tree {
 public:
     Tree(const Handle(TDocStd_Document) & document, const step_request &request)
-        : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())), mesher_(request.deflection, request.most_triangles)
+        : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+          colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())), mesher_(request.deflection, request.most_triangles)
     {
     }
 
@@ -510,8 +510,8 @@ private:
                 return;
         }
         std::string  name = instance ? text_of(label) : "";
-        const Colour own = instance ? colour_of_label(label) : Colour();
-        const Colour made = colour_of_label(of);
+        const Colour own = instance ? colour_of_label(*colours_, label) : Colour();
+        const Colour made = colour_of_label(*colours_, of);
         const Colour inherited = own.there ? own : made.there ? made : above;
         const std::string product = text_of(of);
         if (is_made_up(name))
@@ -554,7 +554,7 @@ private:
     Colour colour_of(const TDF_Label &label, const TopoDS_Shape &piece, const Colour &otherwise) const
     {
         TDF_Label    sub;
-        const Colour own = shapes_->FindSubShape(label, piece, sub) ? colour_of_label(sub) : Colour();
+        const Colour own = shapes_->FindSubShape(label, piece, sub) ? colour_of_label(*colours_, sub) : Colour();
         return own.there ? own : otherwise;
     }
 
@@ -581,6 +581,7 @@ private:
     }
 
     Handle(XCAFDoc_ShapeTool) shapes_;
+    Handle(XCAFDoc_ColorTool) colours_;
     Mesher                    mesher_;
     std::vector<Mesh>         meshes_;
     std::vector<Node>         nodes_;
