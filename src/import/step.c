@@ -157,6 +157,12 @@ static int32_t find_material(step_reader *s, uint32_t there, const float rgba[4]
         out_of_memory(s);
         return NONE;
     }
+    char name[16];
+    snprintf(name, sizeof name, "#%02x%02x%02x", (unsigned)lroundf(255 * unit(rgba[0])),
+             (unsigned)lroundf(255 * unit(rgba[1])), (unsigned)lroundf(255 * unit(rgba[2])));
+    m->name = mem_copy_text(name);
+    if (!m->name)
+        out_of_memory(s);
     m->base_colour = colour;
     m->alpha = colour.w < 1 ? ALPHA_BLEND : ALPHA_OPAQUE;
     return (int32_t)scene->material_count - 1;

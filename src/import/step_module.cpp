@@ -16,7 +16,9 @@
 #include <vector>
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepLProp_SLProps.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -61,6 +63,9 @@ constexpr double USUAL_CHORD = 1.0 / 2000, FINEST_CHORD = 1e-6;
 constexpr double CHORD_TURN = 0.25;
 // Faces that turn by less along an edge go on smoothly into each other: cosine of 1 degree.
 constexpr double SMOOTH = 0.99985;
+// They are one surface when their curvatures differ by no more than this share of them; or of the part's size, below which
+// a surface is flat.
+constexpr double SAME_CURVATURE = 0.02, FLAT = 1e-3;
 // A part so far from its origin, of its diagonal, is moved there and its node back: coordinates are single precision.
 constexpr double FAR = 16;
 constexpr unsigned DEEPEST = 512;
@@ -216,6 +221,7 @@ public:
         const double diagonal = std::sqrt(box.SquareExtent());
         if (!std::isfinite(diagonal) || diagonal <= 0 || diagonal > 1e18)
             return mesh;
+        diagonal_ = diagonal;
         chord_ = deflection_ > 0 ? deflection_ : diagonal * USUAL_CHORD;
         if (chord_ < diagonal * FINEST_CHORD) {
             coarser_ = std::max(coarser_, diagonal * FINEST_CHORD / chord_);
@@ -337,6 +343,39 @@ private:
         return true;
     }
 
+    // How a face bends at a node, outwards positive, the most first; false: it cannot be told.
+    static bool bends(const Faced &f, int node, double out[2])
+    {
+        BRepAdaptor_Surface surface(f.face, false);
+        const gp_Pnt2d      at = f.triangles->UVNode(node);
+        BRepLProp_SLProps   there(surface, at.X(), at.Y(), 2, 1e-7);
+        if (!there.IsCurvatureDefined())
+            return false;
+        const bool reversed = f.face.Orientation() == TopAbs_REVERSED;
+        out[0] = reversed ? -there.MinCurvature() : there.MaxCurvature();
+        out[1] = reversed ? -there.MaxCurvature() : there.MinCurvature();
+        return true;
+    }
+
+    // Is it one surface that was only cut in two there, as writers do with cylinders? Of faces that go on smoothly.
+    bool is_one_surface(const std::vector<Side> &sides) const
+    {
+        const int count = sides[0].polygon->NbNodes();
+        for (int k = 1; k <= 3; k++) {
+            const int node = 1 + (count - 1) * k / 4;
+            double    a[2], b[2];
+            if (!sides[0].face->triangles->HasUVNodes() || !sides[1].face->triangles->HasUVNodes() ||
+                !bends(*sides[0].face, sides[0].polygon->Node(node), a) ||
+                !bends(*sides[1].face, sides[1].polygon->Node(node), b))
+                return false;
+            for (int i = 0; i < 2; i++)
+                if (std::abs(a[i] - b[i]) >
+                    SAME_CURVATURE * std::max(std::abs(a[i]), std::abs(b[i])) + FLAT / diagonal_)
+                    return false;
+        }
+        return true;
+    }
+
     static void put_line(Lines &to, const std::vector<gp_Pnt> &points, const double origin[3])
     {
         const auto base = static_cast<uint32_t>(to.positions.size() / 3);
@@ -381,8 +420,8 @@ private:
             for (const Side &s : sides)
                 for (int k = 1; k < s.polygon->NbNodes() && !smooth; k++)
                     s.face->along[pair_of(s.polygon->Node(k), s.polygon->Node(k + 1))] = STEP_SHARP;
-            // Where a round face closes nothing is to be seen.
-            if (smooth && sides[0].face == sides[1].face)
+            // Where a round face closes, or is only cut in two, nothing is to be seen.
+            if (smooth && (sides[0].face == sides[1].face || is_one_surface(sides)))
                 continue;
             std::vector<gp_Pnt> points;
             for (int k = 1; k <= sides[0].polygon->NbNodes(); k++)
@@ -391,7 +430,7 @@ private:
         }
     }
 
-    double                     deflection_, chord_ = 0, coarser_ = 1;
+    double                     deflection_, chord_ = 0, diagonal_ = 1, coarser_ = 1;
     uint64_t                   left_;
     std::map<int, Faced>       faces_; // by their number in index_
     TopTools_IndexedMapOfShape index_;

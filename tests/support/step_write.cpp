@@ -17,6 +17,7 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
@@ -128,7 +129,10 @@ bool step_write_bracket(const char *path, step_truth *out)
 {
     const TopoDS_Shape foot = BRepPrimAPI_MakeBox(40.0, 30.0, 8.0).Shape();
     const TopoDS_Shape wall = BRepPrimAPI_MakeBox(8.0, 30.0, 40.0).Shape();
-    const TopoDS_Shape angle = BRepAlgoAPI_Fuse(foot, wall).Shape();
+    /* Faces in one plane are one. */
+    ShapeUpgrade_UnifySameDomain united(BRepAlgoAPI_Fuse(foot, wall).Shape());
+    united.Build();
+    const TopoDS_Shape angle = united.Shape();
     const gp_Ax2       axis(gp_Pnt(STEP_WRITE_HOLE_X, STEP_WRITE_HOLE_Y, -1), gp_Dir(0, 0, 1));
     const TopoDS_Shape drilled =
         BRepAlgoAPI_Cut(angle, BRepPrimAPI_MakeCylinder(axis, STEP_WRITE_HOLE_RADIUS, 20).Shape()).Shape();
@@ -194,6 +198,17 @@ bool step_write_loose(const char *path)
     builder.MakeCompound(wire);
     builder.Add(wire, BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(0, 0, 30), gp_Dir(0, 0, 1)), 8)).Edge());
     TDataStd_Name::Set(m.shapes->AddShape(wire, false), "ring");
+    return m.write(path, "MM");
+}
+
+bool step_write_halves(const char *path, double height)
+{
+    Model                    m;
+    const TopoDS_Shape       left = BRepPrimAPI_MakeCylinder(gp_Ax2(), 5, height, std::acos(-1.0)).Shape();
+    gp_Trsf                  turn;
+    turn.SetRotation(gp_Ax1(), std::acos(-1.0));
+    const TopoDS_Shape       right = left.Moved(TopLoc_Location(turn));
+    TDataStd_Name::Set(m.shapes->AddShape(BRepAlgoAPI_Fuse(left, right).Shape(), false), "halves");
     return m.write(path, "MM");
 }
 

@@ -32,7 +32,9 @@ bool step_write_bracket(const char *path, step_truth *out);
 bool step_write_assembly(const char *path);
 /* Two boxes in one part without names of their own, and a wire that bounds no face. */
 bool step_write_loose(const char *path);
-/* `count` boxes with rounded edges in one part. */
+/* A cylinder of radius 5 mm along z whose side and ends are two faces each. */
+bool step_write_halves(const char *path, double height);
+/* `count` cylinders in one part. */
 bool step_write_many(const char *path, int count);
 
 #ifdef __cplusplus
