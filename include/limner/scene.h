@@ -115,6 +115,10 @@ LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
  * the behaviour of a script is none that can be laid out. */
 LMN_API char *lmn_scene_dynamics_json(const lmn_scene *scene);
 
+/* The version of OpenCASCADE, which STEP files are read with; free with lmn_text_free. NULL when it is not installed, or
+ * memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
+LMN_API char *lmn_step_version(void);
+
 /* Frees text that Limner returned. NULL is accepted. */
 LMN_API void lmn_text_free(char *text);
 

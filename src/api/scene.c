@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/work.h"
 #include "import/import.h"
+#include "import/step.h"
 #include "info/info.h"
 #include "import/retarget.h"
 #include "scene/scene.h"
@@ -153,6 +154,11 @@ bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out)
 char *lmn_scene_info_json(const lmn_scene *scene)
 {
     return scene ? scene_info_json(scene) : NULL;
+}
+
+char *lmn_step_version(void)
+{
+    return step_version();
 }
 
 char *lmn_scene_dynamics_json(const lmn_scene *scene)

@@ -68,6 +68,28 @@ static lmn_status answer_step(const unsigned char *request, size_t size, fence_b
     }
 }
 
+static lmn_status answer_version(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error)
+{
+    const step_module *module = step_library_get();
+    (void)request, (void)size;
+    if (!module)
+        return no_library(error);
+    fence_put_text(answer, module->version);
+    return LMN_OK;
+}
+
+char *step_version(void)
+{
+    fence_bytes request = {0}, answer = {0};
+    char       *text = NULL;
+    if (fence_call_prepared(&answer, answer_version, step_prepare, "the reader of STEP", &request, NULL) == LMN_OK) {
+        fence_reader r = fence_read(answer.bytes, answer.size);
+        text = fence_take_text(&r);
+    }
+    mem_free(answer.bytes);
+    return text;
+}
+
 /* --- the answer ----------------------------------------------------------------------------------------- */
 
 typedef struct step_reader {

@@ -475,6 +475,10 @@ CALL(lmn_scene_info_json)
 {
     return freed(lmn_scene_info_json(P(0, w->scene)));
 }
+CALL(lmn_step_version)
+{
+    return freed(w->null ? NULL : lmn_step_version());
+}
 CALL(lmn_scene_dynamics_json)
 {
     return freed(lmn_scene_dynamics_json(P(0, w->scene)));
