@@ -68,6 +68,8 @@ constexpr double SMOOTH = 0.99985;
 constexpr double SAME_CURVATURE = 0.02, FLAT = 1e-3;
 // A part so far from its origin, of its diagonal, is moved there and its node back: coordinates are single precision.
 constexpr double FAR = 16;
+// A triangle has no area when it is less than this, of the square of the part's diagonal.
+constexpr double NO_AREA = 1e-14;
 constexpr unsigned DEEPEST = 512;
 
 struct Failure {
@@ -233,7 +235,7 @@ public:
         add_faces(shape);
         add_edges(mesh, shape);
         for (const auto &[key, f] : faces_)
-            put_face(mesh.groups[colour_of(f.face)], f, mesh.origin);
+            put_face(mesh.groups[colour_of(f.face)], f, mesh.origin, diagonal);
         for (auto at = mesh.groups.begin(); at != mesh.groups.end();)
             at = at->second.indices.empty() ? mesh.groups.erase(at) : std::next(at);
         return mesh;
@@ -273,7 +275,27 @@ private:
             to.push_back(static_cast<float>(p.Coord(k + 1) - origin[k]));
     }
 
-    static void put_face(Group &g, const Faced &f, const double origin[3])
+    // Once around and across; without direction where a triangle has no area.
+    static gp_Vec across(const Faced &f, const int n[3])
+    {
+        const gp_Pnt a = point_of(f, n[0]);
+        return gp_Vec(a, point_of(f, n[1])).Crossed(gp_Vec(a, point_of(f, n[2])));
+    }
+
+    // Where the surface has no normal, at tips, it is that of the triangles around.
+    static gp_Vec tip_normal(const Faced &f, int node, bool turned)
+    {
+        gp_Vec sum;
+        for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
+            int n[3];
+            f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
+            if (n[0] == node || n[1] == node || n[2] == node)
+                sum += turned ? -across(f, n) : across(f, n);
+        }
+        return sum.Magnitude() > 0 ? sum.Normalized() : gp_Vec();
+    }
+
+    static void put_face(Group &g, const Faced &f, const double origin[3], double diagonal)
     {
         const uint32_t base = g.vertices();
         const bool     mirrored = f.location.Transformation().IsNegative();
@@ -281,14 +303,17 @@ private:
         for (int i = 1; i <= f.triangles->NbNodes(); i++) {
             const auto k = static_cast<size_t>(i);
             put_point(g.positions, point_of(f, i), origin);
+            const gp_Vec normal = f.known[k] ? gp_Vec(f.normals[k]) : tip_normal(f, i, turned);
             for (int c = 1; c <= 3; c++)
-                g.normals.push_back(f.known[k] ? static_cast<float>(f.normals[k].Coord(c)) : 0.0f);
+                g.normals.push_back(static_cast<float>(normal.Coord(c)));
         }
         for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
             int n[3];
             f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
             if (turned)
                 std::swap(n[1], n[2]);
+            if (across(f, n).Magnitude() <= NO_AREA * diagonal * diagonal)
+                continue;
             for (int k = 0; k < 3; k++) {
                 const auto found = f.along.find(pair_of(n[k], n[(k + 1) % 3]));
                 g.indices.push_back(base + static_cast<uint32_t>(n[k] - 1));

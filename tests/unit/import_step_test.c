@@ -7,6 +7,7 @@
 #include "base/colour.h"
 #include "base/work.h"
 #include "import/step.h"
+#include "plan/unit.h"
 
 /* A file that was written before anything could be read, small and without curves. */
 #define EMPTY                                                                                                          \
@@ -92,6 +93,26 @@ static void answers_are_not_believed(void **state)
     assert_int_equal(read_answer(a.bytes, a.size + 1), LMN_FORMAT);
 }
 
+/* Whatever is changed in one, it is read as something or refused; reading out of bounds is seen by the sanitizers. */
+static void answers_may_be_anything(void **state)
+{
+    (void)state;
+    const answer good = make_answer((answer_numbers){2, 1, 1, 0, STEP_NONE});
+    uint32_t     seed = 3;
+    int          refused = 0;
+    for (int i = 0; i < 20000; i++) {
+        answer a = good;
+        for (int k = 0; k <= i % 3; k++) {
+            seed = seed * 1664525u + 1013904223u;
+            a.bytes[(seed >> 8) % a.size] = (unsigned char)((seed >> 24) % 3 == 0 ? 255 : seed >> 24);
+        }
+        lmn_status status = read_answer(a.bytes, a.size);
+        assert_true(status == LMN_OK || status == LMN_FORMAT || status == LMN_LIMIT);
+        refused += status != LMN_OK;
+    }
+    assert_true(refused > 2000 && refused < 18000);
+}
+
 static void ifc_is_not_taken_for_step(void **state)
 {
     (void)state;
@@ -116,7 +137,7 @@ static void without_the_library_it_says_so(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed), cmocka_unit_test(answers_may_be_anything),
                                        cmocka_unit_test(ifc_is_not_taken_for_step),
                                        cmocka_unit_test(without_the_library_it_says_so)};
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
@@ -405,6 +426,12 @@ static void assemblies_keep_their_tree(void **state)
     assert_string_equal(n->attributes[0].key, "file-unit");
     assert_string_equal(n->attributes[0].value, "INCH");
     assert_int_equal(s->up, 'z');
+    double      mm;
+    const char *unit_name;
+    bool        stated;
+    assert_int_equal(unit_find(NULL, s, &mm, &unit_name, &stated, NULL), LMN_OK);
+    assert_true(stated && mm == 1);
+    assert_int_equal(s->warnings.count, 0);
     lmn_scene_destroy(&s);
 }
 
@@ -568,7 +595,7 @@ static void deflections_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_are_not_believed),       cmocka_unit_test(ifc_is_not_taken_for_step),
+        cmocka_unit_test(answers_are_not_believed), cmocka_unit_test(answers_may_be_anything),       cmocka_unit_test(ifc_is_not_taken_for_step),
         cmocka_unit_test(solids_are_as_large_as_they_are), cmocka_unit_test(every_edge_is_a_line),
         cmocka_unit_test(halves_are_one_surface),
         cmocka_unit_test(triangles_know_their_edges),     cmocka_unit_test(normals_are_those_of_surfaces),
