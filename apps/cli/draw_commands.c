@@ -199,7 +199,8 @@ static int find_whole(char *out, size_t size, const word_list *inputs, const dra
     lmn_scene            *scene = NULL;
     progress              bar;
     lmn_task             *task = NULL;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value, v->deflection.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     double                duration = 0;
     progress_begin(&bar, true);
     int status = check_programs(inputs, &programs);

@@ -231,7 +231,8 @@ static void print_dynamics(const json_t *root)
 static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
     lmn_scene            *scene = NULL;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value, v->deflection.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     int                   status = check_programs(inputs, &programs);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);

@@ -279,7 +279,8 @@ static int pack(tiles_run *t)
 static int draw_all(tiles_run *t, const word_list *inputs)
 {
     const tiles_values   *v = t->values;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value, v->deflection.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     int status = scene_of_programs(&t->scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &t->bar);
     if (status != EXIT_DONE)
         return status;

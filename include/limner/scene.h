@@ -38,8 +38,9 @@ typedef struct lmn_importer {
 
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
-    size_t      struct_size; /* set by LMN_LOAD_DESC_INIT */
-    lmn_up_axis up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF, STEP and OpenSCAD +Z; of OBJ and PLY it is guessed */
+    size_t struct_size; /* set by LMN_LOAD_DESC_INIT */
+    lmn_up_axis
+        up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF, STEP and OpenSCAD +Z; of OBJ and PLY it is guessed */
     lmn_progress_fn progress; /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
@@ -115,8 +116,8 @@ LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
  * the behaviour of a script is none that can be laid out. */
 LMN_API char *lmn_scene_dynamics_json(const lmn_scene *scene);
 
-/* The version of OpenCASCADE, which STEP files are read with; free with lmn_text_free. NULL when it is not installed, or
- * memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
+/* The version of OpenCASCADE, which STEP files are read with; free with lmn_text_free. NULL when it is not installed,
+ * or memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
 LMN_API char *lmn_step_version(void);
 
 /* Frees text that Limner returned. NULL is accepted. */

@@ -360,8 +360,7 @@ static lmn_status read_step(const import_job *job, lmn_error *error)
     const request_head head = {job->desc ? job->desc->deflection : 0, most ? most : LIMIT_TRIANGLES};
     fence_put(&request, &head, sizeof head);
     fence_put(&request, job->file->data, job->file->size);
-    lmn_status status =
-        fence_call_prepared(&answer, answer_step, step_prepare, "the reader of STEP", &request, error);
+    lmn_status status = fence_call_prepared(&answer, answer_step, step_prepare, "the reader of STEP", &request, error);
     mem_free(request.bytes);
     if (status == LMN_OK)
         status = import_progress(job, 0.7, "reading", error);

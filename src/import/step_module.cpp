@@ -1,5 +1,5 @@
-// OpenCASCADE for C: STEP to meshes, edges and a tree. No exception leaves this file, and nothing of it is linked with the
-// library: it is a module that the fenced child loads (step_library.c).
+// OpenCASCADE for C: STEP to meshes, edges and a tree. No exception leaves this file, and nothing of it is linked with
+// the library: it is a module that the fenced child loads (step_library.c).
 #include "import/step_module.h"
 
 #include <algorithm>
@@ -54,22 +54,23 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 
-namespace {
+namespace
+{
 
-// Chords of a part, of its diagonal, when nothing else is asked for; and the finest that are made of it, so that a mistaken
-// unit does not take all memory.
+// Chords of a part, of its diagonal, when nothing else is asked for; and the finest that are made of it, so that a
+// mistaken unit does not take all memory.
 constexpr double USUAL_CHORD = 1.0 / 2000, FINEST_CHORD = 1e-6;
 // Two chords of a curve turn by no more, radians: small holes are round, too.
 constexpr double CHORD_TURN = 0.25;
 // Faces that turn by less along an edge go on smoothly into each other: cosine of 1 degree.
 constexpr double SMOOTH = 0.99985;
-// They are one surface when their curvatures differ by no more than this share of them; or of the part's size, below which
-// a surface is flat.
+// They are one surface when their curvatures differ by no more than this share of them; or of the part's size, below
+// which a surface is flat.
 constexpr double SAME_CURVATURE = 0.02, FLAT = 1e-3;
 // A part so far from its origin, of its diagonal, is moved there and its node back: coordinates are single precision.
 constexpr double FAR = 16;
 // A triangle has no area when it is less than this, of the square of the part's diagonal.
-constexpr double NO_AREA = 1e-14;
+constexpr double   NO_AREA = 1e-14;
 constexpr unsigned DEEPEST = 512;
 
 struct Failure {
@@ -97,7 +98,10 @@ struct Group {
     std::vector<float>    positions, normals;
     std::vector<uint32_t> indices;
     std::vector<uint8_t>  edges;
-    uint32_t              vertices() const { return static_cast<uint32_t>(positions.size() / 3); }
+    uint32_t              vertices() const
+    {
+        return static_cast<uint32_t>(positions.size() / 3);
+    }
 };
 
 struct Lines {
@@ -110,28 +114,40 @@ struct Mesh {
     std::map<Colour, Group> groups;
     Lines                   lines;
     double                  origin[3] = {0, 0, 0};
-    bool                    empty() const { return groups.empty() && lines.pairs.empty(); }
+    bool                    empty() const
+    {
+        return groups.empty() && lines.pairs.empty();
+    }
 };
 
 // --- putting -----------------------------------------------------------------------------------------------
 
-class Answer {
-public:
-    Answer(step_put_fn put, void *to) : put_(put), to_(to) {}
+class Answer
+{
+  public:
+    Answer(step_put_fn put, void *to) : put_(put), to_(to)
+    {
+    }
     void bytes(const void *from, size_t size) const
     {
         if (size && !put_(to_, from, size))
             throw std::bad_alloc();
     }
-    void number(uint32_t value) const { bytes(&value, sizeof value); }
+    void number(uint32_t value) const
+    {
+        bytes(&value, sizeof value);
+    }
     void text(const std::string &s) const
     {
         number(static_cast<uint32_t>(s.size()));
         bytes(s.data(), s.size());
     }
-    template <typename T> void array(const std::vector<T> &v) const { bytes(v.data(), v.size() * sizeof(T)); }
+    template <typename T> void array(const std::vector<T> &v) const
+    {
+        bytes(v.data(), v.size() * sizeof(T));
+    }
 
-private:
+  private:
     step_put_fn put_;
     void       *to_;
 };
@@ -168,11 +184,11 @@ void put_node(const Answer &a, const Node &n)
 
 // A face as it lies in its part.
 struct Faced {
-    TopoDS_Face                face;
+    TopoDS_Face face;
     Handle(Poly_Triangulation) triangles;
-    TopLoc_Location            location;
-    std::vector<gp_Dir>        normals; // of the nodes, outwards
-    std::vector<bool>          known;   // those that the surface has: a cone has none at its tip
+    TopLoc_Location     location;
+    std::vector<gp_Dir> normals; // of the nodes, outwards
+    std::vector<bool>   known;   // those that the surface has: a cone has none at its tip
     // Pairs of nodes that lie along an edge, and what it is.
     std::unordered_map<uint64_t, step_edge> along;
 };
@@ -184,9 +200,9 @@ uint64_t pair_of(int a, int b)
 
 void find_normals(Faced &f)
 {
-    const int            count = f.triangles->NbNodes();
+    const int count = f.triangles->NbNodes();
     Handle(Geom_Surface) surface = BRep_Tool::Surface(f.face);
-    const bool           inside_out = f.face.Orientation() == TopAbs_REVERSED;
+    const bool inside_out = f.face.Orientation() == TopAbs_REVERSED;
     f.normals.assign(static_cast<size_t>(count) + 1, gp_Dir(0, 0, 1));
     f.known.assign(static_cast<size_t>(count) + 1, false);
     if (surface.IsNull() || !f.triangles->HasUVNodes())
@@ -205,12 +221,18 @@ gp_Pnt point_of(const Faced &f, int node)
     return f.triangles->Node(node).Transformed(f.location);
 }
 
-class Mesher {
-public:
-    Mesher(double deflection, uint64_t most) : deflection_(deflection), left_(most) {}
+class Mesher
+{
+  public:
+    Mesher(double deflection, uint64_t most) : deflection_(deflection), left_(most)
+    {
+    }
 
     // By how much larger chords became than they should be.
-    double coarser() const { return coarser_; }
+    double coarser() const
+    {
+        return coarser_;
+    }
 
     // `colour_of` tells a face's colour; shapes are tessellated once, however often they are used.
     template <typename ColourOf> Mesh mesh_of(const TopoDS_Shape &shape, ColourOf colour_of)
@@ -241,7 +263,7 @@ public:
         return mesh;
     }
 
-private:
+  private:
     static void choose_origin(Mesh &mesh, const Bnd_Box &box, double diagonal)
     {
         gp_XYZ middle = (box.CornerMin().XYZ() + box.CornerMax().XYZ()) / 2;
@@ -324,7 +346,7 @@ private:
 
     // An edge on one side of it: the face and its nodes along the edge.
     struct Side {
-        Faced                              *face;
+        Faced *face;
         Handle(Poly_PolygonOnTriangulation) polygon;
     };
 
@@ -333,7 +355,7 @@ private:
         std::vector<Side>          sides;
         TopTools_IndexedMapOfShape seen;
         for (const TopoDS_Shape &shape : faces) {
-            const int number = index_.FindIndex(shape);
+            const int  number = index_.FindIndex(shape);
             const auto found = faces_.find(number);
             if (found == faces_.end() || seen.Contains(shape))
                 continue;
@@ -342,8 +364,7 @@ private:
             // A seam has its face on both sides; the other one's nodes are those of the edge turned round.
             const bool closed = BRep_Tool::IsClosed(edge, f.face);
             for (int k = 0; k < (closed ? 2 : 1); k++) {
-                const TopoDS_Edge side =
-                    k ? TopoDS::Edge(edge.Reversed()) : edge;
+                const TopoDS_Edge side = k ? TopoDS::Edge(edge.Reversed()) : edge;
                 Handle(Poly_PolygonOnTriangulation) polygon =
                     BRep_Tool::PolygonOnTriangulation(side, f.triangles, f.location);
                 if (!polygon.IsNull() && polygon->NbNodes() > 1)
@@ -511,11 +532,13 @@ void matrix_of(const TopLoc_Location &location, double out[16])
             out[4 * column + row] = row < 3 ? t.Value(row + 1, column + 1) : column == 3;
 }
 
-class Tree {
-public:
+class Tree
+{
+  public:
     Tree(const Handle(TDocStd_Document) & document, const step_request &request)
         : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
-          colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())), mesher_(request.deflection, request.most_triangles)
+          colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
+          mesher_(request.deflection, request.most_triangles)
     {
     }
 
@@ -540,9 +563,12 @@ public:
             put_node(a, n);
     }
 
-    bool empty() const { return meshes_.empty(); }
+    bool empty() const
+    {
+        return meshes_.empty();
+    }
 
-private:
+  private:
     uint32_t add_node(uint32_t parent, const std::string &name, const TopLoc_Location &location)
     {
         Node n = {parent, STEP_NONE, name, {}};
@@ -573,10 +599,10 @@ private:
             if (!XCAFDoc_ShapeTool::GetReferredShape(label, of))
                 return;
         }
-        std::string  name = instance ? text_of(label) : "";
-        const Colour own = instance ? colour_of_label(*colours_, label) : Colour();
-        const Colour made = colour_of_label(*colours_, of);
-        const Colour inherited = own.there ? own : made.there ? made : above;
+        std::string       name = instance ? text_of(label) : "";
+        const Colour      own = instance ? colour_of_label(*colours_, label) : Colour();
+        const Colour      made = colour_of_label(*colours_, of);
+        const Colour      inherited = own.there ? own : made.there ? made : above;
         const std::string product = text_of(of);
         if (is_made_up(name))
             name = product;
@@ -609,8 +635,7 @@ private:
             TDF_Label         sub;
             const std::string found = shapes_->FindSubShape(label, solids(i), sub) ? text_of(sub) : "";
             const std::string own = is_made_up(found) ? name : found;
-            draw(label, i, solids(i), add_node(node, own, TopLoc_Location()), own,
-                 colour_of(label, solids(i), colour));
+            draw(label, i, solids(i), add_node(node, own, TopLoc_Location()), own, colour_of(label, solids(i), colour));
         }
     }
 
@@ -631,7 +656,7 @@ private:
         const auto key = std::make_tuple(std::string(entry.ToCString()), piece, colour);
         auto       found = made_.find(key);
         if (found == made_.end()) {
-            Mesh mesh = mesher_.mesh_of(shape, [&](const TopoDS_Face &f) { return colour_of(label, f, colour); });
+            Mesh     mesh = mesher_.mesh_of(shape, [&](const TopoDS_Face &f) { return colour_of(label, f, colour); });
             uint32_t number = STEP_NONE;
             mesh.name = name;
             if (!mesh.empty()) {
@@ -646,17 +671,18 @@ private:
 
     Handle(XCAFDoc_ShapeTool) shapes_;
     Handle(XCAFDoc_ColorTool) colours_;
-    Mesher                    mesher_;
-    std::vector<Mesh>         meshes_;
-    std::vector<Node>         nodes_;
+    Mesher                                                   mesher_;
+    std::vector<Mesh>                                        meshes_;
+    std::vector<Node>                                        nodes_;
     std::map<std::tuple<std::string, int, Colour>, uint32_t> made_; // to meshes
 };
 
 // --- the whole ---------------------------------------------------------------------------------------------
 
 // Bytes as a stream, without a copy.
-class Bytes : public std::streambuf {
-public:
+class Bytes : public std::streambuf
+{
+  public:
     Bytes(const unsigned char *bytes, size_t size)
     {
         char *at = const_cast<char *>(reinterpret_cast<const char *>(bytes));
@@ -691,9 +717,9 @@ std::string unit_of(STEPCAFControl_Reader &reader)
 
 void read_all(const step_request &request, const Answer &answer)
 {
-    Bytes                    bytes(request.bytes, request.size);
-    std::istream             stream(&bytes);
-    STEPCAFControl_Reader    reader;
+    Bytes                 bytes(request.bytes, request.size);
+    std::istream          stream(&bytes);
+    STEPCAFControl_Reader reader;
     Handle(TDocStd_Document) document = new_document();
     reader.SetColorMode(true);
     reader.SetNameMode(true);
@@ -733,5 +759,5 @@ step_result read(const step_request *request, step_put_fn put, void *to, char *m
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const step_module limner_step_module = {
-    STEP_INTERFACE, OCC_VERSION_COMPLETE, prepare, read};
+extern "C" __attribute__((visibility("default")))
+const step_module limner_step_module = {STEP_INTERFACE, OCC_VERSION_COMPLETE, prepare, read};

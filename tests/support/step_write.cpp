@@ -40,12 +40,13 @@
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 
-namespace {
+namespace
+{
 
 constexpr double INCH = 25.4;
 
 struct Model {
-    Handle(TDocStd_Document)  document;
+    Handle(TDocStd_Document) document;
     Handle(XCAFDoc_ShapeTool) shapes;
     Handle(XCAFDoc_ColorTool) colours;
     Model()
@@ -142,9 +143,9 @@ bool step_write_bracket(const char *path, step_truth *out)
             fillet.Add(4.0, TopoDS::Edge(at.Current()));
             break;
         }
-    Model              m;
-    TopoDS_Shape       whole = TopExp_Explorer(fillet.Shape(), TopAbs_SOLID).Current();
-    const TDF_Label    label = m.shapes->AddShape(whole, false);
+    Model           m;
+    TopoDS_Shape    whole = TopExp_Explorer(fillet.Shape(), TopAbs_SOLID).Current();
+    const TDF_Label label = m.shapes->AddShape(whole, false);
     TDataStd_Name::Set(label, "bracket");
     for (TopExp_Explorer at(whole, TopAbs_FACE); at.More(); at.Next()) {
         Bnd_Box box;
@@ -203,11 +204,11 @@ bool step_write_loose(const char *path)
 
 bool step_write_halves(const char *path, double height)
 {
-    Model                    m;
-    const TopoDS_Shape       left = BRepPrimAPI_MakeCylinder(gp_Ax2(), 5, height, std::acos(-1.0)).Shape();
-    gp_Trsf                  turn;
+    Model              m;
+    const TopoDS_Shape left = BRepPrimAPI_MakeCylinder(gp_Ax2(), 5, height, std::acos(-1.0)).Shape();
+    gp_Trsf            turn;
     turn.SetRotation(gp_Ax1(), std::acos(-1.0));
-    const TopoDS_Shape       right = left.Moved(TopLoc_Location(turn));
+    const TopoDS_Shape right = left.Moved(TopLoc_Location(turn));
     TDataStd_Name::Set(m.shapes->AddShape(BRepAlgoAPI_Fuse(left, right).Shape(), false), "halves");
     return m.write(path, "MM");
 }

@@ -12,10 +12,10 @@ extern "C" {
 enum { STEP_WRITE_POINTS = 20000 };
 
 typedef struct step_truth {
-    double volume, area;     /* mm³, mm² */
-    double low[3], high[3];  /* mm */
-    size_t edges;            /* of the solid, without seams */
-    size_t point_count;      /* points on these edges, three numbers each */
+    double volume, area;    /* mm³, mm² */
+    double low[3], high[3]; /* mm */
+    size_t edges;           /* of the solid, without seams */
+    size_t point_count;     /* points on these edges, three numbers each */
     double points[3 * STEP_WRITE_POINTS];
 } step_truth;
 
@@ -26,9 +26,9 @@ typedef struct step_truth {
 
 /* An angle with a hole and a fillet, of faces without colour but for the red one that is low in z; in millimetres. */
 bool step_write_bracket(const char *path, step_truth *out);
-/* In inches: "stand", an assembly of "plate" (grey 0.5 sRGB, 2 × 2 × 0.25 in), two "pin" (blue, 0.5 in wide, 1 in high),
- * "left pin" at (0.5, 1, 0.25) in and "right pin" at (1.5, 1, 0.25) in, the right one red and turned by 90° about x, and a
- * group "inner" that has a third pin, without a name, at (0, 0, 2) in. */
+/* In inches: "stand", an assembly of "plate" (grey 0.5 sRGB, 2 × 2 × 0.25 in), two "pin" (blue, 0.5 in wide, 1 in
+ * high), "left pin" at (0.5, 1, 0.25) in and "right pin" at (1.5, 1, 0.25) in, the right one red and turned by 90°
+ * about x, and a group "inner" that has a third pin, without a name, at (0, 0, 2) in. */
 bool step_write_assembly(const char *path);
 /* Two boxes in one part without names of their own, and a wire that bounds no face. */
 bool step_write_loose(const char *path);

@@ -137,9 +137,9 @@ static void without_the_library_it_says_so(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed), cmocka_unit_test(answers_may_be_anything),
-                                       cmocka_unit_test(ifc_is_not_taken_for_step),
-                                       cmocka_unit_test(without_the_library_it_says_so)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(answers_are_not_believed), cmocka_unit_test(answers_may_be_anything),
+        cmocka_unit_test(ifc_is_not_taken_for_step), cmocka_unit_test(without_the_library_it_says_so)};
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
 
@@ -270,14 +270,16 @@ static void every_edge_is_a_line(void **state)
             }
             stray = fmax(stray, least);
         }
-    print_message("%d edges, farthest from a line %.4f, of lines from an edge %.4f\n", (int)bracket.edges, worst, stray);
+    print_message("%d edges, farthest from a line %.4f, of lines from an edge %.4f\n", (int)bracket.edges, worst,
+                  stray);
     assert_true(bracket.edges >= 20);
     assert_true(worst <= deflection + 1e-4);
     assert_true(stray <= 0.01); /* the chords of the points that are compared with: 6 mm · (1 - cos 1.8°) */
     lmn_scene_destroy(&s);
 }
 
-/* Faces that are one surface cut in two, as writers make of cylinders, have no line between them, but round their ends. */
+/* Faces that are one surface cut in two, as writers make of cylinders, have no line between them, but round their ends.
+ */
 static void halves_are_one_surface(void **state)
 {
     (void)state;
@@ -513,9 +515,9 @@ static void damaged_files_are_errors(void **state)
 static void missing_references_are_no_crash(void **state)
 {
     (void)state;
-    file_data f = read_whole(stand_path);
-    lmn_error error;
-    char     *text = malloc(f.size + 1);
+    file_data  f = read_whole(stand_path);
+    lmn_error  error;
+    char      *text = malloc(f.size + 1);
     lmn_limits limits = lmn_limits_standard();
     limits.time_s = 2;
     memcpy(text, f.data, f.size);
@@ -594,15 +596,22 @@ static void deflections_are_checked(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_are_not_believed), cmocka_unit_test(answers_may_be_anything),       cmocka_unit_test(ifc_is_not_taken_for_step),
-        cmocka_unit_test(solids_are_as_large_as_they_are), cmocka_unit_test(every_edge_is_a_line),
-        cmocka_unit_test(halves_are_one_surface),
-        cmocka_unit_test(triangles_know_their_edges),     cmocka_unit_test(normals_are_those_of_surfaces),
-        cmocka_unit_test(faces_have_their_colours),       cmocka_unit_test(assemblies_keep_their_tree),
-        cmocka_unit_test(solids_and_wires_are_parts),     cmocka_unit_test(damaged_files_are_errors),
-        cmocka_unit_test(missing_references_are_no_crash), cmocka_unit_test(reading_can_be_stopped),
-        cmocka_unit_test(limits_hold),                    cmocka_unit_test(deflections_are_checked)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed),
+                                       cmocka_unit_test(answers_may_be_anything),
+                                       cmocka_unit_test(ifc_is_not_taken_for_step),
+                                       cmocka_unit_test(solids_are_as_large_as_they_are),
+                                       cmocka_unit_test(every_edge_is_a_line),
+                                       cmocka_unit_test(halves_are_one_surface),
+                                       cmocka_unit_test(triangles_know_their_edges),
+                                       cmocka_unit_test(normals_are_those_of_surfaces),
+                                       cmocka_unit_test(faces_have_their_colours),
+                                       cmocka_unit_test(assemblies_keep_their_tree),
+                                       cmocka_unit_test(solids_and_wires_are_parts),
+                                       cmocka_unit_test(damaged_files_are_errors),
+                                       cmocka_unit_test(missing_references_are_no_crash),
+                                       cmocka_unit_test(reading_can_be_stopped),
+                                       cmocka_unit_test(limits_hold),
+                                       cmocka_unit_test(deflections_are_checked)};
     return cmocka_run_group_tests(tests, write_files, remove_temp_folder);
 }
 

@@ -477,7 +477,8 @@ CALL(lmn_scene_info_json)
 }
 CALL(lmn_step_version)
 {
-    return freed(w->null ? NULL : lmn_step_version());
+    lmn_text_free(lmn_step_version()); /* NULL where OpenCASCADE is not */
+    return neutral(w->null != 0);
 }
 CALL(lmn_scene_dynamics_json)
 {
