@@ -1,10 +1,13 @@
 /* What telling takes, as library calls: a scene of 100 balls whose 1,000 activities are made and laid out by calls, and
  * 100 expressions of them, without texts, with 25 noises that are set for the first time, and told again with these.
- * depict [REPEAT] prints the least CPU milliseconds of each. */
+ * Then, of models that are named, a drawing alone and a still, each of a scene that no one has drawn before, by a
+ * renderer that has its programs: without the start of process and driver, with all that a picture needs.
+ * depict [REPEAT [LOOK MODEL:SECONDS...]] prints the least CPU milliseconds of each, of all threads. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "limner/limner.h"
@@ -125,10 +128,75 @@ static double tell(lmn_scene *scene, const lmn_draw_desc *draw, const char *expr
     return fmin(now_ms() - begin, least);
 }
 
-int main(int count, char **arguments)
+typedef struct still_cost {
+    double alone, told, drawn; /* least ms */
+} still_cost;
+
+/* Of the time since `*from`, what is less than before. */
+static void take_time(double *least, double *from)
+{
+    const double now = now_ms();
+    *least = fmin(*least, now - *from);
+    *from = now;
+}
+
+static void measure_once(still_cost *out, lmn_renderer *renderer, const lmn_look *look, const char *path,
+                         const lmn_draw_desc *desc)
+{
+    lmn_error error = {0};
+    for (int still = 0; still < 2; still++) {
+        lmn_scene   *scene = NULL;
+        lmn_drawing *drawing = NULL;
+        check(lmn_scene_create(&scene, &error), &error);
+        check(lmn_scene_add_file(scene, path, NULL, &error), &error);
+        double begin = now_ms();
+        if (still) {
+            lmn_depict_desc told = LMN_DEPICT_DESC_INIT;
+            check(lmn_depict(scene, desc, &told, NULL, &error), &error);
+            take_time(&out->told, &begin);
+        }
+        check(lmn_draw(&drawing, renderer, scene, look, desc, &error), &error);
+        take_time(still ? &out->drawn : &out->alone, &begin);
+        lmn_drawing_destroy(&drawing);
+        lmn_scene_destroy(&scene);
+    }
+}
+
+/* `name` is MODEL:SECONDS. */
+static void measure_still(lmn_renderer *renderer, const lmn_look *look, const char *name, int repeat)
+{
+    char          path[256];
+    const char   *colon = strrchr(name, ':');
+    still_cost    cost = {INFINITY, INFINITY, INFINITY};
+    lmn_draw_desc desc = LMN_DRAW_DESC_INIT;
+    snprintf(path, sizeof path, "%.*s", colon ? (int)(colon - name) : (int)strlen(name), name);
+    desc.time_given = true;
+    desc.time_s = colon ? atof(colon + 1) : 0;
+    for (int i = -1; i < repeat; i++) { /* the first one makes the programs */
+        measure_once(&cost, renderer, look, path, &desc);
+        if (i < 0)
+            cost = (still_cost){INFINITY, INFINITY, INFINITY};
+    }
+    printf("%-32s alone %6.1f ms, still %6.1f ms (told %.1f, drawn %.1f): %.2f times\n", path, cost.alone,
+           cost.told + cost.drawn, cost.told, cost.drawn, (cost.told + cost.drawn) / cost.alone);
+}
+
+static void measure_stills(int count, char **arguments, int repeat)
+{
+    lmn_error     error = {0};
+    lmn_renderer *renderer = NULL;
+    lmn_look     *look = NULL;
+    check(lmn_renderer_create(&renderer, NULL, &error), &error);
+    check(lmn_look_load(&look, arguments[0], &error), &error);
+    for (int i = 1; i < count; i++)
+        measure_still(renderer, look, arguments[i], repeat);
+    lmn_look_destroy(&look);
+    lmn_renderer_destroy(&renderer);
+}
+
+static void measure_expressions(int repeat)
 {
     static char   expressions[BALLS * 128], noisy[BALLS * 128];
-    int           repeat = count > 1 ? atoi(arguments[1]) : 10;
     lmn_error     error = {0};
     lmn_draw_desc draw = LMN_DRAW_DESC_INIT;
     double        least = INFINITY, made = INFINITY, told = INFINITY, first = INFINITY, again = INFINITY;
@@ -152,5 +220,14 @@ int main(int count, char **arguments)
            "  with 25 new noises:               %.1f ms\n  told again with these:            %.1f ms\n"
            "what happens as JSON:               %.1f ms\n",
            made, least, first, again, told);
+}
+
+int main(int count, char **arguments)
+{
+    const int repeat = count > 1 ? atoi(arguments[1]) : 10;
+    if (count > 3)
+        measure_stills(count - 2, arguments + 2, repeat);
+    else
+        measure_expressions(repeat);
     return 0;
 }

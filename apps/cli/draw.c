@@ -210,6 +210,8 @@ static lmn_status draw_sheet(draw_session *s, const lmn_scene *scene, lmn_sheet 
     d.lines_only = !s->format.pictures;
     d.fill = v->fill;
     d.verify = v->verify;
+    if (v->smooth.given)
+        d.smooth = v->smooth.value;
     return lmn_draw_sheet(out, s->renderer, scene, s->look, &s->desc, &d, error);
 }
 

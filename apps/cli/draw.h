@@ -15,7 +15,7 @@ typedef struct draw_values {
     const char      *page, *scale, *unit, *views, *title;
     word_list        sets;
     option_size      size;
-    option_number    time, seed, samples, dpi;
+    option_number    time, seed, samples, dpi, smooth;
     int              up_axis, angle, perspective; /* perspective: 0 that of a camera, else lmn_projection + 1 */
     option_number    bend, bend_from, bend_to, horizon;
     const char      *lod, *terrain;

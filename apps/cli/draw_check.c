@@ -131,7 +131,8 @@ static int check_vectors(const draw_session *s)
         bool        given;
     } sheet_only[] = {{"scale", v->scale != NULL},   {"unit", v->unit != NULL},   {"views", v->views != NULL},
                       {"projection", v->angle >= 0}, {"title", v->title != NULL}, {"frame", v->frame},
-                      {"plotter", v->plotter},       {"fill", v->fill},           {"verify", v->verify}};
+                      {"plotter", v->plotter},       {"fill", v->fill},           {"verify", v->verify},
+                      {"smooth", v->smooth.given}};
     char list[FORMAT_LIST_SIZE];
     for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)
         if (sheet_only[i].given)

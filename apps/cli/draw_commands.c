@@ -109,6 +109,11 @@ static const option options[] = {
      "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},
     {"fill", 0, OPTION_FLAG, AT(fill), NULL,
      "Fill parts of vector drawings with their colour instead of a picture below the lines."},
+    {"smooth", 0, OPTION_NUMBER, AT(smooth), "ERROR",
+     "Of vector drawings: lines become straight lines, arcs and cubics that are nowhere farther from them than this, "
+     "in "
+     "mm of paper; 0 leaves polylines. Default: 0.02mm.",
+     0, 10, .unit = "mm"},
     {"verify", 0, OPTION_FLAG, AT(verify), NULL,
      "Check the visibility of a vector drawing's lines by casting rays; the report has the result."},
     {"aov", 0, OPTION_TEXT, AT(maps), "DIR",

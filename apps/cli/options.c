@@ -118,13 +118,15 @@ static int set_number(const option *o, const char *value, option_number *out)
 {
     char        allowed[96];
     const char *end = parse_number(value, &out->value);
+    if (end && o->unit && strcmp(end, o->unit) == 0)
+        end += strlen(end);
     if (end && *end == '\0' && out->value >= o->min && out->value <= o->max &&
         (o->type == OPTION_NUMBER || out->value == floor(out->value))) {
         out->given = true;
         return 0;
     }
-    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g", o->type == OPTION_WHOLE ? "whole " : "", o->min,
-             o->max);
+    snprintf(allowed, sizeof allowed, "a %snumber from %.10g to %.10g%s%s", o->type == OPTION_WHOLE ? "whole " : "",
+             o->min, o->max, o->unit ? " " : "", o->unit ? o->unit : "");
     return wrong_value(o, value, allowed);
 }
 

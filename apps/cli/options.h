@@ -45,6 +45,7 @@ typedef struct option {
     const char        *doc;
     double             min, max;
     const char *const *choices;                /* NULL-terminated */
+    const char        *unit;                   /* that may stand behind a number; NULL: none */
     void (*write_doc)(char *out, size_t size); /* instead of `doc`, where it lists what the library knows; NULL: none */
 } option;
 

@@ -31,12 +31,14 @@ typedef struct lmn_sheet_desc {
     bool        plotter; /* lines alone, by pen, in an order that makes the pen's way short */
     bool
         lines_only; /* lines alone, by their middle: no pictures, no outlines of strokes. For DXF; plotter implies it */
-    bool fill;      /* the area of each part in its colour, below the lines */
-    bool verify;    /* check visibility of all strokes by casting rays; the report has the result */
+    bool   fill;    /* the area of each part in its colour, below the lines */
+    bool   verify;  /* check visibility of all strokes by casting rays; the report has the result */
+    double smooth;  /* mm: lines are drawn as straight lines, arcs and cubics that are nowhere farther from them than
+                       this, 0 to 10; 0: as polylines. Since 0.1 */
 } lmn_sheet_desc;
 #define LMN_SHEET_DESC_INIT                                                                                            \
     {                                                                                                                  \
-        sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false       \
+        sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false, 0.02 \
     }
 
 /* Do the look's surfaces need pixels, which lie below the lines as a picture? When not, lmn_draw_sheet needs no

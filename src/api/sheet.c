@@ -34,6 +34,8 @@ static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lm
     lmn_status status = desc_complete_given(full, sizeof *full, given, "LMN_SHEET_DESC_INIT", error);
     if (status == LMN_OK && ((int)full->angle < 0 || full->angle > LMN_FIRST_ANGLE))
         return error_set(error, LMN_USAGE, "lmn_draw_sheet: there is no angle %d", (int)full->angle);
+    if (status == LMN_OK && !(full->smooth >= 0 && full->smooth <= 10))
+        return error_set(error, LMN_USAGE, "lmn_draw_sheet: smooth is %g mm; it is 0 to 10", full->smooth);
     return status;
 }
 

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/file_store.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -38,6 +39,16 @@ uint64_t store_hash(const void *bytes, size_t size)
     uint64_t             hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ at[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+uint64_t store_hash_of_file(const char *path)
+{
+    file_data file;
+    if (file_load(&file, path, NULL) != LMN_OK)
+        return 0;
+    uint64_t hash = store_hash(file.data, file.size);
+    file_data_release(&file);
     return hash;
 }
 

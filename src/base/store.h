@@ -6,6 +6,9 @@
 
 /* FNV-1a. Each step can be undone, so that no single changed byte goes unnoticed. */
 uint64_t store_hash(const void *bytes, size_t size);
+/* The same of a file's content, so that what was made from it is found again for as long as it is the same; 0 when it
+ * cannot be read. */
+uint64_t store_hash_of_file(const char *path);
 
 /* Reads what was kept under this description (any text, all that decides the content, with a version). False when
  * there is nothing, or when it is damaged, of another description with the same hash, or unreadable: then it is

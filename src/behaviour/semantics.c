@@ -112,10 +112,22 @@ static bool has_its_shape(const lmn_scene *scene, const node *n, const char *sem
     return strcmp(semantics, "plane") != 0 || !is_flat(scene, n);
 }
 
+/* Of two nouns the last one says what a thing is: a head lamp is a lamp, an arm rest is a rest. */
+static bool is_of_another(const char *name)
+{
+    static const char *const things[] = {"lamp",  "lamps",  "light", "lights", "rest",  "rests",
+                                         "rail",  "handle", "bolt",  "arch",   "phone", "phones",
+                                         "board", "band",   "brake", "cover",  "frame", "mark"};
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++)
+        if (has_word(name, things[i]))
+            return true;
+    return false;
+}
+
 /* What its name says, where its shape does not deny it; NULL: nothing. */
 static const char *meaning_of_name(const lmn_scene *scene, const node *n)
 {
-    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings; i++)
+    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings && !is_of_another(n->name); i++)
         if (has_word(n->name, meanings[i].word) && has_its_shape(scene, n, meanings[i].semantics))
             return meanings[i].semantics;
     return NULL;

@@ -121,6 +121,6 @@ void main()
     vec4 colour = ink + fill * (fill_fraction() * (1.0 - ink.a));
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
-    out_0 = colour * u_rear;
+    out_0 = colour * (u_rear * (1.0 - u_ghost.a));
     gl_FragDepth = max(depth - u_forward, 0.0);
 }

@@ -17,7 +17,7 @@ float neighbour_depth(ivec2 pixel)
     float extent = 0.5 * u_line_width + 1.7; /* rims are soft, and edges up to a pixel off what has depth */
 #if CONTRAST == 1
     extent += max(abs(u_line_offset_x), abs(u_line_offset_y));
-#elif CONTRAST == 3
+#elif CONTRAST >= 3
     extent += max(u_line_width, 1.0);
 #endif
 #ifdef PERTURBED

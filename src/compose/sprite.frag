@@ -8,7 +8,10 @@ layout(location = 0) out vec4 out_0;
 /* Parts that other figures draw are here for their edges alone. */
 bool is_own(ivec2 at)
 {
-#ifdef HAS_COMPLEMENT
+#if defined(SHARED_LAYERS)
+    uint surface = texelFetch(t_id, at, 0).g;
+    return (surface & SURFACE_COMPLEMENT) == 0u && int((surface >> SURFACE_INDEX_BITS) & SURFACE_FIGURE_MASK) == u_figure;
+#elif defined(HAS_COMPLEMENT)
     return (texelFetch(t_id, at, 0).g & SURFACE_COMPLEMENT) == 0u;
 #else
     return true;
@@ -52,15 +55,17 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     find_positions(pixel);
-    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     vec4 ink = vec4(0.0);
 #ifdef PERTURBED
+    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
     depth = depth_around(fill_position());
     vec4 fill = depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
 #else
-    /* Ink of further line techniques is folded into the fill, outside the boundary, too. */
-    vec4 fill = is_own(pixel) ? shade_at(fill_position()) : vec4(0.0);
+    /* Ink of further line techniques is folded into the fill, outside the boundary, too. Here all is looked up at the pixel itself, once. */
+    bool own = is_own(pixel);
+    float fill_depth = own ? texelFetch(t_depth, pixel, 0).r : 1.0, depth = fill_depth;
+    vec4 fill = own ? shade_at(fill_position()) : vec4(0.0);
 #endif
 #ifdef HAS_LINES
 #ifdef MERGED
@@ -71,7 +76,11 @@ void main()
 #else
     for (int i = LINE_COPIES - 1; i >= 0; i--) {
         vec2 position = line_position(i);
+#ifdef PERTURBED
         float line_depth = own_depth(pixel_at(position));
+#else
+        float line_depth = fill_depth;
+#endif
         vec4 own_ink = copy_ink(ink_at(position), i);
 #ifdef PERTURBED
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
@@ -99,6 +108,6 @@ void main()
     vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
-    out_0 = colour;
+    out_0 = vec4(mix(colour.rgb, u_ghost.rgb * colour.a, u_ghost.a), colour.a);
     gl_FragDepth = depth;
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "depict/page.h"
+#include "depict/rounded.h"
 
 /* More cannot be told from a line on any page. */
 enum { DASHES_MOST = 2000 };
@@ -64,38 +65,114 @@ static void put_piece(glyph_mesh *m, const depict_job *j, const course *c, doubl
     mem_free(widths);
 }
 
+/* Straight, as the way's last stretch goes: where it bends, the body leads to its base. */
 static void put_head(glyph_mesh *m, const depict_job *j, const course *c, double base, double end, double width)
 {
     double points[2][3], widths[2] = {2.6 * width, 0};
     course_at(c, base, points[0]);
     course_at(c, end, points[1]);
-    /* Straight on where the way's last bit is too short to say where to. */
     glyph_put_ribbon(m, j, &(glyph_ribbon){(const double(*)[3])points, widths, 2});
+}
+
+/* How long the head must be along the way to be nearly as long as wanted on the page, where the way leads towards the
+ * viewer or away; as wanted where no length helps. */
+static double head_length(const depict_job *j, const course *c, double end, double wanted)
+{
+    const double usual = fmin(wanted, end * 0.6), most = fmin(2.5 * wanted, end * 0.6);
+    double       tip[3], to_eye[3];
+    course_at(c, end, tip);
+    depict_to_eye(j, tip, to_eye);
+    for (double head = usual; head > 0 && head <= most; head *= 1.2) {
+        double base[3];
+        course_at(c, end - head, base);
+        vector3_add(base, base, -1, tip);
+        vector3_add(base, base, -vector3_dot(base, to_eye), to_eye);
+        if (vector3_length(base) >= 0.8 * usual)
+            return head;
+    }
+    return usual;
+}
+
+/* Of the whole arrow: lengths and widths of a run are those of its part. */
+typedef struct arrow_part {
+    double before, whole; /* lengths: of the runs in front of it, of all */
+    bool   last;
+} arrow_part;
+
+/* Dashes, the last of which ends where the body does, so that none is a stub; each as long as the others. */
+static void fit_dashes(const depict_job *j, double body, double *dash, double *step)
+{
+    const double gap = *step - *dash;
+    if (body > DASHES_MOST * *step) { /* nobody could see them */
+        warnings_add(j->warnings, WARNING_UNTOLD, "an arrow would have %.0f dashes; it has %d, which are longer",
+                     body / *step, DASHES_MOST);
+        *dash *= body / DASHES_MOST / *step;
+        *step = body / DASHES_MOST;
+        return;
+    }
+    const double count = fmax(round((body + gap) / *step), 1), factor = (body + gap) / (count * *step);
+    *dash *= factor;
+    *step *= factor;
+}
+
+static void put_run(glyph_mesh *m, const depict_job *j, const course *c, const arrow_style *style,
+                    const arrow_part *part)
+{
+    const double length = course_end(c), end = part->last ? fmax(length - style->short_of, length * 0.3) : length,
+                 head = part->last ? head_length(j, c, end, style->head * style->width) : 0, body = end - head;
+    double       step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
+    const double tail = style->tail * style->width, along = (1 - style->tail) * style->width / part->whole;
+    if (style->dash > 0 && body > 0)
+        fit_dashes(j, body, &dash, &step);
+    for (int i = 0; i < DASHES_MOST && i * step < body * (1 - 1e-9) && step > 0 && !m->failed; i++)
+        put_piece(m, j, c, i * step, fmin(i * step + dash, body), tail + along * part->before,
+                  tail + along * (part->before + length));
+    if (head > 0)
+        put_head(m, j, c, body, end, style->width);
+}
+
+/* The run that gets the head: the last one that has room for it, or the longest. */
+static size_t last_run(const rounded_way *way, const double *lengths, double room)
+{
+    size_t best = 0;
+    double longest = 0;
+    for (size_t r = way->run_count; r-- > 0;) {
+        const rounded_run *run = &way->runs[r];
+        const double       length = run->count ? lengths[run->first + run->count - 1] : 0;
+        if (length >= room)
+            return r;
+        best = length > longest ? r : best;
+        longest = fmax(longest, length);
+    }
+    return best;
 }
 
 void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[3], size_t count,
                      const arrow_style *style)
 {
-    course c = {points, mem_alloc((count + 1) * sizeof(double)), count};
-    m->failed = m->failed || !c.lengths;
-    for (size_t i = 0; i < count && !m->failed; i++)
-        c.lengths[i] = i == 0 ? 0 : c.lengths[i - 1] + vector3_distance(points[i - 1], points[i]);
-    if (!m->failed && count > 1 && course_end(&c) > 0) {
-        double end = fmax(course_end(&c) - style->short_of, course_end(&c) * 0.3);
-        double head = fmin(style->head * style->width, end * 0.6), body = end - head;
-        double step = style->dash > 0 ? style->dash + style->gap : body, dash = style->dash > 0 ? style->dash : body;
-        if (body > DASHES_MOST * step) { /* nobody could see them */
-            warnings_add(j->warnings, WARNING_UNTOLD, "an arrow would have %.0f dashes; it has %d, which are longer",
-                         body / step, DASHES_MOST);
-            dash *= body / DASHES_MOST / step;
-            step = body / DASHES_MOST;
+    rounded_way way;
+    arrow_part  part = {0, 0, false};
+    rounded_make(&way, j, points, count, style->width);
+    double *lengths = mem_alloc((way.point_count + 1) * sizeof *lengths);
+    m->failed = m->failed || way.failed || !lengths;
+    for (size_t r = 0; r < way.run_count && !m->failed; r++)
+        for (size_t k = 0; k < way.runs[r].count; k++) {
+            const size_t i = way.runs[r].first + k;
+            lengths[i] = k == 0 ? 0 : lengths[i - 1] + vector3_distance(way.points[i - 1], way.points[i]);
+            part.whole += k == 0 ? 0 : lengths[i] - lengths[i - 1];
         }
-        for (int i = 0; i < DASHES_MOST && i * step < body && step > 0 && !m->failed; i++)
-            put_piece(m, j, &c, i * step, fmin(i * step + dash, body), style->tail * style->width, style->width);
-        if (head > 0)
-            put_head(m, j, &c, body, end, style->width);
+    const size_t last = m->failed ? 0 : last_run(&way, lengths, 1.5 * style->head * style->width);
+    for (size_t r = 0; r < way.run_count && r <= last && !m->failed; r++) {
+        const rounded_run *run = &way.runs[r];
+        const course       c = {(const double(*)[3])way.points + run->first, lengths + run->first, run->count};
+        part.last = r == last;
+        if (run->count > 1 && course_end(&c) > 0) {
+            put_run(m, j, &c, style, &part);
+            part.before += course_end(&c);
+        }
     }
-    mem_free(c.lengths);
+    mem_free(lengths);
+    rounded_release(&way);
 }
 
 colour depict_tint(glyph_tense when, colour wanted)

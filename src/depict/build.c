@@ -116,20 +116,46 @@ static void ribbon_side(const depict_job *j, const glyph_ribbon *r, size_t i, do
     }
 }
 
+/* Does a triangle look to the viewer, as a ribbon's do that goes on, instead of back over itself? */
+static bool goes_on(const depict_job *j, const glyph_mesh *m, uint32_t a, uint32_t b, const double c[3])
+{
+    const vec3 *p = &m->positions[a], *q = &m->positions[b];
+    double      first[3], second[3], normal[3], to_eye[3];
+    vector3_set(first, (double)q->x - (double)p->x, (double)q->y - (double)p->y, (double)q->z - (double)p->z);
+    vector3_set(second, c[0] - (double)p->x, c[1] - (double)p->y, c[2] - (double)p->z);
+    vector3_cross(normal, first, second);
+    depict_to_eye(j, c, to_eye);
+    return vector3_dot(normal, to_eye) > 0;
+}
+
+static void copy_vertex(const glyph_mesh *m, uint32_t i, double out[3])
+{
+    vector3_set(out, (double)m->positions[i].x, (double)m->positions[i].y, (double)m->positions[i].z);
+}
+
 void glyph_put_ribbon(glyph_mesh *m, const depict_job *j, const glyph_ribbon *r)
 {
     double   side[3];
     uint32_t last[2] = {0, 0};
     vector3_copy(side, j->camera.up);
-    for (size_t i = 0; i < r->count && r->count > 1; i++) {
+    for (size_t i = 0; i < r->count && r->count > 1 && !m->failed; i++) {
         double left[3], right[3];
         ribbon_side(j, r, i, side);
         vector3_add(left, r->points[i], r->widths[i] / 2, side);
         vector3_add(right, r->points[i], -r->widths[i] / 2, side);
-        uint32_t a = glyph_vertex(m, left), b = r->widths[i] > 0 ? glyph_vertex(m, right) : a;
-        if (i > 0 && last[0] != last[1])
+        const bool pointed = !(r->widths[i] > 0), between = i > 0 && !pointed && last[0] != last[1];
+        /* In a bend sharper than it is broad the inner side stays where it is. */
+        const bool left_on = !between || goes_on(j, m, last[0], last[1], left);
+        if (!left_on)
+            copy_vertex(m, last[0], left);
+        uint32_t   a = glyph_vertex(m, left);
+        const bool right_on = m->failed || !between || goes_on(j, m, a, last[1], right);
+        if (!right_on)
+            copy_vertex(m, last[1], right);
+        uint32_t b = pointed ? a : glyph_vertex(m, right);
+        if (i > 0 && last[0] != last[1] && left_on)
             glyph_triangle(m, last[0], last[1], a);
-        if (i > 0 && a != b)
+        if (i > 0 && a != b && right_on)
             glyph_triangle(m, a, last[1], b);
         last[0] = a;
         last[1] = b;

@@ -120,18 +120,27 @@ typedef struct glyph_label {
     colour      tint;
     bool        sketchy; /* to be drawn loosely */
     bool        overlay; /* the picture is not fitted to it */
+    colour      own;     /* its colour there */
+    int         pale;    /* how much paler than other things looks draw it that do not speak of signs, eighths */
 } glyph_label;
 
 typedef struct glyph {
     glyph_mesh  mesh;
     glyph_label label;
+    mat4        world; /* from the mesh to the world */
+    uint64_t    shape; /* not 0: meshes of the same number are the same */
 } glyph;
 
 /* --- put.c: glyphs as content of the scene ------------------------------------------------------------------- */
 
 /* Puts a mesh among the job's glyphs, which take over what it holds; nothing of an empty one. Errors: LMN_MEMORY. */
 lmn_status glyph_put(depict_job *j, glyph_mesh *m, const glyph_label *label, lmn_error *error);
+/* The same of a mesh that lies elsewhere and is, but for its place, that of other glyphs with this shape (not 0). */
+lmn_status glyph_put_placed(depict_job *j, glyph_mesh *m, const mat4 *world, uint64_t shape, const glyph_label *label,
+                            lmn_error *error);
 void       glyphs_release(depict_job *j);
+/* A vertex in the world. */
+vec3 glyph_position(const glyph *g, size_t vertex);
 /* All of the job's glyphs below a node of the scene. Errors: LMN_MEMORY, LMN_LIMIT, LMN_FORMAT. */
 lmn_status glyphs_into_scene(lmn_scene *scene, depict_job *j, int32_t root, lmn_error *error);
 

@@ -56,8 +56,8 @@ static double back_of_panel(const depict_job *j)
     }
     for (size_t i = 0; i < j->glyph_count; i++)
         for (size_t k = 0; k < j->glyphs[i].mesh.position_count; k++) {
-            const vec3  *v = &j->glyphs[i].mesh.positions[k];
-            const double at[3] = {(double)v->x, (double)v->y, (double)v->z};
+            const vec3   v = glyph_position(&j->glyphs[i], k);
+            const double at[3] = {(double)v.x, (double)v.y, (double)v.z};
             nearest = fmin(nearest, page_depth_of(j, at));
         }
     const double far = vector3_distance(j->camera.eye, j->camera.target), least = fmax(0.1 * j->size, 0.1 * far);

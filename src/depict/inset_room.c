@@ -123,7 +123,6 @@ lmn_status inset_place(inset_panel *p, const depict_job *j, inset_corner corner,
                                       [CORNER_BOTTOM_RIGHT] = {1, -1}};
     /* Of corners as good as each other the first one of these. */
     static const inset_corner order[] = {CORNER_TOP_RIGHT, CORNER_TOP_LEFT, CORNER_BOTTOM_RIGHT, CORNER_BOTTOM_LEFT};
-    const mat4                here = mat4_identity();
     ink                       seen = {.job = j};
     lmn_status                status = corner == CORNER_AUTO ? mark_scene(&seen, error) : LMN_OK;
     double                    best = INFINITY;
@@ -131,7 +130,7 @@ lmn_status inset_place(inset_panel *p, const depict_job *j, inset_corner corner,
     seen.weight = 1;
     for (size_t i = 0; i < j->glyph_count && corner == CORNER_AUTO; i++) {
         const glyph_mesh *m = &j->glyphs[i].mesh;
-        mark_mesh(&seen, m->positions, m->indices, m->index_count, &here);
+        mark_mesh(&seen, m->positions, m->indices, m->index_count, &j->glyphs[i].world);
     }
     for (int k = 0; k < 4 && status == LMN_OK; k++) {
         const double *to = sides[corner == CORNER_AUTO ? order[k] : corner];

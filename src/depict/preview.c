@@ -47,6 +47,8 @@ static void put_glyph(preview *out, const glyph *g, size_t i)
                                      .last_child = NONE,
                                      .rotation = {0, 0, 0, 1},
                                      .scale = {1, 1, 1},
+                                     .has_matrix = g->shape != 0,
+                                     .matrix = g->world,
                                      .mesh = (int32_t)s->mesh_count++,
                                      .skin = NONE,
                                      .camera = NONE,

@@ -152,8 +152,10 @@ static lmn_status tell_figure(const proposal *p, const mover *m, double ways, lm
     }
     const bool  far = status == LMN_OK && limb != NONE && length > 0.1 * m->radius;
     expression *e = propose(p, m, "still", "its limbs move, it does not; radii that it goes", ways);
-    /* Where all of it sways, its images hide each other. */
-    set_number(e, "count", far && ways < 0.3 ? 3 : 1);
+    set_number(e, "count", far ? 3 : 1);
+    /* Where all of it sways, its images would hide each other: the limbs are what is told. */
+    if (far)
+        set_number(e, "least", ways < 0.3 ? 0.45 : 0.6);
     if (!e || !far)
         return status;
     e->from = from;

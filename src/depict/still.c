@@ -9,7 +9,7 @@
 
 typedef struct still_values {
     int32_t count;
-    float   stretch, fade, bend;
+    float   stretch, fade, bend, least;
     bool    sketchy;
     colour  colour;
 } still_values;
@@ -22,6 +22,9 @@ static const param still_params[] = {
                     .doc = "How far speed stretches it and impacts flatten it, volume kept; 0: rigid."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
+    PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
+                           "future: of a figure that sways, the limbs that swing are shown."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -35,6 +38,9 @@ static const param plane_params[] = {
                     .doc = "How far wing tips lag behind the acceleration across the way, in radii at the strongest."),
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
+    PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
+                           "future: of a figure that sways, the limbs that swing are shown."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -116,15 +122,19 @@ static void bend_find(shape_change *c, const expression *e, const depict_target 
 /* --- copies ----------------------------------------------------------------------------------------------------------
  */
 
-static colour paler(const lmn_scene *s, const primitive *p, const still_values *v, double fade)
+/* That of the material; of those of past and future another one where somebody gave it. */
+static colour own_colour(const lmn_scene *s, const primitive *p, const still_values *v, bool other_time)
 {
-    colour c = {0.75f, 0.75f, 0.75f, 1};
-    if (p->material != NONE) {
-        const vec4 *own = &s->materials[p->material].base_colour;
-        c = (colour){colour_from_linear(own->x), colour_from_linear(own->y), colour_from_linear(own->z), 1};
-    }
-    if (v->colour.a > 0 && fade > 0)
-        c = v->colour;
+    if (v->colour.a > 0 && other_time)
+        return v->colour;
+    if (p->material == NONE)
+        return (colour){0.75f, 0.75f, 0.75f, 1};
+    const vec4 *own = &s->materials[p->material].base_colour;
+    return (colour){colour_from_linear(own->x), colour_from_linear(own->y), colour_from_linear(own->z), 1};
+}
+
+static colour paler(colour c, double fade)
+{
     c.r += (1 - c.r) * (float)fade;
     c.g += (1 - c.g) * (float)fade;
     c.b += (1 - c.b) * (float)fade;
@@ -187,38 +197,105 @@ typedef struct present {
     float        within; /* what is nearer to it is the same */
 } present;
 
+/* Where a primitive is put that keeps its form, but for what is linear in the change; false: it does not. */
+static bool find_place(mat4 *out, const pose *p, size_t part, size_t instance, const shape_change *c)
+{
+    if (pose_part_deforms(&p->parts[part]) || vector3_length(c->pull) > 0)
+        return false;
+    const mat4 world = pose_instance(p, part, instance);
+    mat4       change = mat4_identity();
+    for (int row = 0; row < 3; row++) {
+        double moved = c->middle[row] + c->shift[row];
+        for (int column = 0; column < 3; column++) {
+            const double e = (row == column ? c->across : 0) + (c->along - c->across) * c->axis[row] * c->axis[column];
+            change.m[4 * column + row] = e;
+            moved -= e * c->middle[column];
+        }
+        change.m[12 + row] = moved;
+    }
+    *out = mat4_multiply(&change, &world);
+    return true;
+}
+
+/* What all ghost images of a primitive have, as it is in its mesh. */
+static bool copy_lists(glyph_mesh *m, const primitive *from)
+{
+    m->indices = from->index_count ? mem_copy(from->indices, from->index_count * sizeof *m->indices) : NULL;
+    m->lines = from->line_count ? mem_copy(from->lines, 2 * (size_t)from->line_count * sizeof *m->lines) : NULL;
+    m->position_count = from->vertex_count;
+    m->index_count = from->index_count;
+    m->line_count = 2 * (size_t)from->line_count;
+    return !((from->index_count && !m->indices) || (from->line_count && !m->lines));
+}
+
+static void turn_triangles(glyph_mesh *m)
+{
+    for (size_t i = 0; i + 2 < m->index_count; i += 3) {
+        const uint32_t kept = m->indices[i];
+        m->indices[i] = m->indices[i + 1];
+        m->indices[i + 1] = kept;
+    }
+}
+
 /* A primitive as it is in a pose. */
-static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_t instance, const primitive *from,
+static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_t instance, size_t number,
                                 const shape_change *change, const present *now, const glyph_label *label,
                                 lmn_error *error)
 {
-    glyph_mesh m = {0};
-    mat4       world = pose_instance(p, part, instance);
-    const bool mirrored = mat4_cofactors(&world, (double[9]){0}) < 0;
-    vec3      *there = now->posed ? mem_alloc((from->vertex_count + 1) * sizeof *there) : NULL;
+    const int32_t    mesh_index = j->scene->nodes[j->scene->parts[part].node].mesh;
+    const primitive *from = &j->scene->meshes[mesh_index].primitives[number];
+    glyph_mesh       m = {0};
+    mat4             world = pose_instance(p, part, instance);
+    const bool       mirrored = mat4_cofactors(&world, (double[9]){0}) < 0;
+    uint64_t         shape = 0;
+    vec3            *there = now->posed ? mem_alloc((from->vertex_count + 1) * sizeof *there) : NULL;
     m.positions = mem_alloc((from->vertex_count + 1) * sizeof *m.positions);
-    m.indices = from->index_count ? mem_copy(from->indices, from->index_count * sizeof *m.indices) : NULL;
-    m.lines = from->line_count ? mem_copy(from->lines, 2 * (size_t)from->line_count * sizeof *m.lines) : NULL;
-    m.failed =
-        !m.positions || (from->index_count && !m.indices) || (from->line_count && !m.lines) || (now->posed && !there);
+    m.failed = !copy_lists(&m, from) || !m.positions || (now->posed && !there);
     if (!m.failed)
         place_vertices(m.positions, p, part, instance, from, change);
     if (!m.failed && there)
         place_vertices(there, now->posed, part, instance, from, &now->change);
-    for (uint32_t i = 0; i + 2 < from->index_count && mirrored && !m.failed; i += 3) {
-        uint32_t kept = m.indices[i];
-        m.indices[i] = m.indices[i + 1];
-        m.indices[i + 1] = kept;
-    }
-    m.position_count = from->vertex_count;
-    m.index_count = from->index_count;
-    m.line_count = 2 * (size_t)from->line_count;
-    if (!m.failed && there && leave_moved(&m, there, now->within))
+    if (!m.failed && there && leave_moved(&m, there, now->within)) {
         step_back(j, &m); /* what is left may lie in faces that are seen now */
+    } else if (!m.failed && find_place(&world, p, part, instance, change)) {
+        memcpy(m.positions, from->positions, from->vertex_count * sizeof *m.positions);
+        shape = ((uint64_t)mesh_index + 1) << 32 | number;
+    }
+    if (mirrored && !shape && !m.failed)
+        turn_triangles(&m);
     mem_free(there);
-    lmn_status status = glyph_put(j, &m, label, error);
+    lmn_status status = glyph_put_placed(j, &m, &world, shape, label, error);
     glyph_mesh_release(&m);
     return status;
+}
+
+/* How far the target's vertex that goes farthest is from where it is now. */
+static lmn_status find_farthest(float *out, const depict_job *j, const depict_target *t, const pose *p,
+                                const shape_change *change, const present *now, lmn_error *error)
+{
+    *out = 0;
+    for (size_t i = 0; i < t->part_count; i++) {
+        const node *n = &j->scene->nodes[j->scene->parts[i].node];
+        const mesh *m = t->parts[i] && n->mesh != NONE ? &j->scene->meshes[n->mesh] : NULL;
+        for (size_t k = 0; m && k < m->primitive_count; k++) {
+            const primitive *from = &m->primitives[k];
+            vec3            *then = mem_alloc((from->vertex_count + 1) * sizeof *then),
+                 *there = mem_alloc((from->vertex_count + 1) * sizeof *there);
+            const bool good = then && there;
+            if (good) {
+                place_vertices(then, p, i, 0, from, change);
+                place_vertices(there, now->posed, i, 0, from, &now->change);
+            }
+            for (uint32_t v = 0; v < from->vertex_count && good; v++)
+                *out = fmaxf(*out, fmaxf(fabsf(then[v].x - there[v].x),
+                                         fmaxf(fabsf(then[v].y - there[v].y), fabsf(then[v].z - there[v].z))));
+            mem_free(then);
+            mem_free(there);
+            if (!good)
+                return error_memory(error);
+        }
+    }
+    return LMN_OK;
 }
 
 static lmn_status put_still(depict_job *j, const expression *e, const depict_target *t, double seconds,
@@ -235,10 +312,19 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                  : seconds < e->now ? GLYPH_PAST
                                                     : GLYPH_FUTURE,
                                  {0}};
-    lmn_status          status = depict_pose(&p, j, seconds, error);
+    /* By looks in ink the nearest ones, too, are to be told from it. */
+    const double pale = apart > 0 ? (double)v->fade * (0.55 + 0.6 * fabs(seconds - e->now) / apart) : 0;
+    label.pale = is_now ? 0 : (int)fmin(fmax(round(pale * PALE_MOST), pale > 0), PALE_MOST);
+    lmn_status status = depict_pose(&p, j, seconds, error);
     now->posed = NULL;
     if (status == LMN_OK && !is_now)
         status = depict_pose(&now->posed, j, e->now, error);
+    const float within = now->within;
+    if (status == LMN_OK && now->posed && v->least > 0) {
+        float farthest;
+        status = find_farthest(&farthest, j, t, p, change, now, error);
+        now->within = fmaxf(within, v->least * farthest);
+    }
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
         const int32_t mesh_index = n->mesh;
@@ -247,10 +333,12 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
         for (size_t k = 0; t->parts[i] && k < pieces * draws && status == LMN_OK; k++) {
             const primitive *from = &j->scene->meshes[mesh_index].primitives[k / draws];
             label.sketchy = v->sketchy;
-            label.tint = paler(j->scene, from, v, is_now ? 0 : fade);
-            status = put_primitive(j, p, i, k % draws, from, change, now, &label, error);
+            label.own = own_colour(j->scene, from, v, !is_now);
+            label.tint = is_now ? label.own : paler(label.own, fade);
+            status = put_primitive(j, p, i, k % draws, k / draws, change, now, &label, error);
         }
     }
+    now->within = within;
     return status;
 }
 

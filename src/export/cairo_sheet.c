@@ -46,9 +46,59 @@ char *cairo_clean_text(const char *words)
     return copy;
 }
 
+int cairo_arc_cubics(const sheet_piece *arc, double out[CAIRO_CUBICS_MOST][6])
+{
+    int    pieces = (int)fmin(fmax(ceil(fabs(arc->sweep) / 1.571), 1), CAIRO_CUBICS_MOST);
+    double step = arc->sweep / pieces, handle = 4.0 / 3 * tan(step / 4);
+    for (int i = 0; i < pieces; i++) {
+        double begin = arc->from + i * step, end = begin + step;
+        double unit[3][2] = {{cos(begin) - handle * sin(begin), sin(begin) + handle * cos(begin)},
+                             {cos(end) + handle * sin(end), sin(end) - handle * cos(end)},
+                             {cos(end), sin(end)}};
+        for (int k = 0; k < 3; k++) {
+            double x = arc->radii[0] * unit[k][0], y = arc->radii[1] * unit[k][1];
+            out[i][2 * k] = arc->centre[0] + cos(arc->turn) * x - sin(arc->turn) * y;
+            out[i][2 * k + 1] = arc->centre[1] + sin(arc->turn) * x + cos(arc->turn) * y;
+        }
+    }
+    memcpy(out[pieces - 1] + 4, arc->end, sizeof arc->end);
+    return pieces;
+}
+
+static void add_arc(cairo_t *c, const sheet_piece *arc)
+{
+    double cubics[CAIRO_CUBICS_MOST][6];
+    for (int i = 0, count = cairo_arc_cubics(arc, cubics); i < count; i++)
+        cairo_curve_to(c, cubics[i][0], cubics[i][1], cubics[i][2], cubics[i][3], cubics[i][4], cubics[i][5]);
+}
+
+static void add_pieces(painter *w, const sheet_path *path)
+{
+    cairo_t     *c = w->context;
+    const float *from = w->s->points[path->first];
+    cairo_move_to(c, (double)from[0], (double)from[1]);
+    for (uint32_t i = 0; i < path->piece_count; i++) {
+        const sheet_piece *p = &w->s->pieces[path->first_piece + i];
+        switch (p->kind) {
+        case SHEET_LINE: cairo_line_to(c, p->end[0], p->end[1]); break;
+        case SHEET_ARC: add_arc(c, p); break;
+        case SHEET_CUBIC:
+            cairo_curve_to(c, p->controls[0][0], p->controls[0][1], p->controls[1][0], p->controls[1][1], p->end[0],
+                           p->end[1]);
+            break;
+        }
+    }
+    if (path->closed || path->filled)
+        cairo_close_path(c);
+}
+
 static void add_path(painter *w, const sheet_path *path, bool dots)
 {
     cairo_t *c = w->context;
+    if (path->piece_count && !dots) {
+        add_pieces(w, path);
+        return;
+    }
     for (uint32_t i = 0; i < path->count; i++) {
         const float *p = w->s->points[path->first + i];
         if (i == 0 || dots)
@@ -60,10 +110,21 @@ static void add_path(painter *w, const sheet_path *path, bool dots)
         cairo_close_path(c);
 }
 
-static bool same_pen(const sheet_path *a, const sheet_path *b)
+bool cairo_same_pen(const sheet_path *a, const sheet_path *b)
 {
-    bool dashes = a->dash > 0 ? a->dash == b->dash && a->gap == b->gap && a->phase == b->phase : !(b->dash > 0);
-    return a->filled == b->filled && a->width == b->width && a->cap == b->cap && dashes;
+    return a == b ||
+           (a->filled == b->filled && a->width == b->width && a->cap == b->cap && !a->dash_count && !b->dash_count);
+}
+
+static void set_dashes(painter *w, const sheet_path *path)
+{
+    double few[64], *lengths = path->dash_count > 64 ? mem_alloc(path->dash_count * sizeof *lengths) : few;
+    w->failed = w->failed || !lengths;
+    for (uint32_t i = 0; lengths && i < path->dash_count; i++)
+        lengths[i] = (double)w->s->dashes[path->first_dash + i];
+    cairo_set_dash(w->context, lengths, lengths ? (int)path->dash_count : 0, (double)path->phase);
+    if (lengths != few)
+        mem_free(lengths);
 }
 
 static void draw_paths(painter *w, const sheet_item *item)
@@ -73,14 +134,13 @@ static void draw_paths(painter *w, const sheet_item *item)
     set_ink(c, item->ink);
     for (uint32_t k = 0; k < item->count;) {
         const sheet_path *first = &w->s->paths[item->first + k];
-        for (; k < item->count && same_pen(first, &w->s->paths[item->first + k]); k++)
+        for (; k < item->count && cairo_same_pen(first, &w->s->paths[item->first + k]); k++)
             add_path(w, &w->s->paths[item->first + k], dots);
         if (first->filled && !dots) {
             cairo_fill(c);
             continue;
         }
-        const double dashes[2] = {(double)first->dash, (double)first->gap};
-        cairo_set_dash(c, dashes, first->dash > 0 && !dots ? 2 : 0, first->dash > 0 ? (double)first->phase : 0);
+        set_dashes(w, first);
         cairo_set_line_cap(c, dots || first->cap == SHEET_CAP_ROUND ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_line_width(c, (double)first->width);
         cairo_stroke(c);
@@ -128,6 +188,67 @@ static PangoLayout *layout_of(cairo_t *c, const char *words, double size)
     pango_layout_set_text(layout, words, -1);
     pango_font_description_free(font);
     return layout;
+}
+
+/* What stands between blanks. */
+static bool find_words(cairo_letters *out, PangoLayout *layout, const char *words, double finer)
+{
+    for (size_t i = 0, end; words[i]; i = end) {
+        size_t own = strcspn(words + i, " "), blank = strspn(words + i, " ");
+        end = i + (own ? own : blank);
+        if (!own)
+            continue;
+        if (!mem_grow((void **)&out->words, &out->word_capacity, out->word_count + 1, sizeof *out->words))
+            return false;
+        cairo_word *w = &out->words[out->word_count++];
+        *w = (cairo_word){i, own, INFINITY, -INFINITY};
+        for (int k = 0; k < 2; k++) { /* of scripts that run the other way the end is to the left */
+            PangoRectangle place;
+            pango_layout_index_to_pos(layout, (int)(k ? end : i), &place);
+            w->left = fmin(w->left, (double)place.x / PANGO_SCALE / finer);
+            w->right = fmax(w->right, (double)place.x / PANGO_SCALE / finer);
+        }
+    }
+    return true;
+}
+
+void cairo_letters_release(cairo_letters *l)
+{
+    mem_free(l->steps);
+    mem_free(l->words);
+    *l = (cairo_letters){0};
+}
+
+bool cairo_find_letters(cairo_letters *out, const char *words, double size)
+{
+    static const double finer = 64; /* cairo keeps positions as multiples of 1/256 */
+    static const char   kinds[] = {'m', 'l', 'c', 'h'};
+    static const int    numbers[] = {2, 2, 6, 0};
+    cairo_surface_t    *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t            *context = cairo_create(surface);
+    PangoLayout        *layout = layout_of(context, words, finer * size);
+    int                 width, height;
+    pango_layout_get_size(layout, &width, &height);
+    *out = (cairo_letters){.width = (double)width / PANGO_SCALE / finer};
+    cairo_move_to(context, 0, -(double)pango_layout_get_baseline(layout) / PANGO_SCALE);
+    pango_cairo_layout_path(context, layout);
+    cairo_path_t *path = cairo_copy_path(context);
+    bool          good = path->status == CAIRO_STATUS_SUCCESS && find_words(out, layout, words, finer);
+    for (int i = 0; good && i < path->num_data; i += path->data[i].header.length) {
+        const cairo_path_data_t *data = &path->data[i];
+        good = mem_grow((void **)&out->steps, &out->capacity, out->count + 1, sizeof *out->steps);
+        if (!good)
+            break;
+        cairo_step *step = &out->steps[out->count++];
+        step->kind = kinds[data->header.type];
+        for (int k = 0; k < numbers[data->header.type]; k++)
+            step->at[k] = (k % 2 ? data[1 + k / 2].point.y : data[1 + k / 2].point.x) / finer;
+    }
+    cairo_path_destroy(path);
+    g_object_unref(layout);
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    return good;
 }
 
 static void draw_text(painter *w, const sheet_item *item)

@@ -15,7 +15,7 @@ const export_format export_formats[] = {
      .write_sheet = export_svg},
     {".pdf", "Vectors for print, on one page.", .ground = true, .pictures = true, .areas = true, .title = true,
      .write_sheet = export_pdf},
-    {".dxf", "Lines alone, for CAD programs: release 12, in millimetres.", .write_sheet = export_dxf},
+    {".dxf", "Lines alone, for CAD programs: release 2000, in millimetres.", .write_sheet = export_dxf},
 };
 const size_t export_format_count = sizeof export_formats / sizeof *export_formats;
 

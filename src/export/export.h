@@ -21,8 +21,8 @@ lmn_status export_png_raw(export_bytes *out, const uint8_t *rgba, int width, int
 /* PFM of 1 or 3 floats a pixel, row 0 at the bottom. */
 lmn_status export_pfm(export_bytes *out, const float *values, int channels, int width, int height, lmn_error *error);
 
-/* A sheet as SVG, PDF or DXF (R12, ASCII). The same sheet, the same bytes. Errors: LMN_MEMORY, also where the sheet
- * is not whole; LMN_INTERNAL when the PDF library fails. */
+/* A sheet as SVG, PDF or DXF (release 2000, ASCII). The same sheet, the same bytes. Errors: LMN_MEMORY, also where the
+ * sheet is not whole; LMN_INTERNAL when the PDF library fails. */
 lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error);
 lmn_status export_dxf(export_bytes *out, const sheet *s, lmn_error *error);

@@ -1,80 +1,287 @@
-/* PDF of a sheet, through cairo. The dates are fixed, so
- * that equal sheets are equal files. */
-#include "export/cairo_sheet.h"
-
-#include <cairo-pdf.h>
+/* PDF of a sheet (ISO 32000-1): one page with lines, arcs as cubics, dashes and areas as the page description has them,
+ * and each group of the sheet as an optional content group, which viewers and Illustrator show as a layer. Texts are
+ * drawn by the outlines of their letters, so that no font need be there, and say beside them what they are. Dates are
+ * fixed, so that equal sheets are equal files. */
+#include <libdeflate.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/paper.h"
+#include "base/work.h"
+#include "export/cairo_sheet.h"
+#include "export/pdf_private.h"
+#include "sheet/fit.h"
 
 static const double points_per_mm = POINTS_PER_INCH / MM_PER_INCH;
-static const char   fixed_date[] = "2000-01-01T00:00:00Z";
+static const char   fixed_date[] = "D:20000101000000Z";
+enum { GROUPS_MOST = 4000, /* of more, those of parts are no layers: no viewer lists as many */ COMPRESSION = 9 };
 
-typedef struct pdf_writer {
-    const sheet *s;
-    cairo_t     *context;
-    export_bytes bytes;
-    size_t       capacity;
-    bool         failed; /* memory is gone */
-} pdf_writer;
+/* --- numbers and texts ---------------------------------------------------------------------------------- */
 
-static cairo_status_t take_bytes(void *user, const unsigned char *data, unsigned int size)
+void pdf_put(text *out, const char *words)
 {
-    pdf_writer *w = user;
-    if (w->failed || !mem_grow((void **)&w->bytes.data, &w->capacity, w->bytes.size + size, 1)) {
-        w->failed = true;
-        return CAIRO_STATUS_NO_MEMORY;
+    text_append_bytes(out, words, strlen(words));
+}
+
+/* Thousandths, which are as many millimetres, and a blank. */
+void pdf_put_number(text *out, double value)
+{
+    char               digits[32];
+    size_t             at = sizeof digits;
+    long long          scaled = isfinite(value) ? llround(value * 1000) : 0;
+    unsigned long long left = scaled < 0 ? (unsigned long long)-scaled : (unsigned long long)scaled;
+    digits[--at] = ' ';
+    for (int i = 0; i < 3; i++, left /= 10)
+        if (left % 10 || at < sizeof digits - 1)
+            digits[--at] = (char)('0' + left % 10);
+    if (at < sizeof digits - 1)
+        digits[--at] = '.';
+    for (; left; left /= 10)
+        digits[--at] = (char)('0' + left % 10);
+    if (at == sizeof digits - 1)
+        digits[--at] = '0';
+    if (scaled < 0)
+        digits[--at] = '-';
+    text_append_bytes(out, digits + at, sizeof digits - at);
+}
+
+/* A text as UTF-16 with its mark, in hexadecimal. */
+void pdf_put_text(text *out, const char *words)
+{
+    pdf_put(out, "<FEFF");
+    for (const unsigned char *at = (const unsigned char *)words; *at;) {
+        size_t   length = *at >= 0xF0 ? 4 : *at >= 0xE0 ? 3 : *at >= 0xC0 ? 2 : 1, seen = 1;
+        uint32_t code = length == 1 ? *at : *at & (0xFFu >> (length + 1));
+        for (; seen < length && (at[seen] & 0xC0) == 0x80; seen++)
+            code = code << 6 | (at[seen] & 0x3F);
+        if (seen < length || (length == 1 && *at >= 0x80))
+            code = 0xFFFD;
+        if (code > 0xFFFF)
+            text_append(out, "%04X%04X", (unsigned)(0xD7C0 + (code >> 10)), (unsigned)(0xDC00 | (code & 0x3FF)));
+        else
+            text_append(out, "%04X", (unsigned)(code < 0x20 ? 0x20 : code));
+        at += seen;
     }
-    memcpy(w->bytes.data + w->bytes.size, data, size);
-    w->bytes.size += size;
-    return CAIRO_STATUS_SUCCESS;
+    pdf_put(out, ">");
 }
 
-static void set_metadata(pdf_writer *w, cairo_surface_t *surface)
+/* --- objects -------------------------------------------------------------------------------------------- */
+
+static void begin_object(pdf_writer *w, size_t number)
 {
-    char *title = cairo_clean_text(w->s->title ? w->s->title : ""),
-         *subject = cairo_clean_text(w->s->description ? w->s->description : "");
-    w->failed = w->failed || !title || !subject;
-    if (title && *title)
-        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
-    if (subject && *subject)
-        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "Limner");
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, fixed_date);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, fixed_date);
-    mem_free(title);
-    mem_free(subject);
+    w->offsets[number] = w->out.size;
+    text_append(&w->out, "%zu 0 obj\n", number);
 }
 
-static void draw_sheet(pdf_writer *w)
+/* Compressed bytes as a stream; `entries`: more of its dictionary. */
+static void put_stream(pdf_writer *w, const void *bytes, size_t size, const char *entries)
 {
-    cairo_scale(w->context, points_per_mm, points_per_mm);
-    w->failed = !cairo_sheet_draw(w->context, w->s) || w->failed;
-    cairo_show_page(w->context);
+    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(COMPRESSION);
+    size_t                        most = compressor ? libdeflate_zlib_compress_bound(compressor, size) : 0;
+    unsigned char                *packed = compressor ? mem_alloc(most) : NULL;
+    size_t                        length = packed ? libdeflate_zlib_compress(compressor, bytes, size, packed, most) : 0;
+    w->out.failed = w->out.failed || !length;
+    text_append(&w->out, "<</Length %zu/Filter/FlateDecode%s>>\nstream\n", length, entries);
+    if (length)
+        text_append_bytes(&w->out, (const char *)packed, length);
+    pdf_put(&w->out, "\nendstream\nendobj\n");
+    mem_free(packed);
+    libdeflate_free_compressor(compressor);
+}
+
+void pdf_put_picture(pdf_writer *w, const pdf_picture *p)
+{
+    char entries[256];
+    bool mask = p->alpha != NULL;
+    for (int i = 0; i < 1 + mask; i++) {
+        int size = snprintf(entries, sizeof entries,
+                            "/Type/XObject/Subtype/Image/Width %d/Height %d/BitsPerComponent 8/ColorSpace/Device%s",
+                            p->width, p->height, i ? "Gray" : "RGB");
+        if (mask && i == 0)
+            snprintf(entries + size, sizeof entries - (size_t)size, "/SMask %zu 0 R", p->object + 1);
+        begin_object(w, p->object + (size_t)i);
+        put_stream(w, i ? p->alpha : p->colours, (size_t)p->width * (size_t)p->height * (i ? 1 : 3), entries);
+    }
+}
+
+/* --- layers --------------------------------------------------------------------------------------------- */
+
+static bool is_layer(const pdf_writer *w, size_t group)
+{
+    if (w->s->group_count <= GROUPS_MOST)
+        return true;
+    for (int32_t at = (int32_t)group; at >= 0; at = w->s->groups[at].parent)
+        if (w->s->groups[at].part)
+            return false;
+    return true;
+}
+
+static void put_layers(pdf_writer *w)
+{
+    for (size_t i = 0; i < w->s->group_count; i++) {
+        const sheet_group *g = &w->s->groups[i];
+        if (!w->layers[i])
+            continue;
+        begin_object(w, w->layers[i]);
+        pdf_put(&w->out, "<</Type/OCG/Name");
+        pdf_put_text(&w->out, g->name && *g->name ? g->name : "group");
+        pdf_put(&w->out, ">>\nendobj\n");
+    }
+}
+
+/* The tree of layers as viewers show it: behind a layer stands an array of those in it. Parents come first, but not
+ * their children in a row, so they are gathered by links. */
+static void put_order(pdf_writer *w)
+{
+    size_t    count = w->s->group_count;
+    uint32_t *links = mem_calloc(3 * count + 3, sizeof *links), *first = links,
+             *next = links ? links + count + 1 : NULL, *stack = links ? next + count + 1 : NULL;
+    w->out.failed = w->out.failed || !links;
+    for (size_t i = count; links && i-- > 0;) {
+        size_t parent = (size_t)(w->s->groups[i].parent + 1);
+        if (!w->layers[i])
+            continue;
+        next[i] = first[parent];
+        first[parent] = (uint32_t)i + 1;
+    }
+    size_t depth = 0;
+    for (uint32_t at = links ? first[0] : 0; at || depth;) {
+        if (!at) {
+            pdf_put(&w->out, "]");
+            at = stack[--depth];
+            continue;
+        }
+        text_append(&w->out, "%zu 0 R ", w->layers[at - 1]);
+        if (first[at]) {
+            pdf_put(&w->out, "[");
+            stack[depth++] = next[at - 1];
+            at = first[at];
+        } else {
+            at = next[at - 1];
+        }
+    }
+    mem_free(links);
+}
+
+static void put_catalog(pdf_writer *w)
+{
+    begin_object(w, PDF_CATALOG);
+    text_append(&w->out, "<</Type/Catalog/Pages %d 0 R", PDF_PAGES);
+    if (w->layer_count) {
+        pdf_put(&w->out, "/PageMode/UseOC/OCProperties<</OCGs[");
+        for (size_t i = 0; i < w->s->group_count; i++)
+            if (w->layers[i])
+                text_append(&w->out, "%zu 0 R ", w->layers[i]);
+        pdf_put(&w->out, "]/D<</Order[");
+        put_order(w);
+        pdf_put(&w->out, "]>>>>");
+    }
+    pdf_put(&w->out, ">>\nendobj\n");
+}
+
+/* --- what lies on the page ------------------------------------------------------------------------------ */
+
+static void put_pages(pdf_writer *w)
+{
+    begin_object(w, PDF_PAGES);
+    text_append(&w->out, "<</Type/Pages/Count 1/Kids[%d 0 R]>>\nendobj\n", PDF_PAGE);
+    begin_object(w, PDF_PAGE);
+    text_append(&w->out, "<</Type/Page/Parent %d 0 R/Contents %d 0 R/MediaBox[0 0 ", PDF_PAGES, PDF_CONTENTS);
+    pdf_put_number(&w->out, w->s->width * points_per_mm);
+    pdf_put_number(&w->out, w->s->height * points_per_mm);
+    text_append(&w->out, "]/Group<</S/Transparency/CS/DeviceRGB>>/Resources<</Font<</F %d 0 R>>", PDF_FONT);
+    pdf_put(&w->out, "/ExtGState<<");
+    for (size_t i = 0; i < w->opacity_count; i++) {
+        text_append(&w->out, "/A%zu<</CA ", i);
+        pdf_put_number(&w->out, w->opacities[i]);
+        pdf_put(&w->out, "/ca ");
+        pdf_put_number(&w->out, w->opacities[i]);
+        pdf_put(&w->out, ">>");
+    }
+    pdf_put(&w->out, ">>/Properties<<");
+    for (size_t i = 0; i < w->s->group_count; i++)
+        if (w->layers[i])
+            text_append(&w->out, "/L%zu %zu 0 R", i, w->layers[i]);
+    pdf_put(&w->out, ">>/XObject<<");
+    for (size_t i = 0; i < w->picture_count; i++)
+        text_append(&w->out, "/X%zu %zu 0 R", i, w->pictures[i].object);
+    pdf_put(&w->out, ">>>>>>\nendobj\n");
+    begin_object(w, PDF_FONT);
+    pdf_put(&w->out, "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>\nendobj\n");
+}
+
+static void put_info(pdf_writer *w)
+{
+    begin_object(w, PDF_INFO);
+    pdf_put(&w->out, "<<");
+    if (w->s->title && *w->s->title) {
+        pdf_put(&w->out, "/Title");
+        pdf_put_text(&w->out, w->s->title);
+    }
+    if (w->s->description && *w->s->description) {
+        pdf_put(&w->out, "/Subject");
+        pdf_put_text(&w->out, w->s->description);
+    }
+    text_append(&w->out, "/Creator(Limner)/Producer(Limner)/CreationDate(%s)/ModDate(%s)>>\nendobj\n", fixed_date,
+                fixed_date);
+}
+
+static void put_references(pdf_writer *w)
+{
+    size_t at = w->out.size;
+    text_append(&w->out, "xref\n0 %zu\n0000000000 65535 f \n", w->object_count);
+    for (size_t i = 1; i < w->object_count; i++)
+        text_append(&w->out, "%010zu 00000 n \n", w->offsets[i]);
+    text_append(&w->out, "trailer\n<</Size %zu/Root %d 0 R/Info %d 0 R>>\nstartxref\n%zu\n%%%%EOF\n", w->object_count,
+                PDF_CATALOG, PDF_INFO, at);
+}
+
+static void put_file(pdf_writer *w)
+{
+    w->offsets = mem_calloc(w->object_count + 1, sizeof *w->offsets);
+    w->out.failed = w->out.failed || !w->offsets;
+    if (w->out.failed)
+        return;
+    pdf_put(&w->out, "%PDF-1.5\n%\xE2\xE3\xCF\xD3\n");
+    put_catalog(w);
+    put_pages(w);
+    put_info(w);
+    begin_object(w, PDF_CONTENTS);
+    put_stream(w, w->content.data, w->content.size, "");
+    put_layers(w);
+    for (size_t i = 0; i < w->picture_count; i++)
+        pdf_put_picture(w, &w->pictures[i]);
+    put_references(w);
 }
 
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error)
 {
-    pdf_writer w = {.s = s, .failed = s->failed};
+    pdf_writer w = {.s = s, .object_count = PDF_OTHERS};
     *out = (export_bytes){NULL, 0};
-    cairo_surface_t *surface =
-        cairo_pdf_surface_create_for_stream(take_bytes, &w, s->width * points_per_mm, s->height * points_per_mm);
-    set_metadata(&w, surface);
-    w.context = cairo_create(surface);
-    draw_sheet(&w);
-    cairo_status_t drawn = cairo_status(w.context);
-    cairo_destroy(w.context);
-    cairo_surface_finish(surface);
-    if (drawn == CAIRO_STATUS_SUCCESS)
-        drawn = cairo_surface_status(surface);
-    cairo_surface_destroy(surface);
-    if (!w.failed && drawn == CAIRO_STATUS_SUCCESS) {
-        *out = w.bytes;
-        return LMN_OK;
+    w.layers = mem_calloc(s->group_count + 1, sizeof *w.layers);
+    w.out.failed = s->failed || !w.layers;
+    for (size_t i = 0; w.layers && i < s->group_count; i++)
+        if (is_layer(&w, i)) {
+            w.layers[i] = w.object_count++;
+            w.layer_count++;
+        }
+    if (!w.out.failed)
+        pdf_put_content(&w, points_per_mm);
+    w.out.failed = w.out.failed || w.content.failed || work_stopped();
+    if (!w.out.failed)
+        put_file(&w);
+    for (size_t i = 0; i < w.picture_count; i++) {
+        mem_free(w.pictures[i].colours);
+        mem_free(w.pictures[i].alpha);
     }
-    mem_free(w.bytes.data);
-    if (w.failed || drawn == CAIRO_STATUS_NO_MEMORY)
-        return error_memory(error);
-    return error_set(error, LMN_INTERNAL, "cairo cannot write the PDF: %s", cairo_status_to_string(drawn));
+    mem_free(w.pictures);
+    mem_free(w.opacities);
+    mem_free(w.layers);
+    mem_free(w.offsets);
+    text_release(&w.content);
+    out->size = w.out.size;
+    out->data = (unsigned char *)text_take(&w.out);
+    return out->data ? LMN_OK : error_memory(error);
 }

@@ -10,13 +10,16 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "sheet/fit.h"
 #include "sheet/sheet.h"
+
+#define PI 3.14159265358979323846
 
 /* How a path is drawn: what becomes a class. */
 typedef struct svg_style {
     colour    ink;
     bool      filled, dots;
-    float     width, dash, gap, phase;
+    float     width;
     sheet_cap cap;
 } svg_style;
 
@@ -172,11 +175,6 @@ static void style_of(svg_style *out, const sheet_item *item, const sheet_path *p
         return;
     out->width = path->width;
     out->cap = out->dots ? SHEET_CAP_ROUND : path->cap;
-    if (path->dash > 0 && !out->dots) {
-        out->dash = path->dash;
-        out->gap = path->gap;
-        out->phase = path->phase;
-    }
 }
 
 static bool grow_style_slots(svg_writer *w)
@@ -250,14 +248,6 @@ static void put_style(svg_writer *w, size_t index)
         }
         if (style->cap == SHEET_CAP_BUTT)
             put(w, ";stroke-linecap:butt");
-    }
-    if (style->dash > 0) {
-        put(w, ";stroke-dasharray:");
-        put_number(w, (double)style->dash);
-        put(w, ",");
-        put_number(w, (double)style->gap);
-        put(w, ";stroke-dashoffset:");
-        put_number(w, (double)style->phase);
     }
     put(w, "}\n");
 }
@@ -359,6 +349,9 @@ static void open_group(svg_writer *w, uint32_t index)
         put_escaped(w, g->name ? g->name : "");
         put(w, "\"");
     }
+    put(w, " inkscape:groupmode=\"layer\" inkscape:label=\"");
+    put_escaped(w, g->name && *g->name ? g->name : w->ids[index]);
+    put(w, "\"");
     if (g->clip[2] > 0)
         text_append(&w->out, " clip-path=\"url(#%s.clip)\"", w->ids[index]);
     put(w, ">\n");
@@ -412,6 +405,13 @@ static void put_clips(svg_writer *w)
 
 /* --- items ---------------------------------------------------------------------------------------------- */
 
+static void put_attribute(svg_writer *w, const char *name, double value)
+{
+    text_append(&w->out, " %s=\"", name);
+    put_number(w, value);
+    put(w, "\"");
+}
+
 /* A command letter and two numbers. */
 static size_t print_pair(char *to, char letter, long long x, long long y)
 {
@@ -426,8 +426,81 @@ static size_t print_pair(char *to, char letter, long long x, long long y)
     return at + print_thousandths(to + at, y);
 }
 
+/* Where the path data are: what is written are differences of rounded positions. */
+typedef struct svg_pen {
+    svg_writer *w;
+    long long   at[2];
+    char        letter; /* of the command that goes on without another letter */
+} svg_pen;
+
+/* A position, relative to where the pen is, behind a command or another position. */
+static void put_pair(svg_pen *pen, char letter, const double position[2], long long rounded[2])
+{
+    char digits[64];
+    for (int k = 0; k < 2; k++)
+        rounded[k] = thousandths(position[k]);
+    size_t size =
+        print_pair(digits, pen->letter == letter ? '\0' : letter, rounded[0] - pen->at[0], rounded[1] - pen->at[1]);
+    text_append_bytes(&pen->w->out, digits, size);
+    pen->letter = letter;
+}
+
+/* Arcs of more than 150 degrees are several: their centre comes from both ends, and the nearer these are to half
+ * a turn, the less exactly. */
+static void put_arc(svg_pen *pen, const sheet_piece *arc)
+{
+    int pieces = (int)ceil(fabs(arc->sweep) / 2.6);
+    for (int i = 1; i <= pieces; i++) {
+        double    end[2] = {arc->end[0], arc->end[1]};
+        long long rounded[2];
+        if (i < pieces)
+            sheet_arc_at(arc, arc->from + arc->sweep * i / pieces, end);
+        put(pen->w, pen->letter == 'a' ? " " : "a");
+        put_number(pen->w, arc->radii[0]);
+        put(pen->w, " ");
+        put_number(pen->w, arc->radii[1]);
+        put(pen->w, " ");
+        put_number(pen->w, arc->turn * (180 / PI));
+        put(pen->w, arc->sweep > 0 ? " 0 1" : " 0 0");
+        pen->letter = 'a';
+        put_pair(pen, 'a', end, rounded);
+        memcpy(pen->at, rounded, sizeof rounded);
+    }
+}
+
+static void put_pieces(svg_writer *w, const sheet_path *path)
+{
+    svg_pen      pen = {.w = w};
+    const float *first = w->s->points[path->first];
+    const double from[2] = {(double)first[0], (double)first[1]};
+    long long    rounded[2];
+    put_pair(&pen, 'M', from, rounded);
+    memcpy(pen.at, rounded, sizeof rounded);
+    for (uint32_t i = 0; i < path->piece_count; i++) {
+        const sheet_piece *p = &w->s->pieces[path->first_piece + i];
+        bool               last = i + 1 == path->piece_count && (path->closed || path->filled);
+        if (p->kind == SHEET_ARC) {
+            put_arc(&pen, p);
+            continue;
+        }
+        if (p->kind == SHEET_LINE && last)
+            break; /* z draws it */
+        if (p->kind == SHEET_CUBIC) {
+            put_pair(&pen, 'c', p->controls[0], rounded);
+            put_pair(&pen, 'c', p->controls[1], rounded);
+        }
+        put_pair(&pen, p->kind == SHEET_CUBIC ? 'c' : 'l', p->end, rounded);
+        memcpy(pen.at, rounded, sizeof rounded);
+    }
+    put(w, path->closed || path->filled ? "z" : "");
+}
+
 static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
 {
+    if (path->piece_count && !dots) {
+        put_pieces(w, path);
+        return;
+    }
     char      digits[64];
     long long before[2] = {0, 0};
     bool      lined = false;
@@ -454,7 +527,26 @@ static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
         text_append_bytes(&w->out, "z", dots ? 0 : 1);
 }
 
-/* Paths that follow each other in one style are one element. */
+/* Each length is the difference of rounded positions along the pattern. */
+static void put_dashes(svg_writer *w, const sheet_path *path)
+{
+    double    sum = 0;
+    long long before = 0;
+    put(w, " stroke-dasharray=\"");
+    for (uint32_t i = 0; i < path->dash_count; i++) {
+        char digits[32];
+        sum += (double)w->s->dashes[path->first_dash + i];
+        long long at = thousandths(sum);
+        put(w, i ? " " : "");
+        text_append_bytes(&w->out, digits, print_thousandths(digits, at - before));
+        before = at;
+    }
+    put(w, "\"");
+    if (thousandths((double)path->phase) != 0)
+        put_attribute(w, "stroke-dashoffset", (double)path->phase);
+}
+
+/* Paths that follow each other in one style are one element; dashed ones have their own. */
 static void put_paths(svg_writer *w, const sheet_item *item)
 {
     size_t current = SIZE_MAX;
@@ -463,24 +555,19 @@ static void put_paths(svg_writer *w, const sheet_item *item)
         svg_style         style;
         style_of(&style, item, path);
         size_t index = find_style(w, &style);
-        if (index != current) {
+        if (index != current || path->dash_count || (k && path[-1].dash_count)) {
             put(w, current == SIZE_MAX ? "" : "\"/>\n");
             text_append(&w->out, "<path class=\"s%zu\"", index);
             if (item->id)
                 text_append(&w->out, " data-line=\"%llx\"", (unsigned long long)item->id);
+            if (path->dash_count)
+                put_dashes(w, path);
             put(w, " d=\"");
             current = index;
         }
         put_path_data(w, path, item->kind == SHEET_DOTS);
     }
     put(w, item->count ? "\"/>\n" : "");
-}
-
-static void put_attribute(svg_writer *w, const char *name, double value)
-{
-    text_append(&w->out, " %s=\"", name);
-    put_number(w, value);
-    put(w, "\"");
 }
 
 static void put_image(svg_writer *w, const sheet_item *item)
@@ -539,7 +626,7 @@ static void put_head(svg_writer *w)
     put_number(w, s->width);
     put(w, " ");
     put_number(w, s->height);
-    put(w, "\">\n");
+    put(w, "\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\">\n");
     put_element(w, "title", s->title);
     put_element(w, "desc", s->description);
     put_styles(w);

@@ -179,7 +179,18 @@ static void set_heights(frame *f, const figure_state *s)
         up[3] -= up[k] * m[12 + k];
     double origin = city->known ? city->origin[2] * (city->metres[1] > 0 ? city->metres[1] : 1) : 0;
     gpu_set_vec4(f->g, "u_height", (float[]){(float)up[0], (float)up[1], (float)up[2], (float)up[3]});
-    gpu_set_vec2(f->g, "u_heights", (float)(low + origin), (float)fmax(high - low, 1e-30));
+    gpu_set_vec2(f->g, "u_height_range", (float)(low + origin), (float)fmax(high - low, 1e-30));
+}
+
+/* What ghost images are mixed with: the page's ground, or white paper where it has none. */
+static void set_pale(frame *f, const figure_state *s)
+{
+    float paper[4];
+    frame_ground(f, paper);
+    for (int k = 0; k < 3; k++)
+        paper[k] = paper[3] > 0 ? paper[k] / paper[3] : 1;
+    paper[3] = s->figure->rule->pale;
+    gpu_set_vec4(f->g, "u_ghost", paper);
 }
 
 void frame_set_common(frame *f, const figure_state *s)
@@ -203,6 +214,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_float(g, "u_rear", s->rear);
     gpu_set_float(g, "u_forward", forward_of(f, s->figure));
     gpu_set_int(g, "u_filled", s->filled);
+    set_pale(f, s);
     gpu_set_float(g, "u_time", (float)f->time_s);
     if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 /* The sum of the lengths that matter with these values. */
 static float lengths_of(const param *params, size_t count, const void *values)
 {
@@ -70,4 +72,126 @@ bool figure_open(frame *f, figure_state *s, const figure *fig)
     if (!f->maps)
         window_figure(f, s);
     return s->pixels[2] > 0 && s->pixels[3] > 0 && !gpu_failed(f->g);
+}
+
+/* --- where passes are drawn --------------------------------------------------------------------------------------- */
+
+/* The tiles that what lies in a box of the world, and its lines, can reach. Returns how many. */
+static int mark_box(const frame *f, tile_grid *t, box3 in_world, int reach, bool full)
+{
+    int pixels[4];
+    camera_pixels(&f->camera, in_world, f->width, f->height, reach, pixels);
+    return tiles_mark(t, pixels, full);
+}
+
+/* Where a triangle's edge from a to b is inside of the rows between low and high: what it adds to a range of columns.
+ */
+static void widen_columns(double range[2], const double a[2], const double b[2], double low, double high)
+{
+    for (int end = 0; end < 2; end++) {
+        const double *p = end ? b : a, row = end ? high : low;
+        if (p[1] >= low && p[1] <= high) {
+            range[0] = fmin(range[0], p[0]);
+            range[1] = fmax(range[1], p[0]);
+        }
+        if ((a[1] < row) != (b[1] < row)) {
+            const double x = a[0] + (row - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            range[0] = fmin(range[0], x);
+            range[1] = fmax(range[1], x);
+        }
+    }
+}
+
+/* The tiles that a triangle on the page, and its lines, can reach: row after row of tiles. */
+static void mark_triangle(tile_grid *t, double corners[3][2], int reach)
+{
+    double lowest = INFINITY, highest = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        lowest = fmin(lowest, corners[k][1] - reach);
+        highest = fmax(highest, corners[k][1] + reach);
+    }
+    const int first = (int)fmin(fmax((lowest - t->band[1]) / t->size, 0), t->rows),
+              end = (int)fmin(fmax((highest - t->band[1]) / t->size + 1, 0), t->rows);
+    for (int row = first; row < end; row++) {
+        const double low = t->band[1] + row * t->size, high = low + t->size;
+        double       range[2] = {INFINITY, -INFINITY};
+        for (int k = 0; k < 3; k++)
+            widen_columns(range, corners[k], corners[(k + 1) % 3], low - reach, high + reach);
+        if (range[1] >= range[0]) {
+            const double from = fmax(floor(range[0]) - reach, t->band[0] - 1.0),
+                         to = fmin(ceil(range[1]) + reach + 1, t->band[0] + t->band[2] + 1.0);
+            if (to > from)
+                tiles_mark(t, (int[]){(int)from, t->band[1] + row * t->size, (int)(to - from), t->size}, true);
+        }
+    }
+}
+
+/* The same of each triangle of a mesh that is long and thin, as an arrow is. False: it has lines, lies behind the eye,
+ * or there is no memory. */
+static bool mark_triangles(const frame *f, tile_grid *t, const primitive *from, const part_pose *posed,
+                           const mat4 *world, int reach)
+{
+    mat4  seen = mat4_multiply(&f->camera.view, world), clip = mat4_multiply(&f->camera.projection, &seen);
+    vec3 *at = from->line_count ? NULL : mem_alloc((from->vertex_count + 1) * sizeof *at);
+    double(*pixels)[2] = at ? mem_alloc((from->vertex_count + 1) * sizeof *pixels) : NULL;
+    bool good = pixels != NULL;
+    if (good)
+        pose_vertices(posed, from, NULL, NULL, from->vertex_count, at, NULL);
+    for (uint32_t i = 0; i < from->vertex_count && good; i++) {
+        const double *m = clip.m, p[3] = {(double)at[i].x, (double)at[i].y, (double)at[i].z};
+        const double  w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
+        good = w > 0;
+        for (int k = 0; k < 2 && good; k++)
+            pixels[i][k] = ((m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k]) / w * 0.5 + 0.5) *
+                           (k ? f->height : f->width);
+    }
+    for (uint32_t i = 0; i + 2 < from->index_count && good; i += 3) {
+        double corners[3][2];
+        for (uint32_t k = 0; k < 3; k++)
+            memcpy(corners[k], pixels[from->indices[i + k]], sizeof corners[k]);
+        mark_triangle(t, corners, reach);
+    }
+    mem_free(pixels);
+    mem_free(at);
+    return good;
+}
+
+static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
+{
+    enum { TILES_FEW = 48, TRIANGLES_A_TILE = 2 }; /* of more, all tiles have some */
+    const pose *now = f->up->pose;
+    const node *n = &f->plan->scene->nodes[f->plan->scene->parts[part].node];
+    const mesh *m = n->mesh == NONE ? NULL : &f->plan->scene->meshes[n->mesh];
+    if (m && m->primitive_count == 1 && node_draw_count(n) == 1 && n->solid == NONE &&
+        !pose_part_deforms(&now->parts[part])) {
+        const int  tiles = mark_box(f, t, now->part_boxes[part], reach, false);
+        const mat4 world = pose_instance(now, part, 0);
+        if (tiles > TILES_FEW && m->primitives[0].index_count <= 3 * TRIANGLES_A_TILE * (uint32_t)tiles &&
+            mark_triangles(f, t, &m->primitives[0], &now->parts[part], &world, reach))
+            return;
+    }
+    mark_box(f, t, now->part_boxes[part], reach, true);
+}
+
+/* Passes over a figure of a few things that lie apart are drawn where these are. */
+void figure_find_boxes(frame *f, figure_state *s)
+{
+    enum { PARTS_MOST = 4096 }; /* of more, some are everywhere */
+    const plan *p = f->plan;
+    if (f->maps || s->figure->part_count > PARTS_MOST)
+        return;
+    tile_grid *t = mem_alloc(sizeof *t);
+    s->boxes = mem_alloc(TILE_BOXES_MAX * sizeof *s->boxes);
+    if (t && s->boxes) {
+        const int reach = figure_reach(s->figure);
+        tiles_start(t, s->pixels);
+        tiles_clear(t);
+        for (size_t i = 0; i < p->part_count; i++)
+            if (s->figure->designated[i])
+                mark_part(f, t, i, reach);
+        s->box_count = tiles_boxes(t, 0, s->pixels, s->boxes);
+    } else {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    }
+    mem_free(t);
 }

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "layer/layer.h"
 
-static void release_targets(frame *f, figure_state *s)
+void figure_release(frame *f, figure_state *s)
 {
     for (int i = 0; i < TARGET_COUNT; i++)
         gpu_target_release(f->g, s->targets[i]);
@@ -49,7 +49,7 @@ static void draw_sprite(frame *f, figure_state *s)
     /* Lines that are folded into the fill would move with it. */
     bool one_by_one =
         !f->maps && rule_use(s->figure->rule, KIND_PERTURB) && s->figure->rule->use_counts[KIND_LINES] > 1;
-    s->filled = true;
+    s->filled = !s->apart;
     for (int k = KIND_LAYERS; k < KIND_MOTION; k++) {
         bool wanted = !f->maps || (f->maps->whole && k != KIND_COMPOSE);
         if (wanted && !(one_by_one && (k == KIND_LINES || k == KIND_COMPOSE)))
@@ -59,6 +59,21 @@ static void draw_sprite(frame *f, figure_state *s)
         passes_compose_lines(f, s, false);
     if (f->maps)
         collect_figure(f, s);
+}
+
+void figure_finish(frame *f, figure_state *s)
+{
+    s->geometry = s->targets[TARGET_NORMAL_DEPTH];
+    if (s->figure->deferred) {
+        passes_prepare(f, s);
+        raster_shade_deferred(f, s);
+    }
+    if (s->targets[TARGET_SHADE])
+        marks_draw(f, s, s->targets[TARGET_SHADE]);
+    figure_find_boxes(f, s);
+    draw_sprite(f, s);
+    mem_free(s->edges);
+    mem_free(s->boxes);
 }
 
 void frame_draw_figure(frame *f, const figure *fig)
@@ -72,17 +87,9 @@ void frame_draw_figure(frame *f, const figure *fig)
         raster_direct(f, &s);
     } else {
         raster_figure(f, &s);
-        s.geometry = s.targets[TARGET_NORMAL_DEPTH];
-        if (fig->deferred) {
-            passes_prepare(f, &s);
-            raster_shade_deferred(f, &s);
-        }
-        if (s.targets[TARGET_SHADE])
-            marks_draw(f, &s, s.targets[TARGET_SHADE]);
-        draw_sprite(f, &s);
-        mem_free(s.edges);
+        figure_finish(f, &s);
     }
-    release_targets(f, &s);
+    figure_release(f, &s);
 }
 
 static void draw_figures(frame *f)
@@ -95,8 +102,12 @@ static void draw_figures(frame *f)
             return;
         }
         if (!p->figures[i].layered) {
-            if (&p->figures[i] != f->mirror)
+            const size_t together = together_count(f, &p->figures[i], p->figure_count - i);
+            if (together > 1)
+                together_draw(f, &p->figures[i], together);
+            else if (&p->figures[i] != f->mirror)
                 frame_draw_figure(f, &p->figures[i]);
+            next = together > 1 ? i + together : next;
             continue;
         }
         while (next < p->figure_count && p->figures[next].layered && next - i < FIGURES_TOGETHER_MAX &&

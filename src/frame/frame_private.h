@@ -20,6 +20,9 @@ typedef struct tile_grid {
 
 /* --- tiles.c --- */
 void tiles_start(tile_grid *t, const int band[4]); /* all full */
+void tiles_clear(tile_grid *t);                    /* none full */
+/* The tiles that a box of pixels meets become full, unless they are only counted. Returns how many. */
+int tiles_mark(tile_grid *t, const int box[4], bool full);
 /* The full tiles and those within `margin` pixels of them as boxes, at most TILE_BOXES_MAX, inside `limits`. Tiles
  * at the rim of the band reach `margin` beyond it. Returns how many. */
 size_t tiles_boxes(const tile_grid *t, int margin, const int limits[4], int (*out)[4]);
@@ -36,11 +39,12 @@ typedef struct figure_state {
     int               drawn[2][4]; /* both of the geometry, which windows may need more of */
     int               band[4];     /* layered: what is composed now, a part of `pixels` */
     int               layer;       /* layered: 0 = visible */
-    int               index;       /* layered: of the figure among those that share their layers */
-    bool              shared;      /* layered: other figures' surfaces are in the layers too */
+    int               index;       /* of the figure among those that share their layers, or their geometry pass */
+    bool              shared;      /* other figures' surfaces are in these, too, and ids tell which */
     float             rear;        /* layered: opacity */
-    int (*boxes)[4];               /* layered: where passes are drawn; NULL: all of `pixels` */
+    int (*boxes)[4];               /* where passes are drawn; NULL: all of `pixels`; layered: the stack's, else owned */
     size_t       box_count;
+    bool         apart;  /* its fill is on the page, with others': only its lines are composed */
     bool         filled; /* the fill is drawn with these lines */
     bool         ground; /* what is shaded is the ground; its light lies beside its colour */
     double       near, far;
@@ -87,6 +91,8 @@ int window_margin(const frame *f);
 bool figure_open(frame *f, figure_state *s, const figure *fig);
 /* How far the figure's lines reach beyond it, pixels. */
 int figure_reach(const figure *fig);
+/* Where its passes have anything to draw: tiles that its parts and their lines can reach. */
+void figure_find_boxes(frame *f, figure_state *s);
 
 /* --- lighting.c: what programs that ask for light get --- */
 void lights_declare(text *prelude, const frame *f); /* soft shadows and occlusion too, where they were drawn */
@@ -153,7 +159,9 @@ gpu_texture *target_of(const frame *f, const figure_state *s, target t);
 void facts_open(frame *f);
 
 /* --- raster.c: the geometry pass --- */
-void raster_figure(frame *f, figure_state *s);                    /* G-buffer, and shade unless deferred */
+void raster_figure(frame *f, figure_state *s); /* G-buffer, and shade unless deferred */
+/* One G-buffer for several figures, with what each asks for; `targets` gets the pictures, the caller's to give back. */
+void raster_together(frame *f, const figure_state *states, int count, gpu_texture **targets);
 void raster_direct(frame *f, figure_state *s);                    /* straight onto the page */
 void raster_inked(frame *f, figure_state *s, const pass *inking); /* onto the page, shaded and inked */
 void raster_shade_deferred(frame *f, figure_state *s);
@@ -191,6 +199,14 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
 
 /* --- frame.c --- */
 void frame_draw_figure(frame *f, const figure *fig);
+/* From the figure's G-buffer to the page, or to its maps. */
+void figure_finish(frame *f, figure_state *s);
+void figure_release(frame *f, figure_state *s);
+
+/* --- together.c: opaque figures that share a geometry pass --- */
+/* How many of these figures, from the first one on, can do so. */
+size_t together_count(const frame *f, const figure *figures, size_t count);
+void   together_draw(frame *f, const figure *figures, size_t count);
 
 /* --- movers.c: what moves on the page, each by itself --- */
 /* The last figures of the plan: draws them onto the page by their techniques of motion. */

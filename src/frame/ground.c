@@ -116,7 +116,7 @@ static void draw_slab(frame *f, const ground_depths *d, gpu_texture *higher, int
     if (higher)
         gpu_set_texture(f->g, "t_higher", higher, true);
     gpu_set_int(f->g, "u_side", 1 << level);
-    gpu_set_vec4(f->g, "u_heights",
+    gpu_set_vec4(f->g, "u_slab",
                  (float[]){(float)((d->below.near - d->height) / reach),
                            (float)((d->below.far - d->below.near) / reach),
                            (float)((2 * d->height - d->below.near) / reach), 0});

@@ -286,7 +286,7 @@ static const uint8_t *read_own(frame *f, const figure_state *s, const int box[4]
     bool good = !gpu_failed(f->g);
     for (size_t i = 0; i < count && good; i++) {
         uint32_t surface = ids[2 * i + 1], figure = (surface >> SURFACE_INDEX_BITS) & FIGURES_TOGETHER_MAX;
-        own[i] = ids[2 * i] && (s->shared ? (int)figure == s->index : !(surface & SURFACE_COMPLEMENT));
+        own[i] = ids[2 * i] && !(surface & SURFACE_COMPLEMENT) && (!s->shared || (int)figure == s->index);
     }
     mem_free(ids);
     if (!good)

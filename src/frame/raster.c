@@ -29,7 +29,9 @@ static const outputs no_outputs = {-1, -1, -1, -1, -1, -1, -1, NO_STEPS};
 /* One run over the parts. */
 typedef struct raster_job {
     const gpu_pass     *pass;   /* that is drawn into */
-    const figure_state *state;  /* of the only figure; NULL: whose part it is in the stack */
+    const figure_state *state;  /* of the only figure; NULL: whose part it is of several, or in the stack */
+    const figure_state *states; /* several opaque figures at once; others' parts are the complement of the first */
+    int                 state_count;
     solid_layers       *solids; /* the surfaces of solids, found when first needed */
     const solid_view   *view;   /* that they are found for */
     const layer_stack  *stack;
@@ -327,11 +329,22 @@ static const figure_state *layer_owner(const layer_stack *stack, size_t part_ind
     return NULL;
 }
 
+/* The same among figures that share a geometry pass; the first one draws what belongs to none of them. */
+static const figure_state *shared_owner(const frame *f, const raster_job *job, const draw_item *item)
+{
+    for (int i = 0; i < job->state_count; i++)
+        if (job->states[i].figure->designated[item->part_index])
+            return &job->states[i];
+    return f->plan->opaque[item->part_index] ? &job->states[0] : NULL;
+}
+
 /* Whose item it is in this run; NULL: nobody's, it is not drawn. */
 static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
 {
     if (job->only && !job->only[item->part_index])
         return NULL;
+    if (job->states)
+        return shared_owner(f, job, item);
     if (!job->state)
         return f->mirror && f->mirror->designated[item->part_index] ? NULL : layer_owner(job->stack, item->part_index);
     if (job->only)
@@ -345,7 +358,7 @@ static const figure_state *owner_of(const frame *f, const raster_job *job, const
 static void set_ids(frame *f, const raster_job *job, const figure_state *s, const draw_item *item, uint32_t order)
 {
     gpu_set_uint(f->g, "u_part_id", item->part_id);
-    bool other = job->state && !job->only && !s->figure->designated[item->part_index];
+    bool other = !job->stack && !job->only && !s->figure->designated[item->part_index];
     gpu_set_uint(f->g, "u_surface_id",
                  item->surface_id | (uint32_t)s->index << SURFACE_INDEX_BITS | (other ? SURFACE_COMPLEMENT : 0));
     gpu_set_uint(f->g, "u_order", order);
@@ -504,10 +517,10 @@ static bool *solids_wanted(frame *f, const raster_job *job)
 /* How the figure wants its solids evaluated; of several figures the first that says so decides. */
 static int32_t evaluation_of(const raster_job *job)
 {
-    int     count = job->state ? 1 : job->stack->count;
+    int     count = job->state ? 1 : job->states ? job->state_count : job->stack->count;
     int32_t evaluation = EVALUATION_AUTO;
     for (int i = 0; i < count && evaluation == EVALUATION_AUTO; i++) {
-        const figure_state *s = job->state ? job->state : &job->stack->states[i];
+        const figure_state *s = job->state ? job->state : job->states ? &job->states[i] : &job->stack->states[i];
         evaluation = s->figure->layering.evaluation;
     }
     return evaluation;
@@ -619,6 +632,26 @@ void raster_figure(frame *f, figure_state *s)
     if (!gpu_failed(f->g)) {
         draw_parts(f, &pass, &(raster_job){.state = s, .solids = &s->solids, .at = o});
     }
+    watch_stop(&f->profile, w, "", "geometry");
+}
+
+void raster_together(frame *f, const figure_state *states, int count, gpu_texture **targets)
+{
+    stopwatch    w = watch_start(&f->profile);
+    unsigned     channels = 0;
+    gpu_pass     pass = {0};
+    solid_layers solids = {.ready = false};
+    memcpy(pass.scissor, states[0].drawn[0], sizeof pass.scissor);
+    memcpy(pass.clear_box, states[0].drawn[1], sizeof pass.clear_box);
+    for (int i = 0; i < count; i++) {
+        channels |= states[i].figure->channels & ~(unsigned)(states[i].figure->deferred ? CHANNEL_SHADE : 0);
+        camera_widen_pixels(pass.scissor, states[i].drawn[0]);
+        camera_widen_pixels(pass.clear_box, states[i].drawn[1]);
+    }
+    outputs o = open_outputs(f, channels, targets, &pass, states[0].far);
+    if (!gpu_failed(f->g))
+        draw_parts(f, &pass, &(raster_job){.states = states, .state_count = count, .solids = &solids, .at = o});
+    solids_release(f->g, &solids);
     watch_stop(&f->profile, w, "", "geometry");
 }
 

@@ -16,7 +16,8 @@ void material_set_datum(frame *f, const draw_item *item)
     gpu_set_vec4(f->g, "u_base_colour", light);
 }
 
-/* The item's material; `capacity` holds it when it is painted in the figure's highlight or a datum's colour. */
+/* The item's material; `capacity` holds it when it is painted in the figure's highlight, a datum's colour, or that of
+ * which a ghost image is a paler form. */
 const material *material_of_item(const frame *f, const figure *fig, const draw_item *item, material *capacity)
 {
     static const material standard = {.base_colour = RASTER_STANDARD_COLOUR,
@@ -26,10 +27,13 @@ const material *material_of_item(const frame *f, const figure *fig, const draw_i
                                       .alpha_cutoff = 0.5f};
     const material       *own = item->material >= 0 ? &f->plan->scene->materials[item->material] : &standard;
     const colour         *datum = material_is_datum(f, item) ? plan_datum_colour(f->plan, item->part_index) : NULL;
-    if (!(fig->highlight.a > 0) && !datum)
+    colour                tint = {0};
+    const bool            ghost = fig->rule->pale > 0 && item->part_index < f->plan->scene->part_count &&
+                       node_tint(&f->plan->scene->nodes[f->plan->scene->parts[item->part_index].node], &tint);
+    if (!(fig->highlight.a > 0) && !datum && !ghost)
         return own;
     float light[4];
-    uniforms_light(fig->highlight.a > 0 ? fig->highlight : *datum, light);
+    uniforms_light(fig->highlight.a > 0 ? fig->highlight : datum ? *datum : tint, light);
     *capacity = *own;
     capacity->base_texture = standard.base_texture;
     capacity->base_colour = (vec4){light[0], light[1], light[2], light[3]};

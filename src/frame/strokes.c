@@ -366,12 +366,47 @@ gpu_marks *strokes_upload_ribbons(frame *f, ribbon_set *ribbons)
     return upload_records(f, RIBBON_RECORD_VECTORS, records, count);
 }
 
-static gpu_marks *upload_ribbons(frame *f, stroke_store *store, const figure_state *s, const strokes_values *v)
+/* Lines alone are composed where they are. */
+static void find_ink_boxes(frame *f, figure_state *s, const ribbon_set *ribbons)
+{
+    tile_grid *t = mem_alloc(sizeof *t);
+    if (!t) {
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+        return;
+    }
+    tiles_start(t, s->pixels);
+    tiles_clear(t);
+    for (size_t i = 0; i < ribbons->ribbon_count; i++) {
+        const ribbon       *r = &ribbons->ribbons[i];
+        const ribbon_point *p = &ribbons->points[r->first];
+        for (uint32_t k = 0; k < r->count; k++) {
+            const ribbon_point *a = &p[k], *b = k + 1 < r->count ? a + 1 : a;
+            const float         far = fmaxf(fabsf(b->x - a->x), fabsf(b->y - a->y));
+            const int           steps = (int)(far / (float)t->size) + 1;
+            const float         half = 1.5f * fmaxf(a->half, b->half) + 2; /* corners, and a soft rim */
+            for (int n = 0; n <= steps; n++) {
+                const float part = (float)n / (float)steps, x = a->x + part * (b->x - a->x),
+                            y = (float)f->height - (a->y + part * (b->y - a->y));
+                const float reach = half + (steps > 1 || a != b ? far / (float)steps / 2 : 0);
+                tiles_mark(t,
+                           (int[]){(int)floorf(x - reach), (int)floorf(y - reach), (int)ceilf(2 * reach) + 1,
+                                   (int)ceilf(2 * reach) + 1},
+                           true);
+            }
+        }
+    }
+    s->box_count = tiles_boxes(t, 0, s->pixels, s->boxes);
+    mem_free(t);
+}
+
+static gpu_marks *upload_ribbons(frame *f, stroke_store *store, figure_state *s, const strokes_values *v)
 {
     ribbon_set ribbons = {0};
     lmn_error  error = {0};
     lmn_status status = make_ribbons(&ribbons, store, f, s, v, &error);
     gpu_marks *marks = NULL;
+    if (status == LMN_OK && s->apart && s->boxes)
+        find_ink_boxes(f, s, &ribbons);
     if (status == LMN_OK)
         marks = strokes_upload_ribbons(f, &ribbons);
     else

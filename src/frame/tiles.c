@@ -18,6 +18,26 @@ void tiles_start(tile_grid *t, const int band[4])
             t->full[y][x] = true;
 }
 
+void tiles_clear(tile_grid *t)
+{
+    memset(t->full, 0, sizeof t->full);
+}
+
+int tiles_mark(tile_grid *t, const int box[4], bool full)
+{
+    int first[2], last[2], count = 0;
+    for (int k = 0; k < 2; k++) {
+        const int low = box[k] - t->band[k], end = low + box[2 + k], most = (k ? t->rows : t->columns) - 1;
+        first[k] = low > 0 ? low / t->size : 0;
+        last[k] = end <= 0 || box[2 + k] <= 0 ? -1 : (end - 1) / t->size;
+        last[k] = last[k] < most ? last[k] : most;
+    }
+    for (int y = first[1]; y <= last[1]; y++)
+        for (int x = first[0]; x <= last[0]; x++, count++)
+            t->full[y][x] = t->full[y][x] || full;
+    return count;
+}
+
 /* Spreads the tiles that are full by whole tiles along one axis. */
 static void spread(bool to[TILES_SIDE][TILES_SIDE], bool (*from)[TILES_SIDE], int reach, bool across)
 {

@@ -82,12 +82,12 @@ static bool is_integer(gpu_format format)
     return format == GPU_R32UI || format == GPU_RG32UI || format == GPU_RGBA32UI;
 }
 
-/* A software driver clears a whole picture by filling memory, but draws a box: outside of it nobody cares. */
+/* Nothing outside of its box is looked at, and all of a picture is cleared faster than a large part of it: drivers that
+ * do not draw fill memory, others only note it. */
 static bool clears_all(const gpu *g, const gpu_pass *pass, const gpu_texture *any)
 {
-    enum { FILLS_FASTER = 8 };
-    const int *box = pass->clear_box;
-    return g->capabilities.software && (int64_t)box[2] * box[3] * FILLS_FASTER > (int64_t)any->width * any->height;
+    const int *box = pass->clear_box, faster = g->capabilities.software ? 8 : 2;
+    return (int64_t)box[2] * box[3] * faster >= (int64_t)any->width * any->height;
 }
 
 static void clear_targets(const gpu *g, const gpu_pass *pass, const gpu_texture *any)

@@ -326,12 +326,18 @@ static lmn_status make_form(city_builder *b, const city_shape *s, size_t from, s
     primitive      *list = NULL;
     size_t          count = 0, capacity = 0;
     lmn_status      status = LMN_OK;
+    uint8_t         word = s->faces[order[from].face].word;
+    bool            ground = word != CITY_NO_WORD && strcmp(city_words[word], "terrain") == 0;
     for (size_t i = from; i < to && status == LMN_OK;) {
         size_t end = i + 1;
         while (end < to && order[end].key == order[i].key)
             end++;
         primitive p = {0};
         status = make_primitive(b, s, i, end, &p);
+        if (status == LMN_OK && p.index_count && ground && !terrain_make_smooth(&p)) {
+            primitive_release(&p);
+            status = error_memory(b->error);
+        }
         if (status == LMN_OK && p.index_count == 0) {
             primitive_release(&p);
         } else if (status == LMN_OK && !mem_grow((void **)&list, &capacity, count + 1, sizeof *list)) {

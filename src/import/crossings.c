@@ -12,8 +12,12 @@
 /* As edge_saying in stroke/edges.h has them. */
 enum { SHOWN_NEVER = 0, SHOWN_AS_ALWAYS = 4 };
 enum { CUTS_MOST = 24, GRID_MOST = 1024 };
-/* Metres: a rim that lies so little beside a road lies on it; surfaces that lie so much over it do not. */
-static const double BESIDE = 0.002, OVER = 0.05;
+/* Metres: a rim that lies so little beside a road lies on it; surfaces that lie so much over it do not. Water and green
+ * lie that much below roads at most. */
+static const double BESIDE = 0.002, OVER = 0.075, BELOW = 0.4;
+/* Roads that lie on each other are raised in such steps until none is as high as another. */
+static const double STEP = 0.002, OVERLAPS = 0.05;
+enum { LEVELS = 12 };
 
 typedef struct road_face {
     uint32_t owner;
@@ -37,12 +41,15 @@ typedef struct rim {
 
 /* --- roads ---------------------------------------------------------------------------------------------- */
 
-/* The mesh of a node that is a road laid flat; NULL: it is none. */
-static mesh *road_of(lmn_scene *s, size_t node_index)
+/* The mesh of a node that is a road laid flat, or what lies below roads; NULL: it is none. */
+static mesh *laid_flat(lmn_scene *s, size_t node_index, bool road)
 {
     const node *n = &s->nodes[node_index];
     const char *word = scene_attribute_of(s, (int32_t)node_index, CITY_SURFACE_KEY);
-    if (n->mesh == NONE || n->has_matrix || n->instance_count || !word || strcmp(word, "road") != 0)
+    if (n->mesh == NONE || n->has_matrix || n->instance_count || !word)
+        return NULL;
+    bool below = strcmp(word, "water") == 0 || strcmp(word, "plant") == 0 || strcmp(word, "land") == 0;
+    if (road ? strcmp(word, "road") != 0 : !below)
         return NULL;
     mesh *m = &s->meshes[n->mesh];
     bool  plain = m->primitive_count == 1;
@@ -51,6 +58,11 @@ static mesh *road_of(lmn_scene *s, size_t node_index)
         plain = !p->normals && !p->uvs[0] && !p->colours && !p->edges.values && p->index_count;
     }
     return plain ? m : NULL;
+}
+
+static mesh *road_of(lmn_scene *s, size_t node_index)
+{
+    return laid_flat(s, node_index, true);
 }
 
 static road_face face_of(const primitive *p, uint32_t first, uint32_t owner)
@@ -149,8 +161,9 @@ static bool lay_grid(road_grid *g)
 
 /* --- what of a rim lies on other roads ------------------------------------------------------------------ */
 
-/* The part of an edge that lies over a face, in fractions of it. False: none, or the face lies higher or lower. */
-static bool part_over(const road_face *f, const vec3 *a, const vec3 *b, double out[2])
+/* The part of an edge that lies over a face, in fractions of it, and how much higher the face is in its middle. False:
+ * there is none. */
+static bool part_over(const road_face *f, const vec3 *a, const vec3 *b, double out[2], double *higher)
 {
     double from[2] = {(double)a->x, (double)a->y}, way[2] = {(double)b->x - from[0], (double)b->y - from[1]};
     double area = 0, height = 0;
@@ -183,7 +196,8 @@ static bool part_over(const road_face *f, const vec3 *a, const vec3 *b, double o
         area += share;
         height += share * (double)f->at[(k + 2) % 3].z;
     }
-    return area > 0 && fabs(height / area - ((double)a->z + t * ((double)b->z - (double)a->z))) <= OVER;
+    *higher = height / area - ((double)a->z + t * ((double)b->z - (double)a->z));
+    return area > 0;
 }
 
 static void add_part(double (*parts)[2], int *count, const double part[2])
@@ -221,9 +235,10 @@ static rim rim_of(double (*parts)[2], int count)
     return out;
 }
 
-static rim look_up(const road_grid *g, uint32_t owner, const vec3 *a, const vec3 *b)
+/* `below`: the edge is of what lies below roads. */
+static rim look_up(const road_grid *g, uint32_t owner, bool below, const vec3 *a, const vec3 *b)
 {
-    double     parts[CUTS_MOST][2], low[2], high[2], part[2];
+    double     parts[CUTS_MOST][2], low[2], high[2], part[2], higher;
     int        cells[4], count = 0;
     const vec3 ends[2] = {*a, *b};
     box_of(ends, 2, low, high);
@@ -233,11 +248,60 @@ static rim look_up(const road_grid *g, uint32_t owner, const vec3 *a, const vec3
             size_t cell = (size_t)y * (size_t)g->side + (size_t)x;
             for (uint32_t i = g->first[cell + 1]; i < g->first[cell + 2]; i++) {
                 const road_face *f = &g->faces[g->items[i]];
-                if (f->owner != owner && part_over(f, a, b, part))
+                if (f->owner != owner && part_over(f, a, b, part, &higher) &&
+                    (below ? higher > 0 && higher <= BELOW : fabs(higher) <= OVER))
                     add_part(parts, &count, part);
             }
         }
     return rim_of(parts, count);
+}
+
+/* --- heights -------------------------------------------------------------------------------------------- */
+
+/* The levels at which an edge's road would be as high as one before it that lies there, as bits. */
+static uint32_t taken_at(const road_grid *g, const uint8_t *levels, uint32_t owner, const vec3 *a, const vec3 *b)
+{
+    double     low[2], high[2], part[2], higher;
+    double     size = hypot((double)b->x - (double)a->x, (double)b->y - (double)a->y);
+    const vec3 ends[2] = {*a, *b};
+    int        cells[4];
+    uint32_t   taken = 0;
+    box_of(ends, 2, low, high);
+    cells_of(g, low, high, cells);
+    for (int y = cells[2]; y <= cells[3]; y++)
+        for (int x = cells[0]; x <= cells[1]; x++) {
+            size_t cell = (size_t)y * (size_t)g->side + (size_t)x;
+            for (uint32_t i = g->first[cell + 1]; i < g->first[cell + 2]; i++) {
+                const road_face *f = &g->faces[g->items[i]];
+                if (f->owner >= owner || !part_over(f, a, b, part, &higher) || (part[1] - part[0]) * size < OVERLAPS)
+                    continue;
+                double level = higher / STEP + levels[f->owner];
+                for (int k = 0; k < LEVELS; k++)
+                    taken |= fabs(level - k) < 0.75 ? 1u << k : 0;
+            }
+        }
+    return taken;
+}
+
+/* Two colours at one height would flicker: of roads that lie on each other each is a little higher or lower. */
+static bool settle(lmn_scene *s, const road_grid *g)
+{
+    uint8_t *levels = mem_calloc(s->node_count, 1);
+    for (size_t i = 0; levels && i < s->node_count && !work_stopped(); i++) {
+        mesh      *m = road_of(s, i);
+        primitive *p = m ? &m->primitives[0] : NULL;
+        uint32_t   taken = 0;
+        for (uint32_t k = 0; p && k < p->index_count; k++)
+            taken |= taken_at(g, levels, (uint32_t)i, &p->positions[p->indices[k]],
+                              &p->positions[p->indices[k % 3 == 2 ? k - 2 : k + 1]]);
+        while (levels[i] + 1 < LEVELS && taken >> levels[i] & 1)
+            levels[i]++;
+        for (uint32_t k = 0; p && levels[i] && k < p->vertex_count; k++)
+            p->positions[k].z = (float)((double)p->positions[k].z + STEP * levels[i]);
+    }
+    bool good = levels != NULL;
+    mem_free(levels);
+    return good;
 }
 
 /* --- cutting -------------------------------------------------------------------------------------------- */
@@ -312,7 +376,7 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool join(const road_grid *g, uint32_t owner, primitive *p)
+static bool join(const road_grid *g, uint32_t owner, bool below, primitive *p)
 {
     uint64_t *halves = halves_of(p);
     cutting   c = {.p = p, .vertex_capacity = p->vertex_count, .good = halves != NULL};
@@ -329,7 +393,7 @@ static bool join(const road_grid *g, uint32_t owner, primitive *p)
             uint64_t back = (uint64_t)to << 32 | from;
             rims[k] = (rim){.count = 0};
             if (!bsearch(&back, halves, count, sizeof back, by_number))
-                rims[k] = look_up(g, owner, &p->positions[from], &p->positions[to]);
+                rims[k] = look_up(g, owner, below, &p->positions[from], &p->positions[to]);
             any = any || rims[k].count || rims[k].hidden[0];
         }
         cut(&c, corners, rims);
@@ -350,10 +414,11 @@ static bool join(const road_grid *g, uint32_t owner, primitive *p)
 lmn_status crossings_join(lmn_scene *scene, lmn_error *error)
 {
     road_grid g = {.faces = NULL};
-    bool      good = gather(scene, &g) && (g.face_count == 0 || lay_grid(&g));
+    bool      good = gather(scene, &g) && (g.face_count == 0 || (lay_grid(&g) && settle(scene, &g)));
     for (size_t i = 0; i < scene->node_count && good && g.face_count && !work_stopped(); i++) {
-        mesh *m = road_of(scene, i);
-        good = !m || join(&g, (uint32_t)i, &m->primitives[0]);
+        mesh *m = road_of(scene, i), *other = m ? NULL : laid_flat(scene, i, false);
+        good = (!m || join(&g, (uint32_t)i, false, &m->primitives[0])) &&
+               (!other || join(&g, (uint32_t)i, true, &other->primitives[0]));
     }
     mem_free(g.faces);
     mem_free(g.first);

@@ -224,6 +224,39 @@ double terrain_lowest(const terrain *t, const double (*ring)[2], size_t count)
 
 /* --- as a mesh ------------------------------------------------------------------------------------------ */
 
+/* Twice a triangle's area along its normal; slivers count as little as they are seen. */
+static vec3 area_of(const primitive *p, const uint32_t corners[3])
+{
+    const vec3   at = p->positions[corners[0]], b = p->positions[corners[1]], c = p->positions[corners[2]];
+    const double u[3] = {(double)b.x - (double)at.x, (double)b.y - (double)at.y, (double)b.z - (double)at.z};
+    const double v[3] = {(double)c.x - (double)at.x, (double)c.y - (double)at.y, (double)c.z - (double)at.z};
+    return (vec3){(float)(u[1] * v[2] - u[2] * v[1]), (float)(u[2] * v[0] - u[0] * v[2]),
+                  (float)(u[0] * v[1] - u[1] * v[0])};
+}
+
+bool terrain_make_smooth(primitive *p)
+{
+    enum { SHOWN_AS_OUTLINE = 1 };
+    p->edges.values = mem_alloc(p->index_count);
+    p->normals = mem_calloc(p->vertex_count, sizeof *p->normals);
+    if (!p->edges.values || !p->normals)
+        return false;
+    memset(p->edges.values, SHOWN_AS_OUTLINE, p->index_count);
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        vec3 area = area_of(p, &p->indices[i]);
+        for (int k = 0; k < 3; k++) {
+            vec3 *n = &p->normals[p->indices[i + (uint32_t)k]];
+            *n = (vec3){n->x + area.x, n->y + area.y, n->z + area.z};
+        }
+    }
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        vec3 *n = &p->normals[i];
+        float length = sqrtf(n->x * n->x + n->y * n->y + n->z * n->z);
+        *n = length > 0 ? (vec3){n->x / length, n->y / length, n->z / length} : (vec3){0, 0, 1};
+    }
+    return true;
+}
+
 static bool fill_mesh(const terrain *t, primitive *p)
 {
     size_t posts = (size_t)t->columns * t->rows, cells = (size_t)(t->columns - 1) * (t->rows - 1);
@@ -257,7 +290,7 @@ lmn_status terrain_into_scene(const terrain *t, city_builder *b)
         primitive_release(&p);
         return LMN_OK;
     }
-    good = good && (m = scene_append_mesh(b->scene)) && mesh_set_primitives(m, &p, 1);
+    good = good && terrain_make_smooth(&p) && (m = scene_append_mesh(b->scene)) && mesh_set_primitives(m, &p, 1);
     if (!good) {
         primitive_release(&p);
         return error_memory(b->error);

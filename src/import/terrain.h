@@ -36,6 +36,10 @@ double terrain_lowest(const terrain *t, const double (*ring)[2], size_t count);
 bool terrain_drape(const terrain *t, const city_shape *flat, const vec3 *flat_points, double above, city_shape *out,
                    footprint_points *points);
 
+/* Ground turns where triangles meet, but has no edges there: gives it normals, and outlines and rims as its only
+ * lines. False: memory is gone; what there is of them is the primitive's. */
+bool terrain_make_smooth(primitive *p);
+
 /* A node "terrain" with all of it. */
 lmn_status terrain_into_scene(const terrain *t, city_builder *b);
 

@@ -36,6 +36,10 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     uvec2 id = texelFetch(t_id, pixel, 0).rg;
+    bool other = (id.g & SURFACE_COMPLEMENT) != 0u;
+#ifdef SHARED_LAYERS
+    other = other || int((id.g >> SURFACE_INDEX_BITS) & SURFACE_FIGURE_MASK) != u_figure;
+#endif
     /* Without a loop that skips what is empty: on software drivers whatever stands in a loop takes half as long again. */
-    out_shade = id.r == 0u || (id.g & SURFACE_COMPLEMENT) != 0u ? vec4(0.0) : shade_of(pixel, id);
+    out_shade = id.r == 0u || other ? vec4(0.0) : shade_of(pixel, id);
 }

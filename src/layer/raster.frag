@@ -78,11 +78,12 @@ float stored_depth()
 #endif
 
 #ifdef HAS_PATCHES
+#include "layer/patch.glsl"
+
 /* Is the position outside its patch's outline? src/field/lapped.h; the number of a patch is the same at all its corners. */
 bool outside_patch()
 {
-    float angle = atan(v_patch.y, v_patch.x), number = floor(v_patch.w + 0.5);
-    float outline = 0.7 + 0.2 * sin(3.0 * angle + 2.4 * number) + 0.1 * sin(7.0 * angle + 1.7 * number);
+    float outline = patch_outline(atan(v_patch.y, v_patch.x), floor(v_patch.w + 0.5));
     return v_patch.z < 0.5 && length(v_patch.xy) > outline * u_patch_radius;
 }
 #endif

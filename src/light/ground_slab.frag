@@ -3,7 +3,7 @@
 uniform sampler2D t_below;   /* the model's depth from below, */
 uniform sampler2D t_above;   /* and from above, upside down */
 uniform int       u_side;    /* 2^level */
-uniform vec4      u_heights; /* lowest = x + y depth; highest = z - y depth */
+uniform vec4      u_slab; /* lowest = x + y depth; highest = z - y depth */
 uniform vec3      u_slabs;   /* heights of the slab before, this one, and the next one */
 uniform vec2      u_ends;    /* 1 where there is no slab before, or behind */
 #ifdef HAS_HIGHER
@@ -44,11 +44,11 @@ void main()
     for (int y = 0; y < count; y++)
         for (int x = 0; x < count; x++) {
             ivec2 at = first + apart * ivec2(x, y);
-            float depth = texelFetch(t_below, at, 0).r, lowest = max(u_heights.x + u_heights.y * depth, 0.0);
+            float depth = texelFetch(t_below, at, 0).r, lowest = max(u_slab.x + u_slab.y * depth, 0.0);
             /* Most places have nothing above them: a loop is left, where a condition is computed both ways. */
             int stands = depth < 1.0 ? 1 : 0;
             for (int once = 0; once < stands; once++) {
-                float highest = max(u_heights.z - u_heights.y * texelFetch(t_above, ivec2(at.x, last - at.y), 0).r, lowest);
+                float highest = max(u_slab.z - u_slab.y * texelFetch(t_above, ivec2(at.x, last - at.y), 0).r, lowest);
                 sum += slab_of(lowest, highest, left);
             }
         }

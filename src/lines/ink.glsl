@@ -58,6 +58,26 @@ float lightness(vec3 colour)
 }
 #endif
 
+#if CONTRAST >= 3
+/* To which side of a contour its second line lies: section 8.6.1's open wish. */
+vec2 second_side(ivec2 pixel)
+{
+#if CONTRAST == 3
+    /* The outer one, which the gradient of depth points to. */
+    ivec2 last = ivec2(u_size) - 1;
+    vec2 side = vec2(texelFetch(t_depth, clamp(pixel + ivec2(2, 0), ivec2(0), last), 0).r -
+                         texelFetch(t_depth, clamp(pixel - ivec2(2, 0), ivec2(0), last), 0).r,
+                     texelFetch(t_depth, clamp(pixel + ivec2(0, 2), ivec2(0), last), 0).r -
+                         texelFetch(t_depth, clamp(pixel - ivec2(0, 2), ivec2(0), last), 0).r);
+#else
+    /* The light's: the dark line is the shaded side of a ridge. From straight ahead it is taken for light from above. */
+    vec2 side = length(u_first_light.xy) > 0.02 ? u_first_light.xy : vec2(0.0, 1.0);
+#endif
+    float size = length(side);
+    return size > 1e-7 ? side / size : vec2(0.0);
+}
+#endif
+
 vec4 ink_at(vec2 position)
 {
     vec4 edge = edge_at(position);
@@ -85,16 +105,8 @@ vec4 ink_at(vec2 position)
                    lightness(texelFetch(t_shade, clamp(pixel - reach.yx, ivec2(0), ivec2(u_size) - 1), 0).rgb);
         ink *= 1.0 - smoothstep(u_line_suppress, u_line_suppress + 0.1, max(abs(across), abs(up)));
     }
-#elif CONTRAST == 3
-    /* Section 8.6.1's open wish: the second line on the outer side, which the gradient of depth points to. */
-    ivec2 last = ivec2(u_size) - 1;
-    vec2 outward = vec2(texelFetch(t_depth, clamp(pixel + ivec2(2, 0), ivec2(0), last), 0).r -
-                            texelFetch(t_depth, clamp(pixel - ivec2(2, 0), ivec2(0), last), 0).r,
-                        texelFetch(t_depth, clamp(pixel + ivec2(0, 2), ivec2(0), last), 0).r -
-                            texelFetch(t_depth, clamp(pixel - ivec2(0, 2), ivec2(0), last), 0).r);
-    float size = length(outward);
-    vec2 unit = size > 1e-7 ? outward / size : vec2(0.0);
-    vec2 moved = position - floor(unit * max(u_line_width, 1.0) + 0.5);
+#elif CONTRAST >= 3
+    vec2 moved = position - floor(second_side(pixel) * max(u_line_width, 1.0) + 0.5);
     ink = over(ink, ink_of(edge_at(moved), u_line_light_colour, u_line_light_colour, u_line_light_colour) * dash_at(moved));
 #endif
     return ink;

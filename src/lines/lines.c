@@ -5,7 +5,7 @@
 
 #include "lines/overshoot.h"
 
-static const char *const contrasts[] = {"none", "double", "adaptive", "directed", NULL};
+static const char *const contrasts[] = {"none", "double", "adaptive", "directed", "lit", NULL};
 
 static const param common[] = {
     PARAM_COLOUR_ROW(lines_common, colour, .def_colour = {0.09f, 0.10f, 0.12f, 1},
@@ -31,8 +31,10 @@ static const param common[] = {
                            "lines, negative values blur."),
     PARAM_ENUM_ROW(
         lines_common, contrast, .names = contrasts, .variant = true,
-        .doc = "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
-               "the dark colour by the ground; directed puts the second line towards the outside."),
+        .doc =
+            "Lines on any ground: none; double adds a second line beside the first; adaptive takes the light or "
+            "the dark colour by the ground; directed puts the second line towards the outside; lit on the side of the "
+            "first light, the first line away from it."),
     PARAM_COLOUR_ROW(lines_common, light_colour, .def_colour = {1, 1, 1, 1}, .only_if = "contrast",
                      .doc = "The second or the light colour of contrast-aware lines."),
     PARAM_FLOAT_ROW(lines_common, offset_x, .def = 0.75, .min = -12, .max = 12, .soft_min = -3, .soft_max = 3,

@@ -39,10 +39,10 @@ enum { LINES_CROWD_WIDTHS = 6 };
      .shader = "lines/ground.frag",                                                                                    \
      .reads = {TARGET_SHADE, TARGET_PAGE},                                                                             \
      .writes = TARGET_GROUND,                                                                                          \
-     .when = "contrast=adaptive,directed"},                                                                            \
+     .when = "contrast=adaptive"},                                                                                     \
     {                                                                                                                  \
         .name = "blur ground", .shader = "lines/blur.frag", .reads = {TARGET_GROUND}, .writes = TARGET_GROUND,         \
-        .repeat = 2, .when = "contrast=adaptive,directed"                                                              \
+        .repeat = 2, .when = "contrast=adaptive"                                                                       \
     }
 
 /* Pictures that line techniques keep for themselves, rows of lines_targets. */

@@ -15,6 +15,8 @@ typedef struct rule {
     selector      *selector;
     technique_use *uses[KIND_COUNT]; /* empty for look-wide kinds */
     size_t         use_counts[KIND_COUNT];
+    float          pale; /* 0 of a look's own rules; of what a plan adds for ghost images: how much of it is paper */
+    size_t         paler_of; /* and the rule that would draw them */
 } rule;
 
 enum { LOOK_CHANGE_BITS = 5, LOOK_CHANGE_ALL = (1 << LOOK_CHANGE_BITS) - 1 };

@@ -50,6 +50,7 @@ typedef struct flow_end {
 typedef struct mark_line {
     vec3  a, b, normal;
     vec3  middle, middle_normal; /* of the whole stroke: where its tone is decided, so that it is drawn whole */
+    vec3  middle_direction;      /* along it there, unit: pieces of strokes that flow have none */
     float light, perspective;    /* priorities */
     float span; /* 0: two thresholds (EX-01). Else the light priority is the top of a layer that is this wide, and
                  * within it the share that light asks for is multiplied by that of distance, so that one order serves
@@ -82,6 +83,9 @@ typedef struct marks {
     const uint32_t *parts; /* per triangle: index of its part, borrowed; NULL: nobody asks */
 } marks;
 void surface_marks_release(marks *m);
+/* Tells all pieces of a stroke, of which there is one at least, in their order, how it runs at its middle. Returns
+ * which piece that is. */
+size_t mark_stroke_middle(mark_line *pieces, size_t count);
 
 /* Area of a surface. */
 double mark_surface_area(const mark_surface *s);
@@ -214,12 +218,10 @@ typedef enum mark_law {
     MARK_LAW_DOT     /* for dots, which do not get smaller */
 } mark_law;
 
-/* 1 − t of the thesis' thresholds (EX-03, EX-04): fraction of the marks to be drawn at an eye-space position when all
- * are drawn face-on at distance `d`. Not clamped. */
-double mark_fraction_by_distance(const double position[3], double d);
-double mark_fraction_by_slope(const double position[3], const double normal[3]);
-/* Both together, by one of the laws (EX-05). `direction`: unit, of a line. The last two laws are exact off the
- * picture's middle too. Without perspective d is a number to a unit of length. */
+/* Fraction of the marks to be drawn at an eye-space position when all are drawn face-on at distance `d`, not clamped:
+ * 1 − t of the thesis' thresholds for distance and slope together, or by another law (EX-03 to EX-05). `direction`:
+ * unit, of a line. The last two laws are exact off the picture's middle too. Without perspective d is a number to a
+ * unit of length. */
 double mark_fraction(mark_law law, const double position[3], const double normal[3], const double direction[3],
                      double d, bool orthographic);
 
@@ -299,8 +301,9 @@ typedef struct mark_style {
     int32_t series;
     bool    steady; /* mark_cover_of_set */
     float   shadow, light, contrast,
-        texture; /* tone without and in full light; its bend; fraction of the surface's own brightness */
-    bool white;  /* marks stand for light */
+        texture;      /* tone without and in full light; its bend; fraction of the surface's own brightness */
+    bool white;       /* marks stand for light */
+    bool by_priority; /* a stroke is there where its light priority reaches the tone, whatever ink that makes */
     bool pixels; /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same
                     tone */
     colour ink;

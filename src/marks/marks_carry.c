@@ -93,10 +93,7 @@ static bool same_point(vec3 a, vec3 b)
 /* The middle of a stroke lies on the piece that has half of its length before it. */
 static void set_middle(mark_line *pieces, size_t count)
 {
-    size_t middle = 0;
-    while (middle + 1 < count && pieces[middle].to < pieces[middle].length / 2)
-        middle++;
-    const mark_line *p = &pieces[middle];
+    const mark_line *p = &pieces[mark_stroke_middle(pieces, count)];
     double           span = (double)p->to - (double)p->from, half = (double)p->length / 2 - (double)p->from,
            t = span > 0 ? fmin(fmax(half / span, 0), 1) : 0.5;
     vec3 at = narrow(plus(of(p->a), minus(of(p->b), of(p->a)), t)), normal = p->normal;

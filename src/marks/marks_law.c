@@ -11,14 +11,19 @@ static double dot3(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double mark_fraction_by_distance(const double position[3], double d)
+size_t mark_stroke_middle(mark_line *pieces, size_t count)
 {
-    return d / fmax(sqrt(dot3(position, position)), 1e-30);
-}
-
-double mark_fraction_by_slope(const double position[3], const double normal[3])
-{
-    return fabs(dot3(position, normal)) / fmax(sqrt(dot3(position, position)), 1e-30);
+    size_t middle = 0;
+    while (middle + 1 < count && pieces[middle].to < pieces[middle].length / 2)
+        middle++;
+    const mark_line *m = &pieces[middle];
+    const double     d[3] = {(double)m->b.x - (double)m->a.x, (double)m->b.y - (double)m->a.y,
+                             (double)m->b.z - (double)m->a.z};
+    double           length = fmax(sqrt(dot3(d, d)), 1e-300);
+    vec3             direction = {(float)(d[0] / length), (float)(d[1] / length), (float)(d[2] / length)};
+    for (size_t i = 0; i < count; i++)
+        pieces[i].middle_direction = direction;
+    return middle;
 }
 
 double mark_page_area(const double position[3], const double normal[3], double focal, bool orthographic)

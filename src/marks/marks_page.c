@@ -228,19 +228,18 @@ static float stroke_ink(const pager *g, const mark_line *l)
     position_on_page p = find_position(g, l->middle, l->middle_normal, &stretch);
     if (!p.inside || (p.facing <= 0 && !g->backs))
         return 0;
-    move_direction(&g->view->model_view, (vec3){l->b.x - l->a.x, l->b.y - l->a.y, l->b.z - l->a.z}, direction);
-    double length = fmax(sqrt(dot(direction, direction)), 1e-300),
-           own = hypot(hypot((double)l->b.x - (double)l->a.x, (double)l->b.y - (double)l->a.y),
-                       (double)l->b.z - (double)l->a.z);
+    move_direction(&g->view->model_view, l->middle_direction, direction);
+    double length = fmax(sqrt(dot(direction, direction)), 1e-300);
     for (int k = 0; k < 3; k++)
         direction[k] /= length;
     /* Ink where it is darkest, and what all strokes would have, of lines side by side. */
     double darkest = (double)g->style->diameter * (1 - (double)g->style->taper) / (double)g->style->scale;
-    double d = g->focal * stretch * own / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
+    double d = g->focal * stretch / length / fmax((double)l->density * (double)g->style->scale, 1e-300);
     double fraction = mark_fraction((mark_law)g->style->law, p.eye, p.normal, direction, d, g->view->orthographic);
-    double ink =
-        (double)mark_ink_of_strokes(darkness_at(g, &p, l->bright), (float)darkest, l->span, g->style->crowded) /
-        darkest;
+    float  darkness = darkness_at(g, &p, l->bright);
+    bool   equalised = !g->style->by_priority || l->span > 0;
+    double ink = equalised ? (double)mark_ink_of_strokes(darkness, (float)darkest, l->span, g->style->crowded) / darkest
+                           : (double)darkness;
     return mark_line_ink(l, (float)fmin(ink, 1), (float)fraction, g->style->fade);
 }
 
@@ -421,6 +420,13 @@ static bool add_piece(stretch_walk *w, const mark_line *l, const float widths[2]
     }
     if (hides)
         w->hidden(w->user, (const double(*)[3])positions, (size_t)count + 1, behind);
+    /* What is lifted over the nearest plane of all that is drawn is outside: asked again where it lies. */
+    for (int i = 0; i <= count && hides; i++)
+        if (behind[i] == UINT32_MAX) {
+            const double own[1][3] = {
+                {positions[i][0] - lift[0], positions[i][1] - lift[1], positions[i][2] - lift[2]}};
+            w->hidden(w->user, own, 1, &behind[i]);
+        }
     if (hides && w->marks->flow && w->g->style->stray > 0)
         leave_out_strayed(w, (const double(*)[3])positions, lift, (size_t)count + 1, behind);
     for (int i = w->open ? 1 : 0; i <= count; i++) {

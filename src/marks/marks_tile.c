@@ -208,12 +208,16 @@ static float indicated(const tiling *t, const double a[2], const double b[2])
     return w->indication[(size_t)row * (size_t)w->indication_width + (size_t)column];
 }
 
+/* Fraction of a stroke. What a corner of a triangle cuts off it by a hair would be a dot of its own, since it begins
+ * where the next piece begins. */
+static const double SHORTEST = 1e-6;
+
 static void add_piece(tiling *t, uint32_t triangle, const double corners[3][2], double density, const grid_entry *e,
                       const int32_t square[2])
 {
     double a[2], b[2], part[2], fraction[2][3], middle[3];
     copy_ends(t, e->stroke, square, a, b);
-    if (!mark_clip_line(a, b, corners, part))
+    if (!mark_clip_line(a, b, corners, part) || part[1] - part[0] < SHORTEST)
         return;
     for (int i = 0; i < 2; i++) {
         double at[2] = {a[0] + part[i] * (b[0] - a[0]), a[1] + part[i] * (b[1] - a[1])};
@@ -328,26 +332,21 @@ static void close_stroke(mark_line *lines, size_t count, uint32_t number)
     double length = 0, before = 0;
     for (size_t i = 0; i < count; i++)
         length += between(lines[i].a, lines[i].b);
-    size_t middle = 0;
-    double fraction = 0.5;
     for (size_t i = 0; i < count; i++) {
         double own = between(lines[i].a, lines[i].b);
         lines[i].stroke = number;
         lines[i].length = (float)length;
         lines[i].from = (float)before;
         lines[i].to = (float)(before + own);
-        if (before <= 0.5 * length) {
-            middle = i;
-            fraction = own > 0 ? fmin((0.5 * length - before) / own, 1) : 0.5;
-        }
         before += own;
     }
-    const mark_line *m = &lines[middle];
-    float            s = (float)fraction;
+    const mark_line *m = &lines[mark_stroke_middle(lines, count)];
+    float            own = m->to - m->from, s = own > 0 ? fminf((0.5f * m->length - m->from) / own, 1) : 0.5f;
     vec3 at = {m->a.x + s * (m->b.x - m->a.x), m->a.y + s * (m->b.y - m->a.y), m->a.z + s * (m->b.z - m->a.z)};
     for (size_t i = 0; i < count; i++) {
         lines[i].middle = at;
         lines[i].middle_normal = m->normal;
+        lines[i].density = m->density;
     }
 }
 

@@ -230,6 +230,8 @@ static bool add_stroke(tracer *t, const path *p, const mark_dot *seed, float lig
         }
     for (size_t i = first; i < t->out->line_count; i++)
         t->out->lines[i].length = line.to; /* of the chords */
+    if (t->out->line_count > first)
+        mark_stroke_middle(&t->out->lines[first], t->out->line_count - first);
     return done;
 }
 

@@ -24,7 +24,7 @@ static const double ACROSS = 0.6;        /* where the field's arms change, strai
 static const double FREE = 0.76;         /* nearer to another line none begins */
 static const double TWO_FROM = 1.6;      /* a gap this wide takes a line */
 static const double LEAST = 5;           /* length of a line that ends at others */
-static const double LEAST_BOUNDED = 0.7; /* and of one that runs from edge to edge */
+static const double LEAST_BOUNDED = 0.4; /* and of one that runs from edge to edge */
 static const double HUG = 0.3;           /* nearer to an edge no line begins */
 static const double FADED = 1.2;         /* of an end that runs out, the room is its neighbours' */
 static const double REACH = 3.4;         /* how far gaps are looked for */
@@ -111,6 +111,24 @@ typedef struct beyond_end {
     bool   straight;
 } beyond_end;
 
+/* Where a walk went over a border of the field. */
+typedef struct border_crossed {
+    size_t points, samples;
+    double arc;
+} border_crossed;
+
+/* A line that other lines stop soon after it went over a border ends at the border. */
+static line_end end_between(flow_maker *m, const border_crossed *border, double *arc, uint32_t *beyond)
+{
+    if (fabs(*arc - border->arc) >= LEAST * m->apart)
+        return END_OTHER;
+    m->count = border->points;
+    flow_grid_shorten(&m->grid, border->samples);
+    *arc = border->arc;
+    *beyond = 0;
+    return END_EDGE;
+}
+
 /* One step of a walk. */
 static flow_step step_on(const flow_maker *m, flow_position *p, beyond_end *b, double *gone)
 {
@@ -129,12 +147,14 @@ static flow_step step_on(const flow_maker *m, flow_position *p, beyond_end *b, d
 static line_end walk(flow_maker *m, flow_position p, uint32_t line, double side, double stop, double *arc,
                      uint32_t *beyond)
 {
-    flow_position seed = p;
-    beyond_end    b = {.left = INFINITY};
-    double        since = 0;
-    int           stuck = 0;
+    flow_position  seed = p;
+    beyond_end     b = {.left = INFINITY};
+    double         since = 0;
+    border_crossed border = {.arc = INFINITY};
+    int            stuck = 0;
     *arc = 0;
     *beyond = 0;
+    p.over = false;
     if (side < 0)
         p.direction = (d3){-p.direction.x, -p.direction.y, -p.direction.z};
     seed.direction = p.direction;
@@ -149,8 +169,11 @@ static line_end walk(flow_maker *m, flow_position p, uint32_t line, double side,
         if (gone > 0 && !add_point(m, &p, flow_normal(m->f, &p), *arc))
             return END_MEMORY;
         *beyond += within && gone > 0;
+        if (p.over)
+            border = (border_crossed){m->count, m->grid.count, *arc};
+        p.over = false;
         if (step == FLOW_EDGE)
-            return within ? END_OTHER : END_EDGE;
+            return within ? end_between(m, &border, arc, beyond) : END_EDGE;
         if (since < (within ? 0.3 : 1) * STEP * m->apart)
             continue;
         since = 0;
@@ -160,11 +183,11 @@ static line_end walk(flow_maker *m, flow_position p, uint32_t line, double side,
         if (!isfinite(b.left) && flow_grid_is_near(&m->grid, &s, stop * m->apart, 3 * m->apart))
             b.left = BEYOND * m->apart;
         if (isfinite(b.left) && flow_grid_is_near(&m->grid, &s, MEET * m->apart, 3 * m->apart))
-            return END_OTHER;
+            return end_between(m, &border, arc, beyond);
         if (!isfinite(b.left) && !flow_grid_add(&m->grid, &s))
             return END_MEMORY;
     }
-    return END_OTHER;
+    return end_between(m, &border, arc, beyond);
 }
 
 static void turn_around(flow_point *points, size_t count)
@@ -323,7 +346,10 @@ static bool runs_out(const flow_lines *l, const flow_line *line, uint32_t i, dou
 /* Fills the gaps on both sides of a line. */
 static bool fill_beside(flow_maker *m, uint32_t number)
 {
-    double since = INFINITY;
+    /* A short line has its say in the middle. */
+    const flow_line *own = &m->out->lines[number];
+    double           length = (double)m->out->points[own->first + own->count - 1].arc;
+    double           since = length < 1.5 * m->apart ? 1.5 * m->apart - length / 2 : INFINITY;
     for (uint32_t i = 0; i < m->out->lines[number].count; i++) {
         const flow_line  *line = &m->out->lines[number];
         const flow_point *points = &m->out->points[line->first];

@@ -45,6 +45,7 @@ bool flow_rooms_make(flow_surface *f);
 typedef struct flow_position {
     d3       at, direction;
     uint32_t triangle;
+    bool     over; /* the last step went over a border of the field, at which the line could have ended, too */
 } flow_position;
 
 /* What a step came to. */

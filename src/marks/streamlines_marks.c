@@ -132,6 +132,7 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
                    .stroke = (uint32_t)m->stroke_count++};
     /* Of those that flow, enough must be looked at for the ones that grow; whole ones get their share later. */
     l.perspective = (float)(1 - exp2(rank - finest - 0.2));
+    size_t begun = m->line_count;
     for (uint32_t i = first, end; i < last; i = end) {
         end = end_of_piece(c, line, p, i, last);
         if (!mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 1, sizeof *m->lines))
@@ -149,6 +150,8 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
         m->lines[m->line_count++] = l;
         m->line_length += (double)l.to - (double)l.from;
     }
+    if (c->options->whole)
+        mark_stroke_middle(&m->lines[begun], m->line_count - begun);
     return true;
 }
 

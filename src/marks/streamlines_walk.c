@@ -196,7 +196,8 @@ static bool go_over(const flow_surface *f, flow_position *p, uint32_t edge, cons
     uint32_t      a = same ? other : next_corner(other), b = same ? next_corner(other) : other;
     if (!lay_flat(f, other / 3, &t))
         return false;
-    if (!same_tensor(f, edge, a) && !same_tensor(f, next_corner(edge), b) && !agrees_beyond(f, p, here, other / 3, &t))
+    p->over = !same_tensor(f, edge, a) && !same_tensor(f, next_corner(edge), b);
+    if (p->over && !agrees_beyond(f, p, here, other / 3, &t))
         return false;
     /* Directions turn with the normal by the least rotation: about the edge. */
     double agree = dot(here->normal, t.normal);

@@ -16,11 +16,18 @@ typedef struct lanes {
 
 /* A measurement under way, in single precision around the middle. */
 typedef struct measuring {
-    const fit_view *view;
-    lanes           sides[2][2][FIT_STEPS + 1]; /* axis, plus or minus, step */
-    float           x[2][BLOCK], z[BLOCK];
-    size_t          count;
+    const fit_view        *view;
+    lanes                  sides[2][2][FIT_STEPS + 1]; /* axis, plus or minus, step */
+    float                  x[2][BLOCK], z[BLOCK];
+    size_t                 count;
+    struct touched_ground *ground; /* NULL: what touches it does not count */
 } measuring;
+
+/* The ground below what touches it or nearly so, which is dark up to some way around. */
+typedef struct touched_ground {
+    const fit_ground *ground;
+    measuring         points; /* down on the ground */
+} touched_ground;
 
 static double dot3(const double a[3], const double b[3])
 {
@@ -92,11 +99,33 @@ static void measure_points(measuring *m, const local_view *l, const vec3 *points
     }
 }
 
+static void measure_touching(touched_ground *t, const mat4 *world, const vec3 *points, size_t count)
+{
+    measuring       *m = &t->points;
+    const int        up = t->ground->up;
+    const local_view l = localise(m->view, world);
+    const double    *axes[3] = {m->view->right, m->view->up, m->view->forward};
+    const float      upright[4] = {(float)world->m[up], (float)world->m[4 + up], (float)world->m[8 + up],
+                                   (float)(world->m[12 + up] - t->ground->level)};
+    for (size_t i = 0; i < count; i++) {
+        float height = along(upright, points[i]);
+        if (!((double)height < t->ground->spread))
+            continue;
+        m->x[0][m->count] = along(l.axes[0], points[i]) - height * (float)axes[0][up];
+        m->x[1][m->count] = along(l.axes[1], points[i]) - height * (float)axes[1][up];
+        m->z[m->count++] = along(l.axes[2], points[i]) - height * (float)axes[2][up];
+        if (m->count == BLOCK)
+            measure_block(m);
+    }
+}
+
 /* Points that a matrix takes to the world, and their shadows. */
 static void measure_placed(measuring *m, const mat4 *world, const vec3 *points, size_t count)
 {
     local_view l = localise(m->view, world);
     measure_points(m, &l, points, count);
+    if (m->ground)
+        measure_touching(m->ground, world, points, count);
     if (m->view->shadow) {
         mat4 on_ground = mat4_multiply(m->view->shadow, world);
         l = localise(m->view, &on_ground);
@@ -175,6 +204,7 @@ static void begin(measuring *m, const fit_view *view)
 {
     m->view = view;
     m->count = 0;
+    m->ground = NULL;
     lanes *all = &m->sides[0][0][0];
     for (size_t i = 0; i < sizeof m->sides / sizeof *all; i++)
         for (int k = 0; k < LANES; k++)
@@ -189,11 +219,34 @@ static double most_of(const lanes *l)
     return (double)most;
 }
 
+/* Widens a reach to discs on the ground around the points there. */
+static void reach_around(fit_reach *out, const touched_ground *t, int axis, int step)
+{
+    const fit_view *v = t->points.view;
+    const int       from = v->slope[axis] > 0 ? step : 0, level[2] = {0, 3 - t->ground->up};
+    const double   *across = axis ? v->up : v->right, slope = v->slope[axis] * step / FIT_STEPS;
+    double          wide[2] = {0, 0};
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < 2; k++) {
+            double part = (side ? -1 : 1) * across[level[k]] - slope * v->forward[level[k]];
+            wide[side] += part * part;
+        }
+    out->plus[step] =
+        fmax(out->plus[step], most_of(&t->points.sides[axis][0][from]) + t->ground->spread * sqrt(wide[0]));
+    out->minus[step] =
+        fmax(out->minus[step], most_of(&t->points.sides[axis][1][from]) + t->ground->spread * sqrt(wide[1]));
+}
+
 void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view)
 {
-    measuring  m;
-    const mat4 identity = mat4_identity();
+    measuring      m;
+    touched_ground touched = {.ground = &body->ground};
+    const mat4     identity = mat4_identity();
     begin(&m, view);
+    if (body->ground.there && body->ground.spread > 0 && -view->forward[body->ground.up] > GROUND_EDGE_ON) {
+        begin(&touched.points, view);
+        m.ground = &touched;
+    }
     for (size_t i = 0; i < body->part_count && body->fitted; i++) {
         const bool ghost = body->pose->scene->parts[i].ghost;
         const box3 whole = ghost ? body->ghost_boxes[i] : body->pose->fit_boxes[i],
@@ -204,11 +257,15 @@ void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view)
             measure_box(&m, &identity, box);
     }
     measure_block(&m);
+    if (m.ground)
+        measure_block(&touched.points);
     for (int axis = 0; axis < 2; axis++)
         for (int s = 0; s <= FIT_STEPS; s++) {
             int from = view->slope[axis] > 0 ? s : 0;
             out[axis].plus[s] = most_of(&m.sides[axis][0][from]);
             out[axis].minus[s] = most_of(&m.sides[axis][1][from]);
+            if (m.ground)
+                reach_around(&out[axis], &touched, axis, s);
         }
 }
 

@@ -14,6 +14,7 @@ typedef struct fit_ground {
     bool   there, shadowed; /* shadowed: a light's shadow on it is drawn, and fitted with what throws it */
     int    up;              /* axis of the world: 1 or 2 */
     double level;           /* along it */
+    double spread;          /* how far the ground is darker, to be seen, around what it is touched by; 0: it is not */
 } fit_ground;
 
 /* What is fitted. Lent. */
@@ -42,7 +43,8 @@ typedef struct fit_reach {
 } fit_reach;
 
 /* Across and up. Without points all of it is −INFINITY. Meshes count by their vertices, in their pose; solids, and what
- * is fitted to all times, by their boxes; each with its shadow. */
+ * is fitted to all times, by their boxes; each with its shadow. Seen from above the ground counts, too, as far as
+ * it is dark around what touches it. */
 void fit_measure(fit_reach out[2], const fit_body *body, const fit_view *view);
 
 /* The reaches at a slope from 0 to `most`: between steps they are at most this. */

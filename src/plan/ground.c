@@ -37,6 +37,7 @@ static bool are_one(const lmn_scene *scene, size_t a, size_t b)
 }
 
 enum { TOUCHING_MOST = 256 /* things of which it is looked whether they touch */ };
+static const double SEEN = 0.42; /* of its reach a shadow where the ground is touched is dark enough to be seen */
 static const double NEARLY = 0.003, MOST = 0.7; /* of the diagonal; of all things */
 
 /* What touches is one thing: wheels and what they carry. */
@@ -107,6 +108,8 @@ void ground_settle(plan *p)
     g->level = lowest_of(&p->fit, g->up);
     g->there = isfinite(g->level) && (v->ground != GROUND_CAST || stands_level(p, g));
     g->shadowed = g->there && v->ground == GROUND_CAST;
+    if (g->there && v->ground == GROUND_CONTACT)
+        g->spread = SEEN * (double)v->ground_reach * box3_diagonal(p->fit.box);
 }
 
 ground_plane ground_find(const plan *p, const view_camera *camera)

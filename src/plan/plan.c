@@ -11,6 +11,7 @@
 #include "light/light.h"
 #include "lines/lines.h"
 #include "plan/ground.h"
+#include "plan/pale.h"
 #include "plan/paper_look.h"
 #include "plan/refuse.h"
 #include "scene/content.h"
@@ -216,7 +217,8 @@ static void settle_figure(figure *f, const plan *p, bool as_sprites)
                     !perturbed && !f->mover;
     f->reflects = surface && surface->technique->surface->reflects;
     bool plain_surface = !surface || (surface->technique->surface->direct && !has_active_pass(surface));
-    f->direct = !as_sprites && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
+    f->direct =
+        !as_sprites && r->pale <= 0 && !r->use_counts[KIND_LINES] && plain_surface && !f->deferred && !perturbed;
     f->channels =
         channels_of(r, f->complement || f->part_count > 1 || p->has_cut || figure_has_solids(p, f)) | CHANNEL_SHADE;
     if (f->complement || as_sprites)
@@ -331,8 +333,9 @@ static void share_parts(plan *p)
             fit_to(p, i, false);
         for (size_t r = look->rule_count; r-- > 0 && p->rule_of[i] == NONE;) {
             const selector *s = look->rules[r].selector;
-            if (s ? selector_matches(s, p->scene, i) : !ghost)
-                p->rule_of[i] = (int32_t)r;
+            if (look->rules[r].pale <= 0 && (s ? selector_matches(s, p->scene, i) : !ghost))
+                p->rule_of[i] =
+                    (int32_t)pale_find_rule(look, r, node_paleness(&p->scene->nodes[p->scene->parts[i].node]));
         }
         bool taken = p->rule_of[i] != NONE;
         if (ghost && taken)
@@ -355,7 +358,7 @@ static void warn_of_idle_rules(const plan *p, bool without_removed, warnings *wa
     const lmn_look *look = p->look;
     for (size_t r = 0; r < look->rule_count; r++) {
         const rule *own = &look->rules[r];
-        bool        idle = !is_for_some_scenes(own->select);
+        bool        idle = own->pale <= 0 && !is_for_some_scenes(own->select);
         if (without_removed && own->selector && selector_names_removed(own->selector))
             idle = false;
         for (size_t i = 0; idle && i < p->part_count; i++)
@@ -589,7 +592,7 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
     out->scene = pose->scene;
     out->pixels_per_mm = options->pixels_per_mm;
     out->look = look = out->own_look = paper_look_create(look, options->pixels_per_mm * MM_PER_POINT);
-    if (!look)
+    if (!look || !pale_add_rules(out->own_look, pose->scene))
         return error_memory(error);
     if (options->surfaces_only) /* hatching is lines */
         ((scene_values *)out->own_look->wide[KIND_SCENE].values)->cut_hatch = 0;

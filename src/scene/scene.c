@@ -332,12 +332,29 @@ char *scene_name_of_file(const char *path)
     return length ? scene_clean_name(name, length) : mem_copy_text("model");
 }
 
-static bool has_attribute(const node *n, const char *key)
+static const char *find_attribute(const node *n, const char *key)
 {
     for (size_t i = 0; i < n->attribute_count; i++)
         if (strcmp(n->attributes[i].key, key) == 0)
-            return true;
-    return false;
+            return n->attributes[i].value;
+    return NULL;
+}
+
+static bool has_attribute(const node *n, const char *key)
+{
+    return find_attribute(n, key) != NULL;
+}
+
+bool node_tint(const node *n, colour *out)
+{
+    const char *value = find_attribute(n, NODE_TINT);
+    return value && colour_parse(value, out);
+}
+
+int node_paleness(const node *n)
+{
+    const char *value = find_attribute(n, NODE_PALE);
+    return value && value[0] >= '1' && value[0] <= '0' + PALE_MOST && !value[1] ? value[0] - '0' : 0;
 }
 
 bool node_is_overlay(const node *n)

@@ -3,6 +3,7 @@
 #ifndef LIMNER_SCENE_SCENE_H
 #define LIMNER_SCENE_SCENE_H
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/warnings.h"
 #include "limner/scene.h"
@@ -71,6 +72,8 @@ typedef struct mesh {
     uint64_t   topology; /* the same for its vertices and triangles, wherever they are */
     bool       moved;    /* its vertices have other positions than those that it came with */
     bool       spare;    /* nothing uses it any longer; empty */
+    size_t     twin; /* 1 + the number of a mesh that has the same content, but for materials, as long as both have the
+                        same revision; 0: none is known */
 } mesh;
 
 typedef struct image {
@@ -353,6 +356,13 @@ bool node_is_overlay(const node *n);
  * into it, and what of others lies in it. */
 #define NODE_GLYPH "glyph"
 box3 scene_fitted_box(const lmn_scene *scene, size_t part_index, box3 box);
+/* How much paler than by its look it is drawn, eighths: a ghost image of what was or will be. Attribute NODE_PALE. */
+#define NODE_PALE "pale"
+enum { PALE_MOST = 8 };
+int node_paleness(const node *n);
+/* And the colour that it has where the look makes it paler. Attribute NODE_TINT. False: that of its material. */
+#define NODE_TINT "tint"
+bool node_tint(const node *n, colour *out);
 /* Signs throw no shadow. Attribute NODE_SHADOWLESS. */
 #define NODE_SHADOWLESS "shadowless"
 bool     node_throws_shadow(const node *n);

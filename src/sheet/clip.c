@@ -1,4 +1,5 @@
 /* Cutting what lies on a sheet at a box: lines and areas end there, dots outside go. Pictures and texts stay. */
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -77,25 +78,30 @@ static bool cut_piece(const clipper *c, const float a[2], const float b[2], floa
 
 static void clip_line(clipper *c, const sheet_path *path)
 {
-    size_t   first = c->point_count;
-    uint32_t pieces = path->closed ? path->count : path->count - 1;
+    size_t     first = c->point_count;
+    uint32_t   pieces = path->closed ? path->count : path->count - 1;
+    sheet_path like = *path; /* dashes go on behind what is cut off */
+    float      arc = 0;
     for (uint32_t i = 0; i < pieces; i++) {
         const float *a = c->from->points[path->first + i], *b = c->from->points[path->first + (i + 1) % path->count];
-        float        cut[2];
+        float        cut[2], length = hypotf(b[0] - a[0], b[1] - a[1]), begun = arc;
+        arc += length;
         if (!cut_piece(c, a, b, cut)) {
-            put_path(c, path, first, 2, false);
+            put_path(c, &like, first, 2, false);
             first = c->point_count;
             continue;
         }
-        if (c->point_count == first)
+        if (c->point_count == first) {
+            like.phase = path->phase + begun + cut[0] * length;
             put_point(c, a[0] + cut[0] * (b[0] - a[0]), a[1] + cut[0] * (b[1] - a[1]));
+        }
         put_point(c, a[0] + cut[1] * (b[0] - a[0]), a[1] + cut[1] * (b[1] - a[1]));
         if (cut[1] < 1) {
-            put_path(c, path, first, 2, false);
+            put_path(c, &like, first, 2, false);
             first = c->point_count;
         }
     }
-    put_path(c, path, first, 2, false);
+    put_path(c, &like, first, 2, false);
 }
 
 /* An area, cut at one side of the box after the other (Sutherland and Hodgman). */

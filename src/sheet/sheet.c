@@ -32,6 +32,8 @@ void sheet_release(sheet *s)
     mem_free(s->items);
     mem_free(s->paths);
     mem_free(s->points);
+    mem_free(s->dashes);
+    mem_free(s->pieces);
     memset(s, 0, sizeof *s);
 }
 
@@ -113,7 +115,8 @@ static void add_run(sheet *s, const sheet_path *style, const float (*points)[2],
     path->count = (uint32_t)count;
     path->closed = style->closed && whole;
     path->width = style->width > 0 && isfinite(style->width) ? style->width : 0;
-    path->dash = style->dash > 0 && isfinite(style->dash) && style->gap > 0 && isfinite(style->gap) ? style->dash : 0;
+    path->first_dash = path->dash_count = path->first_piece = path->piece_count = 0;
+    path->phase = 0;
     for (size_t i = 0; i < count; i++) {
         float *to = s->points[s->point_count++];
         to[0] = within(points[i][0]);
@@ -133,6 +136,28 @@ void sheet_add_path(sheet *s, const sheet_path *style, const float (*points)[2],
         add_run(s, style, points + begin, i - begin, begin == 0 && i == count);
         begin = i + 1;
     }
+}
+
+void sheet_dash_path(sheet *s, const float *lengths, size_t count, float phase)
+{
+    const sheet_item *item = s->item_count ? &s->items[s->item_count - 1] : NULL;
+    sheet_path       *path = s->path_count ? &s->paths[s->path_count - 1] : NULL;
+    float             sums[2] = {0, 0};
+    for (size_t i = 0; i < count; i++)
+        sums[i % 2] += lengths[i] >= 0 ? lengths[i] : INFINITY;
+    if (s->failed || !item || !item->count || !path || item->kind != SHEET_PATH || path->filled || count % 2 ||
+        !(sums[0] > 0) || !(sums[1] > 0) || !isfinite(sums[0] + sums[1] + phase))
+        return;
+    if (s->dash_count + count > UINT32_MAX ||
+        !mem_grow((void **)&s->dashes, &s->dash_capacity, s->dash_count + count, sizeof *s->dashes)) {
+        s->failed = true;
+        return;
+    }
+    memcpy(s->dashes + s->dash_count, lengths, count * sizeof *lengths);
+    path->first_dash = (uint32_t)s->dash_count;
+    path->dash_count = (uint32_t)count;
+    path->phase = phase;
+    s->dash_count += count;
 }
 
 static bool fits(const double *values, size_t count)

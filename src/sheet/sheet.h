@@ -9,15 +9,29 @@
 typedef enum sheet_kind { SHEET_PATH, SHEET_DOTS, SHEET_IMAGE, SHEET_TEXT } sheet_kind;
 typedef enum sheet_cap { SHEET_CAP_ROUND, SHEET_CAP_BUTT } sheet_cap;
 
+/* A piece of a curve, from where the one before ends. */
+typedef enum sheet_piece_kind { SHEET_LINE, SHEET_ARC, SHEET_CUBIC } sheet_piece_kind;
+typedef struct sheet_piece {
+    sheet_piece_kind kind;
+    double           end[2];
+    double           controls[2][2]; /* of cubics */
+    /* Of arcs: at an angle t lies centre + turned by `turn` (radii[0] cos t, radii[1] sin t); from `from` to from +
+     * sweep, radians, growing from x to y. Circles have equal radii and no turn. */
+    double centre[2], radii[2], turn, from, sweep;
+} sheet_piece;
+
 /* A run of points: lines between them, or dots at them. */
 typedef struct sheet_path {
     uint32_t first, count; /* in the sheet's points */
     bool closed, filled; /* filled: the area that it and the other paths of its item run around (holes run the other way
                             round); else a line */
+    bool      curved;    /* it stands for a curve, which sheet_fit may put in its place */
     float     width;     /* of a line, or diameter of dots, mm */
-    float     dash, gap; /* mm; dash 0: unbroken */
-    float     phase;
     sheet_cap cap;
+    uint32_t  first_dash, dash_count;   /* of the sheet's dashes; 0: unbroken */
+    float     phase;                    /* arc at which the pattern is where the path begins, mm */
+    uint32_t  first_piece, piece_count; /* of the sheet's pieces, instead of lines between the points; the first begins
+                                           at the first point, the last of a closed path ends there */
 } sheet_path;
 
 typedef struct sheet_item {
@@ -57,8 +71,12 @@ typedef struct sheet {
     sheet_path  *paths;
     size_t       path_count, path_capacity;
     float (*points)[2];
-    size_t point_count, point_capacity;
-    bool   failed; /* memory was gone: later calls did nothing, and the sheet is not whole */
+    size_t       point_count, point_capacity;
+    float       *dashes; /* mm: ink, gap, ink …, again and again along the path */
+    size_t       dash_count, dash_capacity;
+    sheet_piece *pieces;
+    size_t       piece_count, piece_capacity;
+    bool         failed; /* memory was gone: later calls did nothing, and the sheet is not whole */
 } sheet;
 
 /* An empty sheet. What is not finite, or not above 0, becomes 1 mm. */
@@ -76,9 +94,12 @@ void sheet_clip_group(sheet *s, uint32_t group, double x, double y, double width
 
 /* Begins an item of paths or dots. */
 void sheet_add_item(sheet *s, sheet_kind kind, uint32_t group, colour ink, uint64_t id);
-/* Adds a path to the last item, drawn as `style` says (first and count do not matter). Where points are not finite
- * it is broken. Lines of one point are left out; dots are not. */
+/* Adds a path to the last item, drawn as `style` says (what it has of the sheet's arrays does not matter). Where points
+ * are not finite it is broken. Lines of one point are left out; dots are not. */
 void sheet_add_path(sheet *s, const sheet_path *style, const float (*points)[2], size_t count);
+/* Breaks the line that was added last into dashes: `lengths` of ink and gap in turn, an even number of them, none below
+ * 0 and some of each above it; else it stays unbroken. */
+void sheet_dash_path(sheet *s, const float *lengths, size_t count, float phase);
 /* PNG bytes of one picture. */
 void sheet_add_image(sheet *s, uint32_t group, const unsigned char *png, size_t size, double x, double y, double width,
                      double height);

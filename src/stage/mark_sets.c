@@ -79,13 +79,29 @@ static int by_perspective(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
+/* A unit vector as one number that floats have exactly: a face and its place on the octahedron, twelve bits each way.
+ */
+static float packed_direction(vec3 d)
+{
+    const float most = 2047;
+    float       sum = fmaxf(fabsf(d.x) + fabsf(d.y) + fabsf(d.z), 1e-20f), x = d.x / sum, y = d.y / sum;
+    if (d.z < 0) {
+        float folded = (1 - fabsf(y)) * (x < 0 ? -1.0f : 1.0f);
+        y = (1 - fabsf(x)) * (y < 0 ? -1.0f : 1.0f);
+        x = folded;
+    }
+    return roundf(most * x) + most + 4096 * (roundf(most * y) + most);
+}
+
 static void write_line(float (*r)[4], const mark_line *l)
 {
+    float length = fmaxf(l->length, 1e-30f);
     memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->light}, sizeof *r);
     memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, l->perspective}, sizeof *r);
     memcpy(r[2], (float[]){l->middle.x, l->middle.y, l->middle.z, l->bright}, sizeof *r);
     memcpy(r[3], (float[]){l->middle_normal.x, l->middle_normal.y, l->middle_normal.z, l->density}, sizeof *r);
-    memcpy(r[4], (float[]){l->from, l->to, l->length, l->span}, sizeof *r);
+    memcpy(r[4], (float[]){l->from / length, l->to / length, packed_direction(l->middle_direction), l->span},
+           sizeof *r);
 }
 
 /* How wide strips are, six bits each, as one number that floats have exactly. */

@@ -17,6 +17,8 @@
 /* The same of polylines of files, which meet at corners as well. */
 #define CROSSES 0.7
 enum {
+    KEPT = 1, /* of points that stay */
+    KEPT_BETWEEN,
     OUTSIDE = -1,
     MEETING_MAX = 24,
     MARKS_MAX = 8
@@ -27,6 +29,7 @@ typedef struct chain_point {
     double  x, y, z, arc;
     float   weight;
     int32_t count;
+    double  aside[2]; /* as of stroke points */
 } chain_point;
 
 typedef struct chainer {
@@ -47,7 +50,7 @@ typedef struct chainer {
     uint8_t              *kept; /* per point */
     uint32_t             *stack;
     size_t                kept_capacity, stack_capacity;
-    size_t                stroke_capacity, out_capacity, mark_capacity;
+    size_t                stroke_capacity, out_capacity, mark_capacity, fine_capacity;
     stroke_mark           marks[MARKS_MAX]; /* of the chain, least ids first */
     size_t                mark_count;
     curve_path            curve;
@@ -202,8 +205,9 @@ static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t
 {
     const window_segment *s = &c->lines->segments[c->path[i] / 2];
     const float          *weights = c->lines->lines[c->path[i] / 2].weights;
-    double p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
-                   s->a.z + fraction * (s->b.z - s->a.z)};
+    double       p[3] = {s->a.x + fraction * ((double)s->b.x - s->a.x), s->a.y + fraction * ((double)s->b.y - s->a.y),
+                         s->a.z + fraction * (s->b.z - s->a.z)};
+    const double home[2] = {p[0], p[1]};
     if (c->curved)
         curve_path_at(&c->curve, i, c->path[i] & 1 ? 1 - fraction : fraction, p);
     return (chain_point){p[0] / c->v->units + 0.5 * c->v->camera.width,
@@ -211,7 +215,8 @@ static chain_point point_at(const chainer *c, size_t i, double fraction, int32_t
                          p[2],
                          0,
                          weights[0] + (float)fraction * (weights[1] - weights[0]),
-                         count};
+                         count,
+                         {(p[0] - home[0]) / c->v->units, (p[1] - home[1]) / c->v->units}};
 }
 
 static bool put_point(chainer *c, chain_point p)
@@ -243,12 +248,14 @@ static bool clip_to_page(const chainer *c, const chain_point *p, const chain_poi
 
 static chain_point between(const chain_point *p, const chain_point *q, double fraction, int32_t count)
 {
-    return (chain_point){p->x + fraction * (q->x - p->x),
-                         p->y + fraction * (q->y - p->y),
-                         p->z + fraction * (q->z - p->z),
-                         0,
-                         p->weight + (float)fraction * (q->weight - p->weight),
-                         count};
+    return (chain_point){
+        p->x + fraction * (q->x - p->x),
+        p->y + fraction * (q->y - p->y),
+        p->z + fraction * (q->z - p->z),
+        0,
+        p->weight + (float)fraction * (q->weight - p->weight),
+        count,
+        {p->aside[0] + fraction * (q->aside[0] - p->aside[0]), p->aside[1] + fraction * (q->aside[1] - p->aside[1])}};
 }
 
 /* One straight piece with one count: cut at the rim of the page. */
@@ -445,6 +452,8 @@ static void calm(chainer *c)
 /* Of what a depth is off, so much counts beside what the position on the page is: depth may be off by less than half a
  * pixel, so that whoever looks the line up finds it on its surface. */
 #define DEPTH_FRACTION 0.25
+/* The same of what lies aside: less than half a pixel, too. */
+#define ASIDE_FRACTION 0.25
 
 /* By how much a point lies off a straight piece, pixels. */
 static double distance_from(const chainer *c, const chain_point *p, const chain_point *a, const chain_point *b)
@@ -455,18 +464,14 @@ static double distance_from(const chainer *c, const chain_point *p, const chain_
     double away_x = p->x - a->x - fraction * x, away_y = p->y - a->y - fraction * y;
     double depth = (p->z - a->z - fraction * (b->z - a->z)) *
                    (c->v->camera.orthographic ? c->focal : -c->focal / p->z) * DEPTH_FRACTION;
-    return sqrt(away_x * away_x + away_y * away_y + depth * depth);
+    double aside = ASIDE_FRACTION * hypot(p->aside[0] - a->aside[0] - fraction * (b->aside[0] - a->aside[0]),
+                                          p->aside[1] - a->aside[1] - fraction * (b->aside[1] - a->aside[1]));
+    return sqrt(away_x * away_x + away_y * away_y + depth * depth + aside * aside);
 }
 
 /* Marks the points that stay between two that do (Douglas and Peucker). */
-static bool simplify(chainer *c, size_t begin, size_t end)
+static void keep_between(chainer *c, size_t begin, size_t end, double limit, uint8_t mark)
 {
-    double limit = c->options->simplify;
-    if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
-        !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
-        return false;
-    memset(c->kept + begin, 0, end - begin + 1);
-    c->kept[begin] = c->kept[end] = 1;
     size_t depth = 0;
     c->stack[depth++] = (uint32_t)begin;
     c->stack[depth++] = (uint32_t)end;
@@ -482,16 +487,47 @@ static bool simplify(chainer *c, size_t begin, size_t end)
         }
         if (!worst)
             continue;
-        c->kept[worst] = 1;
+        c->kept[worst] = mark;
         c->stack[depth++] = (uint32_t)first;
         c->stack[depth++] = (uint32_t)worst;
         c->stack[depth++] = (uint32_t)worst;
         c->stack[depth++] = (uint32_t)last;
     }
+}
+
+/* Marks the points of a stretch that stay, and with another mark those that are kept between them. */
+static bool simplify(chainer *c, size_t begin, size_t end)
+{
+    const stroke_options *w = c->options;
+    if (!mem_grow((void **)&c->kept, &c->kept_capacity, c->point_count, 1) ||
+        !mem_grow((void **)&c->stack, &c->stack_capacity, 2 * (end - begin) + 4, sizeof *c->stack))
+        return false;
+    memset(c->kept + begin, 0, end - begin + 1);
+    c->kept[begin] = c->kept[end] = KEPT;
+    keep_between(c, begin, end, w->simplify, KEPT);
+    for (size_t first = begin, i = begin + 1; i <= end && w->fine > 0 && w->fine < w->simplify; i++)
+        if (c->kept[i] == KEPT) {
+            keep_between(c, first, i, w->fine, KEPT_BETWEEN);
+            first = i;
+        }
     return true;
 }
 
 /* --- strokes -------------------------------------------------------------------------------------------- */
+
+/* Behind the point that was put last. */
+static bool put_fine(chainer *c, const chain_point *p)
+{
+    stroke_set   *out = c->out;
+    stroke_point *before = &out->points[out->point_count - 1];
+    if (out->fine_count >= UINT32_MAX ||
+        !mem_grow((void **)&out->fine, &c->fine_capacity, out->fine_count + 1, sizeof *out->fine))
+        return false;
+    out->fine[out->fine_count++] =
+        (stroke_fine){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc - before->arc};
+    before->fine_count++;
+    return true;
+}
 
 static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
 {
@@ -503,9 +539,16 @@ static bool put_stroke(chainer *c, stroke s, size_t begin, size_t end)
     s.first = (uint32_t)out->point_count;
     for (size_t i = begin; i <= end; i++) {
         const chain_point *p = &c->points[i];
-        if (c->kept[i])
-            out->points[out->point_count++] =
-                (stroke_point){(float)p->x, (float)p->y, (float)view_depth(c->v, p->z), (float)p->arc, p->weight};
+        if (c->kept[i] == KEPT)
+            out->points[out->point_count++] = (stroke_point){.x = (float)p->x,
+                                                             .y = (float)p->y,
+                                                             .depth = (float)view_depth(c->v, p->z),
+                                                             .arc = (float)p->arc,
+                                                             .weight = p->weight,
+                                                             .aside = {(float)p->aside[0], (float)p->aside[1]},
+                                                             .fine = (uint32_t)out->fine_count};
+        else if (c->kept[i] == KEPT_BETWEEN && !put_fine(c, p))
+            return false;
     }
     s.count = (uint32_t)(out->point_count - s.first);
     out->strokes[out->stroke_count++] = s;
@@ -616,6 +659,7 @@ void stroke_set_release(stroke_set *s)
     mem_free(s->strokes);
     mem_free(s->points);
     mem_free(s->marks);
+    mem_free(s->fine);
     memset(s, 0, sizeof *s);
 }
 

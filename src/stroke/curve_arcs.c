@@ -16,6 +16,8 @@
 #define LONG_TO   4.0
 /* Arcs that make less of a turn than this fraction leave a corner there. */
 #define LEAST_SHARE 0.35
+/* A smooth point between two that turn by less than this fraction of what it does turns alone: nothing bends there. */
+#define ALONE 0.1
 /* Part of the way that a smooth point goes aside in each round. */
 #define FAIRING 0.35
 /* Of what a line may leave the mesh by, points take no more than this. */
@@ -85,9 +87,26 @@ static size_t count_alike(const polyline *p, size_t from, bool forward)
     return count;
 }
 
-/* Steps that are no curve's become corners: their turns are read until all are judged, so the kind alone is changed. */
+/* Where two straight lines meet and neither goes on turning at its other end, as along a cone and then along a
+ * cylinder: an edge of the body, however little it turns. */
+static bool turns_alone(const polyline *p, size_t i)
+{
+    double           most = ALONE * fabs(p->points[i].turn);
+    const arc_point *before = &p->points[line_before(p, i)], *behind = end_of(p, i);
+    return p->count > 2 && fabs(p->points[i].turn) > STRAIGHT &&
+           (before->kind == ARC_POINT_CORNER || fabs(before->turn) < most) &&
+           (behind->kind == ARC_POINT_CORNER || fabs(behind->turn) < most);
+}
+
+/* Steps that are no curve's become corners, and smooth points that turn alone: turns are read until all are judged, so
+ * the kind alone is changed, of those that turn alone when all are. */
 static void judge_steps(polyline *p)
 {
+    for (size_t i = 0; i < p->count; i++)
+        p->points[i].aside = p->points[i].kind == ARC_POINT_SMOOTH && turns_alone(p, i);
+    for (size_t i = 0; i < p->count; i++)
+        if (p->points[i].aside != 0)
+            p->points[i].kind = ARC_POINT_CORNER;
     for (size_t i = 0; i < p->count; i++)
         if (p->points[i].kind == ARC_POINT_STEP && fabs(p->points[i].turn) > STRAIGHT &&
             count_alike(p, i, true) + count_alike(p, i, false) + 1 < STEPS_LEAST)

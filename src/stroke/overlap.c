@@ -184,8 +184,13 @@ static stroke_point place_at(const stroke_set *set, uint32_t number, float along
     const stroke_point *p = point_from(set, number, i - 1), *q = point_from(set, number, i);
     float               length = fabsf(q->arc - p->arc), f = length > 0 ? (along - fabsf(p->arc - begin)) / length : 0;
     f = fminf(fmaxf(f, 0), 1);
-    return (stroke_point){p->x + f * (q->x - p->x), p->y + f * (q->y - p->y), p->depth + f * (q->depth - p->depth),
-                          p->arc + f * (q->arc - p->arc), p->weight};
+    return (stroke_point){
+        p->x + f * (q->x - p->x),
+        p->y + f * (q->y - p->y),
+        p->depth + f * (q->depth - p->depth),
+        p->arc + f * (q->arc - p->arc),
+        p->weight,
+        {p->aside[0] + f * (q->aside[0] - p->aside[0]), p->aside[1] + f * (q->aside[1] - p->aside[1])}};
 }
 
 /* Takes off what is nearer to an end than that, and lets the stroke end elsewhere instead. */

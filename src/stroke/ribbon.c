@@ -19,6 +19,7 @@ static const float straight_cosine = 0.985f;
 static const float sway_most = 0.05f; /* fraction of a line's length that it may stray */
 static const float crumb = 1.5f;      /* what is left of a cut line and shorter than this is left out */
 static const float close_points = 1e-3f;
+static const float fine_aside = 0.3f; /* fine points lie no farther from the line between two others */
 enum { REPEATS_MOST = 16, POINTS_A_SPAN_MOST = 1 << 20 };
 
 /* --- lists of spans and gaps ---------------------------------------------------------------------------- */
@@ -199,15 +200,18 @@ enum { NOISE_X, NOISE_Y, NOISE_PRESSURE, NOISE_HAND, NOISE_COUNT };
 /* --- one line: a stretch of a stroke as it is drawn once ------------------------------------------------ */
 
 typedef struct builder {
-    ribbon_job   job;
-    ribbon_set  *out;
-    size_t       ribbon_capacity, point_capacity;
-    span_list    inked, dashes, spans;
-    hand_pulls   pulls;
-    segment_grid grid; /* of visible strokes, where a hand draws */
-    float       *arcs; /* where a line's points are */
-    size_t       arc_count, arc_capacity;
-    bool         failed;
+    ribbon_job         job;
+    ribbon_set        *out;
+    size_t             ribbon_capacity, point_capacity, dash_capacity;
+    span_list          inked, dashes, spans;
+    hand_pulls         pulls;
+    segment_grid       grid;   /* of visible strokes, where a hand draws */
+    const stroke_fine *fine;   /* of the strokes; NULL: there are none */
+    stroke_point      *points; /* of a stroke with its fine ones */
+    size_t             fine_capacity;
+    float             *arcs; /* where a line's points are */
+    size_t             arc_count, arc_capacity;
+    bool               failed;
 } builder;
 
 typedef struct line {
@@ -486,6 +490,47 @@ static line line_of(const builder *b, uint32_t index)
     return l;
 }
 
+/* The fine points that lie between a point and the next one, as they are now: lines may have been cut since, joined, or
+ * turned round. */
+static size_t put_fine(builder *b, const stroke_point *p, const stroke_point *q, size_t count)
+{
+    float x = q->x - p->x, y = q->y - p->y, length = hypotf(x, y), reach = q->arc - p->arc;
+    for (uint32_t i = 0; i < p->fine_count; i++) {
+        const stroke_fine *f = &b->fine[p->fine + i];
+        float across = fabsf((f->x - p->x) * y - (f->y - p->y) * x), along = (f->x - p->x) * x + (f->y - p->y) * y,
+              part = reach > 0 ? f->along / reach : 1;
+        if (!(part < 1) || across > fine_aside * length || along < 0 || along > length * length)
+            continue;
+        b->points[count++] = (stroke_point){.x = f->x,
+                                            .y = f->y,
+                                            .depth = f->depth,
+                                            .arc = p->arc + f->along,
+                                            .weight = p->weight + part * (q->weight - p->weight)};
+    }
+    return count;
+}
+
+/* Lines that no hand draws go through all that is known of them. */
+static void take_fine(builder *b, line *l)
+{
+    size_t count = 0, most = l->count;
+    for (uint32_t k = 0; k < l->count && b->fine; k++)
+        most += l->points[k].fine_count;
+    if (most == l->count)
+        return;
+    if (!mem_grow((void **)&b->points, &b->fine_capacity, most, sizeof *b->points)) {
+        b->failed = true;
+        return;
+    }
+    for (uint32_t k = 0; k < l->count; k++) {
+        b->points[count++] = l->points[k];
+        if (k + 1 < l->count)
+            count = put_fine(b, &l->points[k], &l->points[k + 1], count);
+    }
+    l->points = b->points;
+    l->count = (uint32_t)count;
+}
+
 /* Closed strokes: what is inked of them, in arcs that go on round and round. */
 static void unroll(builder *b, float begin)
 {
@@ -514,6 +559,47 @@ static void draw_line(builder *b, const line *l, const float beyond[2], bool das
             where.to += beyond[1];
         if (where.to > where.from)
             emit(b, l, where, dashed);
+    }
+}
+
+/* The dashes in `spans` as one ribbon. */
+static void draw_dashes(builder *b, const line *l, const float beyond[2])
+{
+    span  *dashes = b->spans.items, *last = &dashes[b->spans.count - 1];
+    size_t count = b->spans.count, before = b->out->ribbon_count;
+    dashes->from = fmaxf(dashes->from, l->begin);
+    last->to = fminf(last->to, l->end);
+    dashes->from -= dashes->from == l->begin ? beyond[0] : 0;
+    last->to += last->to == l->end ? beyond[1] : 0;
+    emit(b, l, (span){dashes->from, last->to}, true);
+    if (b->failed || b->out->ribbon_count == before)
+        return;
+    if (b->out->dash_count + count > UINT32_MAX ||
+        !mem_grow((void **)&b->out->dashes, &b->dash_capacity, b->out->dash_count + count, sizeof *b->out->dashes)) {
+        b->failed = true;
+        return;
+    }
+    ribbon *r = &b->out->ribbons[before];
+    r->first_dash = (uint32_t)b->out->dash_count;
+    r->dash_count = (uint32_t)count;
+    for (size_t i = 0; i < count; i++) {
+        float *to = b->out->dashes[b->out->dash_count++];
+        to[0] = dashes[i].from - dashes->from;
+        to[1] = dashes[i].to - dashes->from;
+    }
+}
+
+/* A dashed line whole: between two gaps it is one ribbon. */
+static void draw_dashed(builder *b, const line *l, const float beyond[2])
+{
+    for (size_t i = 0; i < b->inked.count && !b->failed; i++) {
+        const span_list one = {.items = &b->inked.items[i], .count = 1};
+        span_list_intersect(&b->spans, &one, &b->dashes);
+        b->failed = b->failed || b->spans.failed;
+        if (b->spans.count > 1)
+            draw_dashes(b, l, beyond);
+        else
+            draw_line(b, l, beyond, true);
     }
 }
 
@@ -592,8 +678,13 @@ static void draw_stroke(builder *b, uint32_t index, const gap_list *gaps, size_t
     bool dashed = b->dashes.count > 1;
     span_list_intersect(&b->spans, &b->inked, &b->dashes);
     b->failed = b->failed || b->inked.failed || b->spans.failed;
-    if (s->hidden_by == 0 && hand_draws(b->job.style))
+    bool hand = s->hidden_by == 0 && hand_draws(b->job.style);
+    if (!hand)
+        take_fine(b, &l);
+    if (hand)
         draw_pulls(b, &l, index, onward, dashed);
+    else if (dashed && b->job.style->keeps_dashed && !l.varies)
+        draw_dashed(b, &l, onward);
     else
         draw_line(b, &l, onward, dashed);
 }
@@ -627,7 +718,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
                         lmn_error *error)
 {
     *out = (ribbon_set){0};
-    builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out};
+    builder    b = {.job = {.strokes = strokes, .style = style, .seed = seed}, .out = out, .fine = strokes->fine};
     gap_list   gaps = {0};
     stroke_set whole = {0};
     b.failed = !look_round(&b.job, &b.grid, &whole, &gaps);
@@ -642,6 +733,7 @@ lmn_status ribbons_make(ribbon_set *out, const stroke_set *strokes, const stroke
     hand_pulls_release(&b.pulls);
     segment_grid_release(&b.grid);
     mem_free(b.arcs);
+    mem_free(b.points);
     mem_free(b.job.chains);
     mem_free(b.job.chain_of);
     mem_free(b.job.drawn);
@@ -659,5 +751,6 @@ void ribbon_set_release(ribbon_set *r)
 {
     mem_free(r->ribbons);
     mem_free(r->points);
+    mem_free(r->dashes);
     *r = (ribbon_set){0};
 }

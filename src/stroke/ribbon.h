@@ -35,6 +35,8 @@ typedef struct stroke_style {
     float   hidden_fade;  /* opacity is multiplied by it with each pair of surfaces more in front */
     int32_t hidden_depth; /* surfaces in front at most; 0: any number */
     float hidden_crowd; /* hidden lines keep at least this far apart: the more important one stays; 0: all are drawn */
+    bool  keeps_dashed; /* a dashed line of one width is one ribbon with its dashes, for who can dash it himself; else
+                           each  dash is a ribbon */
 } stroke_style;
 
 typedef struct ribbon_point {
@@ -51,7 +53,8 @@ typedef struct ribbon {
     uint64_t     id;
     colour       ink; /* straight alpha, sRGB */
     int32_t      brush;
-    uint32_t     first, count; /* points */
+    uint32_t     first, count;           /* points */
+    uint32_t     first_dash, dash_count; /* 0: unbroken */
     bool         closed,
         even; /* closed: ends where it began, the first point once more; even: one width and opacity all along */
     ribbon_end end;
@@ -60,7 +63,8 @@ typedef struct ribbon {
 typedef struct ribbon_set {
     ribbon       *ribbons;
     ribbon_point *points;
-    size_t        ribbon_count, point_count;
+    float (*dashes)[2]; /* from, to: arcs from where the ribbon begins; the first begins there, the last ends with it */
+    size_t ribbon_count, point_count, dash_count;
 } ribbon_set;
 
 /* Draws strokes in a style: what is hidden comes first, so that what is visible lies on it. The same seed, the same

@@ -58,7 +58,8 @@ bool ribbon_make_whole(stroke_set *out, const ribbon_job *job)
         points += set->strokes[i].count;
     *out = *set;
     out->marks = NULL;
-    out->stroke_count = out->point_count = out->mark_count = 0;
+    out->fine = NULL; /* points go on referring to those of the set */
+    out->stroke_count = out->point_count = out->mark_count = out->fine_count = 0;
     out->strokes = mem_alloc((set->stroke_count + 1) * sizeof *out->strokes);
     out->points = mem_alloc((points + 1) * sizeof *out->points);
     if (!out->strokes || !out->points)

@@ -96,6 +96,8 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
     const part_pose *pose = &b->pose->parts[part_index];
     const mesh      *m = &b->scene->meshes[n->mesh];
     bool             posed = is_deformed(m, pose) || m->moved;
+    if (!posed && b->shared[n->mesh] == NONE && m->twin && b->scene->meshes[m->twin - 1].revision == m->revision)
+        b->shared[n->mesh] = b->shared[m->twin - 1];
     if (!posed && b->shared[n->mesh] != NONE) {
         *out = (uint32_t)b->shared[n->mesh];
         return LMN_OK;

@@ -36,10 +36,19 @@ const char *stroke_class_name(stroke_class c);
 
 typedef struct stroke_point {
     float x, y;
-    float depth;  /* eye depth, file units */
-    float arc;    /* length along the whole chain up to here, units */
-    float weight; /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
+    float depth;    /* eye depth, file units */
+    float arc;      /* length along the whole chain up to here, units */
+    float weight;   /* 0 … 1: how sure the line is; 1 but where kinds of lines fade */
+    float aside[2]; /* how far it lies off the line of the mesh that it stands for, where curves stand for lines: what
+                       hides the one there hides the other here */
+    uint32_t fine, fine_count; /* of the set's fine points: between this one and the next one of its stroke */
 } stroke_point;
+
+/* Where a line runs between two points more exactly than they say. Nothing is decided by it. */
+typedef struct stroke_fine {
+    float x, y, depth;
+    float along; /* arc from the point that it is of */
+} stroke_fine;
 
 /* A stretch of a chain with one number of surfaces in front of it. Strokes of a chain follow each other, in order;
  * where chains were linked over a gap, arcs count it. */
@@ -71,7 +80,8 @@ typedef struct stroke_set {
     stroke       *strokes;
     stroke_point *points;
     stroke_mark  *marks; /* in the order of the chains */
-    size_t        stroke_count, point_count, chain_count, mark_count;
+    stroke_fine  *fine;  /* with stroke_options.fine */
+    size_t        stroke_count, point_count, chain_count, mark_count, fine_count;
     bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
     uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
 } stroke_set;
@@ -188,6 +198,7 @@ typedef struct stroke_options {
     float   suggestive, ridges, valleys, apparent; /* 0: none; 1: the strongest only … 0.01: nearly all */
     bool    hidden;                                /* stretches behind surfaces too */
     float   simplify;                              /* by how much points may be moved, units */
+    float   fine;                                  /* the same of points between those; 0: there are none */
     float   shortest;                              /* whole chains shorter than this are left out, units */
     float   width;  /* that lines are drawn with, units: what is thinner in front of a chain does not end it */
     float   crowd;  /* strokes that run all their length this close to more important ones are left out, units */
@@ -198,7 +209,7 @@ typedef struct stroke_options {
 } stroke_options;
 #define STROKE_OPTIONS_INIT                                                                                            \
     {                                                                                                                  \
-        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0                           \
+        CONTOURS_EDGES, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0.1f, 0, 1.0f, 2.0f, 0.75f, 1.0f, 0, 0, 0                        \
     }
 
 /* Do they ask for lines that depend on how surfaces bend? Then stroke_scene_bend pays where there is more than one

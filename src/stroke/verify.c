@@ -307,8 +307,10 @@ static void check_stroke(verifier *w, const stroke_set *set, const stroke *s, do
         double              length = hypot((double)q->x - p->x, (double)q->y - p->y);
         for (; next < done + length; next += apart) {
             double fraction = (next - done) / length;
-            check_position(w, s, p->x + fraction * (q->x - p->x), p->y + fraction * (q->y - p->y),
-                           depth_between(w->v, p, q, fraction), out);
+            /* Curves that stand for lines are held against the mesh where these are: the mesh has no other there. */
+            double home[2][2] = {{p->x - p->aside[0], p->y - p->aside[1]}, {q->x - q->aside[0], q->y - q->aside[1]}};
+            check_position(w, s, home[0][0] + fraction * (home[1][0] - home[0][0]),
+                           home[0][1] + fraction * (home[1][1] - home[0][1]), depth_between(w->v, p, q, fraction), out);
         }
         done += length;
     }

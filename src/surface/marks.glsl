@@ -1,6 +1,7 @@
 /* What decides on the GPU which marks are drawn: marks/marks_law.c and marks/marks_page.c in the vertex stage. Every vertex of a mark comes to the same decision, since all of them have the
  * same numbers. Freudenberg 2003, sections 5.1 and 5.4, with what is printed wrong there mended; rows EX-01 to EX-08. */
 #include "surface/halftone/tone.glsl"
+#include "surface/marks_law.glsl"
 
 uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
 
@@ -33,22 +34,6 @@ float darkness_at(mark_position m, float bright)
 {
     surface_point p = surface_point(m.eye, m.facing < 0.0 ? -m.normal : m.normal, vec4(vec3(bright), 1.0), false, 0u);
     return focused(p, clamp(darkness_of(tone_of_light(p, light_of(p))), 0.0, 1.0));
-}
-
-/* Fraction of its size that a mark of this rank has when `fraction` of all are wanted, and those that are there may grow to `most`. */
-float ink_of_rank(float rank, float fraction, float most)
-{
-    float ramp = u_fade * fraction, low = fraction - ramp, high = fraction + ramp;
-    float own = ramp > 0.0 ? clamp((high - rank) / (2.0 * ramp), 0.0, 1.0) : 0.0;
-    float all = low >= 1.0 ? 1.0 : high <= 1.0 ? fraction : low + (high * (1.0 - low) - 0.5 * (1.0 - low * low)) / (2.0 * ramp);
-    return own * clamp(fraction / max(all, 1e-20), 1.0, most);
-}
-
-/* Sum of the areas of evenly spread dots of this diameter that cover this fraction of the page. */
-float ink_of_cover(float cover, float diameter)
-{
-    float c = min(cover, 0.98), over = max(c - 0.311, 0.0), ink = c + 0.156 * over * over / (1.08 - c);
-    return ink + min(0.56 * c / (diameter * diameter), 1.0) * (-log(1.0 - c) - ink);
 }
 
 vec2 page_of(vec4 clip)

@@ -50,8 +50,9 @@ typedef struct stipple_values {
 typedef struct surface_strokes_values {
     mark_values common;
     int32_t     placed, law, series;
-    float       width, scale, length, turn, uneven, taper, repeat, jitter;
-    param_words strokes;
+    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength;
+    bool        equalised;
+    param_words strokes, indication;
 } surface_strokes_values;
 
 typedef struct surface_lines_values {

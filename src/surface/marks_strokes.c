@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "stroke_texture/strokes.h"
+#include "surface/indication.h"
 #include "surface/marks.h"
 #include "surface/surface.h"
 
@@ -67,6 +68,18 @@ static const param params[] = {
                    .check = check_strokes,
                    .doc = "What is laid out by texture coordinates: a file of strokes (.stx, .svg) or a pattern "
                           "(parallel, cross, contour, brick, stipple, scribble, random). Empty: cross."),
+    PARAM_BOOL_ROW(surface_strokes_values, equalised, .def = 1, .only_if = "placed=uv",
+                   .doc = "Draws as many strokes of a texture as make the fraction of ink follow the tone; without, a "
+                          "stroke is there where its light priority is not below the tone, as in screens that are not "
+                          "equalised."),
+    PARAM_TEXT_ROW(surface_strokes_values, indication, .is_file = true, .example = "checker", .only_if = "placed=uv",
+                   .check = indication_check,
+                   .doc = "A picture on the texture coordinates that asks for more strokes where it is dark and fewer "
+                          "where it is light, by the middle of each; middle grey changes nothing. checker shows how "
+                          "texture coordinates lie."),
+    PARAM_FLOAT_ROW(surface_strokes_values, indication_strength, .def = 1, .min = -8, .max = 8, .soft_min = 0,
+                    .soft_max = 2, .cpu_only = true, .only_if = "placed=uv&indication",
+                    .doc = "Weight of the indication."),
     PARAM_FLOAT_ROW(surface_strokes_values, repeat, .def = 0, .min = 0, .max = 20, .soft_max = 8, .cpu_only = true,
                     .only_if = "placed=uv",
                     .doc = "How often the texture is laid into a unit of texture coordinates; 0: so often that there "
@@ -80,9 +93,13 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const surface_strokes_values *v = values;
-    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s", v->common.count, v->common.pattern_seed,
+    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count, v->common.pattern_seed,
                 v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
                 (double)v->jitter, v->strokes.text);
+    if (v->indication.text[0]) {
+        text_append(out, "%.9g ", (double)v->indication_strength);
+        indication_describe(out, v->indication.text);
+    }
 }
 
 /* The area of the surface in texture coordinates. */
@@ -96,6 +113,28 @@ static double area_of_uvs(const mark_surface *s)
                           ((double)b->y - (double)a->y) * ((double)c->x - (double)a->x));
     }
     return sum;
+}
+
+/* The map that strokes ask, row 0 at the bottom; the caller frees it. */
+static lmn_status take_indication(float **greys, tile_options *options, const surface_strokes_values *v,
+                                  lmn_error *error)
+{
+    mip_chain  chain;
+    lmn_status status = indication_make(&chain, v->indication.text, error);
+    if (status != LMN_OK)
+        return status;
+    size_t width = (size_t)chain.width, height = (size_t)chain.height;
+    *greys = mem_alloc(width * height * sizeof **greys);
+    for (size_t i = 0; *greys && i < width * height; i++)
+        (*greys)[(height - 1 - i / width) * width + i % width] = (float)((const uint8_t *)chain.data[0])[i] / 255;
+    mip_chain_release(&chain);
+    if (!*greys)
+        return error_memory(error);
+    options->indication = *greys;
+    options->indication_width = (int)width;
+    options->indication_height = (int)height;
+    options->indication_strength = v->indication_strength;
+    return LMN_OK;
 }
 
 static lmn_status make_tiled(marks *out, const mark_surface *surface, const surface_strokes_values *v, lmn_error *error)
@@ -115,8 +154,12 @@ static lmn_status make_tiled(marks *out, const mark_surface *surface, const surf
     tile_options options = {.repeat = v->repeat > 0 ? v->repeat : (float)fmax(floor(often + 0.5), 1),
                             .jitter = v->jitter,
                             .seed = (uint32_t)v->common.pattern_seed};
+    float       *greys = NULL;
+    if (status == LMN_OK && v->indication.text[0])
+        status = take_indication(&greys, &options, v, error);
     if (status == LMN_OK)
         status = marks_tile(out, surface, &texture, &options, error);
+    mem_free(greys);
     strokes_release(&texture);
     return status;
 }
@@ -301,6 +344,7 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->scale = s->scale;
         out->taper = s->taper;
         out->law = s->law;
+        out->by_priority = !s->equalised;
         out->crowded = s->placed == PLACED_FORM ? 0 : MARK_CROWDED_IN_PLANES;
     }
     return true;

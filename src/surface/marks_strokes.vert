@@ -5,7 +5,7 @@ layout(location = 0) in vec4 a_from;   /* light priority */
 layout(location = 1) in vec4 a_to;     /* perspective priority */
 layout(location = 2) in vec4 a_middle; /* brightness of the model there */
 layout(location = 3) in vec4 a_normal; /* at the middle; density: length of strokes to a unit of area */
-layout(location = 4) in vec4 a_along;  /* where the piece begins and ends, length of the stroke; of layers of priorities, 0: none */
+layout(location = 4) in vec4 a_along;  /* where the piece begins and ends, fractions of the stroke; its direction at its middle, packed (stage/mark_sets.c); of layers of priorities, 0: none */
 
 uniform float u_near_plane;
 
@@ -19,7 +19,7 @@ const float CROWDED = 0.24;
 flat out vec3 v_normal; /* of its surface, towards the viewer */
 flat out vec4 v_ends;   /* of the piece, pixels */
 flat out vec4 v_depths; /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), half the width in pixels */
-flat out vec4 v_run;    /* arc at both ends, length of the stroke, 1 / length over which an end runs out */
+flat out vec3 v_run;    /* where both ends are, fractions of the stroke; 1 / fraction over which an end runs out, 0: it does not */
 flat out float v_ink;   /* opacity of what is thinner than a pixel */
 
 /* The piece's part in front of the eye, in clip space. */
@@ -39,6 +39,15 @@ bool clip_near(inout vec3 a, inout vec3 b, inout vec2 arcs)
     return true;
 }
 
+vec3 unpacked_direction(float number)
+{
+    const float MOST = 2047.0;
+    float y = floor(number / 4096.0);
+    vec2 at = (vec2(number - 4096.0 * y, y) - MOST) / MOST;
+    float z = 1.0 - abs(at.x) - abs(at.y), under = max(-z, 0.0);
+    return normalize(vec3(at.x + (at.x < 0.0 ? under : -under), at.y + (at.y < 0.0 ? under : -under), z));
+}
+
 /* Fraction of the strokes that shall be there for where they are: marks/marks_law.c. */
 float fraction_there(mark_position m, vec3 direction, float d)
 {
@@ -52,34 +61,14 @@ float fraction_there(mark_position m, vec3 direction, float d)
 #endif
 }
 
-/* What strokes side by side with this ink cover; and the ink of all sets for a darkness, each as far as its own strokes go. */
-float cover_of_ink(float ink)
-{
-    float v = ink - 0.311, sum = v + 0.769;
-    return v <= 0.0 ? ink : 0.311 + (sum - sqrt(sum * sum - 2.5961 * v)) / 1.688;
-}
-
-float ink_of_strokes(float darkness, float darkest)
-{
-    float wanted = max(1.0 - darkness, 1e-4), bare = 1.0, ink = 0.0, most = cover_of_ink(darkest * a_along.w);
-    if (a_along.w <= 0.0)
-        return -log(wanted);
-    for (int set = 0; set < 4; set++) {
-        float c = float(set) * a_along.w < 0.99 ? min(clamp(1.0 - wanted / bare, 0.0, 1.0), most) : 0.0, over = max(c - 0.311, 0.0);
-        float even = c + 0.156 * over * over / (1.08 - c);
-        ink += even + CROWDED * (-log(max(1.0 - c, 1e-3)) - even);
-        bare *= 1.0 - c;
-    }
-    return ink;
-}
-
 /* Fraction of its width that the stroke has; `fraction`: of strokes that shall be there for where they are. */
 float ink_of_stroke(mark_position m, float fraction)
 {
     float darkest = u_width * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
-    float light_fraction = clamp(ink_of_strokes(darkness, darkest) / darkest, 0.0, 1.0);
+    bool equalised = u_equalised || a_along.w > 0.0;
+    float light_fraction = clamp(equalised ? ink_of_strokes(darkness, darkest, a_along.w, CROWDED) / darkest : darkness, 0.0, 1.0);
     if (a_along.w > 0.0)
-        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_fraction) / a_along.w, 0.0, 1.0) * fraction, 1.0);
+        return ink_of_rank(1.0 - a_to.w, clamp((a_from.w - 1.0 + light_fraction) / a_along.w, 0.0, 1.0) * fraction, 1.0, u_fade);
     float lack = max((1.0 - light_fraction) * (1.0 + u_fade) - a_from.w, (1.0 - clamp(fraction, 0.0, 1.0)) * (1.0 + u_fade) - a_to.w);
     return clamp(1.0 - lack / u_fade, 0.0, 1.0);
 }
@@ -105,7 +94,7 @@ void put_corner(mark_position m, vec3 from, vec3 to, float fraction)
     v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
     v_depths = u_perspective > 0.5 ? vec4(-1.0 / from.z, -1.0 / to.z, tolerance / u_focal, half_width) : vec4(-from.z, -to.z, tolerance / u_focal, half_width);
-    v_run = vec4(arcs, a_along.z, 1.0 / max(u_taper * a_along.z, 1e-20));
+    v_run = vec3(arcs, u_taper > 0.0 ? 1.0 / u_taper : 0.0);
     v_ink = min(width, 1.0);
     vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
     vec2 at = mix(a, b, 0.5 + 0.5 * corner.x) + (direction * corner.x + aside * corner.y) * (half_width + 0.5);
@@ -117,7 +106,8 @@ void main()
     gl_Position = NOWHERE;
     mark_position m = position_of_mark(a_middle.xyz, a_normal.xyz);
     vec3 from = (u_model_view * vec4(a_from.xyz, 1.0)).xyz, to = (u_model_view * vec4(a_to.xyz, 1.0)).xyz;
-    float fraction = fraction_there(m, normalize(to - from + vec3(1e-30)), u_focal / max(a_normal.w * u_scale, 1e-20));
+    vec3 direction = normalize(mat3(u_model_view) * unpacked_direction(a_along.z));
+    float fraction = fraction_there(m, direction, u_focal / max(a_normal.w * u_scale, 1e-20));
     /* Most are too many wherever they are, whatever the light. Software drivers skip loops that nobody enters, but not branches. */
     int wanted = 1.0 - a_to.w <= fraction * (1.0 + u_fade) && !is_back(m) ? 1 : 0;
     for (int once = 0; once < wanted; once++)

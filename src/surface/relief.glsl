@@ -22,7 +22,7 @@ vec2 height_slope(surface_point p, float height)
 /* The round number of which FEWEST or a few more fit: 1, 2 or 5 times a power of ten. */
 float round_interval()
 {
-    float wanted = u_heights.y / FEWEST, power = pow(10.0, floor(log2(wanted) * 0.30103 + 1e-4)), share = wanted / power;
+    float wanted = u_height_range.y / FEWEST, power = pow(10.0, floor(log2(wanted) * 0.30103 + 1e-4)), share = wanted / power;
     return power * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0);
 }
 
@@ -45,12 +45,12 @@ vec3 tint_at(float share)
 vec4 surface_colour(surface_point p)
 {
     float above = dot(u_height, vec4(p.eye, 1.0));
-    vec3 colour = mix(shown(p.albedo.rgb), tint_at(above / u_heights.y), u_tint);
+    vec3 colour = mix(shown(p.albedo.rgb), tint_at(above / u_height_range.y), u_tint);
     /* Level ground keeps its tint. */
     float level = max(dot(u_height.xyz, u_first_light), 0.05), lit = max(dot(p.normal, u_first_light), 0.0) * unshadowed(p);
     float change = p.unlit ? 0.0 : clamp(lit / level - 1.0, -1.0, 1.0);
     colour = change < 0.0 ? colour * (1.0 + 0.75 * u_shade * change) : mix(colour, vec3(1.0), 0.5 * u_shade * change);
-    float height = u_heights.x + above, slope = length(height_slope(p, above)), interval = u_interval > 0.0 ? u_interval : round_interval();
+    float height = u_height_range.x + above, slope = length(height_slope(p, above)), interval = u_interval > 0.0 ? u_interval : round_interval();
     /* What rounding leaves of level ground that is far away. */
     float noise = 1e-3 + 1e-6 * length(p.eye);
     bool sea = abs(height) < noise && slope < 2.0 * noise;

@@ -1,5 +1,6 @@
 /* screen: a halftone screen on the surface, whose grey says up to which light a stroke stays. Freudenberg 2003,
  * sections 6.1 to 6.6; rows IM-02 to IM-20, IM-28 to IM-30. */
+#include "surface/indication.h"
 #include "surface/on_ground.h"
 #include "surface/screen_textures.h"
 #include "surface/surface.h"
@@ -45,7 +46,7 @@ static const param params[] = {
                    .doc = "Each stroke has the light of its middle, so that it is drawn whole or not at all."),
     PARAM_TEXT_ROW(
         screen_values, indication, .is_file = true, .example = "checker", .only_if = "coordinates=uv",
-        .check = screen_check_picture,
+        .check = indication_check,
         .doc =
             "A picture on the texture coordinates (the second ones, where a model has such) that asks for more strokes "
             "where it is dark and fewer where it is light; middle grey changes nothing. checker shows how texture "

@@ -8,13 +8,13 @@
 #include "base/memory.h"
 #include "fence/image_read.h"
 #include "base/store.h"
+#include "surface/indication.h"
 
-enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8, INDICATION_SIDE_MOST = 2048 };
+enum { SIDE_LEAST = 64, SIDE_MOST = 1024, BITMAP_SIDE = 512, PERIOD = 8 };
 
 static const char *const standard_screen = "cross";
 static const char *const hatch_map_name = "hatch-map";
 
-static const char *const checker_name = "checker";
 static const char *const stroke_endings[] = {".stx", ".svg", NULL};
 static const char *const material_name = "material";
 
@@ -47,14 +47,6 @@ static bool ends_in(const char *name, const char *const *endings)
     char ending[8];
     file_ending(name, ending, sizeof ending);
     return index_in(endings, ending) >= 0;
-}
-
-lmn_status screen_check_picture(const char *name, lmn_error *error)
-{
-    if (image_is_named(name) || strcmp(name, checker_name) == 0)
-        return LMN_OK;
-    return error_set(error, LMN_USAGE,
-                     "indication is '%.200s'; allowed are pictures (.png, .jpg, .webp) and the word checker", name);
 }
 
 lmn_status screen_check_name(const char *name, lmn_error *error)
@@ -99,24 +91,13 @@ static bool numbered(const char *first, int number, char **out)
     return *out != NULL;
 }
 
-/* A file's content by a number, so that what was made from it is found again for as long as it is the same. */
-static uint64_t content_of(const char *path)
-{
-    file_data file;
-    if (file_load(&file, path, NULL) != LMN_OK)
-        return 0;
-    uint64_t hash = store_hash(file.data, file.size);
-    file_data_release(&file);
-    return hash;
-}
-
 static void describe_file(text *out, const char *name)
 {
     if (ends_in(name, stroke_endings) || image_is_named(name))
-        text_append(out, " content=%016llx", (unsigned long long)content_of(name));
+        text_append(out, " content=%016llx", (unsigned long long)store_hash_of_file(name));
     char *path;
     for (int i = 2; image_is_named(name) && i <= LAYERS_MOST && numbered(name, i, &path); i++) {
-        uint64_t content = content_of(path);
+        uint64_t content = store_hash_of_file(path);
         mem_free(path);
         if (!content)
             break;
@@ -134,13 +115,6 @@ void screen_describe(text *out, const void *values)
                 v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain,
                 v->common.coordinates == COORDINATES_SCREEN, (double)v->common.angle);
     describe_file(out, name_of(v));
-}
-
-void screen_describe_indication(text *out, const void *values)
-{
-    const screen_values *v = values;
-    text_append(out, "1 %s", v->indication.text);
-    describe_file(out, v->indication.text);
 }
 
 /* --- screens of strokes --- */
@@ -499,59 +473,12 @@ lmn_status screen_make_warp(mip_chain *out, const void *values, lmn_error *error
     return status;
 }
 
-/* Halves of a picture of greys, each the mean of four. */
-static void average_levels(mip_chain *chain)
+void screen_describe_indication(text *out, const void *values)
 {
-    for (int k = 1; k < chain->levels; k++) {
-        const uint8_t *from = chain->data[k - 1];
-        uint8_t       *to = chain->data[k];
-        int            width = mip_width(chain, k - 1), height = mip_height(chain, k - 1);
-        for (int y = 0; y < mip_height(chain, k); y++)
-            for (int x = 0; x < mip_width(chain, k); x++) {
-                int x0 = 2 * x < width ? 2 * x : width - 1, x1 = x0 + 1 < width ? x0 + 1 : x0;
-                int y0 = 2 * y < height ? 2 * y : height - 1, y1 = y0 + 1 < height ? y0 + 1 : y0;
-                int sum = from[y0 * width + x0] + from[y0 * width + x1] + from[y1 * width + x0] + from[y1 * width + x1];
-                to[y * mip_width(chain, k) + x] = (uint8_t)((sum + 2) / 4);
-            }
-    }
-}
-
-/* Fields of 16 texels, three quarters and a quarter light. */
-static lmn_status make_checker(mip_chain *out, lmn_error *error)
-{
-    enum { SIDE = 256, FIELD = 16 };
-    lmn_status status = mip_chain_create(out, SIDE, SIDE, 1, 0, MIP_R8, error);
-    if (status != LMN_OK)
-        return status;
-    for (int i = 0; i < SIDE * SIDE; i++)
-        ((uint8_t *)out->data[0])[i] = (i / SIDE / FIELD + i % SIDE / FIELD) & 1 ? 192 : 64;
-    average_levels(out);
-    return LMN_OK;
+    indication_describe(out, ((const screen_values *)values)->indication.text);
 }
 
 lmn_status screen_make_indication(mip_chain *out, const void *values, lmn_error *error)
 {
-    const screen_values *v = values;
-    if (strcmp(v->indication.text, checker_name) == 0)
-        return make_checker(out, error);
-    image_pixels pixels;
-    lmn_status   status = image_load(&pixels, v->indication.text, error);
-    if (status != LMN_OK)
-        return status;
-    if (pixels.width > INDICATION_SIDE_MOST || pixels.height > INDICATION_SIDE_MOST)
-        status = error_in_file(error, LMN_LIMIT, v->indication.text, 0,
-                               "an indication of %u x %u pixels; allowed are %d a side", pixels.width, pixels.height,
-                               INDICATION_SIDE_MOST);
-    if (status == LMN_OK)
-        status = mip_chain_create(out, (int)pixels.width, (int)pixels.height, 1, 0, MIP_R8, error);
-    for (uint32_t y = 0; status == LMN_OK && y < pixels.height; y++)
-        for (uint32_t x = 0; x < pixels.width; x++) {
-            const uint8_t *from = &pixels.rgba[4 * ((size_t)y * pixels.width + x)];
-            /* Row 0 is v = 0, as glTF counts. */
-            ((uint8_t *)out->data[0])[(size_t)y * pixels.width + x] = image_luma(from);
-        }
-    if (status == LMN_OK)
-        average_levels(out);
-    mem_free(pixels.rgba);
-    return status;
+    return indication_make(out, ((const screen_values *)values)->indication.text, error);
 }

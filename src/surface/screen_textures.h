@@ -17,7 +17,6 @@ typedef struct screen_values {
 
 /* Is it a pattern, a procedure, or a file of a kind that can be read? Errors: LMN_USAGE. */
 lmn_status screen_check_name(const char *name, lmn_error *error);
-lmn_status screen_check_picture(const char *name, lmn_error *error);
 
 /* For screens that are named `material`. */
 bool       screen_by_material(void *values, const char *strokes);

@@ -28,7 +28,7 @@ void put_dot(dot_position d)
     mark_position m = d.mark;
     float pixel = pixel_at(m.eye), steep = steepness(m);
     float needed = ink_of_cover(darkness_at(m, a_normal.w), u_diameter) / (0.78539816 * u_diameter * u_diameter);
-    float ink = ink_of_rank(1.0 - a_position.w, needed / d.there, u_grow * u_grow);
+    float ink = ink_of_rank(1.0 - a_position.w, needed / d.there, u_grow * u_grow, u_fade);
     if (ink <= 0.0 || !is_seen(m, d.at, pixel * (1.0 + 1.5 * steep)))
         return;
     /* A disc whose rim is a pixel wide has the area of one whose square of the radius is a twelfth larger. What is smaller than a pixel is paler instead. */

@@ -76,8 +76,10 @@ float inked(surface_point p, float slope)
         float along = dot((u_world_from_eye * vec4(p.eye, 1.0)).xyz, mat3(u_world_from_eye) * axis);
         float slope_along = length(vec2(dot(on_plane(p, vec2(1.0, 0.0)) - p.eye, axis), dot(on_plane(p, vec2(0.0, 1.0)) - p.eye, axis)));
         float octave = log2(max(slope_along * u_spacing, 1e-12)), part = fract(octave), pitch = exp2(octave - part);
-        reach = u_feather * mix(stripe(along / pitch), stripe(0.5 * along / pitch), part);
-        reach_slope = u_feather * slope_along / pitch * (2.0 - part);
+        /* They begin at blacks: on what hardly turns these are far, or nowhere. */
+        float beside = u_feather * (1.0 - smoothstep(6.0 * u_spacing, 12.0 * u_spacing, beyond / max(slope, 1e-6)));
+        reach = beside * mix(stripe(along / pitch), stripe(0.5 * along / pitch), part);
+        reach_slope = beside * slope_along / pitch * (2.0 - part);
     }
     float width = max(length(vec2(slope, reach_slope)), 1e-4);
     return clamp((reach - beyond) / width + 0.5, 0.0, 1.0);

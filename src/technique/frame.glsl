@@ -15,7 +15,7 @@ uniform vec2  u_anchor;       /* where the middle of the model is on the page, p
 uniform vec3  u_tone_range;     /* tones that are drawn as no light, gain above, bend: src/plan/tone_range.h */
 uniform float u_time;         /* seconds */
 uniform vec4  u_height;       /* how high a place in eye space is above the figure's lowest: dot(u_height, vec4(place, 1)) */
-uniform vec2  u_heights;      /* how high the lowest is in the file, and how much higher the highest */
+uniform vec2  u_height_range; /* how high the lowest is in the file, and how much higher the highest */
 
 /* The figure that is drawn, and the pass. */
 uniform float u_near;         /* of the figure, eye depth */
@@ -25,6 +25,7 @@ uniform int   u_figure;       /* its number among those that share their layers 
 uniform int   u_layer;        /* 0 = visible */
 uniform float u_rear;         /* opacity of layers behind an uncovered focus, 1 before */
 uniform float u_forward;      /* window depth by which the figure is in front of what it lies on */
+uniform vec4  u_ghost;         /* paper, and how much of the figure's colour it is: of ghost images */
 uniform bool  u_filled;       /* with the fill, not only the lines */
 uniform int   u_iteration;    /* of a pass that is repeated, from 0 */
 

@@ -10,6 +10,7 @@
 
 static const float sharp_cosine = 0.6f; /* outlines are cut at corners that turn by more */
 static const float miter_most = 1.25f;
+static const float dash_slack = 0.01f; /* units of the page by which dashes that are alike differ */
 enum { CAP_PIECES = 6, OPACITY_STEPS = 32, WIDTH_STEPS = 20 /* to the pixel */ };
 
 /* A ribbon in the order of the sheet. */
@@ -119,8 +120,8 @@ static void put_outline(vector_pen *w, const ribbon_point *points, size_t count,
     if (round)
         add_cap(w, &points[0], (const float[2]){-direction[0], -direction[1]});
     if (!w->failed)
-        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true}, (const float(*)[2])w->points,
-                       w->count);
+        sheet_add_path(w->how->page, &(sheet_path){.closed = true, .filled = true, .curved = true},
+                       (const float(*)[2])w->points, w->count);
 }
 
 void vector_pen_uneven(vector_pen *w, const ribbon_point *points, size_t count, ribbon_end end)
@@ -146,6 +147,58 @@ void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, co
         add_point(w, points[i].x, points[i].y);
     if (!w->failed)
         sheet_add_path(w->how->page, style, (const float(*)[2])w->points, w->count);
+}
+
+/* --- dashes --------------------------------------------------------------------------------------------- */
+
+static bool is_near(float a, float b)
+{
+    return fabsf(a - b) <= dash_slack;
+}
+
+/* Are the dashes of a ribbon, page units, one dash and one gap again and again? Its first and its last dash may be
+ * parts of one. `pattern` gets dash, gap and the phase. */
+static bool is_regular(const float (*dashes)[2], size_t count, float pattern[3])
+{
+    if (count < 3)
+        return false; /* two may be anything */
+    float dash = dashes[1][1] - dashes[1][0], gap = dashes[1][0] - dashes[0][1], first = dashes[0][1],
+          last = dashes[count - 1][1] - dashes[count - 1][0];
+    for (size_t i = 1; i < count; i++)
+        if (!is_near(dashes[i][0] - dashes[i - 1][1], gap) ||
+            (i + 1 < count && !is_near(dashes[i][1] - dashes[i][0], dash)))
+            return false;
+    pattern[0] = dash;
+    pattern[1] = gap;
+    pattern[2] = fmaxf(dash - first, 0);
+    return first <= dash + dash_slack && last <= dash + dash_slack;
+}
+
+/* The line that was added last, whose dashes are known by the arcs of its ribbon: as one pattern, or one by one. */
+static void dash_line(vector_pen *w, const ribbon_set *set, const ribbon *r)
+{
+    const ribbon_point *points = &set->points[r->first];
+    const float(*dashes)[2] = (const float(*)[2])set->dashes + r->first_dash;
+    float  arc = points[r->count - 1].arc - points[0].arc, length = 0, pattern[3];
+    size_t count = r->dash_count;
+    for (uint32_t i = 1; i < r->count; i++)
+        length += hypotf(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+    float unit = arc > 0 ? (float)((double)(length / arc) / VECTOR_PIXELS_PER_MM) : 0;
+    if (is_regular(dashes, count, pattern)) {
+        const float lengths[2] = {pattern[0] * unit, pattern[1] * unit};
+        sheet_dash_path(w->how->page, lengths, 2, pattern[2] * unit);
+        return;
+    }
+    if (!mem_grow((void **)&w->dashes, &w->dash_capacity, 2 * count, sizeof *w->dashes)) {
+        w->failed = true;
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        w->dashes[2 * i] = (dashes[i][1] - dashes[i][0]) * unit;
+        w->dashes[2 * i + 1] = (i + 1 < count ? dashes[i + 1][0] - dashes[i][1] : 0) * unit;
+    }
+    w->dashes[2 * count - 1] = w->dashes[1];
+    sheet_dash_path(w->how->page, w->dashes, 2 * count, 0);
 }
 
 /* --- groups and items ----------------------------------------------------------------------------------- */
@@ -214,10 +267,13 @@ static void put_ribbon(ink_writer *w, const inked *what)
     if (r->even || w->how->lines_only)
         vector_pen_even(&w->pen, points, r->count,
                         &(sheet_path){.closed = r->closed,
+                                      .curved = true,
                                       .width = (float)((double)width / VECTOR_PIXELS_PER_MM),
                                       .cap = r->end == RIBBON_BUTT ? SHEET_CAP_BUTT : SHEET_CAP_ROUND});
     else
         vector_pen_uneven(&w->pen, points, r->count, r->end);
+    if (r->dash_count && !w->pen.failed)
+        dash_line(&w->pen, what->set, r);
     w->before = r;
     w->opacity = opacity;
 }
@@ -240,5 +296,6 @@ lmn_status vector_put_ribbons(const vector_ink *ink, const ribbon_set *sets, siz
         put_ribbon(&w, &all[i]);
     mem_free(all);
     mem_free(w.pen.points);
+    mem_free(w.pen.dashes);
     return w.pen.failed || ink->page->failed ? error_memory(error) : LMN_OK;
 }

@@ -18,10 +18,13 @@
 #include "vector/vector_private.h"
 #include "export/export.h"
 #include "finish/finish.h"
+#include "sheet/fit.h"
 #include "light/light.h"
 
 static const double gap_between_views = 12; /* mm */
 static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
+/* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
+static const double simplified_part = 0.25, written_error = 0.0007;
 
 /* What one drawing needs while it is made. */
 typedef struct vector_job {
@@ -462,6 +465,8 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
+    options.fine = (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM);
+    style.keeps_dashed = !j->wanted->plotter;
     bool *parts = parts_of(j, r, &count);
     if (!parts)
         return error_memory(error);
@@ -593,11 +598,38 @@ static lmn_status put_annotations(vector_job *j, const vector_view *v, uint32_t 
     return annotate(&j->out->page, (int32_t)group, &view, &j->out->warnings, error);
 }
 
+/* The part that a group is of, or that around it; 0: none. */
+static uint32_t part_of_group(const sheet *page, uint32_t group)
+{
+    int32_t at = (int32_t)group;
+    while (at >= 0 && !page->groups[at].part)
+        at = page->groups[at].parent;
+    return at >= 0 ? page->groups[at].part : 0;
+}
+
+/* Ghost images are mixed with paper, as in pictures. */
+static void make_paler(vector_job *j, size_t first)
+{
+    sheet       *page = &j->out->page;
+    const colour ground = page->ground.a > 0 ? page->ground : (colour){1, 1, 1, 1};
+    for (size_t i = first; i < page->item_count; i++) {
+        sheet_item    *item = &page->items[i];
+        const uint32_t part = part_of_group(page, item->group);
+        const rule    *r = part > 0 && part <= j->scene->part_count ? plan_rule(&j->plan, part - 1) : NULL;
+        if (!r || r->pale <= 0)
+            continue;
+        item->ink.r += (ground.r - item->ink.r) * r->pale;
+        item->ink.g += (ground.g - item->ink.g) * r->pale;
+        item->ink.b += (ground.b - item->ink.b) * r->pale;
+    }
+}
+
 static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
 {
-    sheet     *page = &j->out->page;
-    char       name[32];
-    lmn_status status = LMN_OK;
+    sheet       *page = &j->out->page;
+    const size_t first = page->item_count;
+    char         name[32];
+    lmn_status   status = LMN_OK;
     snprintf(name, sizeof name, "view-%s", v->name);
     uint32_t   group = sheet_add_group(page, -1, strcmp(v->name, "view") == 0 ? "view" : name, "view", 0);
     vector_ink ink = {page, j->scene, group, {v->box[0], v->box[1]}, j->lines_only};
@@ -607,6 +639,7 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
         status = vector_put_fills(page, &ink, v, &j->strokes, &j->plan, report_part, j, error);
     if (status == LMN_OK)
         status = draw_ink(j, v, &ink, error);
+    make_paler(j, first);
     return status == LMN_OK && annotate_wanted(j->look) && !j->wanted->plotter ? put_annotations(j, v, group, error)
                                                                                : status;
 }
@@ -756,6 +789,8 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
         status = finish_page(j, error);
     if (status == LMN_OK && j->wanted->plotter)
         status = vector_order_for_plotter(&s->page, error);
+    if (status == LMN_OK)
+        sheet_fit(&s->page, (1 - simplified_part) * j->wanted->smooth - written_error);
     if (status == LMN_OK && s->page.failed)
         status = error_memory(error);
     return status == LMN_OK ? work_progress(0.95, "drawing", error) : status;

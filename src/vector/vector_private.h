@@ -67,7 +67,8 @@ lmn_status vector_put_ribbons(const vector_ink *ink, const ribbon_set *sets, siz
 typedef struct vector_pen {
     const vector_ink *how;
     float (*points)[2];
-    size_t count, capacity;
+    float *dashes;
+    size_t count, capacity, dash_capacity;
     bool   failed;
 } vector_pen;
 void vector_pen_even(vector_pen *w, const ribbon_point *points, size_t count, const sheet_path *style);

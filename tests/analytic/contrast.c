@@ -261,11 +261,45 @@ static void outward(void)
     shot_release(&s);
 }
 
+/* With `lit` the second line lies on the side of the light, all around: what is light lies, on the mean, by about its
+ * width farther that way than what is dark, and neither to the right nor to the left. Light from straight ahead is
+ * taken for light from above. */
+static void towards_the_light(void)
+{
+    static const double lights[][3] = {{1, 0, 0.3}, {-0.6, 0.8, 0.2}, {0, -1, 1}, {0, 0, 1}};
+    for (int k = 0; k < 4; k++) {
+        char look[600];
+        shot s;
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#808080\"},\"scene\":{\"light_direction\":[%g,"
+                 "%g,%g]},"
+                 "\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#808080\"},\"lines\":{\"operator\":"
+                 "\"discontinuity\",\"width\":4,\"colour\":\"#000000\",\"contrast\":\"lit\",\"light_colour\":\"#"
+                 "ffffff\"}}]}",
+                 lights[k][0], lights[k][1], lights[k][2]);
+        if (take_ball(&s, look, NULL)) {
+            double sums[2][3] = {{0}}, size = hypot(lights[k][0], lights[k][1]), x = size > 0 ? lights[k][0] / size : 0,
+                   y = size > 0 ? lights[k][1] / size : 1;
+            for (int i = 0; i < s.width * s.height; i++) {
+                double px = i % s.width - 119.5, py = 119.5 - floor(i / (double)s.width),
+                       grey = s.picture[4 * i] - 128.0, *sum = sums[grey > 0];
+                sum[0] += fabs(grey);
+                sum[1] += fabs(grey) * (px * x + py * y);
+                sum[2] += fabs(grey) * (px * -y + py * x);
+            }
+            check_near("OI-12", sums[1][1] / sums[1][0] - sums[0][1] / sums[0][0], 5, 1.5,
+                       "light from %g, %g: how far the light line lies that way, of lines of 4 px", x, y);
+            check_near("OI-12", sums[1][2] / sums[1][0] - sums[0][2] / sums[0][0], 0, 0.5, "  and beside");
+        }
+        shot_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"double", double_contours},    {"ground", colour_by_ground}, {"flicker", no_flicker},
-        {"redundant", redundant_lines}, {"outward", outward},
+        {"redundant", redundant_lines}, {"outward", outward},         {"lit", towards_the_light},
     };
     int status = check_main(argc, argv, "contrast", cases, sizeof cases / sizeof *cases);
     shot_end();

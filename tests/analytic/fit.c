@@ -238,6 +238,52 @@ static void shadows_lie_in_the_frame(void)
     }
 }
 
+/* The darkest of the page's border, 0 … 255, and how much of the page's height the figure's box takes. */
+static int darkest_at_border(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc)
+{
+    lmn_drawing *drawing = NULL;
+    int          width, height, darkest = 0;
+    DO(lmn_draw(&drawing, renderer(), scene, look, desc, &error));
+    const uint8_t *pixels = lmn_drawing_pixels(drawing, &width, &height);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x += y == 0 || y == height - 1 ? 1 : width - 1)
+            darkest = pixels[4 * (y * width + x) + 3] > darkest ? pixels[4 * (y * width + x) + 3] : darkest;
+    lmn_drawing_destroy(&drawing);
+    return darkest;
+}
+
+/* Where the ground is touched it is dark, and what can be seen of that is fitted, from above; what cannot, is not. */
+static void touched_ground_lies_in_the_frame(void)
+{
+    static const char *const models[] = {"box.glb", "house.glb"};
+    lmn_look                *look = NULL;
+    DO(lmn_look_parse(
+        &look,
+        "{\"version\":1,\"scene\":{\"ground\":\"contact\",\"ground_strength\":1,\"ground_colour\":\"#000000\"},"
+        "\"rules\":[{\"select\":\"*\",\"surface\":\"flat\"}]}",
+        "touched", &error));
+    for (int m = 0; m < 2; m++) {
+        lmn_scene *scene = load(models[m]);
+        int        worst = 0, box[2][4];
+        for (int k = 0; k < 4; k++) {
+            lmn_draw_desc desc = describe(SIDE, k & 2 ? SIDE / 2 : SIDE);
+            desc.orthographic = k & 1;
+            desc.fit = 0.97;
+            int darkest = darkest_at_border(scene, look, &desc);
+            worst = darkest > worst ? darkest : worst;
+        }
+        check_at_most("FIT", worst, 26, "%s on the ground: darkest of the page's border, of 255", models[m]);
+        lmn_draw_desc desc = describe(SIDE, SIDE);
+        desc.view = LMN_VIEW_FRONT; /* along the ground */
+        check_that("FIT",
+                   find_drawn_as(scene, look, &desc, box[0]) && find_drawn(scene, &desc, box[1]) &&
+                       memcmp(box[0], box[1], sizeof box[0]) == 0,
+                   "%s seen along the ground is as large as without", models[m]);
+        lmn_scene_destroy(&scene);
+    }
+    lmn_look_destroy(&look);
+}
+
 /* A low light's shadow would leave little room for the figure: it runs out of the frame instead. */
 static void low_light_leaves_room(void)
 {
@@ -254,9 +300,14 @@ static void low_light_leaves_room(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"models", models_fill_the_frame},     {"directions", directions_fill_the_frame},
-                                       {"postures", postures_fill_the_frame}, {"selections", selections_fill_the_frame},
-                                       {"times", all_times_are_held},         {"solids", solids_lie_in_the_frame},
-                                       {"shadows", shadows_lie_in_the_frame}, {"low light", low_light_leaves_room}};
+    static const check_case cases[] = {{"models", models_fill_the_frame},
+                                       {"directions", directions_fill_the_frame},
+                                       {"postures", postures_fill_the_frame},
+                                       {"selections", selections_fill_the_frame},
+                                       {"times", all_times_are_held},
+                                       {"solids", solids_lie_in_the_frame},
+                                       {"shadows", shadows_lie_in_the_frame},
+                                       {"low light", low_light_leaves_room},
+                                       {"touched", touched_ground_lies_in_the_frame}};
     return check_main(argc, argv, "fit", cases, sizeof cases / sizeof *cases);
 }

@@ -488,11 +488,51 @@ static void instances(void)
     }
 }
 
+/* Pictures of a torus whose patches are drawn on red paper. */
+static bool patches_of(shot *out, const char *coordinates, const shot_view *view)
+{
+    char  look[400];
+    shape s = {0};
+    snprintf(
+        look, sizeof look,
+        "{\"version\":1,\"name\":\"t\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"select\":\"*\",\"surface\":{"
+        "\"technique\":\"hatch\",\"coordinates\":\"%s\",\"shadow\":1,\"light\":1,\"paper\":\"#ff0000\"}}]}",
+        coordinates);
+    shape_torus(&s, "torus", 1, 0.45, 60, 30);
+    bool ok = shot_of_shape(out, &s, "patches.ply", look, NULL, view);
+    shape_release(&s);
+    return ok;
+}
+
+/* Patches are cut off at their torn outlines, which are those that were laid until all was covered: no pixel is left
+ * open, as it would be by outlines of another shape. */
+static void patches_leave_no_holes(void)
+{
+    shot_view view = {.width = 400, .height = 400, .eye = {1, 2, 3.5}, .up = {0, 1, 0}};
+    shot      whole, lapped;
+    if (!patches_of(&whole, "axes", &view))
+        return;
+    if (patches_of(&lapped, "lapped", &view)) {
+        int holes = 0, body = 0;
+        for (int i = 0; i < view.width * view.height; i++) {
+            body += whole.picture[4 * i + 1] < 128;
+            holes += whole.picture[4 * i + 1] < 128 && lapped.picture[4 * i + 1] >= 128;
+        }
+        check_at_least("lapped", body, 20000, "pixels of a torus");
+        check_at_most("lapped", holes, 0, "pixels of it that no patch covers");
+        shot_release(&lapped);
+    }
+    shot_release(&whole);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"frames", frames},   {"door", shower_door}, {"octaves", octaves}, {"fixed", fixed},         {"paths", paths},
-        {"samples", samples}, {"parts", parts},      {"meshes", meshes},   {"instances", instances},
+        {"frames", frames},       {"door", shower_door},
+        {"octaves", octaves},     {"fixed", fixed},
+        {"paths", paths},         {"samples", samples},
+        {"parts", parts},         {"meshes", meshes},
+        {"instances", instances}, {"patches", patches_leave_no_holes},
     };
     int status = check_main(argc, argv, "hatch_coherence", cases, sizeof cases / sizeof *cases);
     shot_end();

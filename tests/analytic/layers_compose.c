@@ -774,6 +774,62 @@ static void clutter(void)
     }
 }
 
+/* Ink of a layer at a pixel, all lines together; the picture's last row and column go on beyond it. */
+static double layer_ink_at(const shot *s, int layer, int x, int y)
+{
+    x = x < 0 ? 0 : x >= s->width ? s->width - 1 : x;
+    y = y < 0 ? 0 : y >= s->height ? s->height - 1 : y;
+    const uint8_t *e = &s->layers[layer].edge[4 * (y * s->width + x)];
+    return 1 - fmin(e[2], e[3]) / 255.0;
+}
+
+/* What clutter leaves of the first hidden layer's lines: less of creases than of outlines, and less where the lines in
+ * front crowd, by how much ink they have in 25 x 25 places, two pixels apart. */
+static void crowded(void)
+{
+    const double             clutter = 0.8;
+    static const char *const changes[] = {"compose.clutter", "0.8", NULL};
+    static const char        look[] = LOOK("{\"select\":\"*\",\"surface\":\"flat\"," ALL_LAYERS "," LINES
+                                           ",\"compose\":{\"technique\":\"blueprint\",\"tint_opacity\":0,\"once\":false}}");
+    shape                    s = {0};
+    shot                     plain, drawn;
+    box_in_box(&s);
+    shape_torus(&s, "ring", 1.2, 0.3, 12, 8);
+    bool ok = shot_of_shape(&plain, &s, "clutter.glb", look, NULL, &views[0]);
+    if (shot_of_shape(&drawn, &s, "clutter.glb", look, changes, &views[0]) && ok) {
+        int    count = 0, creases = 0, busy = 0;
+        double worst = 0;
+        for (int y = 0; y < plain.height; y++)
+            for (int x = 0; x < plain.width; x++) {
+                size_t i = 4 * (size_t)(y * plain.width + x);
+                double before = ground[0] - plain.picture[i], others = 0, sum = 0;
+                for (int k = 0; k < plain.layer_count; k++)
+                    others += k == 1 ? 0 : layer_ink_at(&plain, k, x, y);
+                if (before < 30 || others > 0)
+                    continue;
+                for (int j = -12; j <= 12; j++)
+                    for (int k = -12; k <= 12; k++)
+                        sum += layer_ink_at(&plain, 0, x + 2 * k, y + 2 * j) / 625;
+                const uint8_t *e = &plain.layers[1].edge[i];
+                double important = fmax(1 - e[0] / 255.0, 1 - e[3] / 255.0), t = fmin(fmax((sum - 0.03) / 0.27, 0), 1);
+                double wanted = (1 - clutter * (0.5 - 0.35 * important)) *
+                                (1 - clutter * t * t * (3 - 2 * t) * (1 - 0.5 * important));
+                worst = fmax(worst, fabs((ground[0] - drawn.picture[i]) / before - wanted));
+                count++;
+                creases += important < 0.1;
+                busy += t > 0.1;
+            }
+        check_at_least("hidden", count, 300, "pixels that the first hidden layer alone inks");
+        check_at_least("hidden", creases, 30, "  of creases");
+        check_at_least("hidden", busy, 100, "  where lines in front crowd");
+        check_at_most("hidden", worst, 0.04, "  ink that clutter leaves of them, off by");
+        shot_release(&drawn);
+    }
+    if (ok)
+        shot_release(&plain);
+    shape_release(&s);
+}
+
 /* --- textures ------------------------------------------------------------------------------------------- */
 
 enum { TEXELS = 64, FIELD = 16 };
@@ -905,6 +961,7 @@ int main(int argc, char **argv)
         {"once", repeated_once},
         {"halo", halo},
         {"clutter", clutter},
+        {"crowded", crowded},
         {"texture", textures_through_layers},
         {"plan", plan_views},
     };

@@ -133,6 +133,21 @@ static double steps_along(const shot *s)
     return along / across;
 }
 
+/* How much ink changes along with how it changes across, of its changes across: the slope of strokes that lean to one
+ * side, 0 where as many lean to the other. */
+static double lean_of(const shot *s)
+{
+    double both = 0, up = 0;
+    for (int y = 1; y + 1 < s->height; y++)
+        for (int x = 1; x + 1 < s->width; x++) {
+            double across = halftone_ink(s, x + 1, y) - halftone_ink(s, x - 1, y),
+                   down = halftone_ink(s, x, y + 1) - halftone_ink(s, x, y - 1);
+            both += across * down;
+            up += down * down;
+        }
+    return both / fmax(up, 1e-9);
+}
+
 /* Row P36: repetitions lie elsewhere, so that together they are as dark as wanted, and they turn to both sides. */
 static void repetitions_differ(void)
 {
@@ -158,6 +173,8 @@ static void repetitions_differ(void)
                        "turned by %d degrees to both sides: by how much more ink changes from left to right",
                        degrees[k]);
         check_at_most("P36", now, slope * slope + 0.2, "and not more than strokes that lie like this");
+        check_at_most("P36", fabs(lean_of(&s)), 0.12 * slope + 0.03,
+                      "  and by how much they lean to one side on the mean");
         before = k ? before : now;
         shot_release(&s);
     }

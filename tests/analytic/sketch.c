@@ -554,14 +554,6 @@ static void depths(void)
                  LOOK(ANCHOR "{\"select\":\"ball\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":"
                              "\"flat\",\"colour\":\"none\"}" ID_LINES THRICE "}," FIGURE("sharp", "#20b040", "")),
                  &thrice, NULL, &slanted);
-    /* Parts of other rules take part in the detection of lines, as is usual; they must not cut the figure's fill. */
-    sketch_style inkless = waves;
-    inkless.ink = (sketch_paint){0, 0, 0, 0};
-    against_each("with the other part in the detection of lines",
-                 LOOK(ANCHOR "{\"select\":\"ball\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#d03020\"},"
-                             "\"lines\":{\"operator\":\"id\",\"profile_weight\":0,"
-                             "\"inner_weight\":0,\"id_weight\":0}" WAVES "}," FIGURE("sharp", "#20b040", "")),
-                 &inkless, NULL, &slanted);
     shot_view parallel = slanted;
     parallel.orthographic = true;
     against_each(
@@ -750,6 +742,44 @@ static void frayed(void)
     for (int k = 0; k < 5; k++)
         shot_release(&drawn[k]);
     shape_release(&s);
+}
+
+/* The same grains move lines: by up to `rough` either way, evenly, so that ink lies by 1/sqrt 3 of it off its line. */
+static void frayed_lines(void)
+{
+    static const char *const rough[] = {"0", "3", "6"};
+    double                   before = 0;
+    for (int k = 0; k < 3; k++) {
+        char  perturb[256];
+        shape s = {0};
+        shot  drawn;
+        snprintf(
+            perturb, sizeof perturb,
+            "{\"technique\":\"uncertainty\",\"amount\":4," EDGES(0, 0, 0, 0) "," SHADES(0, 0, 0, 0) ",\"rough\":%s}",
+            rough[k]);
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
+        if (shot_of_shape(&drawn, &s, "frayed.glb",
+                          look_of("\"surface\":{\"technique\":\"flat\",\"colour\":\"#ece4d2\"}," LINES, perturb), NULL,
+                          &front)) {
+            double sum = 0, mean = 0, squares = 0, middle[2];
+            shot_on_page(&drawn, dvec_of(0, 0, 0), middle);
+            for (int i = 0; i < drawn.width * drawn.height; i++) {
+                double ink = 1 - drawn.picture[4 * i] / 236.0,
+                       r = hypot(i % drawn.width + 0.5 - middle[0], floor(i / (double)drawn.width) + 0.5 - middle[1]);
+                sum += ink;
+                mean += ink * r;
+                squares += ink * r * r;
+            }
+            mean /= sum;
+            double spread = sqrt(squares / sum - mean * mean), own = atof(rough[k]) / sqrt(3);
+            if (k == 0)
+                before = spread;
+            check_near("S08", spread, sqrt(before * before + own * own), 0.15,
+                       "rough %s: how far ink lies off a line, px", rough[k]);
+        }
+        shot_release(&drawn);
+        shape_release(&s);
+    }
 }
 
 /* A plate whose colour says where its pixels come from: red by x, green by y. */
@@ -1106,10 +1136,10 @@ int main(int argc, char **argv)
         {"zero", zero},         {"masks", fill_masks},        {"whole", whole_pictures},
         {"contrary", contrary}, {"direction", one_direction}, {"exchange", exchange},
         {"depths", depths},     {"identity", mask_identity},  {"patches", patches},
-        {"product", product},   {"frayed", frayed},           {"grains", grains},
-        {"repeated", repeated}, {"several", several},         {"tooth", tooth},
-        {"pressure", pressure}, {"borders", borders},         {"wall", wall},
-        {"samples", samples},   {"dialects", dialects},
+        {"product", product},   {"frayed", frayed},           {"frayed-lines", frayed_lines},
+        {"grains", grains},     {"repeated", repeated},       {"several", several},
+        {"tooth", tooth},       {"pressure", pressure},       {"borders", borders},
+        {"wall", wall},         {"samples", samples},         {"dialects", dialects},
     };
     int status = check_main(argc, argv, "sketch", cases, sizeof cases / sizeof *cases);
     shot_end();

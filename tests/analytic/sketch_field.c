@@ -210,6 +210,35 @@ static void waves(void)
     }
 }
 
+/* Every further octave has half the height and half the length of the one before: slopes add up as squares, and what is
+ * made of n octaves is as high as what is made of one. */
+static void octaves(void)
+{
+    double first = 0, squares = 0;
+    for (int n = 1; n <= 4; n++) {
+        double sum = 0, all = 0;
+        for (int seed = 0; seed < 4; seed++) {
+            char settings[128];
+            shot field;
+            snprintf(settings, sizeof settings, "\"lock\":\"screen\",\"octaves\":%d,\"seed\":%d,\"scale\":96", n, seed);
+            if (wall_field(&field, settings, &front))
+                for (int y = RIM; y < field.height - RIM - 1; y++)
+                    for (int x = RIM; x < field.width - RIM - 1; x++)
+                        for (int c = 0; c < 2; c++) {
+                            double across = at(&field, x + 1, y, c) - at(&field, x, y, c),
+                                   up = at(&field, x, y + 1, c) - at(&field, x, y, c);
+                            sum += across * across + up * up;
+                            all += at(&field, x, y, c) * at(&field, x, y, c);
+                        }
+            shot_release(&field);
+        }
+        squares += pow(0.25, n - 1);
+        first = n == 1 ? sum / all : first;
+        check_near("S02", sum / all / first / (n / squares), 1, 0.2,
+                   "%d octaves: squares of slopes, of one octave's, against %.2f", n, n / squares);
+    }
+}
+
 static void tiles(void)
 {
     static const int cases[][2] = {{128, 32}, {100, 30}, {90, 60}};
@@ -631,6 +660,33 @@ static double mean_drift(const drift *d, position_class class)
     return d->count[class] ? d->sum[class] / (double)d->count[class] : INFINITY;
 }
 
+/* Row C23: with lock=screen the field belongs to the page, whoever looks from where. */
+static void page_locked(void)
+{
+    shape s = {0};
+    shot  first;
+    model(&s);
+    shot_view view = frame_view(0);
+    if (field_of(&first, &s, "\"lock\":\"screen\",\"amount\":6", &view)) {
+        for (int frame = 7; frame < 30; frame += 11) {
+            shot now;
+            view = frame_view(frame);
+            if (field_of(&now, &s, "\"lock\":\"screen\",\"amount\":6", &view)) {
+                double worst = 0;
+                int    both = 0;
+                for (int i = 0; i < now.width * now.height; i++) /* it is there where something is drawn */
+                    for (int c = 0; c < 3 && isfinite(now.depth[i]) && isfinite(first.depth[i]); c++, both++)
+                        worst = fmax(worst, fabs((double)(now.uncertainty[i][c] - first.uncertainty[i][c])));
+                check_at_least("C23", both, 10000, "values of the field on the page, seen from elsewhere");
+                check_at_most("C23", worst, 0, "  difference");
+            }
+            shot_release(&now);
+        }
+    }
+    shot_release(&first);
+    shape_release(&s);
+}
+
 /* The field of a turning, approaching model, frame by frame, for one that stays on the model, one on the page and
  * one that is new in each frame. */
 static void coherence(void)
@@ -1022,6 +1078,8 @@ int main(int argc, char **argv)
         {"noise", noise},
         {"seeds", seeds_and_time},
         {"waves", waves},
+        {"page", page_locked},
+        {"octaves", octaves},
         {"tiles", tiles},
         {"middle", middle},
         {"turbulence", turbulence},

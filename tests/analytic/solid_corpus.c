@@ -138,6 +138,9 @@ static void check_file(const char *folder, const char *name, const char *stl)
     shot_release(&s[2]);
 }
 
+enum { SKIPPED = 77 }; /* as ctest is told */
+static bool skipped;
+
 static void against_meshes(void)
 {
     static const char *const positions[] = {"../shared/data", "../../shared/data", "../../../shared/data"};
@@ -158,7 +161,8 @@ static void against_meshes(void)
     json_t     *all = *folder ? json_load_file(path, 0, NULL) : NULL, *entry;
     const char *name;
     if (!all) {
-        check_that("corpus", true, "there is no corpus of solids here: nothing compared");
+        check_note("there is no corpus of solids here: nothing compared");
+        skipped = true;
         return;
     }
     int count = 0;
@@ -179,5 +183,5 @@ int main(int argc, char **argv)
     static const check_case cases[] = {{"corpus", against_meshes}};
     int                     status = check_main(argc, argv, "solid_corpus", cases, sizeof cases / sizeof *cases);
     shot_end();
-    return status;
+    return skipped ? SKIPPED : status;
 }

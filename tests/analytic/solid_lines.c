@@ -578,6 +578,37 @@ static void fewer_layers(void)
         }
 }
 
+/* Row C19: a union is the same in whichever order its operands stand, layer by layer. */
+static void order_of_operands(void)
+{
+    static const char *const operands[] = {
+        "color([1,0,0,1]){cube(size=[2,2,2],center=true);}", "color([0,1,0,1]){sphere($fn=24,$fa=12,$fs=2,r=1.3);}",
+        "color([0,0,1,1]){cylinder($fn=24,$fa=12,$fs=2,h=4,r1=0.7,r2=0.4,center=true);}"};
+    static const int  orders[][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
+    static const char look[] =
+        LOOK(OWN_COLOUR LINES ALL_LAYERS ",\"compose\":{\"technique\":\"xray\",\"opacity\":0.4}");
+    for (int v = 0; v < 3; v++) {
+        shot drawn[3];
+        bool ok = true;
+        int  taken = 0;
+        for (; taken < 3 && ok; taken++) {
+            char  path[512];
+            FILE *file;
+            snprintf(path, sizeof path, "%s", check_path("order%d.csg", taken));
+            file = fopen(path, "wb");
+            ok = file && fprintf(file, "union(){%s%s%s}\n", operands[orders[taken][0]], operands[orders[taken][1]],
+                                 operands[orders[taken][2]]) > 0;
+            ok = file && fclose(file) == 0 && ok && shot_take(&drawn[taken], path, look, NULL, &views[v]);
+        }
+        for (int k = 1; k < 3 && ok; k++) {
+            check_near("C19", drawn[k].layers_drawn, drawn[0].layers_drawn, 0, "layers of a union in another order");
+            check_at_most("C19", shot_differing(&drawn[0], &drawn[k], 0), 0, "  values that differ");
+        }
+        for (int k = 0; k < taken; k++)
+            shot_release(&drawn[k]);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -589,6 +620,7 @@ int main(int argc, char **argv)
         {"wire", wire},
         {"bores", bores_seen_through},
         {"counts", fewer_layers},
+        {"order", order_of_operands},
     };
     int status = check_main(argc, argv, "solid_lines", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -706,7 +706,7 @@ has() {
 group_vectors() {
     local sheet=(--look technical)
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg; has x.svg '^<svg xmlns="http://www.w3.org/2000/svg" width="270.933mm"'; cp x.svg in-first.svg
-    has x.svg '<g id="view-iso-visible-part-1-contour" class="visible contour">'
+    has x.svg '<g id="view-iso-visible-part-1-contour" class="visible contour"'
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg
     cmp -s x.svg in-first.svg || complain "two runs give different files"
     row 0 '' '' draw "$gear" "${sheet[@]}" -o - --format svg; cmp -s .stdout in-first.svg || complain "standard output gets another drawing"
@@ -714,14 +714,14 @@ group_vectors() {
     row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf; has x.pdf '^%PDF-1'; cp x.pdf in-first.pdf
     row 0 '' 'x.pdf' draw "$gear" "${sheet[@]}" -o x.pdf
     cmp -s x.pdf in-first.pdf || complain "two runs give different files"
-    row 0 '' 'x.dxf' draw "$gear" "${sheet[@]}" -o x.dxf; has x.dxf '^AC1009$'; has x.dxf '^VISIBLE-CONTOUR$'; has x.dxf '^HIDDEN-CREASE$'
+    row 0 '' 'x.dxf' draw "$gear" "${sheet[@]}" -o x.dxf; has x.dxf '^AC1015$'; has x.dxf '^VISIBLE-CONTOUR - '; has x.dxf '^HIDDEN-CREASE - '; has x.dxf '^DASHEDTINY$'
     row 0 '' 'a.svg b.json' draw "$box" "${sheet[@]}" -o a.svg --report b.json --verify; documented b.json report.md
     has b.json '"strokes": \{'; has b.json '"samples": [0-9]{2}'; has b.json '"bytes": [0-9]{3}'; has b.json '"unit": "m"'
     # Pages, scales, views.
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A4-landscape; has x.svg 'width="297mm" height="210mm" viewBox="0 0 297 210"'
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page 120x80mm --scale 1:2; has x.svg '<desc>.*scale 1:2</desc>'
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>'
-    local view; for view in front top right iso; do has x.svg "<g id=\"view-$view\" class=\"view\">"; done
+    local view; for view in front top right iso; do has x.svg "<g id=\"view-$view\" class=\"view\""; done
     has x.svg '<title>A &amp; &lt;B&gt;</title>'; has x.svg '>A &amp; &lt;B&gt;</text>'; cp x.svg in-third.svg
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>' --projection first
     cmp -s x.svg in-third.svg && complain "first angle is third angle"
@@ -737,7 +737,7 @@ group_vectors() {
     row 0 'warning: the file does not say its unit' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 50:1
     row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
     # Plotters, areas, surfaces.
-    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen">'
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen"'
     row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
     row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.dxf' draw "$box" --look toon -o x.dxf
@@ -752,7 +752,7 @@ group_vectors() {
         row 0 '' "x.$ending" draw "$widget" "${sheet[@]}" -o x.$ending
         row 0 '' "x.$ending" draw "$gear" "$widget" "${sheet[@]}" -o x.$ending --cut 'box=50%,50%,50%:100%,100%,100%'
     done
-    has x.dxf '^HATCH$'
+    has x.dxf '^HATCH - '
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
     grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"

@@ -659,6 +659,84 @@ static void see_through_has_depth(void **unused)
     close_arguments(&a);
 }
 
+/* The eye depth at a pixel of a map, row 0 at the bottom. */
+static double depth_in(const float *map, int x, int y)
+{
+    x = x < 0 ? 0 : x >= SIDE ? SIDE - 1 : x;
+    y = y < 0 ? 0 : y >= SIDE ? SIDE - 1 : y;
+    return (double)map[(SIDE - 1 - y) * SIDE + x];
+}
+
+/* A sketch is as deep as the nearer of what its lines and its fill show there, which both lie beside the pixel: what
+ * the host's depth buffer holds, against the maps and the field of a drawing of its own. */
+static void sketches_have_the_nearer_depth(void **unused)
+{
+    (void)unused;
+    static const char json[] =
+        "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#d03020\"},"
+        "\"lines\":"
+        "{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":"
+        "9,"
+        "\"scale\":40,\"fallback\":\"#ff00ff\",\"edges_xx\":0,\"edges_xy\":1,\"edges_yx\":-1,\"edges_yy\":0,\"shades_"
+        "xx\":0.6,\"shades_xy\":0.4,"
+        "\"shades_yx\":0,\"shades_yy\":-1}}]}";
+    static float  depth[SIDE * SIDE], field[3 * SIDE * SIDE], read[SIDE * SIDE];
+    arguments     a;
+    plane         p;
+    lmn_renderer *own;
+    lmn_drawing  *drawing;
+    open_arguments(&a);
+    lmn_look_destroy(&a.look);
+    DO(lmn_look_parse(&a.look, json, "t", &error));
+    plane_open(&p, PLANE_USUAL, false, 0);
+    lmn_draw_desc desc = with_camera(&p);
+    desc.dpi = 96; /* lengths are in pixels */
+    lmn_draw_desc with_maps = desc;
+    with_maps.maps = true;
+    lmn_target target = target_of(&a.picture);
+    target.depth = LMN_TARGET_DEPTH_TEST_AND_WRITE;
+    plane_set_depth(&p);
+    clear(&a.picture);
+    DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
+    glBindFramebuffer(GL_FRAMEBUFFER, a.picture.framebuffer);
+    glReadPixels(0, 0, SIDE, SIDE, GL_DEPTH_COMPONENT, GL_FLOAT, read);
+    context_release();
+    DO(lmn_renderer_create(&own, NULL, &error));
+    DO(lmn_draw(&drawing, own, a.scene, a.look, &with_maps, &error));
+    DO(lmn_drawing_copy_map(drawing, LMN_MAP_DEPTH, depth, SIDE * SIDE, &error));
+    DO(lmn_drawing_copy_map(drawing, LMN_MAP_UNCERTAINTY, field, 3 * SIDE * SIDE, &error));
+    int both = 0, fill_alone = 0, line_alone = 0, wrong = 0, deeper = 0;
+    for (int y = 12; y < SIDE - 12; y++)
+        for (int x = 12; x < SIDE - 12; x++) {
+            const float *u = &field[3 * ((SIDE - 1 - y) * SIDE + x)];
+            double fx = x + 9 * (0.6 * (double)u[0] + 0.4 * (double)u[1]), fy = y - 9 * (double)u[1], fill = INFINITY;
+            double line =
+                depth_in(depth, (int)floor(x + 9 * (double)u[1] + 0.5), (int)floor(y - 9 * (double)u[0] + 0.5));
+            for (int i = 0; i < 4; i++)
+                fill = fmin(fill, depth_in(depth, (int)floor(fx) + i % 2, (int)floor(fy) + i / 2));
+            double ndc = 2 * (double)read[y * SIDE + x] - 1, got = p.projection[14] / (ndc + p.projection[10]);
+            if (isinf(fill) && isinf(line))
+                continue; /* empty, or ink beside an outline */
+            both += isfinite(fill) && isfinite(line);
+            fill_alone += isinf(line);
+            line_alone += isinf(fill);
+            deeper += fabs(fill - line) > 0.01;
+            /* Ink beside an outline is as deep as what it surrounds. */
+            bool nearer = isinf(line) && got < fill;
+            wrong += !nearer && !(fabs(got - fmin(fill, line)) < 0.004);
+        }
+    print_message(
+        "%d places of lines and fill, %d of fill alone, %d of lines alone; %d where one is deeper, %d wrong\n", both,
+        fill_alone, line_alone, deeper, wrong);
+    assert_true(both > 1500 && fill_alone > 50 && line_alone > 50 && deeper > 1000);
+    assert_true(wrong <= (both + fill_alone + line_alone) / 200); /* rounded to the other pixel */
+    lmn_drawing_destroy(&drawing);
+    lmn_renderer_destroy(&own);
+    context_make_current(&a.context);
+    plane_close(&p);
+    close_arguments(&a);
+}
+
 static void what_is_not_opaque_mixes(void **unused)
 {
     (void)unused;
@@ -794,6 +872,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(matrices_are_a_camera),
         cmocka_unit_test(depth_interleaves),
         cmocka_unit_test(see_through_has_depth),
+        cmocka_unit_test(sketches_have_the_nearer_depth),
         cmocka_unit_test(what_is_not_opaque_mixes),
         cmocka_unit_test(framebuffers_with_more),
         cmocka_unit_test(state_may_be_left),

@@ -3,6 +3,7 @@
 
 #include "import/city.h"
 #include "import_support.h"
+#include "stroke/edges.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -235,6 +236,38 @@ static void test_other_objects(void **state)
     expect(s, "road", 1);
     expect(s, "terrain", 2);
     lmn_scene_destroy(&s);
+}
+
+/* A ridge of ground that turns by a right angle has no crease, and one normal along it. */
+static void test_ground_is_smooth(void **state)
+{
+    (void)state;
+#define FACE(corners) "<gml:Triangle><gml:exterior>" RING(corners) "</gml:exterior></gml:Triangle>"
+    lmn_scene *s = load_text(ROOT MEMBER(
+        "<dem:ReliefFeature><dem:lod>1</dem:lod><dem:reliefComponent><dem:TINRelief gml:id=\"d\"><dem:tin>"
+        "<gml:TriangulatedSurface><gml:trianglePatches>" FACE("0 0 1 4 0 1 2 -1 0 0 0 1")
+            FACE("0 0 1 2 1 0 4 0 1 0 0 1") "</gml:trianglePatches></gml:TriangulatedSurface></dem:tin></dem:TINRelief>"
+                                            "</dem:reliefComponent></dem:ReliefFeature>") END);
+    edge_mesh  edges;
+    lmn_error  error = {0};
+    assert_int_equal(s->mesh_count, 1);
+    const primitive *p = &s->meshes[0].primitives[0];
+    assert_int_equal(p->index_count, 6);
+    assert_non_null(p->normals);
+    for (uint32_t i = 0; i < p->vertex_count; i++)
+        if (fabs((double)p->positions[i].y) < 1e-6)
+            assert_true((double)p->normals[i].z > 0.999);
+    assert_int_equal(edge_mesh_create(&edges, &s->meshes[0], NULL, 0.5, &error), LMN_OK);
+    int creases = 0, borders = 0;
+    for (uint32_t i = 0; i < edges.edge_count; i++) {
+        creases += (edges.edges[i].flags & EDGE_CREASE) != 0;
+        borders += (edges.edges[i].flags & EDGE_BORDER) != 0;
+    }
+    assert_int_equal(creases, 0);
+    assert_int_equal(borders, 4);
+    edge_mesh_release(&edges);
+    lmn_scene_destroy(&s);
+#undef FACE
 }
 
 /* Two trees of one shape: the first brings it, the second refers to it. */
@@ -490,6 +523,7 @@ int main(void)
         cmocka_unit_test(test_levels_and_parts),
         cmocka_unit_test(test_holes_and_windows),
         cmocka_unit_test(test_other_objects),
+        cmocka_unit_test(test_ground_is_smooth),
         cmocka_unit_test(test_implicit_geometry),
         cmocka_unit_test(test_appearance),
         cmocka_unit_test(test_degrees),

@@ -76,8 +76,43 @@ static void ends_join(void **state)
           2 * 108 - 6 + 2 * 46 + 6, 1100);
 }
 
+/* Where a stream passes below a road the road's rims are drawn and its own are not. */
+static void streams_pass_below(void **state)
+{
+    (void)state;
+    check(ROAD(8, "[500000,5300000],[500100,5300000]") ",{\"properties\":{\"waterway\":\"canal\",\"width\":10},"
+                                                       "\"geometry\":{\"type\":\"LineString\",\"coordinates\":["
+                                                       "[500050,5299950],[500050,5300050]]}}",
+          2 * 108 + 2 * 110 - 2 * 8, 1800);
+}
+
+/* Roads that lie on each other are not as high, however wide they are: two colours would flicker. */
+static void crossings_do_not_flicker(void **state)
+{
+    (void)state;
+    lmn_scene *s = load_roads(ROAD(6, "[500000,5300000],[500100,5300000]") "," ROAD(
+        6,
+        "[500050,5299950],[500050,"
+        "5300050]") "," ROAD(6, "[500010,5299960],[500090,5300040]") "," ROAD(6.2, "[500090,5299960],[500010,"
+                                                                                   "5300040]") "," ROAD(6, "[500300,"
+                                                                                                           "5300000],["
+                                                                                                           "500400,"
+                                                                                                           "5300000]"));
+    double     heights[5];
+    assert_int_equal(s->part_count, 5);
+    for (size_t i = 0; i < 5; i++) {
+        heights[i] = (double)s->meshes[s->nodes[s->parts[i].node].mesh].primitives[0].positions[0].z;
+        for (size_t k = 0; k < i && i < 4; k++)
+            assert_true(fabs(heights[i] - heights[k]) > 0.0015);
+    }
+    assert_true(fabs(heights[4] - heights[0]) < 1e-6); /* it lies alone */
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(crossings_have_one_outline), cmocka_unit_test(ends_join)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(crossings_have_one_outline), cmocka_unit_test(ends_join),
+                                       cmocka_unit_test(streams_pass_below),
+                                       cmocka_unit_test(crossings_do_not_flicker)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The example scripts tell what they claim, and when only the behaviour changes, the signs of the same expressions
  * change as it does. Nienhaus 2005, sections 7.6 to 7.10. */
 #include "import_support.h"
+#include "placed_glyph.h"
 
 #include <math.h>
 
@@ -79,7 +80,7 @@ static const primitive *sign_at(const lmn_scene *s, const char *glyph, const cha
         const node *n = &s->nodes[s->parts[i].node];
         if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 &&
             (!*when || strcmp(value_of(n, "when"), when) == 0) && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
+            return placed_glyph(s, n);
     }
     return NULL;
 }

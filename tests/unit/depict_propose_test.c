@@ -434,6 +434,10 @@ static void shapes_are_told_by_their_shape(void **state)
         {"{\"name\": \"thing\", \"sphere\": {\"radius\": 1}, \"scale\": [1, 2, 0.7]}", NULL}, /* as a trunk */
         {"{\"name\": \"thing\", \"sphere\": {\"radius\": 1}, \"scale\": 3}", "ball"},
         {"{\"name\": \"door\", \"box\": {\"size\": [1, 2, 0.1]}}", "door"},
+        {"{\"name\": \"Head Lamp\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
+        {"{\"name\": \"headLight_left\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
+        {"{\"name\": \"door_handle\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
+        {"{\"name\": \"head\", \"box\": {\"size\": [1, 1, 1]}}", "head"},
         {"{\"name\": \"thing\", \"semantics\": \"ball\", \"box\": {\"size\": [1, 1, 1]}}", "ball"}, /* who says so */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

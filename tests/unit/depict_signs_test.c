@@ -962,7 +962,7 @@ static uint64_t signs_hash(const lmn_scene *s)
         const node *n = &s->nodes[s->parts[i].node];
         if (n->mesh == NONE || !*value_of(n, "glyph"))
             continue;
-        const primitive     *p = &s->meshes[n->mesh].primitives[0];
+        const primitive     *p = placed_glyph(s, n);
         const unsigned char *bytes = (const unsigned char *)p->positions,
                             *tint = (const unsigned char *)&s->materials[p->material].base_colour;
         for (size_t k = 0; k < p->vertex_count * sizeof *p->positions; k++)

@@ -3,6 +3,7 @@
 #ifndef TESTS_DEPICT_SUPPORT_H
 #define TESTS_DEPICT_SUPPORT_H
 
+#include "placed_glyph.h"
 #include <math.h>
 
 #include "base/vector3.h"
@@ -59,7 +60,7 @@ static inline const primitive *glyph_at(const lmn_scene *s, const char *glyph, c
         const node *n = &s->nodes[s->parts[i].node];
         if (n->mesh != NONE && strcmp(value_of(n, "glyph"), glyph) == 0 &&
             (!when || strcmp(value_of(n, "when"), when) == 0) && k-- == 0)
-            return &s->meshes[n->mesh].primitives[0];
+            return placed_glyph(s, n);
     }
     return NULL;
 }

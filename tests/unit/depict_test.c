@@ -116,7 +116,7 @@ static uint64_t glyphs_hash(const lmn_scene *s)
         const node *n = &s->nodes[s->parts[i].node];
         if (n->mesh == NONE || !*value_of(n, "glyph"))
             continue;
-        const primitive     *p = &s->meshes[n->mesh].primitives[0];
+        const primitive     *p = placed_glyph(s, n);
         const unsigned char *bytes = (const unsigned char *)p->positions;
         for (size_t k = 0; k < p->vertex_count * sizeof *p->positions; k++)
             hash = (hash ^ bytes[k]) * 1099511628211u;
@@ -259,7 +259,12 @@ static void arrows_follow_the_way(void **state)
             ball_at(now * k / 8000, way);
             best = fmin(best, vector3_distance(middle, way));
         }
-        assert_near(best, 0, 0.012 * radius);
+        /* Where it hits the ground the way has a corner, and the arrow a turn that its breadth can go round. */
+        ball_at(contact_time(), way);
+        if (vector3_distance(middle, way) > 3 * breadth)
+            assert_near(best, 0, 0.012 * radius);
+        else
+            assert_near(best, 0, 1.2 * breadth);
     }
     /* All future: no past arrow. */
     tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"path\", \"now\": 0}]", now, NULL);
@@ -304,6 +309,17 @@ static double off_way(const double at[2], double from, double to)
     return best;
 }
 
+/* Is a place of the page where the arrow turns, at the corner that its way has there? */
+static bool near_contact(const double at[2])
+{
+    double way[3], there[2], beside[2];
+    ball_at(contact_time(), way);
+    on_page(way, there);
+    way[0] += 3 * 0.25 * radius;
+    on_page(way, beside);
+    return hypot(at[0] - there[0], at[1] - there[1]) < hypot(beside[0] - there[0], beside[1] - there[1]);
+}
+
 /* The middle of the ribbon that is seen lies within a pixel of the way that is seen, between its vertices, too; and so
  * does one that is lifted before all. */
 static void arrows_lie_on_the_way_that_is_seen(void **state)
@@ -337,6 +353,8 @@ static void arrows_lie_on_the_way_that_is_seen(void **state)
                 /* Heads are straight; pieces are near each other, and dashes are not. */
                 const bool is_head = tense && i + 2 >= p->vertex_count / 2,
                            joined = i > 0 && hypot(at[0] - last[0], at[1] - last[1]) < 12;
+                if (near_contact(at))
+                    continue;
                 if (!is_head && off_way(at, 0, end) > 1)
                     fail_msg("%s %u: %.3g pixels off", tense ? "future" : "past", i, off_way(at, 0, end));
                 if (!is_head && joined && off_way(halfway, 0, end) > 1)

@@ -210,6 +210,41 @@ static void test_dashes(void **state)
     ribbon_set_release(&r);
 }
 
+/* A dashed line that stays whole: one ribbon, whose dashes are the ribbons that it would be. */
+static void test_whole_dashes(void **state)
+{
+    stroke_style style = plain_style();
+    (void)state;
+    for (int round = 0; round < 2; round++) {
+        begin();
+        if (round)
+            add_circle(100, 100, 40, 120, 0);
+        else
+            add_line(10, 10, 110, 10, 5, 0);
+        style.dash = 7;
+        style.gap = 4;
+        style.keeps_dashed = false;
+        ribbon_set loose = make(&style);
+        style.keeps_dashed = true;
+        ribbon_set whole = make(&style);
+        assert_int_equal(whole.ribbon_count, 1);
+        assert_true(loose.ribbon_count > 3 && whole.ribbons[0].end == RIBBON_BUTT && whole.ribbons[0].even);
+        assert_int_equal(whole.ribbons[0].dash_count, loose.ribbon_count);
+        float begin = point_of(&whole, 0, 0)->arc;
+        for (size_t i = 0; i < loose.ribbon_count; i++) {
+            assert_int_equal(loose.ribbons[i].dash_count, 0);
+            assert_float_equal(begin + whole.dashes[i][0], point_of(&loose, i, 0)->arc, 1e-3);
+            assert_float_equal(begin + whole.dashes[i][1], end_of(&loose, i)->arc, 1e-3);
+        }
+        ribbon_set_release(&loose);
+        ribbon_set_release(&whole);
+    }
+    style.taper = 20; /* what varies is drawn dash by dash */
+    ribbon_set varied = make(&style);
+    assert_true(varied.dash_count == 0 || varied.ribbons[0].even);
+    ribbon_set_release(&varied);
+}
+
 static void test_closed_dashes(void **state)
 {
     stroke_style style = plain_style();
@@ -1112,6 +1147,7 @@ int main(void)
                                        cmocka_unit_test(test_plain),
                                        cmocka_unit_test(test_colours_and_fading),
                                        cmocka_unit_test(test_dashes),
+                                       cmocka_unit_test(test_whole_dashes),
                                        cmocka_unit_test(test_closed_dashes),
                                        cmocka_unit_test(test_hidden_dashes),
                                        cmocka_unit_test(test_halos),

@@ -146,7 +146,7 @@ static void test_scale(void **state)
     lmn_error      error = {0};
     file_data      file;
     double         low = INFINITY, high = -INFINITY, x = 0;
-    int            descriptor = mkstemp(path);
+    int            descriptor = mkstemp(path), code;
     assert_true(descriptor >= 0);
     close(descriptor);
     desc.views = "front";
@@ -157,12 +157,17 @@ static void test_scale(void **state)
     assert_int_equal(lmn_sheet_write(s, path, "dxf", NULL, &error), LMN_OK);
     assert_int_equal(file_load(&file, path, &error), LMN_OK);
     unlink(path);
-    for (at = strstr((const char *)file.data, "ENTITIES"); at; at = strchr(at + 1, '\n'))
-        if ((sscanf(at, "\n10\n%lf", &x) == 1 || sscanf(at, "\n11\n%lf", &x) == 1) &&
-            x != 0) { /* a polyline's own position is 0 */
+    at = strstr((const char *)file.data, "ENTITIES");
+    assert_non_null(at);
+    for (at = strchr(at, '\n') + 1; sscanf(at, "%d", &code) == 1; at = strchr(strchr(at, '\n') + 1, '\n') + 1) {
+        const char *value = strchr(at, '\n') + 1;
+        if ((code == 10 || code == 11) && sscanf(value, "%lf", &x) == 1) {
             low = fmin(low, x);
             high = fmax(high, x);
         }
+        if (strncmp(value, "EOF", 3) == 0)
+            break;
+    }
     double wanted = (info.bounds_max[0] - info.bounds_min[0]) * 1000 / 20; /* metres */
     print_message("%.4f mm wide, wanted %.4f mm\n", high - low, wanted);
     assert_true(fabs(high - low - wanted) < 0.02);

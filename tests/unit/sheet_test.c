@@ -63,10 +63,11 @@ static void test_not_finite(void **state)
     sheet_begin(&s, NAN, -5, INFINITY);
     assert_true(s.width > 0 && s.height > 0 && s.pixels_per_mm > 0);
     sheet_add_item(&s, SHEET_PATH, 0, black, 0);
-    sheet_add_path(&s, &(sheet_path){.width = NAN, .closed = true, .dash = INFINITY, .gap = 1}, line, 6);
+    sheet_add_path(&s, &(sheet_path){.width = NAN, .closed = true, .dash_count = 7, .piece_count = 7}, line, 6);
     assert_int_equal(s.path_count, 2); /* broken where it is not finite, and so not closed */
     for (size_t i = 0; i < 2; i++)
-        assert_true(!s.paths[i].closed && s.paths[i].width == 0 && s.paths[i].dash == 0);
+        assert_true(!s.paths[i].closed && s.paths[i].width == 0 && s.paths[i].dash_count == 0 &&
+                    s.paths[i].piece_count == 0);
     for (size_t i = 0; i < s.point_count; i++)
         assert_true(fabsf(s.points[i][0]) <= 1e6f && fabsf(s.points[i][1]) <= 1e6f);
     sheet_add_text(&s, 0, black, "words", NAN, 2, 3, 0);

@@ -452,6 +452,33 @@ static void rays_agree(void **state)
         }
 }
 
+/* A bar that leans through a bored block goes into its faces: its edges are seen up to where they do, from either end.
+ */
+static void rays_agree_where_parts_go_through_solids(void **state)
+{
+    (void)state;
+    static const char *const texts[2] = {
+        "difference(){" BOX(0, 0, 0, 10, 10, 10) ROD(5, 5, -1, 3, 12) "}",
+        "multmatrix([[0.8,0,0.6,-2],[0,1,0,2],[-0.6,0,0.8,9],[0,0,0,1]]){cube(size=[18,1.5,1.5],center=false);}"};
+    stroke_options options = STROKE_OPTIONS_INIT;
+    options.hidden = true;
+    for (int flat = 0; flat < 4; flat++) {
+        lmn_scene    *s;
+        lmn_error     error = {0};
+        lmn_load_desc load = LMN_LOAD_DESC_INIT;
+        assert_int_equal(lmn_scene_create(&s, &error), LMN_OK);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(lmn_scene_add_file(s, temp_file("part.csg", texts[k], strlen(texts[k])), &load, &error),
+                             LMN_OK);
+        stroke_camera camera = look_along(flat < 2 ? -0.6 : 0.7, 1, -0.55, (const double[3]){4, 4, 4}, 40,
+                                          flat % 2 ? 12 : 0.4, flat % 2, 500, 500);
+        stroke_shot   shot = shoot(s, camera, options);
+        assert_true(shot.check.samples > 300);
+        assert_int_equal(shot.check.wrong, 0);
+        shot_release(&shot);
+    }
+}
+
 /* What a section takes away reaches up to the eye and around it. */
 static void rays_agree_where_the_eye_is_in_what_is_cut(void **state)
 {
@@ -545,6 +572,7 @@ int main(void)
         cmocka_unit_test(open_operands_are_counted),
         cmocka_unit_test(what_is_taken_away_hides_nothing),
         cmocka_unit_test(rays_agree),
+        cmocka_unit_test(rays_agree_where_parts_go_through_solids),
         cmocka_unit_test(rays_agree_where_the_eye_is_in_what_is_cut),
         cmocka_unit_test(the_eye_may_be_inside),
         cmocka_unit_test(memory_may_end),

@@ -221,6 +221,28 @@ static void lines_go_on_from_what_bends_to_what_is_flat(void **state)
     release_shape(&s);
 }
 
+static place3 ribbon_at(double u, double v)
+{
+    return (place3){40 * u, 0.5 * v, 0};
+}
+
+/* On a ribbon that is narrower than lines are apart they lie across it one beside the other, as on a chamfer. */
+static void narrow_faces_have_lines(void **state)
+{
+    (void)state;
+    shape        s = with_normals(grid_surface(ribbon_at, 40, 2, false, false, 0));
+    marks        m;
+    flow_options options = {.apart = 1, .levels = 1, .series = 2, .turn = 1.5707963f, .sag = 0.01, .seed = 1};
+    size_t       across = 0;
+    assert_int_equal(marks_streamlines(&m, &s.surface, &options, NULL), LMN_OK);
+    for (size_t i = 0; i < m.line_count; i++)
+        across += m.lines[i].set == 1 && (i == 0 || m.lines[i - 1].stroke != m.lines[i].stroke);
+    printf("ribbon: %zu lines across\n", across);
+    assert_true(across >= 34 && across <= 46);
+    surface_marks_release(&m);
+    release_shape(&s);
+}
+
 /* Where so much is covered that lines join they do not run out, where it is light they do. */
 static void ends_run_out_where_it_is_light(void **state)
 {
@@ -619,6 +641,7 @@ int main(void)
         cmocka_unit_test(lines_keep_their_distance),
         cmocka_unit_test(lines_of_a_set_never_cross),
         cmocka_unit_test(lines_go_on_from_what_bends_to_what_is_flat),
+        cmocka_unit_test(narrow_faces_have_lines),
         cmocka_unit_test(ends_run_out_where_it_is_light),
         cmocka_unit_test(ends_do_not_line_up),
         cmocka_unit_test(levels_leave_earlier_ones_alone),

@@ -255,6 +255,22 @@ static void overlaps_become_one_line(void **state)
     }
 }
 
+/* Of several that an outline might go on as it takes the one that lies nearest, whichever comes first. */
+static void the_nearest_overlap_is_taken(void **state)
+{
+    struct stroke_view view = {.camera = {.orthographic = true, .height = 100, .width = 100}};
+    (void)state;
+    for (int order = 0; order < 2; order++) {
+        stroke_set set = {.strokes = given_strokes, .points = given_points};
+        size_t     count;
+        give(&set, 0, 50, 100, 50);
+        give(&set, 90, order ? 51.8f : 50.4f, 200, order ? 51.8f : 50.4f);
+        give(&set, 90, order ? 50.4f : 51.8f, 200, order ? 50.4f : 51.8f);
+        assert_int_equal(strokes_trim(&set, &view, &count, NULL), LMN_OK);
+        assert_float_equal(given_points[given_strokes[0].first + given_strokes[0].count - 1].y, 50.2, 1e-3);
+    }
+}
+
 /* A short outline that runs along a longer one is a crumb; one that stands on it, or joins two, is not. */
 static void crumbs_of_outlines_go(void **state)
 {
@@ -286,6 +302,7 @@ int main(void)
                                        cmocka_unit_test(lines_that_are_alone_for_long_stay),
                                        cmocka_unit_test(small_pieces_keep_their_outlines),
                                        cmocka_unit_test(overlaps_become_one_line),
+                                       cmocka_unit_test(the_nearest_overlap_is_taken),
                                        cmocka_unit_test(crumbs_of_outlines_go)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

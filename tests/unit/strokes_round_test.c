@@ -137,6 +137,29 @@ static void what_hides_lines_hides_them_there(void **state)
     }
 }
 
+/* A rim of few sides behind a plate that it peeps out from, as drawn and as it is: rays at the facets say the same of
+ * curves as of lines, and curves lie no farther from these than they may. */
+static void curves_are_verified_where_lines_are(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        lmn_scene *s = stroke_scene_begin();
+        add_disc(s);
+        add_box(s, -2.9, -2.9, 1, 2.9, 3.9, 1.5);
+        stroke_options w = STROKE_OPTIONS_INIT;
+        w.round = i ? 20 : 0;
+        w.hidden = true;
+        stroke_shot f = shoot(s, look_along(0.02, 0.01, -1, origin, 20, 5, true, PAGE, PAGE), w);
+        double      most = 0;
+        for (size_t k = 0; k < f.set.point_count; k++)
+            most = fmax(most, hypot((double)f.set.points[k].aside[0], (double)f.set.points[k].aside[1]));
+        printf("round %d: %d samples, %d wrong, up to %.2f aside\n", i, (int)f.check.samples, (int)f.check.wrong, most);
+        assert_true(f.check.samples > 100 && f.check.wrong == 0);
+        assert_true(i ? most > 4 && most <= 20 : most == 0);
+        shot_release(&f);
+    }
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -168,6 +191,7 @@ int main(void)
         cmocka_unit_test(rims_are_ellipses),
         cmocka_unit_test(boxes_stay_boxes),
         cmocka_unit_test(what_hides_lines_hides_them_there),
+        cmocka_unit_test(curves_are_verified_where_lines_are),
         cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -322,6 +322,12 @@ static void test_preview(void **state)
     assert_int_equal(few[quarter * SIDE + quarter], 255);
     assert_int_equal(few[3 * quarter * SIDE + quarter], 255);
     assert_int_equal(few[2 * quarter * SIDE + 3 * quarter], 0);
+    /* The first is short of light, the second of nearness: which is which. */
+    for (int near = 0; near < 2; near++) {
+        strokes_draw(&s, SIDE, &(stroke_brush){.width = 2}, near ? 0.4f : 0.6f, near ? 0.6f : 0.4f, few);
+        assert_int_equal(few[quarter * SIDE + quarter], near ? 0 : 255);
+        assert_int_equal(few[3 * quarter * SIDE + quarter], near ? 255 : 0);
+    }
     strokes_draw(&s, SIDE, &(stroke_brush){.width = 2}, 1.2f, 1.2f, few); /* above 1 stays in full light */
     assert_int_equal(few[2 * quarter * SIDE + 3 * quarter], 0);
     strokes_release(&s);

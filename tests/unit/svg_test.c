@@ -87,8 +87,8 @@ static void test_structure(void **state)
     sheet_add_item(&s, SHEET_PATH, contour, black, 0x1F);
     sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 3);
     sheet_add_item(&s, SHEET_PATH, again, (colour){1, 0, 0, 0.5f}, 0);
-    sheet_add_path(&s, &(sheet_path){.width = 0.25f, .dash = 2, .gap = 1, .phase = 0.5f, .cap = SHEET_CAP_BUTT}, line,
-                   3);
+    sheet_add_path(&s, &(sheet_path){.width = 0.25f, .cap = SHEET_CAP_BUTT}, line, 3);
+    sheet_dash_path(&s, (const float[2]){2, 1}, 2, 0.5f);
     sheet_add_item(&s, SHEET_PATH, contour, black, 0); /* back in a group that was closed */
     sheet_add_path(&s, &(sheet_path){.filled = true}, line, 3);
     sheet_add_item(&s, SHEET_DOTS, view, black, 0);
@@ -111,11 +111,13 @@ static void test_structure(void **state)
                  "//s:g[@id='view-front'][@clip-path]/s:g[@id='view-front-part-3'][@data-part='3'][@data-name='Wheel "
                  "<left>']/s:g[@class='visible contour']"),
         1);
+    assert_int_equal(count_of(document, "//s:g[@*[local-name()='groupmode']='layer']"), count_of(document, "//s:g"));
+    assert_int_equal(count_of(document, "//s:g[@*[local-name()='label']='Wheel <left>']"), 3); /* one again */
     assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2']"), 1);
     assert_int_equal(count_of(document, "//s:path[@data-line='1f'][@d='M1 2l2.5 2']"),
                      1); /* what rounds to nothing is left out */
     assert_int_equal(count_of(document, "//s:text[.='a < b & c \xEF\xBF\xBD']"), 1);
-    assert_non_null(strstr((const char *)bytes.data, "stroke-dasharray:2,1;stroke-dashoffset:.5"));
+    assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='2 1'][@stroke-dashoffset='.5']"), 1);
     assert_non_null(strstr((const char *)bytes.data, "stroke:#ff0000;stroke-width:.25;stroke-opacity:.5"));
     assert_non_null(strstr((const char *)bytes.data, "stroke-opacity:.5;stroke-linecap:butt"));
     assert_int_equal(count_of(document, "//s:path[@data-line='2f'][@d='M1 2l2.5 2z']"), 1);

@@ -402,9 +402,10 @@ static void test_files(void **state)
         assert_int_equal(count_words(&svg, "<image"), 0);
         if (i == 0) {
             assert_int_equal(count_words(&svg, "h0"), (size_t)report_number(s, "dots"));
-            assert_int_equal(count_words(&dxf, "CIRCLE\n8\nDOTS\n"), (size_t)report_number(s, "dots"));
+            assert_int_equal(count_words(&dxf, "\n0\nCIRCLE\n"), (size_t)report_number(s, "dots"));
+            assert_int_equal(count_words(&dxf, "\n8\nDOTS - "), (size_t)report_number(s, "dots"));
         } else {
-            assert_int_equal(count_words(&dxf, "POLYLINE\n8\nMARKS\n"), (size_t)report_number(s, "marks"));
+            assert_int_equal(count_words(&dxf, "\n8\nMARKS - "), (size_t)report_number(s, "marks"));
         }
         file_data_release(&svg);
         file_data_release(&same);

@@ -1,0 +1,126 @@
+/* What is worked out twice, by the GPU for pictures and by the CPU for vectors and for what is made ahead, comes to the
+ * same: functions of shaders, drawn into a picture of numbers, against their twins in C. */
+#include "checked.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "field/lapped.h"
+#include "gpu/gpu.h"
+#include "marks/marks.h"
+
+enum { SIDE = 256 };
+
+/* Draws what `value` is, a vec4 of GLSL, where u and v go from 0 to 1 and x and y count pixels. */
+static void values_of(float (*out)[4], const char *name, const char *includes, const char *value)
+{
+    gpu *g = NULL;
+    char path[64], text[1000];
+    DO(gpu_create(&g, false, false, &error));
+    snprintf(path, sizeof path, "test/%s.frag", name);
+    snprintf(text, sizeof text,
+             "%s\nlayout(location = 0) out vec4 out_0;\nvoid main()\n{\nfloat x = floor(gl_FragCoord.x), y = "
+             "floor(gl_FragCoord.y), u = x / 255.0, v = y / 255.0;\nout_0 = %s;\n}\n",
+             includes, value);
+    assert_true(gpu_give_source(g, path, name, text));
+    gpu_program *p = gpu_program_of(g, GPU_FLOOR, "gpu/screen.vert", path, "");
+    DO(gpu_check(g, &error));
+    gpu_texture *t = gpu_target_acquire(g, SIDE, SIDE, GPU_RGBA32F);
+    gpu_pass_begin(g, &(gpu_pass){.colours = {t}, .colour_count = 1, .clear = true});
+    gpu_use(g, p, (gpu_state){0});
+    gpu_draw_screen(g);
+    gpu_read(g, t, out);
+    gpu_target_release(g, t);
+    DO(gpu_leave(g, LMN_OK, &error));
+    gpu_destroy(&g);
+}
+
+static float values[SIDE * SIDE][4];
+
+static void outlines_of_patches(void **state)
+{
+    (void)state;
+    double worst = 0;
+    values_of(values, "outline", "#include \"layer/patch.glsl\"",
+              "vec4(patch_outline(6.2831853 * u - 3.14159265, y), x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double angle = 2 * 3.14159265358979 * (double)values[i][1] / 255 - 3.14159265358979;
+        worst = fmax(worst, fabs((double)values[i][0] - lapped_outline((uint32_t)values[i][2], angle)));
+    }
+    print_message("outlines of patches: %.2g radii apart\n", worst);
+    assert_true(worst < 2e-3); /* by less than what the outline on the CPU is smaller */
+}
+
+static void ink_of_dots(void **state)
+{
+    (void)state;
+    static const float fades[] = {0.001f, 0.15f, 0.5f}, mosts[] = {1, 2.25f};
+    for (int f = 0; f < 3; f++)
+        for (int m = 0; m < 2; m++) {
+            char   name[32], value[128];
+            double worst = 0;
+            snprintf(name, sizeof name, "dots%d%d", f, m);
+            snprintf(value, sizeof value, "vec4(ink_of_rank(u, 1.5 * v, %.4f, %.4f), x, y, 0.0)", (double)mosts[m],
+                     (double)fades[f]);
+            values_of(values, name, "#include \"surface/marks_law.glsl\"", value);
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                float rank = values[i][1] / 255, fraction = 1.5f * values[i][2] / 255;
+                /* At the ramp's very middle a rounded rank decides. */
+                if (fades[f] > 0.01f || fabsf(rank - fraction) > 0.004f)
+                    worst = fmax(worst,
+                                 fabs((double)(values[i][0] - mark_dot_ink(1 - rank, fraction, fades[f], mosts[m]))));
+            }
+            print_message("dots, ramp %g, growing to %g: %.2g apart\n", (double)fades[f], (double)mosts[m], worst);
+            assert_true(worst < 1e-3);
+        }
+}
+
+static void ink_of_covers(void **state)
+{
+    (void)state;
+    double worst = 0;
+    values_of(values, "cover", "#include \"surface/marks_law.glsl\"",
+              "vec4(ink_of_cover(u, 0.5 + 4.0 * v), x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        float diameter = 0.5f + 4 * values[i][2] / 255;
+        worst = fmax(worst,
+                     fabs((double)(values[i][0] - mark_ink_of_cover(values[i][1] / 255, 1 / (diameter * diameter)))));
+    }
+    print_message("ink of covers: %.2g apart\n", worst);
+    assert_true(worst < 1e-3);
+}
+
+static void ink_of_strokes(void **state)
+{
+    (void)state;
+    for (int series = 0; series <= 4; series++)
+        for (int crowded = 0; crowded < 2; crowded++) {
+            char   name[32], value[160];
+            float  span = series ? 1 / (float)series : 0;
+            double worst = 0;
+            snprintf(name, sizeof name, "strokes%d%d", series, crowded);
+            snprintf(value, sizeof value,
+                     "vec4(min(ink_of_strokes(u, 0.1 + 2.4 * v, %.9f, %.2f), 0.1 + 2.4 * v), x, y, 0.0)", (double)span,
+                     crowded ? 0.24 : 0);
+            values_of(values, name, "#include \"surface/marks_law.glsl\"", value);
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                float darkest = 0.1f + 2.4f * values[i][2] / 255;
+                worst = fmax(worst, fabs((double)(values[i][0] - mark_ink_of_strokes(values[i][1] / 255, darkest, span,
+                                                                                     crowded ? 0.24f : 0))));
+            }
+            print_message("strokes of %d sets, crowded %d: %.2g apart\n", series, crowded, worst);
+            assert_true(worst < 2e-3);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(outlines_of_patches),
+        cmocka_unit_test(ink_of_dots),
+        cmocka_unit_test(ink_of_covers),
+        cmocka_unit_test(ink_of_strokes),
+    };
+    return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
+}

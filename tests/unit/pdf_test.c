@@ -1,0 +1,176 @@
+/* PDF: what the file says to a reader of its own: every object is where the table says, the page description has the
+ * operators of what lies on the sheet, and layers are opened and closed as the sheet's groups are. Pictures of it are
+ * in svg_test. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <zlib.h>
+
+#include "base/memory.h"
+#include "export/export.h"
+#include "sheet/fit.h"
+
+static const colour black = {0, 0, 0, 1};
+
+static export_bytes pdf_of(const sheet *s)
+{
+    export_bytes bytes;
+    lmn_error    error = {0};
+    assert_int_equal(export_pdf(&bytes, s, &error), LMN_OK);
+    return bytes;
+}
+
+/* The table of references: returns how many objects there are; each stands where it says. */
+static unsigned check_table(const export_bytes *pdf)
+{
+    const char *data = (const char *)pdf->data, *start = NULL;
+    for (size_t i = 0; i + 9 < pdf->size; i++)
+        if (memcmp(data + i, "startxref", 9) == 0)
+            start = data + i;
+    assert_non_null(start);
+    size_t   at = strtoul(start + 9, NULL, 10);
+    unsigned count = 0;
+    assert_true(at < pdf->size && sscanf(data + at, "xref\n0 %u\n", &count) == 1);
+    const char *row = strchr(strchr(data + at, '\n') + 1, '\n') + 1;
+    for (unsigned i = 1; i < count; i++) {
+        char   head[32];
+        size_t place = strtoul(row + (size_t)i * 20, NULL, 10);
+        int    length = snprintf(head, sizeof head, "%u 0 obj\n", i);
+        assert_true(place + (size_t)length < pdf->size && memcmp(data + place, head, (size_t)length) == 0);
+    }
+    return count;
+}
+
+/* The page description, unpacked; mem_free. */
+static char *content_of(const export_bytes *pdf)
+{
+    const char *data = (const char *)pdf->data, *at = NULL;
+    for (size_t i = 0; i + 8 < pdf->size && !at; i++)
+        if (memcmp(data + i, "4 0 obj\n", 8) == 0)
+            at = data + i;
+    assert_non_null(at);
+    unsigned long length = 0;
+    uLongf        size = 1 << 20;
+    assert_int_equal(sscanf(at, "4 0 obj\n<</Length %lu", &length), 1);
+    char *out = mem_alloc(size + 1);
+    at = strstr(at, "stream\n") + 7;
+    assert_int_equal(uncompress((unsigned char *)out, &size, (const unsigned char *)at, length), Z_OK);
+    out[size] = '\0';
+    return out;
+}
+
+static int count_of(const char *text, const char *word)
+{
+    int count = 0;
+    for (; (text = strstr(text, word)); text += strlen(word))
+        count++;
+    return count;
+}
+
+/* A circle, dashed, and a straight line on a layer each, two views, one of which is cut. */
+static void build(sheet *s)
+{
+    const float        line[3][2] = {{10, 10}, {20, 10.001f}, {30, 10}};
+    float              circle[60][2];
+    static const float cosines[5] = {1, 0.809017f, 0.309017f, -0.309017f, -0.809017f};
+    for (int i = 0; i < 10; i++) {
+        circle[i][0] = 50 + 8 * (i < 5 ? cosines[i] : -cosines[i - 5]);
+        circle[i][1] = 50 + 8 * ((i < 5 ? 1.0f : -1.0f) * (float)(i % 5 == 0                 ? 0
+                                                                  : i % 5 == 1 || i % 5 == 4 ? 0.587785
+                                                                                             : 0.951057));
+    }
+    sheet_begin(s, 100, 100, 4);
+    sheet_set_title(s, "A (title) \xE2\x80\x94 \xF0\x9F\x98\x80", NULL);
+    uint32_t view = sheet_add_group(s, -1, "view", "view", 0),
+             part = sheet_add_group(s, (int32_t)view, "Wheel", "part", 1),
+             crease = sheet_add_group(s, (int32_t)part, "crease", "visible crease", 0),
+             other = sheet_add_group(s, -1, "view-2", "view", 0);
+    sheet_clip_group(s, other, 0, 0, 40, 40);
+    sheet_add_item(s, SHEET_PATH, crease, black, 0);
+    sheet_add_path(s, &(sheet_path){.width = 0.5f, .closed = true, .curved = true}, (const float(*)[2])circle, 10);
+    sheet_dash_path(s, (const float[2]){2, 1}, 2, 0.5f);
+    sheet_add_item(s, SHEET_PATH, other, (colour){1, 0, 0, 0.5f}, 0);
+    sheet_add_path(s, &(sheet_path){.width = 0.25f, .curved = true}, line, 3);
+    sheet_add_item(s, SHEET_PATH, crease, black, 0);
+    sheet_add_path(s, &(sheet_path){.filled = true}, line, 3);
+    sheet_add_text(s, view, black, "two words", 1, 20, 3, 0);
+    sheet_fit(s, 0.5);
+}
+
+static void what_is_on_the_page(void **state)
+{
+    sheet s;
+    (void)state;
+    build(&s);
+    export_bytes pdf = pdf_of(&s), again = pdf_of(&s);
+    assert_int_equal(pdf.size, again.size);
+    assert_memory_equal(pdf.data, again.data, pdf.size);
+    assert_true(check_table(&pdf) >= 11);
+    char  *page = content_of(&pdf);
+    double dash = 0, gap = 0; /* as many as along its chords, which are shorter than the circle by 1.6 % */
+    assert_int_equal(sscanf(strstr(page, "\n[") + 2, "%lf %lf ]", &dash, &gap), 2);
+    assert_true(dash > 2.03 && dash < 2.036 && gap > 1.015 && gap < 1.018);
+    assert_true(count_of(page, " c\n") >= 4);
+    assert_non_null(strstr(page, "10 10 m\n30 10 l\nS\n")); /* one straight line */
+    assert_non_null(strstr(page, "/OC /L0 BDC\n/OC /L1 BDC\n/OC /L2 BDC\n"));
+    assert_non_null(strstr(page, "/OC /L3 BDC\nq\n0 0 40 40 re W n\n"));
+    assert_int_equal(count_of(page, "BDC\n"), count_of(page, "EMC\n"));
+    assert_int_equal(count_of(page, "\nq\n"), count_of(page, "\nQ\n"));
+    assert_int_equal(count_of(page, "/Span <</ActualText "), 2);
+    mem_free(page);
+    mem_free(pdf.data);
+    mem_free(again.data);
+    sheet_release(&s);
+}
+
+static void layers_are_a_tree(void **state)
+{
+    sheet s;
+    (void)state;
+    build(&s);
+    export_bytes pdf = pdf_of(&s);
+    char        *text = mem_alloc(pdf.size + 1);
+    for (size_t i = 0; i < pdf.size; i++)
+        text[i] = pdf.data[i] ? (char)pdf.data[i] : ' ';
+    text[pdf.size] = '\0';
+    assert_int_equal(count_of(text, "/Type/OCG/Name<FEFF"), 4);
+    assert_non_null(strstr(text, "/Order[7 0 R [8 0 R [9 0 R ]]10 0 R ]"));
+    assert_non_null(strstr(text, "/Title<FEFF0041002000280074")); /* A (t */
+    assert_non_null(strstr(text, "D83DDE00>"));                   /* beyond the first plane: two */
+    mem_free(text);
+    mem_free(pdf.data);
+    sheet_release(&s);
+}
+
+static void many_groups_are_no_layers(void **state)
+{
+    const float line[2][2] = {{1, 2}, {30, 4}};
+    sheet       s;
+    (void)state;
+    sheet_begin(&s, 100, 100, 4);
+    uint32_t view = sheet_add_group(&s, -1, "view", "view", 0);
+    for (uint32_t i = 0; i < 5000; i++) {
+        sheet_add_item(&s, SHEET_PATH, sheet_add_group(&s, (int32_t)view, "part", "part", i + 1), black, 0);
+        sheet_add_path(&s, &(sheet_path){.width = 0.5f}, line, 2);
+    }
+    export_bytes pdf = pdf_of(&s);
+    char        *page = content_of(&pdf);
+    assert_int_equal(check_table(&pdf), 8);
+    assert_int_equal(count_of(page, "BDC"), 1);
+    assert_int_equal(count_of(page, "S\n"), 5000);
+    mem_free(page);
+    mem_free(pdf.data);
+    sheet_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_on_the_page), cmocka_unit_test(layers_are_a_tree),
+                                       cmocka_unit_test(many_groups_are_no_layers)};
+    return cmocka_run_group_tests_name("pdf", tests, NULL, NULL);
+}
