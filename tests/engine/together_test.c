@@ -1,6 +1,6 @@
-/* Figures whose lines look at each other's surfaces share one geometry pass: each part is drawn once, however many rules
- * there are, and every pixel has the colour of the rule whose part is in front. Ghost images of one thing have one set
- * of edges. */
+/* Figures whose lines look at each other's surfaces share one geometry pass: each part is drawn once, however many
+ * rules there are, and every pixel has the colour of the rule whose part is in front. Ghost images of one thing have
+ * one set of edges. */
 #include "checked.h"
 
 #include <jansson.h>
@@ -15,12 +15,11 @@
 enum { SIDE = 120, BOXES = 3 };
 
 /* Each box is 2 wide and high, 1 to the right of and 2 before the one on its left. */
-static const char script[] =
-    "{\"limner_script\": 1, \"nodes\": ["
-    "{\"name\": \"a\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [-1, 0, -2]},"
-    "{\"name\": \"b\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [0, 0, 0]},"
-    "{\"name\": \"c\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [1, 0, 2]}],"
-    "\"behaviour\": {\"target\": \"b\", \"linear\": [[0, 0, 0], [0, 8, 0]], \"duration\": 2}}";
+static const char script[] = "{\"limner_script\": 1, \"nodes\": ["
+                             "{\"name\": \"a\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [-1, 0, -2]},"
+                             "{\"name\": \"b\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [0, 0, 0]},"
+                             "{\"name\": \"c\", \"box\": {\"size\": [2, 2, 1]}, \"translation\": [1, 0, 2]}],"
+                             "\"behaviour\": {\"target\": \"b\", \"linear\": [[0, 0, 0], [0, 8, 0]], \"duration\": 2}}";
 
 #define RULE(SELECT, COLOUR, LINES)                                                                                    \
     "{\"select\": \"" SELECT "\", \"surface\": {\"technique\": \"flat\", \"colour\": \"" COLOUR                        \

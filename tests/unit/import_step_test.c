@@ -437,6 +437,30 @@ static void assemblies_keep_their_tree(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* The same numbers in another unit; a prefix that is none is no prefix. */
+static void units_are_obeyed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit;
+        double      times;
+    } rows[] = {{".CENTI.", 10}, {".MICRO.", 1e-3}, {".WRONG.", 1000}, {"$      ", 1000}};
+    file_data f = {0};
+    assert_int_equal(file_load(&f, bracket_path, NULL), LMN_OK);
+    char *text = malloc(f.size + 1), *at;
+    memcpy(text, f.data, f.size);
+    text[f.size] = '\0';
+    assert_non_null(at = strstr(text, ".MILLI.,.METRE."));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        memcpy(at, rows[i].unit, 7);
+        lmn_scene *s = load_or_fail(temp_file("units.step", text, f.size));
+        assert_true(fabs(s->parts[0].bounds.max.x - bracket.high[0] * rows[i].times) < 1e-3 * rows[i].times);
+        lmn_scene_destroy(&s);
+    }
+    free(text);
+    file_data_release(&f);
+}
+
 /* Each solid of a part is a part; a wire is lines without triangles. */
 static void solids_and_wires_are_parts(void **state)
 {
@@ -596,22 +620,16 @@ static void deflections_are_checked(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed),
-                                       cmocka_unit_test(answers_may_be_anything),
-                                       cmocka_unit_test(ifc_is_not_taken_for_step),
-                                       cmocka_unit_test(solids_are_as_large_as_they_are),
-                                       cmocka_unit_test(every_edge_is_a_line),
-                                       cmocka_unit_test(halves_are_one_surface),
-                                       cmocka_unit_test(triangles_know_their_edges),
-                                       cmocka_unit_test(normals_are_those_of_surfaces),
-                                       cmocka_unit_test(faces_have_their_colours),
-                                       cmocka_unit_test(assemblies_keep_their_tree),
-                                       cmocka_unit_test(solids_and_wires_are_parts),
-                                       cmocka_unit_test(damaged_files_are_errors),
-                                       cmocka_unit_test(missing_references_are_no_crash),
-                                       cmocka_unit_test(reading_can_be_stopped),
-                                       cmocka_unit_test(limits_hold),
-                                       cmocka_unit_test(deflections_are_checked)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(answers_are_not_believed),   cmocka_unit_test(answers_may_be_anything),
+        cmocka_unit_test(ifc_is_not_taken_for_step),  cmocka_unit_test(solids_are_as_large_as_they_are),
+        cmocka_unit_test(every_edge_is_a_line),       cmocka_unit_test(halves_are_one_surface),
+        cmocka_unit_test(triangles_know_their_edges), cmocka_unit_test(normals_are_those_of_surfaces),
+        cmocka_unit_test(faces_have_their_colours),   cmocka_unit_test(assemblies_keep_their_tree),
+        cmocka_unit_test(units_are_obeyed),           cmocka_unit_test(solids_and_wires_are_parts),
+        cmocka_unit_test(damaged_files_are_errors),   cmocka_unit_test(missing_references_are_no_crash),
+        cmocka_unit_test(reading_can_be_stopped),     cmocka_unit_test(limits_hold),
+        cmocka_unit_test(deflections_are_checked)};
     return cmocka_run_group_tests(tests, write_files, remove_temp_folder);
 }
 
