@@ -25,6 +25,7 @@
 #include <GCPnts_TangentialDeflection.hxx>
 #include <GeomLib.hxx>
 #include <Message.hxx>
+#include <NCollection_DataMap.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
@@ -45,6 +46,7 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -624,26 +626,40 @@ class Tree
         TopTools_IndexedMapOfShape solids;
         if (shape.IsNull())
             return;
+        find_pieces(label);
         TopExp::MapShapes(shape, TopAbs_SOLID, solids);
         const bool together = solids.Extent() < 2 || TopExp_Explorer(shape, TopAbs_EDGE, TopAbs_SOLID).More();
         if (together) {
-            const Colour own = solids.Extent() == 1 ? colour_of(label, solids(1), colour) : colour;
+            const Colour own = solids.Extent() == 1 ? colour_of(solids(1), colour) : colour;
             draw(label, 0, shape, node, name, own);
             return;
         }
         for (int i = 1; i <= solids.Extent(); i++) {
             TDF_Label         sub;
-            const std::string found = shapes_->FindSubShape(label, solids(i), sub) ? text_of(sub) : "";
+            const std::string found = pieces_.Find(solids(i), sub) ? text_of(sub) : "";
             const std::string own = is_made_up(found) ? name : found;
-            draw(label, i, solids(i), add_node(node, own, TopLoc_Location()), own, colour_of(label, solids(i), colour));
+            draw(label, i, solids(i), add_node(node, own, TopLoc_Location()), own, colour_of(solids(i), colour));
+        }
+    }
+
+    // The pieces of a label's shape that something is said of. Asking for them one by one walks all of them each time.
+    void find_pieces(const TDF_Label &label)
+    {
+        TDF_LabelSequence subs;
+        pieces_.Clear();
+        XCAFDoc_ShapeTool::GetSubShapes(label, subs);
+        for (TDF_LabelSequence::Iterator at(subs); at.More(); at.Next()) {
+            const TopoDS_Shape piece = XCAFDoc_ShapeTool::GetShape(at.Value());
+            if (!piece.IsNull())
+                pieces_.Bind(piece, at.Value());
         }
     }
 
     // Of a piece of what the label is of.
-    Colour colour_of(const TDF_Label &label, const TopoDS_Shape &piece, const Colour &otherwise) const
+    Colour colour_of(const TopoDS_Shape &piece, const Colour &otherwise) const
     {
         TDF_Label    sub;
-        const Colour own = shapes_->FindSubShape(label, piece, sub) ? colour_of_label(*colours_, sub) : Colour();
+        const Colour own = pieces_.Find(piece, sub) ? colour_of_label(*colours_, sub) : Colour();
         return own.there ? own : otherwise;
     }
 
@@ -656,7 +672,7 @@ class Tree
         const auto key = std::make_tuple(std::string(entry.ToCString()), piece, colour);
         auto       found = made_.find(key);
         if (found == made_.end()) {
-            Mesh     mesh = mesher_.mesh_of(shape, [&](const TopoDS_Face &f) { return colour_of(label, f, colour); });
+            Mesh     mesh = mesher_.mesh_of(shape, [&](const TopoDS_Face &f) { return colour_of(f, colour); });
             uint32_t number = STEP_NONE;
             mesh.name = name;
             if (!mesh.empty()) {
@@ -671,10 +687,11 @@ class Tree
 
     Handle(XCAFDoc_ShapeTool) shapes_;
     Handle(XCAFDoc_ColorTool) colours_;
-    Mesher                                                   mesher_;
-    std::vector<Mesh>                                        meshes_;
-    std::vector<Node>                                        nodes_;
-    std::map<std::tuple<std::string, int, Colour>, uint32_t> made_; // to meshes
+    NCollection_DataMap<TopoDS_Shape, TDF_Label, TopTools_ShapeMapHasher> pieces_;
+    Mesher                                                                mesher_;
+    std::vector<Mesh>                                                     meshes_;
+    std::vector<Node>                                                     nodes_;
+    std::map<std::tuple<std::string, int, Colour>, uint32_t>              made_; // to meshes
 };
 
 // --- the whole ---------------------------------------------------------------------------------------------
