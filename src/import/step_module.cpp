@@ -223,266 +223,254 @@ gp_Pnt point_of(const Faced &f, int node)
     return f.triangles->Node(node).Transformed(f.location);
 }
 
-class Mesher
+struct Mesher {
+    double                     deflection;              // asked for; 0: of each part's size
+    uint64_t                   left;                    // triangles that may come
+    double                     chord = 0, diagonal = 1; // of the part at hand
+    double                     coarser = 1;             // than they should be: how much larger chords became
+    std::map<int, Faced>       faces;                   // by their number in index
+    TopTools_IndexedMapOfShape index;
+};
+
+// An edge on one side of it: the face and its nodes along the edge.
+struct Side {
+    Faced *face;
+    Handle(Poly_PolygonOnTriangulation) polygon;
+};
+
+void choose_origin(Mesh &mesh, const Bnd_Box &box, double diagonal)
 {
-  public:
-    Mesher(double deflection, uint64_t most) : deflection_(deflection), left_(most)
-    {
-    }
+    gp_XYZ middle = (box.CornerMin().XYZ() + box.CornerMax().XYZ()) / 2;
+    if (middle.Modulus() > FAR * diagonal)
+        middle.Coord(mesh.origin[0], mesh.origin[1], mesh.origin[2]);
+}
 
-    // By how much larger chords became than they should be.
-    double coarser() const
-    {
-        return coarser_;
+void add_faces(Mesher &m, const TopoDS_Shape &shape)
+{
+    TopTools_IndexedMapOfShape all;
+    TopExp::MapShapes(shape, TopAbs_FACE, all);
+    for (int i = 1; i <= all.Extent(); i++) {
+        Faced f;
+        f.face = TopoDS::Face(all(i));
+        f.triangles = BRep_Tool::Triangulation(f.face, f.location);
+        if (f.triangles.IsNull())
+            continue;
+        const uint64_t count = static_cast<uint64_t>(f.triangles->NbTriangles());
+        if (count > m.left)
+            throw Failure{STEP_TOO_MANY, ""};
+        m.left -= count;
+        find_normals(f);
+        m.faces.emplace(i, std::move(f));
     }
+    m.index = all;
+}
 
-    // `colour_of` tells a face's colour; shapes are tessellated once, however often they are used.
-    template <typename ColourOf> Mesh mesh_of(const TopoDS_Shape &shape, ColourOf colour_of)
-    {
-        Mesh    mesh;
-        Bnd_Box box;
-        BRepBndLib::Add(shape, box, false);
-        if (box.IsVoid())
-            return mesh;
-        const double diagonal = std::sqrt(box.SquareExtent());
-        if (!std::isfinite(diagonal) || diagonal <= 0 || diagonal > 1e18)
-            return mesh;
-        diagonal_ = diagonal;
-        chord_ = deflection_ > 0 ? deflection_ : diagonal * USUAL_CHORD;
-        if (chord_ < diagonal * FINEST_CHORD) {
-            coarser_ = std::max(coarser_, diagonal * FINEST_CHORD / chord_);
-            chord_ = diagonal * FINEST_CHORD;
-        }
-        choose_origin(mesh, box, diagonal);
-        BRepMesh_IncrementalMesh(shape, chord_, false, CHORD_TURN, false);
-        faces_.clear();
-        add_faces(shape);
-        add_edges(mesh, shape);
-        for (const auto &[key, f] : faces_)
-            put_face(mesh.groups[colour_of(f.face)], f, mesh.origin, diagonal);
-        for (auto at = mesh.groups.begin(); at != mesh.groups.end();)
-            at = at->second.indices.empty() ? mesh.groups.erase(at) : std::next(at);
-        return mesh;
+void put_point(std::vector<float> &to, const gp_Pnt &p, const double origin[3])
+{
+    for (int k = 0; k < 3; k++)
+        to.push_back(static_cast<float>(p.Coord(k + 1) - origin[k]));
+}
+
+// Once around and across; without direction where a triangle has no area.
+gp_Vec across(const Faced &f, const int n[3])
+{
+    const gp_Pnt a = point_of(f, n[0]);
+    return gp_Vec(a, point_of(f, n[1])).Crossed(gp_Vec(a, point_of(f, n[2])));
+}
+
+// Where the surface has no normal, at tips, it is that of the triangles around.
+gp_Vec tip_normal(const Faced &f, int node, bool turned)
+{
+    gp_Vec sum;
+    for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
+        int n[3];
+        f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
+        if (n[0] == node || n[1] == node || n[2] == node)
+            sum += turned ? -across(f, n) : across(f, n);
     }
+    return sum.Magnitude() > 0 ? sum.Normalized() : gp_Vec();
+}
 
-  private:
-    static void choose_origin(Mesh &mesh, const Bnd_Box &box, double diagonal)
-    {
-        gp_XYZ middle = (box.CornerMin().XYZ() + box.CornerMax().XYZ()) / 2;
-        if (middle.Modulus() > FAR * diagonal)
-            middle.Coord(mesh.origin[0], mesh.origin[1], mesh.origin[2]);
+void put_face(Group &g, const Faced &f, const double origin[3], double diagonal)
+{
+    const uint32_t base = g.vertices();
+    const bool     mirrored = f.location.Transformation().IsNegative();
+    const bool     turned = (f.face.Orientation() == TopAbs_REVERSED) != mirrored;
+    for (int i = 1; i <= f.triangles->NbNodes(); i++) {
+        const auto k = static_cast<size_t>(i);
+        put_point(g.positions, point_of(f, i), origin);
+        const gp_Vec normal = f.known[k] ? gp_Vec(f.normals[k]) : tip_normal(f, i, turned);
+        for (int c = 1; c <= 3; c++)
+            g.normals.push_back(static_cast<float>(normal.Coord(c)));
     }
-
-    void add_faces(const TopoDS_Shape &shape)
-    {
-        TopTools_IndexedMapOfShape all;
-        TopExp::MapShapes(shape, TopAbs_FACE, all);
-        for (int i = 1; i <= all.Extent(); i++) {
-            Faced f;
-            f.face = TopoDS::Face(all(i));
-            f.triangles = BRep_Tool::Triangulation(f.face, f.location);
-            if (f.triangles.IsNull())
-                continue;
-            const uint64_t count = static_cast<uint64_t>(f.triangles->NbTriangles());
-            if (count > left_)
-                throw Failure{STEP_TOO_MANY, ""};
-            left_ -= count;
-            find_normals(f);
-            faces_.emplace(i, std::move(f));
-        }
-        index_ = all;
-    }
-
-    static void put_point(std::vector<float> &to, const gp_Pnt &p, const double origin[3])
-    {
-        for (int k = 0; k < 3; k++)
-            to.push_back(static_cast<float>(p.Coord(k + 1) - origin[k]));
-    }
-
-    // Once around and across; without direction where a triangle has no area.
-    static gp_Vec across(const Faced &f, const int n[3])
-    {
-        const gp_Pnt a = point_of(f, n[0]);
-        return gp_Vec(a, point_of(f, n[1])).Crossed(gp_Vec(a, point_of(f, n[2])));
-    }
-
-    // Where the surface has no normal, at tips, it is that of the triangles around.
-    static gp_Vec tip_normal(const Faced &f, int node, bool turned)
-    {
-        gp_Vec sum;
-        for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
-            int n[3];
-            f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
-            if (n[0] == node || n[1] == node || n[2] == node)
-                sum += turned ? -across(f, n) : across(f, n);
-        }
-        return sum.Magnitude() > 0 ? sum.Normalized() : gp_Vec();
-    }
-
-    static void put_face(Group &g, const Faced &f, const double origin[3], double diagonal)
-    {
-        const uint32_t base = g.vertices();
-        const bool     mirrored = f.location.Transformation().IsNegative();
-        const bool     turned = (f.face.Orientation() == TopAbs_REVERSED) != mirrored;
-        for (int i = 1; i <= f.triangles->NbNodes(); i++) {
-            const auto k = static_cast<size_t>(i);
-            put_point(g.positions, point_of(f, i), origin);
-            const gp_Vec normal = f.known[k] ? gp_Vec(f.normals[k]) : tip_normal(f, i, turned);
-            for (int c = 1; c <= 3; c++)
-                g.normals.push_back(static_cast<float>(normal.Coord(c)));
-        }
-        for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
-            int n[3];
-            f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
-            if (turned)
-                std::swap(n[1], n[2]);
-            if (across(f, n).Magnitude() <= NO_AREA * diagonal * diagonal)
-                continue;
-            for (int k = 0; k < 3; k++) {
-                const auto found = f.along.find(pair_of(n[k], n[(k + 1) % 3]));
-                g.indices.push_back(base + static_cast<uint32_t>(n[k] - 1));
-                g.edges.push_back(static_cast<uint8_t>(found == f.along.end() ? STEP_INSIDE : found->second));
-            }
+    for (int i = 1; i <= f.triangles->NbTriangles(); i++) {
+        int n[3];
+        f.triangles->Triangle(i).Get(n[0], n[1], n[2]);
+        if (turned)
+            std::swap(n[1], n[2]);
+        if (across(f, n).Magnitude() <= NO_AREA * diagonal * diagonal)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            const auto found = f.along.find(pair_of(n[k], n[(k + 1) % 3]));
+            g.indices.push_back(base + static_cast<uint32_t>(n[k] - 1));
+            g.edges.push_back(static_cast<uint8_t>(found == f.along.end() ? STEP_INSIDE : found->second));
         }
     }
+}
 
-    // An edge on one side of it: the face and its nodes along the edge.
-    struct Side {
-        Faced *face;
-        Handle(Poly_PolygonOnTriangulation) polygon;
-    };
-
-    std::vector<Side> sides_of(const TopoDS_Edge &edge, const TopTools_ListOfShape &faces)
-    {
-        std::vector<Side>          sides;
-        TopTools_IndexedMapOfShape seen;
-        for (const TopoDS_Shape &shape : faces) {
-            const int  number = index_.FindIndex(shape);
-            const auto found = faces_.find(number);
-            if (found == faces_.end() || seen.Contains(shape))
-                continue;
-            seen.Add(shape);
-            Faced &f = found->second;
-            // A seam has its face on both sides; the other one's nodes are those of the edge turned round.
-            const bool closed = BRep_Tool::IsClosed(edge, f.face);
-            for (int k = 0; k < (closed ? 2 : 1); k++) {
-                const TopoDS_Edge side = k ? TopoDS::Edge(edge.Reversed()) : edge;
-                Handle(Poly_PolygonOnTriangulation) polygon =
-                    BRep_Tool::PolygonOnTriangulation(side, f.triangles, f.location);
-                if (!polygon.IsNull() && polygon->NbNodes() > 1)
-                    sides.push_back({&f, polygon});
-            }
+std::vector<Side> sides_of(Mesher &m, const TopoDS_Edge &edge, const TopTools_ListOfShape &faces)
+{
+    std::vector<Side>          sides;
+    TopTools_IndexedMapOfShape seen;
+    for (const TopoDS_Shape &shape : faces) {
+        const int  number = m.index.FindIndex(shape);
+        const auto found = m.faces.find(number);
+        if (found == m.faces.end() || seen.Contains(shape))
+            continue;
+        seen.Add(shape);
+        Faced &f = found->second;
+        // A seam has its face on both sides; the other one's nodes are those of the edge turned round.
+        const bool closed = BRep_Tool::IsClosed(edge, f.face);
+        for (int k = 0; k < (closed ? 2 : 1); k++) {
+            const TopoDS_Edge side = k ? TopoDS::Edge(edge.Reversed()) : edge;
+            Handle(Poly_PolygonOnTriangulation) polygon =
+                BRep_Tool::PolygonOnTriangulation(side, f.triangles, f.location);
+            if (!polygon.IsNull() && polygon->NbNodes() > 1)
+                sides.push_back({&f, polygon});
         }
-        return sides;
     }
+    return sides;
+}
 
-    // Do the faces on both sides go on into each other?
-    static bool is_smooth(const std::vector<Side> &sides)
-    {
-        if (sides.size() != 2 || sides[0].polygon->NbNodes() != sides[1].polygon->NbNodes())
+// Do the faces on both sides go on into each other?
+bool is_smooth(const std::vector<Side> &sides)
+{
+    if (sides.size() != 2 || sides[0].polygon->NbNodes() != sides[1].polygon->NbNodes())
+        return false;
+    for (int i = 1; i <= sides[0].polygon->NbNodes(); i++) {
+        const auto a = static_cast<size_t>(sides[0].polygon->Node(i));
+        const auto b = static_cast<size_t>(sides[1].polygon->Node(i));
+        if (sides[0].face->known[a] && sides[1].face->known[b] &&
+            sides[0].face->normals[a].Dot(sides[1].face->normals[b]) < SMOOTH)
             return false;
-        for (int i = 1; i <= sides[0].polygon->NbNodes(); i++) {
-            const auto a = static_cast<size_t>(sides[0].polygon->Node(i));
-            const auto b = static_cast<size_t>(sides[1].polygon->Node(i));
-            if (sides[0].face->known[a] && sides[1].face->known[b] &&
-                sides[0].face->normals[a].Dot(sides[1].face->normals[b]) < SMOOTH)
-                return false;
-        }
-        return true;
     }
+    return true;
+}
 
-    // How a face bends at a node, outwards positive, the most first; false: it cannot be told.
-    static bool bends(const Faced &f, int node, double out[2])
-    {
-        BRepAdaptor_Surface surface(f.face, false);
-        const gp_Pnt2d      at = f.triangles->UVNode(node);
-        BRepLProp_SLProps   there(surface, at.X(), at.Y(), 2, 1e-7);
-        if (!there.IsCurvatureDefined())
+// How a face bends at a node, outwards positive, the most first; false: it cannot be told.
+bool bends(const Faced &f, int node, double out[2])
+{
+    BRepAdaptor_Surface surface(f.face, false);
+    const gp_Pnt2d      at = f.triangles->UVNode(node);
+    BRepLProp_SLProps   there(surface, at.X(), at.Y(), 2, 1e-7);
+    if (!there.IsCurvatureDefined())
+        return false;
+    const bool reversed = f.face.Orientation() == TopAbs_REVERSED;
+    out[0] = reversed ? -there.MinCurvature() : there.MaxCurvature();
+    out[1] = reversed ? -there.MaxCurvature() : there.MinCurvature();
+    return true;
+}
+
+// Is it one surface that was only cut in two there, as writers do with cylinders? Of faces that go on smoothly.
+bool is_one_surface(const Mesher &m, const std::vector<Side> &sides)
+{
+    const int count = sides[0].polygon->NbNodes();
+    for (int k = 1; k <= 3; k++) {
+        const int node = 1 + (count - 1) * k / 4;
+        double    a[2], b[2];
+        if (!sides[0].face->triangles->HasUVNodes() || !sides[1].face->triangles->HasUVNodes() ||
+            !bends(*sides[0].face, sides[0].polygon->Node(node), a) ||
+            !bends(*sides[1].face, sides[1].polygon->Node(node), b))
             return false;
-        const bool reversed = f.face.Orientation() == TopAbs_REVERSED;
-        out[0] = reversed ? -there.MinCurvature() : there.MaxCurvature();
-        out[1] = reversed ? -there.MaxCurvature() : there.MinCurvature();
-        return true;
-    }
-
-    // Is it one surface that was only cut in two there, as writers do with cylinders? Of faces that go on smoothly.
-    bool is_one_surface(const std::vector<Side> &sides) const
-    {
-        const int count = sides[0].polygon->NbNodes();
-        for (int k = 1; k <= 3; k++) {
-            const int node = 1 + (count - 1) * k / 4;
-            double    a[2], b[2];
-            if (!sides[0].face->triangles->HasUVNodes() || !sides[1].face->triangles->HasUVNodes() ||
-                !bends(*sides[0].face, sides[0].polygon->Node(node), a) ||
-                !bends(*sides[1].face, sides[1].polygon->Node(node), b))
+        for (int i = 0; i < 2; i++)
+            if (std::abs(a[i] - b[i]) > SAME_CURVATURE * std::max(std::abs(a[i]), std::abs(b[i])) + FLAT / m.diagonal)
                 return false;
-            for (int i = 0; i < 2; i++)
-                if (std::abs(a[i] - b[i]) >
-                    SAME_CURVATURE * std::max(std::abs(a[i]), std::abs(b[i])) + FLAT / diagonal_)
-                    return false;
-        }
-        return true;
     }
+    return true;
+}
 
-    static void put_line(Lines &to, const std::vector<gp_Pnt> &points, const double origin[3])
-    {
-        const auto base = static_cast<uint32_t>(to.positions.size() / 3);
-        for (size_t i = 0; i < points.size(); i++) {
-            put_point(to.positions, points[i], origin);
-            if (i)
-                for (uint32_t k = 0; k < 2; k++)
-                    to.pairs.push_back(base + static_cast<uint32_t>(i) - 1 + k);
-        }
+void put_line(Lines &to, const std::vector<gp_Pnt> &points, const double origin[3])
+{
+    const auto base = static_cast<uint32_t>(to.positions.size() / 3);
+    for (size_t i = 0; i < points.size(); i++) {
+        put_point(to.positions, points[i], origin);
+        if (i)
+            for (uint32_t k = 0; k < 2; k++)
+                to.pairs.push_back(base + static_cast<uint32_t>(i) - 1 + k);
     }
+}
 
-    // Wires that bound no face.
-    void add_free(Mesh &mesh, const TopoDS_Edge &edge) const
-    {
-        BRepAdaptor_Curve curve(edge);
-        if (!std::isfinite(curve.FirstParameter()) || Precision::IsInfinite(curve.FirstParameter()) ||
-            Precision::IsInfinite(curve.LastParameter()))
-            return;
-        GCPnts_TangentialDeflection steps(curve, CHORD_TURN, chord_);
-        std::vector<gp_Pnt>         points;
-        for (int i = 1; i <= steps.NbPoints(); i++)
-            points.push_back(steps.Value(i));
+// Wires that bound no face.
+void add_free(const Mesher &m, Mesh &mesh, const TopoDS_Edge &edge)
+{
+    BRepAdaptor_Curve curve(edge);
+    if (!std::isfinite(curve.FirstParameter()) || Precision::IsInfinite(curve.FirstParameter()) ||
+        Precision::IsInfinite(curve.LastParameter()))
+        return;
+    GCPnts_TangentialDeflection steps(curve, CHORD_TURN, m.chord);
+    std::vector<gp_Pnt>         points;
+    for (int i = 1; i <= steps.NbPoints(); i++)
+        points.push_back(steps.Value(i));
+    put_line(mesh.lines, points, mesh.origin);
+}
+
+void add_edges(Mesher &m, Mesh &mesh, const TopoDS_Shape &shape)
+{
+    TopTools_IndexedDataMapOfShapeListOfShape edges;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
+    for (int i = 1; i <= edges.Extent(); i++) {
+        const TopoDS_Edge edge = TopoDS::Edge(edges.FindKey(i));
+        if (BRep_Tool::Degenerated(edge))
+            continue;
+        if (edges(i).IsEmpty()) {
+            add_free(m, mesh, edge);
+            continue;
+        }
+        const std::vector<Side> sides = sides_of(m, edge, edges(i));
+        if (sides.empty())
+            continue;
+        const bool smooth = is_smooth(sides);
+        for (const Side &s : sides)
+            for (int k = 1; k < s.polygon->NbNodes() && !smooth; k++)
+                s.face->along[pair_of(s.polygon->Node(k), s.polygon->Node(k + 1))] = STEP_SHARP;
+        // Where a round face closes, or is only cut in two, nothing is to be seen.
+        if (smooth && (sides[0].face == sides[1].face || is_one_surface(m, sides)))
+            continue;
+        std::vector<gp_Pnt> points;
+        for (int k = 1; k <= sides[0].polygon->NbNodes(); k++)
+            points.push_back(point_of(*sides[0].face, sides[0].polygon->Node(k)));
         put_line(mesh.lines, points, mesh.origin);
     }
+}
 
-    void add_edges(Mesh &mesh, const TopoDS_Shape &shape)
-    {
-        TopTools_IndexedDataMapOfShapeListOfShape edges;
-        TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
-        for (int i = 1; i <= edges.Extent(); i++) {
-            const TopoDS_Edge edge = TopoDS::Edge(edges.FindKey(i));
-            if (BRep_Tool::Degenerated(edge))
-                continue;
-            if (edges(i).IsEmpty()) {
-                add_free(mesh, edge);
-                continue;
-            }
-            const std::vector<Side> sides = sides_of(edge, edges(i));
-            if (sides.empty())
-                continue;
-            const bool smooth = is_smooth(sides);
-            for (const Side &s : sides)
-                for (int k = 1; k < s.polygon->NbNodes() && !smooth; k++)
-                    s.face->along[pair_of(s.polygon->Node(k), s.polygon->Node(k + 1))] = STEP_SHARP;
-            // Where a round face closes, or is only cut in two, nothing is to be seen.
-            if (smooth && (sides[0].face == sides[1].face || is_one_surface(sides)))
-                continue;
-            std::vector<gp_Pnt> points;
-            for (int k = 1; k <= sides[0].polygon->NbNodes(); k++)
-                points.push_back(point_of(*sides[0].face, sides[0].polygon->Node(k)));
-            put_line(mesh.lines, points, mesh.origin);
-        }
+// `colour_of` tells a face's colour; shapes are tessellated once, however often they are used.
+template <typename ColourOf> Mesh mesh_of(Mesher &m, const TopoDS_Shape &shape, ColourOf colour_of)
+{
+    Mesh    mesh;
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box, false);
+    if (box.IsVoid())
+        return mesh;
+    const double diagonal = std::sqrt(box.SquareExtent());
+    if (!std::isfinite(diagonal) || diagonal <= 0 || diagonal > 1e18)
+        return mesh;
+    m.diagonal = diagonal;
+    m.chord = m.deflection > 0 ? m.deflection : diagonal * USUAL_CHORD;
+    if (m.chord < diagonal * FINEST_CHORD) {
+        m.coarser = std::max(m.coarser, diagonal * FINEST_CHORD / m.chord);
+        m.chord = diagonal * FINEST_CHORD;
     }
-
-    double                     deflection_, chord_ = 0, diagonal_ = 1, coarser_ = 1;
-    uint64_t                   left_;
-    std::map<int, Faced>       faces_; // by their number in index_
-    TopTools_IndexedMapOfShape index_;
-};
+    choose_origin(mesh, box, diagonal);
+    BRepMesh_IncrementalMesh(shape, m.chord, false, CHORD_TURN, false);
+    m.faces.clear();
+    add_faces(m, shape);
+    add_edges(m, mesh, shape);
+    for (const auto &[key, f] : m.faces)
+        put_face(mesh.groups[colour_of(f.face)], f, mesh.origin, diagonal);
+    for (auto at = mesh.groups.begin(); at != mesh.groups.end();)
+        at = at->second.indices.empty() ? mesh.groups.erase(at) : std::next(at);
+    return mesh;
+}
 
 // --- the tree ----------------------------------------------------------------------------------------------
 
@@ -534,165 +522,144 @@ void matrix_of(const TopLoc_Location &location, double out[16])
             out[4 * column + row] = row < 3 ? t.Value(row + 1, column + 1) : column == 3;
 }
 
-class Tree
-{
-  public:
-    Tree(const Handle(TDocStd_Document) & document, const step_request &request)
-        : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
-          colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
-          mesher_(request.deflection, request.most_triangles)
-    {
-    }
+using Pieces = NCollection_DataMap<TopoDS_Shape, TDF_Label, TopTools_ShapeMapHasher>;
 
-    void read()
-    {
-        TDF_LabelSequence roots;
-        shapes_->GetFreeShapes(roots);
-        for (int i = 1; i <= roots.Length(); i++)
-            add(roots.Value(i), STEP_NONE, Colour(), 0);
-    }
-
-    void put(const Answer &a, const std::string &unit) const
-    {
-        const auto coarser = static_cast<float>(mesher_.coarser());
-        a.text(unit);
-        a.bytes(&coarser, sizeof coarser);
-        a.number(static_cast<uint32_t>(meshes_.size()));
-        for (const Mesh &m : meshes_)
-            put_mesh(a, m);
-        a.number(static_cast<uint32_t>(nodes_.size()));
-        for (const Node &n : nodes_)
-            put_node(a, n);
-    }
-
-    bool empty() const
-    {
-        return meshes_.empty();
-    }
-
-  private:
-    uint32_t add_node(uint32_t parent, const std::string &name, const TopLoc_Location &location)
-    {
-        Node n = {parent, STEP_NONE, name, {}};
-        matrix_of(location, n.matrix);
-        nodes_.push_back(n);
-        return static_cast<uint32_t>(nodes_.size() - 1);
-    }
-
-    // What is drawn at a node; a mesh that was moved to its origin has its node moved back.
-    void hang(uint32_t node, uint32_t mesh)
-    {
-        Node         &n = nodes_[node];
-        const double *o = meshes_[mesh].origin;
-        n.mesh = mesh;
-        for (int row = 0; row < 3; row++)
-            n.matrix[12 + row] += n.matrix[row] * o[0] + n.matrix[4 + row] * o[1] + n.matrix[8 + row] * o[2];
-    }
-
-    void add(const TDF_Label &label, uint32_t parent, const Colour &above, unsigned depth)
-    {
-        if (depth > DEEPEST)
-            throw Failure{STEP_DAMAGED, "assemblies stand within themselves"};
-        TDF_Label       of = label;
-        TopLoc_Location location;
-        const bool      instance = XCAFDoc_ShapeTool::IsReference(label);
-        if (instance) {
-            location = XCAFDoc_ShapeTool::GetLocation(label);
-            if (!XCAFDoc_ShapeTool::GetReferredShape(label, of))
-                return;
-        }
-        std::string       name = instance ? text_of(label) : "";
-        const Colour      own = instance ? colour_of_label(*colours_, label) : Colour();
-        const Colour      made = colour_of_label(*colours_, of);
-        const Colour      inherited = own.there ? own : made.there ? made : above;
-        const std::string product = text_of(of);
-        if (is_made_up(name))
-            name = product;
-        const uint32_t node = add_node(parent, name, location);
-        if (XCAFDoc_ShapeTool::IsAssembly(of)) {
-            TDF_LabelSequence parts;
-            XCAFDoc_ShapeTool::GetComponents(of, parts);
-            for (int i = 1; i <= parts.Length(); i++)
-                add(parts.Value(i), node, inherited, depth + 1);
-        } else {
-            add_shape(of, node, product, inherited);
-        }
-    }
-
-    // One part a solid, unless there is something besides.
-    void add_shape(const TDF_Label &label, uint32_t node, const std::string &name, const Colour &colour)
-    {
-        const TopoDS_Shape         shape = XCAFDoc_ShapeTool::GetShape(label);
-        TopTools_IndexedMapOfShape solids;
-        if (shape.IsNull())
-            return;
-        find_pieces(label);
-        TopExp::MapShapes(shape, TopAbs_SOLID, solids);
-        const bool together = solids.Extent() < 2 || TopExp_Explorer(shape, TopAbs_EDGE, TopAbs_SOLID).More();
-        if (together) {
-            const Colour own = solids.Extent() == 1 ? colour_of(solids(1), colour) : colour;
-            draw(label, 0, shape, node, name, own);
-            return;
-        }
-        for (int i = 1; i <= solids.Extent(); i++) {
-            TDF_Label         sub;
-            const std::string found = pieces_.Find(solids(i), sub) ? text_of(sub) : "";
-            const std::string own = is_made_up(found) ? name : found;
-            draw(label, i, solids(i), add_node(node, own, TopLoc_Location()), own, colour_of(solids(i), colour));
-        }
-    }
-
-    // The pieces of a label's shape that something is said of. Asking for them one by one walks all of them each time.
-    void find_pieces(const TDF_Label &label)
-    {
-        TDF_LabelSequence subs;
-        pieces_.Clear();
-        XCAFDoc_ShapeTool::GetSubShapes(label, subs);
-        for (TDF_LabelSequence::Iterator at(subs); at.More(); at.Next()) {
-            const TopoDS_Shape piece = XCAFDoc_ShapeTool::GetShape(at.Value());
-            if (!piece.IsNull())
-                pieces_.Bind(piece, at.Value());
-        }
-    }
-
-    // Of a piece of what the label is of.
-    Colour colour_of(const TopoDS_Shape &piece, const Colour &otherwise) const
-    {
-        TDF_Label    sub;
-        const Colour own = pieces_.Find(piece, sub) ? colour_of_label(*colours_, sub) : Colour();
-        return own.there ? own : otherwise;
-    }
-
-    // `piece`: the how manieth solid of the label it is.
-    void draw(const TDF_Label &label, int piece, const TopoDS_Shape &shape, uint32_t node, const std::string &name,
-              const Colour &colour)
-    {
-        TCollection_AsciiString entry;
-        TDF_Tool::Entry(label, entry);
-        const auto key = std::make_tuple(std::string(entry.ToCString()), piece, colour);
-        auto       found = made_.find(key);
-        if (found == made_.end()) {
-            Mesh     mesh = mesher_.mesh_of(shape, [&](const TopoDS_Face &f) { return colour_of(f, colour); });
-            uint32_t number = STEP_NONE;
-            mesh.name = name;
-            if (!mesh.empty()) {
-                number = static_cast<uint32_t>(meshes_.size());
-                meshes_.push_back(std::move(mesh));
-            }
-            found = made_.emplace(key, number).first;
-        }
-        if (found->second != STEP_NONE)
-            hang(node, found->second);
-    }
-
-    Handle(XCAFDoc_ShapeTool) shapes_;
-    Handle(XCAFDoc_ColorTool) colours_;
-    NCollection_DataMap<TopoDS_Shape, TDF_Label, TopTools_ShapeMapHasher> pieces_;
-    Mesher                                                                mesher_;
-    std::vector<Mesh>                                                     meshes_;
-    std::vector<Node>                                                     nodes_;
-    std::map<std::tuple<std::string, int, Colour>, uint32_t>              made_; // to meshes
+struct Tree {
+    Handle(XCAFDoc_ShapeTool) shapes;
+    Handle(XCAFDoc_ColorTool) colours;
+    Pieces                                                   pieces; // of the label at hand
+    Mesher                                                   mesher;
+    std::vector<Mesh>                                        meshes;
+    std::vector<Node>                                        nodes;
+    std::map<std::tuple<std::string, int, Colour>, uint32_t> made; // to meshes
 };
+
+uint32_t add_node(Tree &t, uint32_t parent, const std::string &name, const TopLoc_Location &location)
+{
+    Node n = {parent, STEP_NONE, name, {}};
+    matrix_of(location, n.matrix);
+    t.nodes.push_back(n);
+    return static_cast<uint32_t>(t.nodes.size() - 1);
+}
+
+// What is drawn at a node; a mesh that was moved to its origin has its node moved back.
+void hang(Tree &t, uint32_t node, uint32_t mesh)
+{
+    Node         &n = t.nodes[node];
+    const double *o = t.meshes[mesh].origin;
+    n.mesh = mesh;
+    for (int row = 0; row < 3; row++)
+        n.matrix[12 + row] += n.matrix[row] * o[0] + n.matrix[4 + row] * o[1] + n.matrix[8 + row] * o[2];
+}
+
+// The pieces of a label's shape that something is said of. Asking for them one by one walks all of them each time.
+void find_pieces(Tree &t, const TDF_Label &label)
+{
+    TDF_LabelSequence subs;
+    t.pieces.Clear();
+    XCAFDoc_ShapeTool::GetSubShapes(label, subs);
+    for (TDF_LabelSequence::Iterator at(subs); at.More(); at.Next()) {
+        const TopoDS_Shape piece = XCAFDoc_ShapeTool::GetShape(at.Value());
+        if (!piece.IsNull())
+            t.pieces.Bind(piece, at.Value());
+    }
+}
+
+// Of a piece of what the label is of.
+Colour colour_of(const Tree &t, const TopoDS_Shape &piece, const Colour &otherwise)
+{
+    TDF_Label    sub;
+    const Colour own = t.pieces.Find(piece, sub) ? colour_of_label(*t.colours, sub) : Colour();
+    return own.there ? own : otherwise;
+}
+
+// `piece`: the how manieth solid of the label it is.
+void draw(Tree &t, const TDF_Label &label, int piece, const TopoDS_Shape &shape, uint32_t node, const std::string &name,
+          const Colour &colour)
+{
+    TCollection_AsciiString entry;
+    TDF_Tool::Entry(label, entry);
+    const auto key = std::make_tuple(std::string(entry.ToCString()), piece, colour);
+    auto       found = t.made.find(key);
+    if (found == t.made.end()) {
+        Mesh     mesh = mesh_of(t.mesher, shape, [&](const TopoDS_Face &f) { return colour_of(t, f, colour); });
+        uint32_t number = STEP_NONE;
+        mesh.name = name;
+        if (!mesh.empty()) {
+            number = static_cast<uint32_t>(t.meshes.size());
+            t.meshes.push_back(std::move(mesh));
+        }
+        found = t.made.emplace(key, number).first;
+    }
+    if (found->second != STEP_NONE)
+        hang(t, node, found->second);
+}
+
+// One part a solid, unless there is something besides.
+void add_shape(Tree &t, const TDF_Label &label, uint32_t node, const std::string &name, const Colour &colour)
+{
+    const TopoDS_Shape         shape = XCAFDoc_ShapeTool::GetShape(label);
+    TopTools_IndexedMapOfShape solids;
+    if (shape.IsNull())
+        return;
+    find_pieces(t, label);
+    TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+    const bool together = solids.Extent() < 2 || TopExp_Explorer(shape, TopAbs_EDGE, TopAbs_SOLID).More();
+    if (together) {
+        const Colour own = solids.Extent() == 1 ? colour_of(t, solids(1), colour) : colour;
+        draw(t, label, 0, shape, node, name, own);
+        return;
+    }
+    for (int i = 1; i <= solids.Extent(); i++) {
+        TDF_Label         sub;
+        const std::string found = t.pieces.Find(solids(i), sub) ? text_of(sub) : "";
+        const std::string own = is_made_up(found) ? name : found;
+        draw(t, label, i, solids(i), add_node(t, node, own, TopLoc_Location()), own, colour_of(t, solids(i), colour));
+    }
+}
+
+void add(Tree &t, const TDF_Label &label, uint32_t parent, const Colour &above, unsigned depth)
+{
+    if (depth > DEEPEST)
+        throw Failure{STEP_DAMAGED, "assemblies stand within themselves"};
+    TDF_Label       of = label;
+    TopLoc_Location location;
+    const bool      instance = XCAFDoc_ShapeTool::IsReference(label);
+    if (instance) {
+        location = XCAFDoc_ShapeTool::GetLocation(label);
+        if (!XCAFDoc_ShapeTool::GetReferredShape(label, of))
+            return;
+    }
+    std::string       name = instance ? text_of(label) : "";
+    const Colour      own = instance ? colour_of_label(*t.colours, label) : Colour();
+    const Colour      made = colour_of_label(*t.colours, of);
+    const Colour      inherited = own.there ? own : made.there ? made : above;
+    const std::string product = text_of(of);
+    if (is_made_up(name))
+        name = product;
+    const uint32_t node = add_node(t, parent, name, location);
+    if (XCAFDoc_ShapeTool::IsAssembly(of)) {
+        TDF_LabelSequence parts;
+        XCAFDoc_ShapeTool::GetComponents(of, parts);
+        for (int i = 1; i <= parts.Length(); i++)
+            add(t, parts.Value(i), node, inherited, depth + 1);
+    } else {
+        add_shape(t, of, node, product, inherited);
+    }
+}
+
+void put_tree(const Answer &a, const Tree &t, const std::string &unit)
+{
+    const auto coarser = static_cast<float>(t.mesher.coarser);
+    a.text(unit);
+    a.bytes(&coarser, sizeof coarser);
+    a.number(static_cast<uint32_t>(t.meshes.size()));
+    for (const Mesh &m : t.meshes)
+        put_mesh(a, m);
+    a.number(static_cast<uint32_t>(t.nodes.size()));
+    for (const Node &n : t.nodes)
+        put_node(a, n);
+}
 
 // --- the whole ---------------------------------------------------------------------------------------------
 
@@ -746,11 +713,18 @@ void read_all(const step_request &request, const Answer &answer)
     const std::string unit = unit_of(reader);
     if (!reader.Transfer(document))
         throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
-    Tree tree(document, request);
-    tree.read();
-    if (tree.empty())
+    TDF_LabelSequence roots;
+    Tree              tree;
+    tree.shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+    tree.colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+    tree.mesher.deflection = request.deflection;
+    tree.mesher.left = request.most_triangles;
+    tree.shapes->GetFreeShapes(roots);
+    for (int i = 1; i <= roots.Length(); i++)
+        add(tree, roots.Value(i), STEP_NONE, Colour(), 0);
+    if (tree.meshes.empty())
         throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
-    tree.put(answer, unit);
+    put_tree(answer, tree, unit);
 }
 
 step_result read(const step_request *request, step_put_fn put, void *to, char *message, size_t message_size)

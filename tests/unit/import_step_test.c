@@ -593,7 +593,7 @@ static void limits_hold(void **state)
     assert_int_equal(load_within(bracket_path, limits, &error), LMN_LIMIT);
     assert_non_null(strstr(error.message, "100 triangles"));
     limits = lmn_limits_standard();
-    limits.time_s = 0.05;
+    limits.time_s = 0.01;
     assert_int_equal(load_within(bracket_path, limits, &error), LMN_LIMIT);
 }
 
