@@ -115,7 +115,7 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
 static vec3 *flat_normals(const depict_job *j, const glyph *g, bool *failed)
 {
     const glyph_mesh *m = &g->mesh;
-    if (strcmp(g->label.glyph, "arrow") != 0)
+    if (!strstr(g->label.glyph, "arrow"))
         return NULL;
     vec3 *normals = mem_alloc((m->position_count + 1) * sizeof *normals);
     *failed = !normals;

@@ -8,7 +8,9 @@
 #include "look/value.h"
 
 static const char letters[] = "[glyph=words], [glyph=noise]",
-                  papers[] = "[glyph=balloon], [glyph=star], [glyph=cloud], [glyph=inset-paper]";
+                  papers[] = "[glyph=balloon], [glyph=star], [glyph=cloud], [glyph=inset-paper], "
+                             "[glyph=arrow], [glyph=bent-arrow], [glyph=cause-arrow], [glyph=flow-arrow], "
+                             "[glyph=burst-arrows]";
 
 static bool selects_signs(const lmn_look *look)
 {

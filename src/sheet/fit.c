@@ -13,6 +13,8 @@
 static const double cost_of_line = 1, cost_of_arc = 2, cost_of_ellipse = 3, cost_of_cubic = 3;
 #define PI 3.14159265358979323846
 static const double nothing = 1e-6; /* mm: points that are one */
+/* Outlines of strokes have two sides, and what both are off is a part of a width that may be small. */
+static const double outline_part = 0.3;
 enum { ELLIPSE_LEAST = 8, CUBIC_POINTS_MOST = 600 };
 
 typedef struct fitter {
@@ -348,6 +350,7 @@ void sheet_fit(sheet *s, double most)
     for (size_t i = 0; i < s->path_count && !f.failed; i++) {
         if (!s->paths[i].curved)
             continue;
+        f.most = s->paths[i].filled ? outline_part * most : most;
         fit_path(&f, &s->paths[i]);
         keep_pieces(&f, &s->paths[i]);
     }
