@@ -47,6 +47,23 @@ if(LIMNER_DRACO)
   list(APPEND LIMNER_OBJECTS $<TARGET_OBJECTS:limner_draco>)
 endif()
 
+# A module, not a part of the library (src/import/step_library.c).
+if(LIMNER_STEP)
+  include(GNUInstallDirs)
+  set(LIMNER_MODULE_FOLDER ${CMAKE_INSTALL_LIBDIR}/limner)
+  target_compile_definitions(limner_import PRIVATE LIMNER_MODULE_FOLDER="${CMAKE_INSTALL_FULL_LIBDIR}/limner")
+  add_library(limner_step MODULE ${PROJECT_SOURCE_DIR}/src/import/step_module.cpp)
+  set_target_properties(limner_step PROPERTIES PREFIX "" OUTPUT_NAME limner-step CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden
+                        COMPILE_OPTIONS "-Wall;-Wextra" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_include_directories(limner_step PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(limner_step SYSTEM PRIVATE ${OCCT_INCLUDE})
+  target_link_libraries(limner_step PRIVATE ${OCCT_LIBRARIES})
+  target_link_options(limner_step PRIVATE LINKER:--as-needed)
+  if(LIMNER_SANITIZE)
+    target_compile_options(limner_step PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  endif()
+endif()
+
 # Shaders and looks travel inside the library.
 file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/*.frag
      ${PROJECT_SOURCE_DIR}/src/*.vert ${PROJECT_SOURCE_DIR}/src/*.glsl ${PROJECT_SOURCE_DIR}/src/*.comp)

@@ -11,6 +11,9 @@ install(TARGETS limner EXPORT limner-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET limner_step)
+  install(TARGETS limner_step LIBRARY DESTINATION ${LIMNER_MODULE_FOLDER} COMPONENT step)
+endif()
 install(EXPORT limner-targets NAMESPACE limner:: DESTINATION ${LIMNER_CONFIG_DIR} COMPONENT development)
 if(TARGET limner_static)
   set_target_properties(limner_static PROPERTIES EXPORT_NAME static)

@@ -10,6 +10,9 @@ set(CPACK_COMPONENTS_ALL command library development documentation python)
 if(TARGET limner_viewer)
   list(APPEND CPACK_COMPONENTS_ALL viewer)
 endif()
+if(TARGET limner_step)
+  list(APPEND CPACK_COMPONENTS_ALL step)
+endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -31,7 +34,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME limner)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, gdal-bin, openscad, limner-doc")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, gdal-bin, limner-step, openscad, limner-doc")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "draw 3D models the way people draw
 Outlines and hatching, blueprints, sketches, engravings and cartoons of
 glTF, STL, OBJ, PLY and OpenSCAD models, as pictures, as vectors (SVG, PDF
@@ -52,6 +55,14 @@ Outlines and hatching, blueprints, sketches, engravings and cartoons of
 3D models, as pictures, vectors and films, into memory or files.
 .
 This package has the shared library.")
+
+# On its own, since it brings OpenCASCADE with it.
+set(CPACK_COMPONENT_STEP_DEPENDS library)
+set(CPACK_DEBIAN_STEP_PACKAGE_NAME limner-step)
+set(CPACK_DEBIAN_STEP_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_STEP_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_STEP_DESCRIPTION "draw 3D models the way people draw (STEP files)
+What liblimner reads STEP files with: OpenCASCADE, in a process of its own.")
 
 set(CPACK_COMPONENT_VIEWER_DEPENDS command)
 set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME limner-viewer)

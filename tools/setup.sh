@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config
           libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
-          libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev
+          libjansson-dev libassimp-dev libmeshoptimizer-dev libdraco-dev libocct-data-exchange-dev
           libpng-dev libjpeg-dev libwebp-dev zlib1g-dev libdeflate-dev libglu1-mesa-dev
           libgeos-dev libqhull-dev libfreetype-dev libfontconfig-dev libharfbuzz-dev fonts-liberation
           libxml2-dev libseccomp-dev libsqlite3-dev gdal-bin

@@ -8,7 +8,7 @@
 typedef struct bench_values {
     word_list     looks;
     option_size   size;
-    option_number repeat, time;
+    option_number repeat, time, deflection;
     const char   *clip, *lod;
     option_vector eye, target;
     int           view, up_axis;
@@ -34,6 +34,7 @@ static const option options[] = {
     {"up-axis", 0, OPTION_CHOICE, AT(up_axis), "y|z", "Which of the file's axes points up.",
      .choices = up_axis_choices},
     LOD_OPTION(AT(lod)),
+    DEFLECTION_OPTION(AT(deflection)),
     {"json", 0, OPTION_FLAG, AT(json), NULL, "Write JSON (docs/reference/bench.md)."},
     TASK_OPTIONS(bench_values),
     {"quiet", 'q', OPTION_FLAG, AT(quiet), NULL, "No progress."},
@@ -122,7 +123,7 @@ static int run(const word_list *inputs, const void *values)
     int status = task_begin(&task, &v->task, &bar);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis),
-                                   &(program_options){&none, false, v->lod, NULL, 0}, &bar);
+                                   &(program_options){&none, false, v->lod, NULL, 0, v->deflection.value}, &bar);
     if (status == EXIT_DONE)
         status = measure(v, scene, &bar, &text);
     lmn_scene_destroy(&scene);

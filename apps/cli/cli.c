@@ -37,7 +37,7 @@ int check_programs(const word_list *inputs, const program_options *programs)
 int scene_of_files(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up, progress *p)
 {
     const word_list none = {0};
-    return scene_of_programs(out, paths, count, up, &(program_options){&none, false, NULL, NULL, 0}, p);
+    return scene_of_programs(out, paths, count, up, &(program_options){&none, false, NULL, NULL, 0, 0}, p);
 }
 
 int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,
@@ -58,6 +58,7 @@ int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, l
         desc.lod = programs->lod;
         desc.terrain = programs->terrain;
         desc.populate = programs->populate;
+        desc.deflection = programs->deflection;
         status = lmn_scene_add_file(*out, paths[i], &desc, &error);
     }
     progress_erase(p);

@@ -29,6 +29,7 @@ typedef struct program_options {
     const char      *lod; /* NULL: the highest */
     const char      *terrain;
     double           populate;
+    double           deflection; /* millimetres; 0: as the library sees fit */
 } program_options;
 
 /* "--lod", in every command that reads models. */
@@ -52,6 +53,14 @@ typedef struct program_options {
             "Of footprints: people, cars, lamps and trees along roads; 1 as in an ordinary town, up to 4. Default: "   \
             "only those in the file.",                                                                                 \
             0, 4                                                                                                       \
+    }
+/* "--deflection", likewise. */
+#define DEFLECTION_OPTION(at)                                                                                          \
+    {                                                                                                                  \
+        "deflection", 0, OPTION_NUMBER, at, "MM",                                                                      \
+            "Of STEP files: how far triangles and lines may lie off curved surfaces, millimetres. Default: a 2000th "  \
+            "of the size of each part.",                                                                               \
+            1e-9, 1e9                                                                                                  \
     }
 int check_programs(const word_list *inputs, const program_options *programs);
 int scene_of_programs(lmn_scene **out, const char *const *paths, size_t count, lmn_up_axis up,

@@ -205,6 +205,26 @@ static void print_geodata(const json_t *found)
     }
 }
 
+/* {"opencascade": "7.6.3", "package": …}; null: not there. */
+static json_t *find_step(void)
+{
+    char   *version = lmn_step_version();
+    json_t *out = json_pack("{s:s?, s:s}", "opencascade", version, "package", "limner-step");
+    lmn_text_free(version);
+    return out;
+}
+
+static void print_step(const json_t *found)
+{
+    const char *version = text_at(found, "opencascade", NULL);
+    printf("\nSTEP\n  %-28s ", "OpenCASCADE");
+    if (version)
+        printf("%s\n", version);
+    else
+        printf("no: STEP files need it (package %s, or build Limner with libocct-data-exchange-dev)\n",
+               text_at(found, "package", ""));
+}
+
 static int print_report(json_t *root, bool as_json, bool usable)
 {
     if (as_json) {
@@ -219,6 +239,7 @@ static int print_report(json_t *root, bool as_json, bool usable)
         printf("\ndecoders\n");
         print_values(json_object_get(root, "decoders"), 2);
         print_geodata(json_object_get(root, "geodata"));
+        print_step(json_object_get(root, "step"));
         print_films(json_object_get(root, "films"));
         print_limits(json_object_get(root, "limits"));
         printf("\nLimner can draw here.\n");
@@ -259,6 +280,7 @@ static int run(const word_list *inputs, const void *values)
     json_object_set_new(root, "missing", missing);
     json_object_set_new(root, "decoders", json_pack("{s:s}", "fence", lmn_fence_kind()));
     json_object_set_new(root, "geodata", find_geodata());
+    json_object_set_new(root, "step", find_step());
     json_object_set_new(root, "films", list_films());
     json_object_set_new(root, "limits", list_limits());
     lmn_renderer_destroy(&renderer);

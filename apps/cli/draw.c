@@ -388,8 +388,8 @@ static int draw_scene(draw_session *s, const char *const *paths, size_t count)
 {
     lmn_scene            *scene = NULL;
     double                start = now_ms();
-    const program_options programs = {&s->values->defines, s->values->strict, s->values->lod, s->values->terrain,
-                                      s->values->populate.value};
+    const program_options programs = {&s->values->defines, s->values->strict,         s->values->lod,
+                                      s->values->terrain,  s->values->populate.value, s->values->deflection.value};
     int status = scene_of_programs(&scene, paths, count, up_axis_of(s->values->up_axis), &programs, &s->progress);
     if (status != EXIT_DONE)
         return status;

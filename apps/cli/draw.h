@@ -19,7 +19,7 @@ typedef struct draw_values {
     int              up_axis, angle, perspective; /* perspective: 0 that of a camera, else lmn_projection + 1 */
     option_number    bend, bend_from, bend_to, horizon;
     const char      *lod, *terrain;
-    option_number    populate;
+    option_number    populate, deflection;
     word_list        defines;
     bool             quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
     viewpoint_values viewpoint;

@@ -89,6 +89,7 @@ static const option options[] = {
     LOD_OPTION(AT(lod)),
     TERRAIN_OPTION(AT(terrain)),
     POPULATE_OPTION(AT(populate)),
+    DEFLECTION_OPTION(AT(deflection)),
     {"page", 0, OPTION_TEXT, AT(page), "PAGE",
      "Size of the paper: A4, A3-landscape, letter or 210x120mm. Pictures have --dpi pixels an inch of it, or --size in "
      "all. "
@@ -203,7 +204,8 @@ static int find_whole(char *out, size_t size, const word_list *inputs, const dra
     lmn_scene            *scene = NULL;
     progress              bar;
     lmn_task             *task = NULL;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     double                duration = 0;
     progress_begin(&bar, true);
     int status = check_programs(inputs, &programs);

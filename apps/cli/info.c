@@ -8,7 +8,7 @@
 typedef struct info_values {
     bool          json, dynamics, strict;
     const char   *lod, *terrain;
-    option_number populate;
+    option_number populate, deflection;
     int           up_axis;
     word_list     defines;
     task_values   task;
@@ -24,6 +24,7 @@ static const option options[] = {
     LOD_OPTION(offsetof(info_values, lod)),
     TERRAIN_OPTION(offsetof(info_values, terrain)),
     POPULATE_OPTION(offsetof(info_values, populate)),
+    DEFLECTION_OPTION(offsetof(info_values, deflection)),
     {"define", 'D', OPTION_LIST, offsetof(info_values, defines), "NAME=VALUE",
      "Of OpenSCAD programs (.scad): a variable's value instead of the program's. May be repeated."},
     {"strict", 0, OPTION_FLAG, offsetof(info_values, strict), NULL, "Of OpenSCAD programs: warnings are errors."},
@@ -230,7 +231,8 @@ static void print_dynamics(const json_t *root)
 static int tell(const word_list *inputs, const info_values *v, progress *bar)
 {
     lmn_scene            *scene = NULL;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     int                   status = check_programs(inputs, &programs);
     if (status == EXIT_DONE)
         status = scene_of_programs(&scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, bar);

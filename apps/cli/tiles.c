@@ -17,7 +17,7 @@
 typedef struct tiles_values {
     const char      *output, *zoom, *look, *select, *cut, *background;
     word_list        sets, defines;
-    option_number    time, seed, samples, dpi, populate;
+    option_number    time, seed, samples, dpi, populate, deflection;
     const char      *lod, *terrain;
     int              up_axis, tile;
     bool             resume, strict, lenient, quiet, verbose;
@@ -57,6 +57,7 @@ static const option options[] = {
     LOD_OPTION(AT(lod)),
     TERRAIN_OPTION(AT(terrain)),
     POPULATE_OPTION(AT(populate)),
+    DEFLECTION_OPTION(AT(deflection)),
     {"resume", 0, OPTION_FLAG, AT(resume), NULL, "Draw only tiles that are not there yet."},
     JOB_OPTIONS(tiles_values),
     TASK_OPTIONS(tiles_values),
@@ -278,7 +279,8 @@ static int pack(tiles_run *t)
 static int draw_all(tiles_run *t, const word_list *inputs)
 {
     const tiles_values   *v = t->values;
-    const program_options programs = {&v->defines, v->strict, v->lod, v->terrain, v->populate.value};
+    const program_options programs = {&v->defines, v->strict,         v->lod,
+                                      v->terrain,  v->populate.value, v->deflection.value};
     int status = scene_of_programs(&t->scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &t->bar);
     if (status != EXIT_DONE)
         return status;

@@ -38,8 +38,9 @@ typedef struct lmn_importer {
 
 /* How a file is read. Initialise with LMN_LOAD_DESC_INIT. */
 typedef struct lmn_load_desc {
-    size_t      struct_size; /* set by LMN_LOAD_DESC_INIT */
-    lmn_up_axis up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF and OpenSCAD +Z; of OBJ and PLY it is guessed */
+    size_t struct_size; /* set by LMN_LOAD_DESC_INIT */
+    lmn_up_axis
+        up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF, STEP and OpenSCAD +Z; of OBJ and PLY it is guessed */
     lmn_progress_fn progress; /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
@@ -59,10 +60,13 @@ typedef struct lmn_load_desc {
     /* Of footprints alone; refused with others: how densely people, cars, lamps and trees are put along roads, 1 as in
      * an ordinary town, up to 4. 0: only those in the file. Since 0.1. */
     double populate;
+    /* Of models with curved surfaces (STEP) alone; refused with others: how far triangles and lines may lie off these,
+     * millimetres. 0: a 2000th of the diagonal of each part's box. Since 0.1. */
+    double deflection;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0, NULL, NULL, 0                         \
+        sizeof(lmn_load_desc), LMN_UP_AUTO, NULL, NULL, NULL, 0, false, NULL, 0, NULL, NULL, 0, 0                      \
     }
 
 /* What `lmn_scene_info_of` tells. Lengths in the file's unit; bounds are of the rest pose in the scene's axes. */
@@ -111,6 +115,10 @@ LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
  * and where it goes (documented in docs/reference/info.md); free with lmn_text_free. NULL when memory is gone, or when
  * the behaviour of a script is none that can be laid out. */
 LMN_API char *lmn_scene_dynamics_json(const lmn_scene *scene);
+
+/* The version of OpenCASCADE, which STEP files are read with; free with lmn_text_free. NULL when it is not installed,
+ * or memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
+LMN_API char *lmn_step_version(void);
 
 /* Frees text that Limner returned. NULL is accepted. */
 LMN_API void lmn_text_free(char *text);

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/work.h"
 #include "import/import.h"
+#include "import/step.h"
 #include "info/info.h"
 #include "import/retarget.h"
 #include "scene/scene.h"
@@ -63,6 +64,8 @@ lmn_status load_desc_complete(lmn_load_desc *full, const lmn_load_desc *given, c
                          full->lod);
     if (!(full->populate >= 0 && full->populate <= 4))
         return error_set(error, LMN_USAGE, "%s: `populate` %g is not between 0 and 4", caller, full->populate);
+    if (!(full->deflection >= 0 && full->deflection <= 1e9))
+        return error_set(error, LMN_USAGE, "%s: `deflection` %g is not between 0 and 1e9", caller, full->deflection);
     for (size_t i = 0; i < full->define_count; i++)
         if (!full->defines || !full->defines[i])
             return error_set(error, LMN_USAGE, "%s: `defines` has a NULL among the first %zu", caller,
@@ -151,6 +154,11 @@ bool lmn_scene_part_at(const lmn_scene *scene, size_t index, lmn_part_info *out)
 char *lmn_scene_info_json(const lmn_scene *scene)
 {
     return scene ? scene_info_json(scene) : NULL;
+}
+
+char *lmn_step_version(void)
+{
+    return step_version();
 }
 
 char *lmn_scene_dynamics_json(const lmn_scene *scene)

@@ -16,11 +16,13 @@ lmn_status unit_find(const char *text, const lmn_scene *scene, double *mm, const
     if (!text && scene->file_count)
         file_ending(scene->files[0], ending, sizeof ending);
     static const char *const in_metres[] = {".gltf", ".glb", ".json", ".jsonl", ".gml", ".citygml"};
-    bool                     metres = false;
+    static const char *const in_millimetres[] = {".stl", ".csg", ".scad", ".step", ".stp", ".p21"};
+    bool                     metres = false, millimetres = false;
     for (size_t i = 0; i < sizeof in_metres / sizeof *in_metres; i++)
         metres = metres || strcmp(ending, in_metres[i]) == 0;
-    *stated =
-        text || metres || strcmp(ending, ".stl") == 0 || strcmp(ending, ".csg") == 0 || strcmp(ending, ".scad") == 0;
+    for (size_t i = 0; i < sizeof in_millimetres / sizeof *in_millimetres; i++)
+        millimetres = millimetres || strcmp(ending, in_millimetres[i]) == 0;
+    *stated = text || metres || millimetres;
     const char *wanted = text ? text : metres ? "m" : "mm";
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (strcmp(units[i].name, wanted) == 0) {

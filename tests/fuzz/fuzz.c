@@ -29,6 +29,7 @@ static const fuzz_target targets[] = {
     {"csg", fuzz_csg, fuzz_mutate_csg},
     {"dxf", fuzz_dxf, NULL},
     {"stream", fuzz_stream, NULL},
+    {"step", fuzz_step, NULL},
     {"image", fuzz_image, NULL},
     {"draco", fuzz_draco, NULL},
     {"stx", fuzz_stx, NULL},

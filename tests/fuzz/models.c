@@ -15,6 +15,7 @@
 #include "info/info.h"
 #include "import/csg.h"
 #include "import/draco.h"
+#include "import/step.h"
 #include "import/footprint.h"
 #include "import/gunzip.h"
 #include "import/obj.h"
@@ -275,6 +276,16 @@ void fuzz_csg(const uint8_t *bytes, size_t size)
 static lmn_status read_stream(const import_job *job, lmn_error *error)
 {
     return assimp_stream_read(job, job->file->data, job->file->size, error);
+}
+
+static lmn_status read_step_answer(const import_job *job, lmn_error *error)
+{
+    return step_answer_read(job, job->file->data, job->file->size, error);
+}
+
+void fuzz_step(const uint8_t *bytes, size_t size)
+{
+    use(fuzz_read_model(read_step_answer, 'z', bytes, size));
 }
 
 void fuzz_stream(const uint8_t *bytes, size_t size)

@@ -475,6 +475,11 @@ CALL(lmn_scene_info_json)
 {
     return freed(lmn_scene_info_json(P(0, w->scene)));
 }
+CALL(lmn_step_version)
+{
+    lmn_text_free(lmn_step_version()); /* NULL where OpenCASCADE is not */
+    return neutral(w->null != 0);
+}
 CALL(lmn_scene_dynamics_json)
 {
     return freed(lmn_scene_dynamics_json(P(0, w->scene)));

@@ -70,22 +70,24 @@ class Scene(Handle):
     _end = "lmn_scene_destroy"
 
     def __init__(self, *paths: Path, up_axis: str | None = None, lod: str | float | None = None, terrain: Path | None = None,
-                 populate: float = 0, progress: Progress | None = None) -> None:
+                 populate: float = 0, deflection: float = 0, progress: Progress | None = None) -> None:
         super().__init__()
         call("lmn_scene_create", self._out)
         for path in paths:
-            self.add(path, up_axis=up_axis, lod=lod, terrain=terrain, populate=populate, progress=progress)
+            self.add(path, up_axis=up_axis, lod=lod, terrain=terrain, populate=populate, deflection=deflection, progress=progress)
 
     def add(self, path: Path, *, up_axis: str | None = None, lod: str | float | None = None, terrain: Path | None = None,
-            populate: float = 0, progress: Progress | None = None) -> None:
+            populate: float = 0, deflection: float = 0, progress: Progress | None = None) -> None:
         """Reads a model file and adds it; when it cannot be read the scene is as before. Of city models `lod` is the level of detail that is not
-        exceeded and `terrain` a raster of heights below it; of footprints `populate` is how densely people, cars and trees are put along roads."""
+        exceeded and `terrain` a raster of heights below it; of footprints `populate` is how densely people, cars and trees are put along roads. Of STEP
+        files `deflection` is how far triangles may lie off curved surfaces, millimetres."""
         self._check()
         with Watch(progress) as watch:
             desc = c.STANDARDS[c.lmn_load_desc]()
             desc.up_axis, desc.progress = _choice("up_axis", up_axis, _UP), watch.function
             desc.lod = None if lod is None else str(lod).encode()
             desc.terrain, desc.populate = None if terrain is None else encode(terrain), populate
+            desc.deflection = deflection
             call("lmn_scene_add_file", self, encode(path), ctypes.byref(desc))
 
     @classmethod

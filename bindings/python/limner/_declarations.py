@@ -579,6 +579,7 @@ class lmn_load_desc(Structure):
         ("lod", c_char_p),
         ("terrain", c_char_p),
         ("populate", c_double),
+        ("deflection", c_double),
     ]
 
 
@@ -807,7 +808,7 @@ STANDARDS: dict[type, Callable[[], Any]] = {
     lmn_allocator: lambda: lmn_allocator(sizeof(lmn_allocator), lmn_alloc_fn(), lmn_resize_fn(), lmn_release_fn(), None),
     lmn_projection_desc: lambda: lmn_projection_desc(sizeof(lmn_projection_desc), LMN_PROJECTION_MULTI_PERSPECTIVE, 0, 0.25, 0.75),
     lmn_importer: lambda: lmn_importer(sizeof(lmn_importer), None, None, lmn_probe_fn(), lmn_import_fn(), None),
-    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0, None, None, 0),
+    lmn_load_desc: lambda: lmn_load_desc(sizeof(lmn_load_desc), LMN_UP_AUTO, lmn_progress_fn(), None, None, 0, False, None, 0, None, None, 0, 0),
     lmn_sheet_desc: lambda: lmn_sheet_desc(sizeof(lmn_sheet_desc), None, None, None, None, LMN_THIRD_ANGLE, None, False, False, False, False, False, 0.02),
     lmn_facets: lambda: lmn_facets(0, 12, 2),
     lmn_pattern_desc: lambda: lmn_pattern_desc(sizeof(lmn_pattern_desc), LMN_PATTERN_PARALLEL, 0, 0, 0.5, 0),
@@ -966,6 +967,7 @@ FUNCTIONS = {
     "lmn_scene_part_at": (c_bool, [c_void_p, c_size_t, POINTER(lmn_part_info)]),
     "lmn_scene_info_json": (c_void_p, [c_void_p]),
     "lmn_scene_dynamics_json": (c_void_p, [c_void_p]),
+    "lmn_step_version": (c_void_p, []),
     "lmn_text_free": (None, [c_void_p]),
     "lmn_text_write": (c_int, [c_char_p, c_char_p, POINTER(lmn_error)]),
     "lmn_look_needs_pixels": (c_bool, [c_void_p]),
