@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "depict/course.h"
 #include "depict/page.h"
 #include "depict/rounded.h"
 
@@ -11,38 +12,6 @@ enum { DASHES_MOST = 2000 };
 
 /* --- along a way ----------------------------------------------------------------------------------------------------
  */
-
-typedef struct course {
-    const double (*points)[3];
-    double *lengths; /* up to each point */
-    size_t  count;
-} course;
-
-static double course_end(const course *c)
-{
-    return c->lengths[c->count - 1];
-}
-
-/* The first point behind the first one that is as far along, or the last one. */
-static size_t course_behind(const course *c, double length)
-{
-    size_t low = 1, high = c->count - 1;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (c->lengths[middle] < length)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static void course_at(const course *c, double length, double out[3])
-{
-    const size_t i = course_behind(c, length);
-    double       piece = c->lengths[i] - c->lengths[i - 1], f = piece > 0 ? (length - c->lengths[i - 1]) / piece : 0;
-    vector3_mix(out, c->points[i - 1], c->points[i], fmin(fmax(f, 0), 1));
-}
 
 /* A piece of it as a ribbon, with all corners between; `tail` and `tip` are widths at the whole course's ends. */
 static void put_piece(glyph_mesh *m, const depict_job *j, const course *c, double from, double to, double tail,

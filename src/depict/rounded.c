@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "depict/course.h"
 
 /* A way of more widths than this is looked at less finely. */
 enum { SAMPLES_MOST = 6000, A_WIDTH = 6 };
@@ -45,29 +46,9 @@ static double apart(const double a[3], const double b[3])
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-static double end_of(const page_way *w)
+static course course_of(const page_way *w)
 {
-    return w->lengths[w->count - 1];
-}
-
-static size_t behind(const page_way *w, double length)
-{
-    size_t low = 1, high = w->count - 1;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (w->lengths[middle] < length)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static void point_at(const page_way *w, double length, double out[3])
-{
-    const size_t i = behind(w, length);
-    const double piece = w->lengths[i] - w->lengths[i - 1], f = piece > 0 ? (length - w->lengths[i - 1]) / piece : 0;
-    vector3_mix(out, w->points[i - 1], w->points[i], fmin(fmax(f, 0), 1));
+    return (course){(const double(*)[3])w->points, w->lengths, w->count};
 }
 
 /* Between the directions a → b and b → c on the page, radians. */
@@ -162,7 +143,8 @@ static void drop_bits(page_way *w)
 
 static bool take_samples(page_way *w)
 {
-    const double end = end_of(w), step = fmax(w->width / A_WIDTH, end / SAMPLES_MOST);
+    const course way = course_of(w);
+    const double end = course_end(&way), step = fmax(w->width / A_WIDTH, end / SAMPLES_MOST);
     w->sample_count = (size_t)(end / step) + 2;
     w->samples = mem_alloc(w->sample_count * sizeof *w->samples);
     w->places = mem_alloc(w->sample_count * sizeof *w->places);
@@ -172,7 +154,7 @@ static bool take_samples(page_way *w)
         return false;
     for (size_t i = 0; i < w->sample_count; i++) {
         w->places[i] = end * (double)i / (double)(w->sample_count - 1);
-        point_at(w, w->places[i], w->samples[i]);
+        course_at(&way, w->places[i], w->samples[i]);
     }
     return true;
 }
@@ -261,7 +243,8 @@ void rounded_make(rounded_way *out, const depict_job *j, const double (*points)[
         to_page(&w, points[i], w.points[i]);
         w.lengths[i] = i == 0 ? 0 : w.lengths[i - 1] + apart(w.points[i - 1], w.points[i]);
     }
-    const bool turns = !out->failed && count > 2 && width > 0 && end_of(&w) > width;
+    const course way = course_of(&w);
+    const bool   turns = !out->failed && count > 2 && width > 0 && course_end(&way) > width;
     if (turns && take_samples(&w)) {
         relax(&w);
         break_reversals(&w);
