@@ -20,6 +20,7 @@ struct lmn_drawing {
     uint64_t    *part_pixels; /* per part; NULL unless profiled */
     double       frame_ms;
     gpu_profile  profile;
+    outline_search search;
     uint64_t     strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
     trace_facts  traces;
     bool         has_traces; /* some rule wants them */

@@ -185,6 +185,7 @@ static void draw_page(frame *f)
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     memset(f->strokes, 0, sizeof f->strokes);
+    f->search = (outline_search){0, 0};
     memset(&f->traces, 0, sizeof f->traces);
     facts_open(f);
     shadow_draw(f);

@@ -53,6 +53,7 @@ typedef struct frame {
     bool          lists_full;                  /* lists had no room, so that layers were peeled instead */
     const figure *mirror;                      /* whose view is drawn; NULL: the scene itself */
     uint64_t      strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
+    outline_search search;                     /* for them */
     trace_facts   traces;                      /* of all figures */
 } frame;
 

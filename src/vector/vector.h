@@ -39,6 +39,7 @@ struct lmn_sheet {
     double       frame_ms;
     trace_facts  traces;
     bool         has_traces; /* some rule wants them */
+    outline_search search;
     uint64_t     counts[STROKE_CLASS_COUNT], hidden;
     uint64_t     dots, marks; /* that lie on surfaces: dots, strokes */
     uint64_t     hatches;     /* lines on cut faces */
