@@ -45,16 +45,16 @@ typedef struct frame {
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
-    tone_range    tone_range;
-    ground_plane  ground_plane;                /* what the model stands on */
-    float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
-    int           layers;                      /* drawn by the deepest stack */
-    const char   *producer;                    /* of layers; NULL: there were none */
-    bool          lists_full;                  /* lists had no room, so that layers were peeled instead */
-    const figure *mirror;                      /* whose view is drawn; NULL: the scene itself */
-    uint64_t      strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
-    outline_search search;                     /* for them */
-    trace_facts   traces;                      /* of all figures */
+    tone_range     tone_range;
+    ground_plane   ground_plane;                /* what the model stands on */
+    float          clip_plane[4];               /* eye space, while a mirror's view is drawn */
+    int            layers;                      /* drawn by the deepest stack */
+    const char    *producer;                    /* of layers; NULL: there were none */
+    bool           lists_full;                  /* lists had no room, so that layers were peeled instead */
+    const figure  *mirror;                      /* whose view is drawn; NULL: the scene itself */
+    uint64_t       strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
+    outline_search search;                      /* for them */
+    trace_facts    traces;                      /* of all figures */
 } frame;
 
 /* The camera of strokes: what the frame sees, on its sheet, whatever pixels it has. All its bytes are set. */

@@ -59,9 +59,9 @@ json_t *report_strokes_json(const uint64_t counts[STROKE_CLASS_COUNT])
 void report_search(json_t *root, outline_search search)
 {
     if (search.faces)
-        json_object_set_new(root, "outline_search",
-                            json_pack("{s:I, s:I}", "faces", (json_int_t)search.faces, "tested",
-                                      (json_int_t)search.tested));
+        json_object_set_new(
+            root, "outline_search",
+            json_pack("{s:I, s:I}", "faces", (json_int_t)search.faces, "tested", (json_int_t)search.tested));
 }
 
 char *report_dump(json_t *root)

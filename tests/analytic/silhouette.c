@@ -355,8 +355,9 @@ static json_t *search_of(const char *report)
 static void search_is_told(void)
 {
     enum { FACES = 2 * 60 * 40, ALL = FACES * (1 + 4 + 16), WHOLE = FACES };
-    static const char look_text[] = "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{"
-                                    "\"technique\":\"strokes\",\"visibility\":\"exact\",\"refine\":%d}}]}";
+    static const char look_text[] =
+        "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{"
+        "\"technique\":\"strokes\",\"visibility\":\"exact\",\"refine\":%d}}]}";
     for (int refine = 2; refine >= 0; refine -= 2) {
         char      look[256];
         shape     s = {0};
@@ -381,7 +382,7 @@ static void search_is_told(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {{"desktop", desktop}, {"es", embedded}, {"search", search_is_told}};
-    int status = check_main(argc, argv, "silhouette", cases, sizeof cases / sizeof *cases);
+    int                     status = check_main(argc, argv, "silhouette", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }
