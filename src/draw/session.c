@@ -319,6 +319,7 @@ void session_close(session *s)
         gpu_target_release(s->renderer->g, s->out);
         gpu_target_release(s->renderer->g, s->frame.kept_depth);
         gpu_target_release(s->renderer->g, s->frame.seen_depth);
+        gpu_target_release(s->renderer->g, s->frame.moved_depth);
     }
     plan_release(&s->plan);
     plan_textures_release(&s->textures);

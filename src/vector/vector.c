@@ -380,6 +380,8 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
 
 static void count_strokes(vector_job *j, const stroke_set *set, const stroke_style *style)
 {
+    j->out->search.faces += set->search.faces;
+    j->out->search.tested += set->search.tested;
     for (size_t i = 0; i < set->stroke_count; i++) {
         const stroke *s = &set->strokes[i];
         bool          drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE &&
