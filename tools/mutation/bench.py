@@ -166,7 +166,7 @@ class Bench:
         """A test's cases as tests of their own."""
         if not any(re.search(expression, test["name"]) for expression in self.cases):
             return [test]
-        names = self.must(f"list the cases of {test['name']}", [*test["command"], "--cases"]).split()
+        names = self.must(f"list the cases of {test['name']}", [*test["command"], "--cases"]).splitlines()
         return [{**test, "name": f"{test['name']}:{case}", "command": [*test["command"], case]} for case in names]
 
     def digest_of(self, *places):
