@@ -120,19 +120,22 @@ static uint32_t seed_of(uint32_t seed)
 static void formula_on_surfaces(void)
 {
     static const struct {
-        int      octaves;
-        bool     turbulence, by_normal;
-        uint32_t seed;
-        double   distance;
-    } rows[] = {{1, false, false, 0, 8}, {3, false, false, 4, 8}, {2, false, false, 1, 6.1},
-                {2, true, false, 6, 11}, {1, false, true, 3, 8},  {2, true, true, 0, 8}};
+        int         octaves;
+        bool        turbulence, on_ball;
+        uint32_t    seed;
+        double      distance;
+        const char *by;
+    } rows[] = {{1, false, false, 0, 8, "position"},   {3, false, false, 4, 8, "position"},
+                {2, false, false, 1, 6.1, "position"}, {2, true, false, 6, 11, "position"},
+                {1, false, true, 3, 8, "normal"},      {2, true, true, 0, 8, "normal"},
+                {2, false, false, 2, 8, "curvature"},  {1, true, true, 5, 8, "curvature"}};
     double(*said)[3] = check_alloc(SIDE * SIDE, sizeof *said);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         const double radius = 4, pixel = 2 * rows[r].distance * tan(15 * pi / 180) / SIDE;
-        const char *kind = rows[r].turbulence ? "turbulence" : "noise", *by = rows[r].by_normal ? "normal" : "position";
-        char        settings[160];
-        shot        field;
-        shape       s = {0};
+        const char  *kind = rows[r].turbulence ? "turbulence" : "noise", *by = rows[r].by;
+        char         settings[160];
+        shot         field;
+        shape        s = {0};
         snprintf(settings, sizeof settings,
                  "\"lock\":\"object\",\"scale\":%d,\"octaves\":%d,\"field\":\"%s\",\"by\":\"%s\"", SCALE,
                  rows[r].octaves, kind, by);
@@ -143,17 +146,18 @@ static void formula_on_surfaces(void)
                             .orthographic = true,
                             .seed = rows[r].seed};
         noise_field f = {rows[r].octaves, rows[r].turbulence, 1, 0, seed_of(rows[r].seed), 3.0};
-        if (rows[r].by_normal)
+        if (rows[r].on_ball)
             shape_sphere(&s, "ball", dvec_of(0, 0, 0), radius, 128, 256, true);
         else
             shape_quad(&s, "wall", 40, 0);
         for (int i = 0; i < SIDE * SIDE; i++) {
             double x = (i % SIDE + 0.5 - SIDE / 2) * pixel, y = (SIDE / 2 - 0.5 - i / SIDE) * pixel;
-            if (rows[r].by_normal)
-                noise_in_space(
-                    &f,
-                    (const double[]){2 * x / radius, 2 * y / radius, 2 * sqrt(1 - (x * x + y * y) / (radius * radius))},
-                    said[i]);
+            /* Over two pixels, to the right and up, a ball's normal turns by two pixels of its radius each. */
+            const double across[3] = {2 * x / radius, 2 * y / radius,
+                                      2 * sqrt(1 - (x * x + y * y) / (radius * radius))},
+                         bend[3] = {rows[r].on_ball ? 4 * 4 * pixel / radius : 0, 0.37, 0.61};
+            if (by[0] == 'n' || by[0] == 'c')
+                noise_in_space(&f, by[0] == 'n' ? across : bend, said[i]);
             else
                 noise_along_ladder(&f, log2(0.69 * SCALE * pixel), (const double[]){x, y, 0}, said[i]);
         }

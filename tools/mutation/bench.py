@@ -1,4 +1,5 @@
 """Where mutants are built and tested: a copy of the tree, a build folder of its own, and the tests that name the room."""
+import ctypes.util
 import hashlib
 import json
 import os
@@ -18,6 +19,11 @@ import weave
 # How much longer than the right program a test may take before it counts as one that hangs: times, and seconds besides.
 TIMES_SLOWER, SECONDS_MORE = 6, 20
 MEMORY_MOST = 12 << 30
+# What writes beside its memory is red: the project's tests run with sanitizers, too, and glibc can see that much without them.
+MALLOC_CHECK = ctypes.util.find_library("c_malloc_debug")
+CHECKED_MEMORY = {"LD_PRELOAD": MALLOC_CHECK, "MALLOC_CHECK_": "3", "MALLOC_PERTURB_": "165"} if MALLOC_CHECK else {}
+# What a test is taken to cost before it ran for the first time.
+SECONDS_UNKNOWN = 1
 # A test that says so is red: what is left of it need not run.
 RED = re.compile(rb"^(FAIL |\[  FAILED  \])", re.MULTILINE)
 # GLSL that does not compile is no program.
@@ -213,20 +219,14 @@ class Bench:
         return m.path
 
     def in_turn(self, m):
-        """The tests that have to do with a mutant, and what is known of them: those that are known already by what they cost and found, then the others."""
+        """The tests that have to do with a mutant, and what is known of them, by what they cost and found."""
         place = self.place_of(m)
-        waiting = list(self.probes[m.room])
 
         def price(test):
-            known = self.known.get(test["name"])
-            return known["seconds"] / (1 + 3 * self.kills.get((test["name"], m.path), 0)) if known else None
+            known = self.known.get(test["name"], {"seconds": SECONDS_UNKNOWN})
+            return known["seconds"] / (1 + 3 * self.kills.get((test["name"], m.path), 0))
 
-        for test in sorted([t for t in waiting if price(t) is not None], key=price):
-            waiting.remove(test)
-            known = self.know(test)
-            if known["green"] and place in known["reached"]:
-                yield test, known
-        for test in waiting:
+        for test in sorted(self.probes[m.room], key=price):
             known = self.know(test)
             if known["green"] and place in known["reached"]:
                 yield test, known
@@ -259,7 +259,7 @@ class Bench:
         else:
             # What it makes and would keep is not what the right program keeps.
             with tempfile.TemporaryDirectory(dir=self.work) as cache:
-                passed, seconds, said = self.run(test, known["seconds"], MUTANT_NUMBER=str(self.numbers[m.key]), LIMNER_CACHE=cache)
+                passed, seconds, said = self.run(test, known["seconds"], MUTANT_NUMBER=str(self.numbers[m.key]), LIMNER_CACHE=cache, **CHECKED_MEMORY)
         if passed:
             return "survived", seconds
         return ("invalid" if shader and NO_PROGRAM.search(said) else "killed"), seconds
