@@ -7,6 +7,8 @@
 
 enum { ROUNDS = 6, UNKNOWNS = 5, JACOBI_ROUNDS = 12 };
 
+static const double enough = 1e-9; /* of the radius: nothing comes nearer any more */
+
 void cylinder_frame(cylinder_fit *c)
 {
     int least = 0;
@@ -82,19 +84,25 @@ bool cylinder_start(cylinder_fit *c, const double (*points)[3], size_t count)
 }
 
 /* One step: the sums of the normal equations, in radii, so that all unknowns are of one size. */
-static bool step(cylinder_fit *c, const double (*points)[3], size_t count)
+static bool step(cylinder_fit *c, const double (*points)[3], size_t count, double *change)
 {
     double m[UNKNOWNS][UNKNOWNS + 1] = {{0}}, middle = 0, size = c->radius;
     for (size_t i = 0; i < count; i++) {
-        double along;
-        cylinder_distance(c, points[i], NULL, &along);
-        middle += along / (double)count;
+        double d[3];
+        vector3_add(d, points[i], -1, c->centre);
+        middle += vector3_dot(d, c->axis) / (double)count;
     }
     vector3_add(c->centre, c->centre, middle, c->axis);
     for (size_t i = 0; i < count; i++) {
-        double angle, along, away = cylinder_distance(c, points[i], &angle, &along) / size - 1;
-        double x = cos(angle), y = sin(angle), t = along / size;
-        double row[UNKNOWNS + 1] = {x, y, 1, t * x, t * y, away};
+        double d[3];
+        vector3_add(d, points[i], -1, c->centre);
+        double x = vector3_dot(d, c->across[0]), y = vector3_dot(d, c->across[1]), away = sqrt(x * x + y * y);
+        double t = vector3_dot(d, c->axis) / size;
+        if (!(away > 0))
+            return false;
+        x /= away;
+        y /= away;
+        double row[UNKNOWNS + 1] = {x, y, 1, t * x, t * y, away / size - 1};
         for (int a = 0; a < UNKNOWNS; a++)
             for (int b = 0; b <= UNKNOWNS; b++)
                 m[a][b] += row[a] * row[b];
@@ -103,6 +111,9 @@ static bool step(cylinder_fit *c, const double (*points)[3], size_t count)
         m[k][k] += 1e-9 * (double)count; /* short ones say little of their axis: it stays as it is */
     if (!solve(m, UNKNOWNS))
         return false;
+    *change = 0;
+    for (int k = 0; k < UNKNOWNS; k++)
+        *change = fmax(*change, fabs(m[k][UNKNOWNS]));
     for (int k = 0; k < 2; k++) {
         vector3_add(c->centre, c->centre, size * m[k][UNKNOWNS], c->across[k]);
         vector3_add(c->axis, c->axis, m[3 + k][UNKNOWNS], c->across[k]);
@@ -115,8 +126,9 @@ static bool step(cylinder_fit *c, const double (*points)[3], size_t count)
 
 bool cylinder_refine(cylinder_fit *c, const double (*points)[3], size_t count)
 {
-    for (int i = 0; i < ROUNDS; i++)
-        if (!step(c, points, count))
+    double change = 1;
+    for (int i = 0; i < ROUNDS && change > enough; i++)
+        if (!step(c, points, count, &change))
             return false;
     return true;
 }
