@@ -11,17 +11,18 @@
 
 /* --- what nodes carry ----------------------------------------------------------------------------------- */
 
-static void read_transform(json_t *object, node *n)
+static bool read_transform(json_t *object, node *n)
 {
-    double matrix[16];
-    if (gltf_numbers(object, "matrix", matrix, 16)) {
-        n->has_matrix = true;
-        memcpy(n->matrix.m, matrix, sizeof matrix);
-        return;
-    }
-    gltf_numbers(object, "translation", n->translation, 3);
-    gltf_numbers(object, "rotation", n->rotation, 4);
-    gltf_numbers(object, "scale", n->scale, 3);
+    mat4        matrix;
+    node_place *own = node_own_place(n);
+    if (!own)
+        return false;
+    if (gltf_numbers(object, "matrix", matrix.m, 16))
+        return node_set_matrix(n, &matrix);
+    gltf_numbers(object, "translation", own->translation, 3);
+    gltf_numbers(object, "rotation", own->rotation, 4);
+    gltf_numbers(object, "scale", own->scale, 3);
+    return true;
 }
 
 /* Scalars as text; lists and objects as compact JSON. */
@@ -119,7 +120,8 @@ static void fill_node(gltf_reader *r, json_t *object, size_t index, int32_t at, 
     snprintf(where, sizeof where, "nodes[%zu]", index);
     node *n = &r->scene->nodes[at];
     n->name = gltf_name(r, object);
-    read_transform(object, n);
+    if (!read_transform(object, n))
+        gltf_out_of_memory(r);
     read_extras(r, object, n);
     read_weights(r, object, n);
     if (!drawn)
