@@ -393,7 +393,7 @@ static void put_object(cityjson_reader *r, cityjson_object *o, city_forms *forme
 /* --- several at a time ---------------------------------------------------------------------------------- */
 
 /* What objects look like is made by the batch, on all processors; nodes then follow one by one, in the file's order. */
-enum { BATCH = 8192, LEAST_OF_THREAD = 512 };
+enum { BATCH = 2048, LEAST_OF_THREAD = 256 };
 
 typedef struct forming {
     cityjson_reader *r;

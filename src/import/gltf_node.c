@@ -93,7 +93,7 @@ static void read_instances(gltf_reader *r, json_t *object, node *n)
         }
         n->instances[i] = mat4_from_trs(translation, rotation, scale);
     }
-    n->instance_count = n->instances ? count : 0;
+    n->instance_count = n->instances ? (uint32_t)count : 0;
     mem_free(t);
     mem_free(q);
     mem_free(s);
@@ -108,7 +108,7 @@ static void read_weights(gltf_reader *r, json_t *object, node *n)
     n->morph_weights = gltf_alloc(r, count, sizeof *n->morph_weights);
     for (size_t i = 0; n->morph_weights && i < count; i++)
         n->morph_weights[i] = (float)json_number_value(json_array_get(weights, i));
-    n->morph_weight_count = n->morph_weights ? count : 0;
+    n->morph_weight_count = n->morph_weights ? (uint32_t)count : 0;
 }
 
 /* Everything of node `index` but its position in the tree. `drawn`: it belongs to the scene and is not hidden. */

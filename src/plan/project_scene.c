@@ -74,7 +74,7 @@ static bool copy_node(lmn_scene *to, const node *from)
     bool good = copy_text(&n->name, from->name) && (n->attributes || !from->attribute_count);
     for (size_t i = 0; i < from->attribute_count && good; i++) {
         good = attribute_make(&n->attributes[i], from->attributes[i].key, from->attributes[i].value);
-        n->attribute_count = i + good;
+        n->attribute_count = (uint32_t)i + good;
     }
     return good;
 }

@@ -185,7 +185,7 @@ lmn_status scene_set_instances(lmn_scene *s, int32_t index, mat4 *instances, siz
     if (total > LIMIT_INSTANCES)
         return error_set(error, LMN_LIMIT, "more than %zu instances", LIMIT_INSTANCES);
     s->nodes[index].instances = instances;
-    s->nodes[index].instance_count = count;
+    s->nodes[index].instance_count = (uint32_t)count;
     lmn_status status = measure_parts(s, is_below, index, error);
     if (status == LMN_OK)
         mem_free(before.instances);

@@ -161,11 +161,10 @@ typedef struct node {
     bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
     node_place *place;    /* NULL: that of its parent, without a matrix */
     mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
-    size_t     instance_count; /* 0: the node itself is the one instance */
-    float     *morph_weights;  /* NULL: the mesh's */
-    size_t     morph_weight_count;
+    uint32_t   instance_count; /* 0: the node itself is the one instance */
+    uint32_t   morph_weight_count, attribute_count;
+    float     *morph_weights; /* NULL: the mesh's */
     attribute *attributes;
-    size_t     attribute_count;
 } node;
 
 typedef struct skin {
