@@ -7,6 +7,7 @@
 typedef struct preview {
     lmn_scene  scene; /* to be posed, and nothing else: what it has belongs to the job's scene */
     primitive *primitives;
+    node_place *places;
     char       key[sizeof NODE_GLYPH];
     attribute  mark; /* that all glyphs have */
 } preview;

@@ -289,8 +289,10 @@ static void read_node(step_reader *s, uint32_t index)
         return;
     }
     n->name = name;
-    n->has_matrix = true;
-    memcpy(n->matrix.m, matrix, sizeof n->matrix.m);
+    mat4 place;
+    memcpy(place.m, matrix, sizeof place.m);
+    if (!node_set_matrix(n, &place))
+        out_of_memory(s);
     n->mesh = drawn == STEP_NONE ? NONE : (int32_t)drawn;
     if (parent != STEP_NONE)
         scene_link_child(s->job->scene, (int32_t)parent, (int32_t)index);
