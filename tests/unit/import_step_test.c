@@ -605,7 +605,7 @@ static void losses_are_told(void **state)
         shell--;
     lead_nowhere(face + strlen("CLOSED_SHELL('',(#"));
     char say[64];
-    snprintf(say, sizeof say, "the first: #%d", atoi(shell + 1));
+    snprintf(say, sizeof say, "the first: #%d", (int)strtol(shell + 1, NULL, 10));
     scene = load_changed(text, f.size, "shell.step");
     assert_non_null(strstr(warning_with(scene, "1 entities are damaged"), say));
     assert_string_equal(warning_with(scene, "could not be made"), "");
@@ -619,7 +619,7 @@ static void losses_are_told(void **state)
     char *entity = surface;
     while (entity[-1] != '\n')
         entity--;
-    snprintf(say, sizeof say, "the first: #%d", atoi(entity + 1));
+    snprintf(say, sizeof say, "the first: #%d", (int)strtol(entity + 1, NULL, 10));
     lead_nowhere(strstr(surface, "),#") + 3);
     scene = load_changed(text, f.size, "face.step");
     assert_non_null(strstr(warning_with(scene, "1 of 10 faces could not be made"), say));
