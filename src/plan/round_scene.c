@@ -94,6 +94,15 @@ static lmn_status round_one(round_mesh *to, const mesh *m, double crease_angle, 
     return LMN_OK;
 }
 
+/* Where normals are made they are those of a pose, and would be others in the next. */
+static bool has_own_normals(const mesh *m)
+{
+    for (size_t i = 0; i < m->primitive_count; i++)
+        if (!m->primitives[i].normals && (m->primitives[i].joints || m->primitives[i].morph_count))
+            return false;
+    return true;
+}
+
 /* Which meshes nodes draw: what solids are made of keeps the planes that it has. */
 static bool *find_drawn(const lmn_scene *scene)
 {
@@ -119,7 +128,7 @@ static lmn_status round_all(round_scene *r, const lmn_scene *scene, lmn_error *e
     lmn_status status = drawn ? LMN_OK : error_memory(error);
     for (size_t i = 0; i < scene->mesh_count && status == LMN_OK; i++) {
         round_mesh *to = &r->meshes[i];
-        if (!drawn[i])
+        if (!drawn[i] || !has_own_normals(&scene->meshes[i]))
             mesh_release(&to->made);
         else if (!to->known || to->revision != scene->meshes[i].revision || to->topology != scene->meshes[i].topology)
             status = round_one(to, &scene->meshes[i], r->crease_angle, &left, error);
