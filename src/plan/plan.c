@@ -661,8 +661,8 @@ static bool draws_strokes(const technique *t)
     return out;
 }
 
-/* Edges of pictures are found where a figure's parts run through those of other rules, but not where it is perturbed or seen
- * through (settle_figure). Row nienhaus E18. */
+/* Edges of pictures are found where a figure's parts run through those of other rules, but not where it is perturbed or
+ * seen through (settle_figure). Row nienhaus E18. */
 static void warn_of_meetings(const plan *p, warnings *warnings)
 {
     for (size_t i = 0; i < p->figure_count; i++) {
@@ -673,10 +673,11 @@ static void warn_of_meetings(const plan *p, warnings *warnings)
         if (!lines || draws_strokes(lines->technique) || f->mover || (!f->layered && !perturbed) ||
             (!f->layered && !f->layering.complement) || !find_meeting(p, f, parts))
             continue;
-        warnings_add(warnings, WARNING_UNUSED,
-                     "where parts of a rule that is %s run through those of another ('%.100s', '%.100s') there is no line; "
-                     "one rule for both has it",
-                     f->layered ? "seen through" : "perturbed", p->scene->parts[parts[0]].name, p->scene->parts[parts[1]].name);
+        warnings_add(
+            warnings, WARNING_UNUSED,
+            "where parts of a rule that is %s run through those of another ('%.100s', '%.100s') there is no line; "
+            "one rule for both has it",
+            f->layered ? "seen through" : "perturbed", p->scene->parts[parts[0]].name, p->scene->parts[parts[1]].name);
     }
 }
 

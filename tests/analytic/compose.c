@@ -279,7 +279,8 @@ static void per_object(void)
 static void missing_meetings_are_told(void)
 {
 #define POST "\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{\"operator\":\"discontinuity\"}"
-#define BLOCK "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},{\"select\":\"lined*\","
+#define BLOCK                                                                                                          \
+    "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},{\"select\":\"lined*\","
     static const char sketched[] = ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":2}";
     static const struct {
         const char *begin, *end, *complement;
@@ -301,12 +302,13 @@ static void missing_meetings_are_told(void)
         int         seam = 0;
         snprintf(look, sizeof look, LOOK("%s" POST "%s}"), cases[c].begin, cases[c].end);
         shape_box(&s, "plain block", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
-        shape_box(&s, "lined post", dvec_of(-0.3, -0.5 + cases[c].apart, -0.3), dvec_of(0.3, 0.8 + cases[c].apart, 0.3));
+        shape_box(&s, "lined post", dvec_of(-0.3, -0.5 + cases[c].apart, -0.3),
+                  dvec_of(0.3, 0.8 + cases[c].apart, 0.3));
         if (shot_of_shape(&drawing, &s, "meetings.glb", look, changes, &views[0])) {
             for (int i = 6; i < 45; i++)
                 seam += dark_near(&drawing, shot_project(&drawing, dvec_of(-0.3 + 0.6 * i / 50.0, 0, 0.3)), 4) > 0;
-            check_that("E18", shot_has_warning(&drawing, "unused") == cases[c].told, "case %zu: %s that a line is missing",
-                       c, cases[c].told ? "it is told" : "nothing tells");
+            check_that("E18", shot_has_warning(&drawing, "unused") == cases[c].told,
+                       "case %zu: %s that a line is missing", c, cases[c].told ? "it is told" : "nothing tells");
             if (cases[c].seam)
                 check_at_least("E18", seam, 37, "  of 39 places of the intersection with a line");
             else
