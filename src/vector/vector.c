@@ -104,7 +104,8 @@ static lmn_status refuse_of_solids(const vector_job *j, lmn_error *error)
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
-    const plan_options options = {.select = j->desc->select,
+    const plan_options options = {.on_sheet = true,
+                                  .select = j->desc->select,
                                   .background = j->desc->background,
                                   .pixels_per_mm = VECTOR_PIXELS_PER_MM,
                                   .parts_only = true};
