@@ -114,6 +114,28 @@ static void ink_of_strokes(void **state)
         }
 }
 
+/* How far a place on a line is from the end of its stroke, pixels, when the line comes nearer: strokes are cut in two
+ * where the cut grows out of nothing, so nothing jumps as they pass from one octave to the next. One line a row. */
+static void strokes_are_cut_smoothly(void **state)
+{
+    (void)state;
+    double worst = 0, mean = 0;
+    values_of(values, "cuts",
+              "#define u_length 8.0\n#define u_gap 2.0\n#define u_taper 100.0\n#include \"surface/stroke_cut.glsl\"",
+              "vec4(100.0 * stroke_fraction(0.37 + 0.0713 * y, exp2(6.0 + 2.0 * u), uint(y) * 2654435769u + 1u, 1.0), "
+              "x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        mean += (double)values[i][0] / (SIDE * SIDE);
+        if (i % SIDE)
+            worst = fmax(worst, fabs((double)(values[i][0] - values[i - 1][0])));
+    }
+    print_message("strokes that come nearer: in steps of half a percent their ends move by %.2g px at most, of %.2g in "
+                  "the mean\n",
+                  worst, mean);
+    assert_true(mean > 1);
+    assert_true(worst < 0.6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -121,6 +143,7 @@ int main(void)
         cmocka_unit_test(ink_of_dots),
         cmocka_unit_test(ink_of_covers),
         cmocka_unit_test(ink_of_strokes),
+        cmocka_unit_test(strokes_are_cut_smoothly),
     };
     return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
 }
