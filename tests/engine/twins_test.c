@@ -136,6 +136,27 @@ static void strokes_are_cut_smoothly(void **state)
     assert_true(worst < 0.6);
 }
 
+/* What discs on the corners of a lattice of squares cover of a cell: those that overlap count what lies beyond the
+ * cell's sides once. */
+static double cover_of_discs(double area)
+{
+    double radius = sqrt(area / 3.14159265358979), half = fmin(acos(fmin(0.5 / radius, 1)), 3.14159265358979 / 4);
+    double beyond = radius * radius * (half - sin(half) * cos(half)); /* of a disc, over one side */
+    return radius >= sqrt(0.5) ? 1 : area - 4 * beyond;
+}
+
+static void discs_cover_what_is_wanted(void **state)
+{
+    (void)state;
+    double worst = 0;
+    values_of(values, "discs", "#include \"surface/dot_area.glsl\"",
+              "vec4(area_that_covers((x + 256.0 * y) / 65535.0), x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++)
+        worst = fmax(worst, fabs(cover_of_discs((double)values[i][0]) - i / 65535.0));
+    print_message("cover of discs: %.2g from the wanted\n", worst);
+    assert_true(worst < 0.011);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +165,7 @@ int main(void)
         cmocka_unit_test(ink_of_covers),
         cmocka_unit_test(ink_of_strokes),
         cmocka_unit_test(strokes_are_cut_smoothly),
+        cmocka_unit_test(discs_cover_what_is_wanted),
     };
     return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
 }

@@ -200,7 +200,8 @@ class Bench:
             os.utime(path, ns=(0, path.stat().st_mtime_ns))  # the next one who reads leaves a later time
         reached = self.work / "reached.txt"
         reached.unlink(missing_ok=True)
-        green, seconds, said = self.run(test, None, MUTANT_REACHED=str(reached))
+        with tempfile.TemporaryDirectory(dir=self.work) as cache:  # what is kept is made here, too
+            green, seconds, said = self.run(test, None, MUTANT_REACHED=str(reached), LIMNER_CACHE=cache)
         read = [p.relative_to(self.tree).as_posix() for p in shaders if p.stat().st_atime_ns]
         functions = sorted(set(reached.read_text().splitlines())) if reached.exists() else []
         known = {"digest": digest, "green": green, "seconds": seconds, "reached": functions + read}
