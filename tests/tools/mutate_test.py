@@ -65,6 +65,7 @@ static int is_shader_right(void)
     size_t size = file ? fread(text, 1, sizeof text - 1, file) : 0;
     return file && fclose(file) == 0 && size && strstr(text, "return x - y;") != NULL;
 }
+static const char text[] = "ab";
 int main(void)
 {
     static const char text[] = "ab";
