@@ -1,5 +1,5 @@
 /* Do so many lines crowd in a tile that all of them are finer than this? Pixels; and pens no broader than that, which do not reach into other tiles. */
-const float CALM_WIDTH = 0.5, CALM_PEN = 2.5;
+const float CALM_WIDTH = 0.75, CALM_PEN = 2.5;
 
 #ifdef HAS_CROWD
 bool is_calm(ivec2 tile)
