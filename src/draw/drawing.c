@@ -374,6 +374,7 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     lmn_status status = gpu_check(s->renderer->g, error);
     memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
     d->search = s->frame.search;
+    d->marks = s->frame.marks;
     d->traces = s->frame.traces;
     for (size_t i = 0; i < s->plan.figure_count; i++)
         d->has_traces = d->has_traces || (traces_of_rule(s->plan.figures[i].rule) && !s->plan.figures[i].unmarked);
