@@ -108,6 +108,53 @@ static void penumbras_grow(void)
     shape_release(&l.s);
 }
 
+/* Between samples, light runs evenly from row to row as from column to column: how uneven its steps are across a broad
+ * penumbra, over their mean. */
+static double unevenness(const light_map *m, bool rightwards)
+{
+    enum { MOST = 480 };
+    double line[MOST] = {0}, steps = 0, bends = 0;
+    int    length = rightwards ? m->width : m->height, lines = rightwards ? m->height : m->width, first = lines * 2 / 5,
+        last = lines * 3 / 5;
+    for (int i = 0; i < length; i++)
+        for (int k = first; k < last; k++)
+            line[i] += (double)m->drawn[rightwards ? k * m->width + i : i * m->width + k] / (last - first);
+    for (int i = 2; i < length; i++)
+        if (line[i] > 0.2 && line[i] < 0.8 && line[i - 2] > 0.2 && line[i - 2] < 0.8) {
+            steps += fabs(line[i] - line[i - 2]) / 2;
+            bends += fabs(line[i] - 2 * line[i - 1] + line[i - 2]);
+        }
+    return steps > 0 ? bends / steps : INFINITY;
+}
+
+static void light_is_even_between_samples(void)
+{
+    for (int k = 0; k < 2; k++) {
+        light_scene l = {
+            .file = "even.glb",
+            .towards = k ? (dvec){-1, 1, 0} : (dvec){0, 1, -1},
+            .softness = 20,
+            .view = {.width = 320, .height = 320, .eye = {0, 8, 0}, .up = {0, 0, -1}, .orthographic = true}};
+        shot      with, without;
+        light_map m;
+        shape_box(&l.s, "floor", dvec_of(-4, -0.1, -4), dvec_of(4, 0, 4));
+        shape_box(&l.s, "plate", k ? dvec_of(-6, 1.198, -4) : dvec_of(-4, 1.198, -6),
+                  k ? dvec_of(-1.2, 1.2, 4) : dvec_of(4, 1.2, -1.2));
+        if (light_shot(&with, &l, true)) {
+            if (light_shot(&without, &l, false)) {
+                light_map_drawn(&m, &with, &without);
+                check_at_most("P30", unevenness(&m, k), 0.3,
+                              "steps of light across a penumbra that runs %s: how uneven they are",
+                              k ? "to the right" : "down");
+                light_map_release(&m);
+                shot_release(&without);
+            }
+            shot_release(&with);
+        }
+        shape_release(&l.s);
+    }
+}
+
 /* --- whole pictures ------------------------------------------------------------------------------------- */
 
 static void court(shape *s)
@@ -957,6 +1004,7 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"penumbra", penumbras_grow},
+        {"even", light_is_even_between_samples},
         {"shadows", shadows_are_a_discs},
         {"hard", hard_is_hard},
         {"contact", contact_has_no_gap},
