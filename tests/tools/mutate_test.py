@@ -69,6 +69,7 @@ static int is_shader_right(void)
 static const char text[] = "ab";
 int main(void)
 {
+    static const char text[] = "ab";
     not_asked(1);
     return area(3, 5) != 15 || area(2, 0) != 0 || count_down(4) != 0 || distance(text + 2, text) != 2 || !is_shader_right();
 }

@@ -92,14 +92,14 @@ static void test_material(void **state)
     static const char *const names[] = {"dots", "weave of the longer kind"};
     for (int k = 0; k < 2; k++) {
         memset(&v, 'x', sizeof v);
-        strcpy(v.screen.text, "material");
+        snprintf(v.screen.text, sizeof v.screen.text, "material");
         assert_true(screen_by_material(&v, names[k]));
         assert_string_equal(v.screen.text, names[k]);
     }
-    strcpy(v.screen.text, "material");
+    snprintf(v.screen.text, sizeof v.screen.text, "material");
     assert_true(screen_by_material(&v, NULL));
     assert_string_equal(v.screen.text, "");
-    strcpy(v.screen.text, "hatch");
+    snprintf(v.screen.text, sizeof v.screen.text, "hatch");
     assert_false(screen_by_material(&v, "dots"));
     assert_string_equal(v.screen.text, "hatch");
 }
