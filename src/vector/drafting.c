@@ -1,0 +1,245 @@
+/* Sheets as draughtsmen make them: centre lines, widths of lines, sections and details with their marks. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/vector3.h"
+#include "draft/marks.h"
+#include "light/light.h"
+#include "plan/refuse.h"
+#include "vector/vector_job.h"
+
+static const double usual_narrow = 0.25; /* mm, beside lines whose widths are the look's */
+enum { CUT_TEXT_SIZE = 2 * DRAFT_CUT_SIZE };
+
+double vector_wide(const vector_job *j)
+{
+    return j->wanted->line_group > 0 ? j->wanted->line_group : 2 * usual_narrow;
+}
+
+double vector_narrow(const vector_job *j)
+{
+    return vector_wide(j) / 2;
+}
+
+/* Reference letters are ten times as high as wide lines are wide (ISO 3098), and no smaller than can be read. */
+static double letter_height(const vector_job *j)
+{
+    return fmin(fmax(10 * vector_wide(j), 3.5), 7);
+}
+
+static draft_view drafting_view(const vector_job *j, const vector_view *v, uint32_t group)
+{
+    colour ground = j->out->page.ground;
+    draft_view d = {.page = &j->out->page, .group = group, .camera = &v->camera, .ink = vector_frame_ink(ground),
+                    .narrow = vector_narrow(j), .wide = vector_wide(j)};
+    memcpy(d.box, v->box, sizeof d.box);
+    return d;
+}
+
+/* --- sections ------------------------------------------------------------------------------------------- */
+
+lmn_status vector_section(section *out, const vector_job *j, const draft_extra *extra, lmn_error *error)
+{
+    const scene_values *v = j->look->wide[KIND_SCENE].values;
+    char                text[CUT_TEXT_SIZE];
+    lmn_status          status = section_find(out, &j->pose, j->look, j->desc->select, error);
+    if (status != LMN_OK)
+        return status;
+    snprintf(text, sizeof text, "%s%s%s", v->cut.text, v->cut.text[0] ? ";" : "", extra->cut);
+    status = cut_parse(&out->cut, text, j->plan.fit.box, error);
+    bool spares = status == LMN_OK && v->cut_keep.text[0] && !out->spared;
+    return spares ? section_spare(out, j->scene, v->cut_keep.text, error) : status;
+}
+
+static bool is_turn(const edge_mesh *m, uint32_t face, const double eye[3])
+{
+    if (face == EDGE_NO_FACE || !m->materials || m->materials[face] > -2)
+        return false;
+    uint32_t cap = (uint32_t)(-2 - m->materials[face]);
+    return cap < m->cap_count && fabs(vector3_dot(m->caps[cap].normal, eye)) < 0.01;
+}
+
+void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
+{
+    for (size_t i = 0; i < scene->mesh_count; i++) {
+        edge_mesh *m = &scene->meshes[i];
+        for (uint32_t e = 0; e < m->edge_count; e++)
+            if (is_turn(m, m->edges[e].face[0], extra->axes[2]) || is_turn(m, m->edges[e].face[1], extra->axes[2]))
+                m->edges[e].flags = EDGE_QUIET;
+    }
+}
+
+lmn_status vector_check_drafting(const vector_job *j, lmn_error *error)
+{
+    bool sections = false, details = false, marks = false;
+    for (size_t i = 0; i < j->out->extras.count; i++) {
+        sections = sections || j->out->extras.items[i].kind == DRAFT_SECTION;
+        details = details || j->out->extras.items[i].kind == DRAFT_DETAIL;
+    }
+    for (size_t i = 0; i < j->look->rule_count; i++)
+        marks = marks || vector_rule_marks(&j->look->rules[i]);
+    if ((sections || details) && (j->pixels || (marks && sections))) {
+        error_set(error, LMN_UNSUPPORTED, "sections and details are drawn in lines, and the look '%s' has %s",
+                  j->look->name ? j->look->name : "", j->pixels ? "surfaces of pixels" : "marks on surfaces");
+        error_hint(error, "take the look technical or line, or fill parts with their colour (`fill`, --fill)");
+        return LMN_UNSUPPORTED;
+    }
+    return LMN_OK;
+}
+
+/* --- centre lines --------------------------------------------------------------------------------------- */
+
+lmn_status vector_find_axes(vector_job *j, lmn_error *error)
+{
+    if (!j->wanted->centre_lines)
+        return LMN_OK;
+    lmn_status status = LMN_OK;
+    if (j->section.cut.cell_count) {
+        stroke_scene whole = {0};
+        status = stroke_scene_create(&whole, &j->pose, j->stroked, j->plan.crease_angle, NULL, NULL, error);
+        if (status == LMN_OK)
+            status = draft_cylinders_find(&j->cylinders, &whole, error);
+        stroke_scene_release(&whole);
+    } else {
+        status = draft_cylinders_find(&j->cylinders, &j->strokes, error);
+    }
+    return status == LMN_OK ? draft_pitches_find(&j->pitches, &j->cylinders, error) : status;
+}
+
+enum { AROUND = 12, ALONG = 3, SAMPLES = AROUND * ALONG };
+
+/* Places on the surface of a cylinder, from one end to the other. */
+static void sample(const draft_cylinder *c, double (*out)[3])
+{
+    cylinder_fit f = {.radius = c->radius};
+    vector3_copy(f.axis, c->axis);
+    cylinder_frame(&f);
+    for (int i = 0; i < SAMPLES; i++) {
+        double angle = 2 * 3.14159265358979323846 * (i % AROUND) / AROUND, share = 0.02 + 0.48 * (i / AROUND);
+        vector3_mix(out[i], c->ends[0], c->ends[1], share);
+        vector3_add(out[i], out[i], c->radius * cos(angle), f.across[0]);
+        vector3_add(out[i], out[i], c->radius * sin(angle), f.across[1]);
+    }
+}
+
+static bool is_cut_away(const cut *c, const double p[3])
+{
+    for (int32_t i = 0; i < c->cell_count; i++) {
+        bool inside = true;
+        for (int32_t k = 0; k < c->cells[i].count && inside; k++) {
+            const cut_face *f = &c->cells[i].faces[k];
+            double          side = vector3_dot(c->planes[f->plane].normal, p) - c->planes[f->plane].offset;
+            inside = f->positive ? side > c->snap : side < -c->snap;
+        }
+        if (inside)
+            return true;
+    }
+    return false;
+}
+
+/* Is some of it there, and seen, or drawn although it is hidden? */
+static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut *cut, bool hidden)
+{
+    double   places[SAMPLES][3];
+    uint32_t before[SAMPLES];
+    bool     any = false;
+    sample(c, places);
+    if (!hidden)
+        stroke_view_count(view, (const double(*)[3])places, SAMPLES, before);
+    for (int i = 0; i < SAMPLES && !any; i++)
+        any = !is_cut_away(cut, places[i]) && (hidden || before[i] == 0);
+    return any;
+}
+
+static bool draws_hidden(const vector_job *j, uint32_t part)
+{
+    stroke_options options;
+    stroke_style   style;
+    const rule    *r = part > 0 && part <= j->scene->part_count ? plan_rule(&j->plan, part - 1) : NULL;
+    return r && vector_rule_strokes(r, &options, &style) && style.hidden != HIDDEN_NONE;
+}
+
+lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
+                              uint32_t group, lmn_error *error)
+{
+    size_t count = j->cylinders.count;
+    if (!count || !v->camera.orthographic)
+        return LMN_OK;
+    bool *shown = mem_calloc(count, sizeof *shown);
+    if (!shown)
+        return error_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        const draft_cylinder *c = &j->cylinders.items[i];
+        shown[i] = is_shown(c, view, cut, draws_hidden(j, c->part));
+    }
+    draft_view d = drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
+    lmn_status status = draft_centres(&d, &j->cylinders, &j->pitches, shown, &j->out->centres, error);
+    mem_free(shown);
+    return status;
+}
+
+/* --- marks of views ------------------------------------------------------------------------------------- */
+
+/* How far what is drawn in a view reaches up, mm from the top of the sheet. */
+static double top_of(const vector_view *v, double gap)
+{
+    return v->box[1] + gap / 2;
+}
+
+static void put_title(const vector_job *j, const vector_view *v, double letter)
+{
+    const draft_extra *e = v->extra;
+    char               words[64], scale[32];
+    draft_view         d =
+        drafting_view(j, v, sheet_add_group(&j->out->page, -1, "view titles", "view-title", 0));
+    if (e->kind == DRAFT_SECTION && e->half && !v->apart)
+        return;
+    if (e->kind == DRAFT_SECTION)
+        snprintf(words, sizeof words, "%c\xE2\x80\x93%c", e->letter, e->letter);
+    else if (e->kind == DRAFT_AUXILIARY)
+        snprintf(words, sizeof words, "%c", e->letter);
+    else {
+        vector_print_scale(scale, v->scale);
+        snprintf(words, sizeof words, "%c (%s)", e->letter, scale);
+    }
+    double model = 0, size[2];
+    lmn_error ignored = {0};
+    if (vector_measure_view(j, v, size, &ignored) == LMN_OK)
+        model = size[1] * j->unit_mm * (v->scale > 0 ? v->scale : j->out->scale);
+    draft_title(&d, words, top_of(v, v->box[3] - model), letter);
+}
+
+/* On the first view on which it can be told. */
+static void put_origin(vector_job *j, const draft_extra *e, double letter)
+{
+    for (size_t i = 0; i < j->out->view_count; i++) {
+        const vector_view *v = &j->out->views[i];
+        if (v->apart || v->extra == e || (e->kind == DRAFT_DETAIL && (v->direction != e->view)))
+            continue;
+        draft_view d = drafting_view(j, v, 0);
+        if (v->direction == LMN_VIEW_ISO || (e->kind == DRAFT_SECTION && !draft_shows_plane(&d, e)))
+            continue;
+        d.group = sheet_add_group(&j->out->page, -1, "marks of views", "view-mark", 0);
+        if (e->kind == DRAFT_SECTION)
+            draft_cutting_plane(&d, e, j->plan.fit.box, letter);
+        else if (e->kind == DRAFT_DETAIL)
+            draft_detail_circle(&d, e, letter);
+        else if (!draft_view_arrow(&d, e, j->plan.fit.box, letter))
+            continue;
+        return;
+    }
+    if (!(e->kind == DRAFT_SECTION && e->half))
+        warnings_add(&j->out->warnings, WARNING_PAGE, "none of the views shows where %c is; another one would", e->letter);
+}
+
+void vector_put_marks_of_views(vector_job *j)
+{
+    double letter = letter_height(j);
+    for (size_t i = 0; i < j->out->view_count; i++)
+        if (j->out->views[i].extra) {
+            put_origin(j, j->out->views[i].extra, letter);
+            put_title(j, &j->out->views[i], letter);
+        }
+}
