@@ -216,7 +216,7 @@ static lmn_status draw_sheet(draw_session *s, const lmn_scene *scene, lmn_sheet 
     bool               enough = true;
     for (int i = 0; i < 4 && enough; i++)
         enough = join_words(&joined[i], lists[i]);
-    lmn_sheet_desc     d = LMN_SHEET_DESC_INIT;
+    lmn_sheet_desc d = LMN_SHEET_DESC_INIT;
     d.page = v->page;
     d.scale = v->scale;
     d.unit = v->unit;

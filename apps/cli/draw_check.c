@@ -133,12 +133,21 @@ static int check_vectors(const draw_session *s)
     const struct {
         const char *name;
         bool        given;
-    } sheet_only[] = {{"scale", v->scale != NULL},   {"unit", v->unit != NULL},   {"views", v->views != NULL},
-                      {"projection", v->angle >= 0}, {"title", v->title != NULL}, {"frame", v->frame},
-                      {"plotter", v->plotter},       {"fill", v->fill},           {"verify", v->verify},
-                      {"smooth", v->smooth.given},   {"field", v->fields.count > 0},
-                      {"line-group", v->line_group >= 0}, {"centre-lines", v->centre_lines},
-                      {"section", v->sections.count > 0}, {"detail", v->details.count > 0},
+    } sheet_only[] = {{"scale", v->scale != NULL},
+                      {"unit", v->unit != NULL},
+                      {"views", v->views != NULL},
+                      {"projection", v->angle >= 0},
+                      {"title", v->title != NULL},
+                      {"frame", v->frame},
+                      {"plotter", v->plotter},
+                      {"fill", v->fill},
+                      {"verify", v->verify},
+                      {"smooth", v->smooth.given},
+                      {"field", v->fields.count > 0},
+                      {"line-group", v->line_group >= 0},
+                      {"centre-lines", v->centre_lines},
+                      {"section", v->sections.count > 0},
+                      {"detail", v->details.count > 0},
                       {"auxiliary", v->auxiliary.count > 0}};
     char list[FORMAT_LIST_SIZE];
     for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)

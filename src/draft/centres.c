@@ -36,8 +36,7 @@ typedef struct centres {
 static void put_piece(centres *c, const double a[2], const double b[2], double join, bool middle)
 {
     double length = hypot(b[0] - a[0], b[1] - a[1]);
-    if (c->failed ||
-        !mem_grow((void **)&c->pieces, &c->piece_capacity, c->piece_count + 1, sizeof *c->pieces)) {
+    if (c->failed || !mem_grow((void **)&c->pieces, &c->piece_capacity, c->piece_count + 1, sizeof *c->pieces)) {
         c->failed = true;
         return;
     }
@@ -64,8 +63,7 @@ static void put_round(centres *c, const double at[2], double radius, int32_t pit
             return;
         }
     }
-    if (c->failed ||
-        !mem_grow((void **)&c->rounds, &c->round_capacity, c->round_count + 1, sizeof *c->rounds)) {
+    if (c->failed || !mem_grow((void **)&c->rounds, &c->round_capacity, c->round_count + 1, sizeof *c->rounds)) {
         c->failed = true;
         return;
     }

@@ -47,6 +47,11 @@ static int axis_of(const double a[3])
     return fabs(a[0]) > 0.5 ? 0 : fabs(a[1]) > 0.5 ? 1 : 2;
 }
 
+int draft_section_axis(const draft_extra *e)
+{
+    return axis_of(e->axes[2]);
+}
+
 /* The view that a text begins with; the end of its name. */
 static const char *read_view(const reader *r, const char *at, lmn_view *out)
 {
@@ -195,8 +200,11 @@ static lmn_status parse_list(draft_extras *out, draft_kind kind, const char *tex
 lmn_status draft_extras_parse(draft_extras *out, const char *sections, const char *details, const char *auxiliary,
                               char up, box3 bounds, lmn_error *error)
 {
-    reader r = {.bounds = bounds, .error = error, .what = "section",
-                .form = "VIEW, VIEW@DEPTH, VIEW@DEPTH,TURN,DEPTH…, VIEW@half or VIEW@DEPTH,half; for example front@40%"};
+    reader r = {.bounds = bounds,
+                .error = error,
+                .what = "section",
+                .form =
+                    "VIEW, VIEW@DEPTH, VIEW@DEPTH,TURN,DEPTH…, VIEW@half or VIEW@DEPTH,half; for example front@40%"};
     *out = (draft_extras){.count = 0};
     lmn_status status = parse_list(out, DRAFT_SECTION, sections, parse_section, up, &r);
     r.what = "detail";

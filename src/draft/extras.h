@@ -19,8 +19,8 @@ typedef struct draft_extra {
      * axis, world */
     double depths[DRAFT_DEPTHS_MOST], turns[DRAFT_DEPTHS_MOST];
     size_t depth_count;
-    bool   half; /* what is right of turns[0] is cut */
-    char   cut[DRAFT_CUT_SIZE]; /* what is taken away, as cut_parse reads it */
+    bool   half;                 /* what is right of turns[0] is cut */
+    char   cut[DRAFT_CUT_SIZE];  /* what is taken away, as cut_parse reads it */
     double at[3], radius, scale; /* details: around what, world; scale 0: twice as large or more */
     double eye[3];               /* auxiliary: towards the eye, unit */
 } draft_extra;
@@ -29,6 +29,9 @@ typedef struct draft_extras {
     draft_extra items[DRAFT_EXTRAS_MOST];
     size_t      count;
 } draft_extras;
+
+/* The world's axis that a section's plane is at right angles to. */
+int draft_section_axis(const draft_extra *e);
 
 /* Lists separated by ';', each of which may be NULL; letters go on from one list to the next. `bounds`: of the model,
  * world. Errors: LMN_USAGE. */

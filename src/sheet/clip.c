@@ -1,4 +1,5 @@
-/* Cutting what lies on a sheet at a box or a circle: lines and areas end there, dots outside go. Pictures and texts stay. */
+/* Cutting what lies on a sheet at a box or a circle: lines and areas end there, dots outside go. Pictures and texts
+ * stay. */
 #include <math.h>
 #include <string.h>
 
@@ -232,6 +233,6 @@ bool sheet_clip(sheet *s, double x, double y, double width, double height)
 
 bool sheet_clip_circle(sheet *s, size_t first_item, const double centre[2], double radius)
 {
-    return clip_from(
-        s, (clipper){.from = s, .centre = {(float)centre[0], (float)centre[1]}, .radius = (float)radius}, first_item);
+    return clip_from(s, (clipper){.from = s, .centre = {(float)centre[0], (float)centre[1]}, .radius = (float)radius},
+                     first_item);
 }

@@ -31,9 +31,13 @@ static double letter_height(const vector_job *j)
 
 static draft_view drafting_view(const vector_job *j, const vector_view *v, uint32_t group)
 {
-    colour ground = j->out->page.ground;
-    draft_view d = {.page = &j->out->page, .group = group, .camera = &v->camera, .ink = vector_frame_ink(ground),
-                    .narrow = vector_narrow(j), .wide = vector_wide(j)};
+    colour     ground = j->out->page.ground;
+    draft_view d = {.page = &j->out->page,
+                    .group = group,
+                    .camera = &v->camera,
+                    .ink = vector_frame_ink(ground),
+                    .narrow = vector_narrow(j),
+                    .wide = vector_wide(j)};
     memcpy(d.box, v->box, sizeof d.box);
     return d;
 }
@@ -53,21 +57,47 @@ lmn_status vector_section(section *out, const vector_job *j, const draft_extra *
     return spares ? section_spare(out, j->scene, v->cut_keep.text, error) : status;
 }
 
-static bool is_turn(const edge_mesh *m, uint32_t face, const double eye[3])
+static const edge_cap *cap_of(const edge_mesh *m, uint32_t face)
 {
     if (face == EDGE_NO_FACE || !m->materials || m->materials[face] > -2)
-        return false;
+        return NULL;
     uint32_t cap = (uint32_t)(-2 - m->materials[face]);
-    return cap < m->cap_count && fabs(vector3_dot(m->caps[cap].normal, eye)) < 0.01;
+    return cap < m->cap_count ? &m->caps[cap] : NULL;
+}
+
+/* Does an edge lie in a plane in which the section turns? */
+static bool lies_in_turn(const edge_mesh *m, const mat4 *world, const mesh_edge *e, const draft_extra *extra,
+                         double near)
+{
+    const int axis = fabs(extra->axes[0][0]) > 0.5 ? 0 : fabs(extra->axes[0][1]) > 0.5 ? 1 : 2;
+    for (size_t i = 0; i + 1 < extra->depth_count + extra->half; i++) {
+        bool lies = true;
+        for (int k = 0; k < 2; k++) {
+            vec3 p = mat4_transform_point(world, m->positions[e->vertex[k]]);
+            lies = lies && fabs((double)*(&p.x + axis) - extra->turns[i]) < near;
+        }
+        if (lies)
+            return true;
+    }
+    return false;
 }
 
 void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
 {
-    for (size_t i = 0; i < scene->mesh_count; i++) {
-        edge_mesh *m = &scene->meshes[i];
-        for (uint32_t e = 0; e < m->edge_count; e++)
-            if (is_turn(m, m->edges[e].face[0], extra->axes[2]) || is_turn(m, m->edges[e].face[1], extra->axes[2]))
-                m->edges[e].flags = EDGE_QUIET;
+    for (size_t i = 0; i < scene->item_count; i++) {
+        edge_mesh *m = &scene->meshes[scene->items[i].mesh];
+        for (uint32_t k = 0; k < m->edge_count && m->cap_count; k++) {
+            mesh_edge      *e = &m->edges[k];
+            const edge_cap *caps[2] = {cap_of(m, e->face[0]), cap_of(m, e->face[1])};
+            bool            turns = false;
+            for (int side = 0; side < 2; side++)
+                turns = turns || (caps[side] && fabs(vector3_dot(caps[side]->normal, extra->axes[2])) < 0.01);
+            if (!turns && !((caps[0] || caps[1]) && lies_in_turn(m, &scene->items[i].world, e, extra,
+                                                                 1e-6 * fmax(scene->reach, scene->extent))))
+                continue;
+            e->flags = EDGE_QUIET;
+            e->face[1] = e->face[1] == EDGE_NO_FACE ? e->face[0] : e->face[1];
+        }
     }
 }
 
@@ -131,7 +161,7 @@ static bool is_cut_away(const cut *c, const double p[3])
         for (int32_t k = 0; k < c->cells[i].count && inside; k++) {
             const cut_face *f = &c->cells[i].faces[k];
             double          side = vector3_dot(c->planes[f->plane].normal, p) - c->planes[f->plane].offset;
-            inside = f->positive ? side > c->snap : side < -c->snap;
+            inside = f->positive ? side > -c->snap : side < c->snap; /* on its border, too */
         }
         if (inside)
             return true;
@@ -172,7 +202,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const draft_cylinder *c = &j->cylinders.items[i];
-        shown[i] = is_shown(c, view, cut, draws_hidden(j, c->part));
+        shown[i] = is_shown(c, view, cut, !j->cut_open && draws_hidden(j, c->part));
     }
     draft_view d = drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
     lmn_status status = draft_centres(&d, &j->cylinders, &j->pitches, shown, &j->out->centres, error);
@@ -192,10 +222,7 @@ static void put_title(const vector_job *j, const vector_view *v, double letter)
 {
     const draft_extra *e = v->extra;
     char               words[64], scale[32];
-    draft_view         d =
-        drafting_view(j, v, sheet_add_group(&j->out->page, -1, "view titles", "view-title", 0));
-    if (e->kind == DRAFT_SECTION && e->half && !v->apart)
-        return;
+    draft_view         d = drafting_view(j, v, sheet_add_group(&j->out->page, -1, "view titles", "view-title", 0));
     if (e->kind == DRAFT_SECTION)
         snprintf(words, sizeof words, "%c\xE2\x80\x93%c", e->letter, e->letter);
     else if (e->kind == DRAFT_AUXILIARY)
@@ -204,7 +231,9 @@ static void put_title(const vector_job *j, const vector_view *v, double letter)
         vector_print_scale(scale, v->scale);
         snprintf(words, sizeof words, "%c (%s)", e->letter, scale);
     }
-    double model = 0, size[2];
+    if (e->kind == DRAFT_DETAIL)
+        draft_detail_rim(&d, e);
+    double    model = 0, size[2];
     lmn_error ignored = {0};
     if (vector_measure_view(j, v, size, &ignored) == LMN_OK)
         model = size[1] * j->unit_mm * (v->scale > 0 ? v->scale : j->out->scale);
@@ -230,8 +259,9 @@ static void put_origin(vector_job *j, const draft_extra *e, double letter)
             continue;
         return;
     }
-    if (!(e->kind == DRAFT_SECTION && e->half))
-        warnings_add(&j->out->warnings, WARNING_PAGE, "none of the views shows where %c is; another one would", e->letter);
+    if (e->kind != DRAFT_SECTION || !e->half)
+        warnings_add(&j->out->warnings, WARNING_PAGE, "none of the views shows where %c is; another one would",
+                     e->letter);
 }
 
 void vector_put_marks_of_views(vector_job *j)

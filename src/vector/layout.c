@@ -155,12 +155,28 @@ static double choose_scale(const vector_layout *how, plan_of_page *p, vector_vie
 static void place_apart(const vector_layout *how, const plan_of_page *p, vector_view *views, size_t count,
                         const double (*sizes)[2], double scale, vector_layout *left)
 {
-    double depth = stack(how, views, count, sizes, scale, p->below, false, NULL), corner[2];
+    int    columns, rows, across = p->below ? 1 : 0;
+    double depth = stack(how, views, count, sizes, scale, p->below, false, NULL), corner[2], low = INFINITY, high = 0;
+    double used = across ? total(p->heights, ROWS, &rows) * scale : total(p->widths, COLUMNS, &columns) * scale;
+    used += how->gap * (across ? rows : columns);
     *left = *how;
-    left->area[p->below ? 3 : 2] -= depth;
-    corner[0] = how->area[0] + (p->below ? 0 : how->area[2] - depth);
-    corner[1] = how->area[1] + (p->below ? how->area[3] - depth : 0);
+    if (!(depth > 0))
+        return;
+    /* What is empty is shared: before, between and behind. */
+    double room = fmax(how->area[2 + across] - used - depth, 0) / 3;
+    left->area[across] += room;
+    left->area[2 + across] = used;
+    corner[across] = how->area[across] + how->area[2 + across] - depth - room;
+    corner[1 - across] = how->area[1 - across];
     stack(how, views, count, sizes, scale, p->below, true, corner);
+    for (size_t i = 0; i < count; i++)
+        if (views[i].apart) {
+            low = fmin(low, views[i].box[1 - across]);
+            high = fmax(high, views[i].box[1 - across] + views[i].box[3 - across]);
+        }
+    for (size_t i = 0; i < count; i++)
+        if (views[i].apart)
+            views[i].box[1 - across] += fmax(how->area[1 - across] + how->area[3 - across] / 2 - (low + high) / 2, 0);
 }
 
 double vector_place_views(const vector_layout *how, vector_view *views, size_t count, const double (*sizes)[2])

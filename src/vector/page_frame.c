@@ -48,8 +48,12 @@ static bool has_fields(const lmn_sheet_desc *wanted)
 static block_sizes sizes_of(const lmn_sheet_desc *wanted, double width, double height)
 {
     double      side = fmin(width, height), fraction = fmin(side / 210, 1);
-    block_sizes b = {fmax(10 * fraction, 1), fmax(16 * fraction, 2), fmin(width * 0.8, 130 * fraction),
-                     fmax(5 * fraction, 0.6), 0, 0};
+    block_sizes b = {fmax(10 * fraction, 1),
+                     fmax(16 * fraction, 2),
+                     fmin(width * 0.8, 130 * fraction),
+                     fmax(5 * fraction, 0.6),
+                     0,
+                     0};
     b.filing = has_fields(wanted) || wanted->line_group > 0 ? 2 * b.margin : b.margin;
     if (has_fields(wanted)) {
         b.unit = fmin((width - b.margin - b.filing) / block_width, 1);
@@ -92,14 +96,15 @@ lmn_status vector_check_fields(const lmn_sheet_desc *wanted, lmn_error *error)
         size_t length = strcspn(at, "=;");
         bool   known = strncmp(at, "supplement", length) == 0 && length == strlen("supplement");
         for (size_t i = 0; i < CELL_COUNT; i++)
-            known = known || (!is_own(cells[i].key) && strlen(cells[i].key) == length &&
-                              strncmp(at, cells[i].key, length) == 0);
+            known = known ||
+                    (!is_own(cells[i].key) && strlen(cells[i].key) == length && strncmp(at, cells[i].key, length) == 0);
         if (known && at[length] == '=')
             continue;
         error_set(error, LMN_USAGE, "there is no field '%.*s' in the title block", (int)(length > 40 ? 40 : length),
                   at);
-        error_hint(error, "KEY=VALUE; keys are owner, number, date, sheet, creator, approver, type, department, reference, "
-                          "status, revision, language, supplement; the title is told apart (`title`, --title)");
+        error_hint(error,
+                   "KEY=VALUE; keys are owner, number, date, sheet, creator, approver, type, department, reference, "
+                   "status, revision, language, supplement; the title is told apart (`title`, --title)");
         return LMN_USAGE;
     }
     return LMN_OK;
@@ -222,7 +227,7 @@ static void put_all_fields(sheet *s, const lmn_sheet_desc *wanted, const lmn_she
         sheet_add_rectangle(s, group, ink, x, y, width, height, 0.25 * b->unit);
         sheet_add_text(s, group, ink, cells[i].heading, x + inset, y + 2.7 * b->unit, 2.2 * b->unit, -1);
         if (strcmp(cells[i].key, "projection") == 0) {
-            put_symbol(s, group, ink, x + width * 0.55, y + height * 0.56, height * 0.62,
+            put_symbol(s, group, ink, x + width * 0.62, y + height * 0.54, height * 0.6,
                        wanted->angle == LMN_FIRST_ANGLE);
             continue;
         }
@@ -254,8 +259,8 @@ void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink
         return;
     uint32_t group = sheet_add_group(s, -1, "frame", "frame", 0);
     if (wanted->frame) {
-        sheet_add_rectangle(s, group, ink, b.filing, b.margin, s->width - b.margin - b.filing,
-                            s->height - 2 * b.margin, b.letter * 0.14);
+        sheet_add_rectangle(s, group, ink, b.filing, b.margin, s->width - b.margin - b.filing, s->height - 2 * b.margin,
+                            b.letter * 0.14);
         if (b.filing > b.margin)
             put_centring_marks(s, group, ink, &b);
         if (b.unit > 0)

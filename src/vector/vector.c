@@ -19,9 +19,10 @@
 #include "export/export.h"
 #include "finish/finish.h"
 #include "sheet/fit.h"
+#include "stroke/hatch.h"
 #include "light/light.h"
 
-static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
+static const double speck_on_page = 0.1; /* mm; the thinnest pens draw wider lines */
 /* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
 static const double simplified_part = 0.25, written_error = 0.0007;
 
@@ -299,6 +300,10 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
         return LMN_OK;
     if (j->wanted->line_group > 0)
         vector_style_in_group(&style, j->wanted->line_group);
+    if (j->cut_open) { /* what lies behind a section is not drawn there */
+        style.hidden = HIDDEN_NONE;
+        options.hidden = false;
+    }
     options.width = style.width;
     options.fine = (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM);
     style.keeps_dashed = !j->wanted->plotter;
@@ -385,6 +390,8 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
     stroke_check check = {0};
     if (j->wanted->line_group > 0)
         v->cut_width = (float)(vector_narrow(j) * VECTOR_PIXELS_PER_MM);
+    if (j->cut_open) /* 45 degrees to the page, whatever it is cut along */
+        v->cut_angle -= (float)hatch_turn(draft_section_axis(j->cut_open));
     colour *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
     for (size_t i = 0; colours && i < j->scene->part_count; i++)
         colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
@@ -398,8 +405,7 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
 }
 
 /* What lies on surfaces, and lines over it. */
-static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, const cut *cut,
-                           lmn_error *error)
+static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, const cut *cut, lmn_error *error)
 {
     stroke_view  *view = NULL;
     stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width,
@@ -468,8 +474,8 @@ static void make_paler(vector_job *j, size_t first)
 static void cut_out_detail(sheet *page, const vector_view *v, size_t first)
 {
     const double centre[2] = {v->box[0] + v->box[2] / 2, v->box[1] + v->box[3] / 2};
-    sheet_clip_circle(page, first, centre, v->extra->radius * v->height / (2 * v->camera.half_height) /
-                                               VECTOR_PIXELS_PER_MM);
+    sheet_clip_circle(page, first, centre,
+                      v->extra->radius * v->height / (2 * v->camera.half_height) / VECTOR_PIXELS_PER_MM);
 }
 
 static lmn_status draw_view(vector_job *j, const vector_view *v, const cut *cut, lmn_error *error)
@@ -550,13 +556,15 @@ static lmn_status draw_section(vector_job *j, const vector_view *v, lmn_error *e
     lmn_status           status = vector_section(&own, j, v->extra, error);
     const stroke_section cut = {&own.cut, own.spared};
     if (status == LMN_OK)
-        status = stroke_scene_create_cut(&scene, &j->pose, j->stroked, j->plan.crease_angle, 0, &cut, report_part, j,
-                                         error);
+        status =
+            stroke_scene_create_cut(&scene, &j->pose, j->stroked, j->plan.crease_angle, 0, &cut, report_part, j, error);
     if (status == LMN_OK) {
         vector_hide_turns(&scene, v->extra);
         j->shown = &scene;
+        j->cut_open = v->extra;
         status = draw_view(j, v, &own.cut, error);
         j->shown = &j->strokes;
+        j->cut_open = NULL;
     }
     stroke_scene_release(&scene);
     section_release(&own);

@@ -18,11 +18,11 @@ enum { VIEWS_MOST = 7, SHEET_VIEWS_MOST = VIEWS_MOST + DRAFT_EXTRAS_MOST };
 
 /* One view of the scene on the sheet. */
 typedef struct vector_view {
-    char        name[24];      /* "front", "iso" …, "view" when the drawing says where the eye is, "section-A" */
-    lmn_view    direction;     /* where it is one of these */
-    double      box[4];        /* on the sheet: x, y, width, height, mm */
-    int         width, height; /* the same in pixels */
-    view_camera camera;
+    char               name[24];  /* "front", "iso" …, "view" when the drawing says where the eye is, "section-A" */
+    lmn_view           direction; /* where it is one of these */
+    double             box[4];    /* on the sheet: x, y, width, height, mm */
+    int                width, height; /* the same in pixels */
+    view_camera        camera;
     const draft_extra *extra; /* what it is else; NULL: an ordinary view. Of the sheet */
     bool               apart; /* it lies beside those that are in line */
     double             scale; /* of details: millimetres of paper for one of the model; 0: the sheet's */

@@ -45,8 +45,8 @@ double vector_place_views(const vector_layout *how, vector_view *views, size_t c
 
 /* How the lines of a rule are drawn as strokes; false: it has none. */
 bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
-/* The same in widths of ISO 128-2: outlines and edges wide, `wide` mm, all else half as wide, hidden lines in its dashes;
- * without a hand's unevenness. */
+/* The same in widths of ISO 128-2: outlines and edges wide, `wide` mm, all else half as wide, hidden lines in its
+ * dashes; without a hand's unevenness. */
 void vector_style_in_group(stroke_style *style, double wide);
 bool vector_rule_needs_pixels(const rule *r, colour ground);
 /* The colour that fills a part's area: the surface's own, that of what is known about it (`datum`, may be NULL), the

@@ -137,11 +137,8 @@ static lmn_status arrange_views(vector_job *j, const double area[4], lmn_error *
     }
     if (status != LMN_OK)
         return status;
-    vector_layout how = {.gap = gap_of(j, area),
-                         .angle = j->wanted->angle,
-                         .scale = j->scale,
-                         .usual = j->usual_scale,
-                         .fit = 1};
+    vector_layout how = {
+        .gap = gap_of(j, area), .angle = j->wanted->angle, .scale = j->scale, .usual = j->usual_scale, .fit = 1};
     memcpy(how.area, area, sizeof how.area);
     s->scale = vector_place_views(&how, s->views, s->view_count, (const double(*)[2])sizes);
     for (size_t i = 0; i < s->view_count; i++) {
@@ -228,10 +225,7 @@ double vector_scale_that_fits(const vector_job *j, lmn_error *error)
         if (!(sizes[i][0] > 0 || sizes[i][1] > 0))
             return 0;
     }
-    vector_layout how = {.gap = gap_of(j, area),
-                         .angle = j->wanted->angle,
-                         .usual = true,
-                         .fit = 1};
+    vector_layout how = {.gap = gap_of(j, area), .angle = j->wanted->angle, .usual = true, .fit = 1};
     memcpy(how.area, area, sizeof how.area);
     return vector_place_views(&how, views, s->view_count, (const double(*)[2])sizes);
 }
