@@ -41,7 +41,7 @@ typedef struct lmn_sheet_desc {
     bool        centre_lines; /* of cylinders, and pitch circles */
     const char *sections;     /* "front@40%;top@half": views cut open, separated by ';'; NULL: none */
     const char *details;      /* "front@10,0,25/4/5:1": enlarged parts of views; NULL: none */
-    const char *auxiliary;    /* "1,0,1": views along directions; NULL: none */
+    const char *auxiliary;    /* "1,0,1;face@10,5,8": views along directions, or straight at a face; NULL: none */
     const char *fields;       /* "creator=A. Smith;number=4711": of the title block; NULL: none */
 } lmn_sheet_desc;
 #define LMN_SHEET_DESC_INIT                                                                                            \

@@ -167,6 +167,15 @@ static lmn_status parse_auxiliary(draft_extra *e, reader *r, char up)
 {
     const char *at = r->at;
     (void)up;
+    if (r->end - at > 5 && strncmp(at, "face@", 5) == 0) {
+        at += 5;
+        for (int k = 0; k < 3 && at; k++) {
+            at = k == 0 ? at : at < r->end && *at == ',' ? at + 1 : NULL;
+            at = at ? read_place(r, at, k, &e->at[k]) : NULL;
+        }
+        e->of_face = true;
+        return at == r->end ? LMN_OK : wrong(r, "behind face@ stands a position on it");
+    }
     for (int k = 0; k < 3 && at; k++) {
         at = k == 0 ? at : at < r->end && *at == ',' ? at + 1 : NULL;
         at = at ? text_parse_double(at, r->end, &e->eye[k]) : NULL;
@@ -212,6 +221,6 @@ lmn_status draft_extras_parse(draft_extras *out, const char *sections, const cha
     if (status == LMN_OK)
         status = parse_list(out, DRAFT_DETAIL, details, parse_detail, up, &r);
     r.what = "auxiliary view";
-    r.form = "for example 1,0,1";
+    r.form = "for example 1,0,1, or face@X,Y,Z, which looks straight at the face nearest to there";
     return status == LMN_OK ? parse_list(out, DRAFT_AUXILIARY, auxiliary, parse_auxiliary, up, &r) : status;
 }

@@ -21,6 +21,7 @@ typedef struct draft_extra {
     size_t depth_count;
     bool   half;                 /* what is right of turns[0] is cut */
     char   cut[DRAFT_CUT_SIZE];  /* what is taken away, as cut_parse reads it */
+    bool   of_face;              /* auxiliary: along the normal of the face nearest to `at` */
     double at[3], radius, scale; /* details: around what, world; scale 0: twice as large or more */
     double eye[3];               /* auxiliary: towards the eye, unit */
 } draft_extra;

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/vector3.h"
+#include "contact/surface.h"
 #include "draft/marks.h"
 #include "light/light.h"
 #include "plan/refuse.h"
@@ -99,6 +100,52 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
             e->face[1] = e->face[1] == EDGE_NO_FACE ? e->face[0] : e->face[1];
         }
     }
+}
+
+static void nearest_face(const stroke_scene *scene, size_t item, const double at[3], double *least, double out[3])
+{
+    const edge_mesh *m = &scene->meshes[scene->items[item].mesh];
+    const mat4      *world = &scene->items[item].world;
+    for (uint32_t i = 0; i < m->face_count; i++) {
+        double        corners[3][3], sides[2][3], normal[3], there[3], unused[3];
+        const double *lent[3] = {corners[0], corners[1], corners[2]};
+        for (int k = 0; k < 3; k++) {
+            vec3 p = mat4_transform_point(world, m->positions[m->faces[i][k]]);
+            vector3_set(corners[k], (double)p.x, (double)p.y, (double)p.z);
+        }
+        surface_nearest_on_triangle(at, lent, there, unused);
+        double away = vector3_distance(at, there);
+        if (!(away < *least))
+            continue;
+        for (int k = 0; k < 2; k++)
+            vector3_add(sides[k], corners[k + 1], -1, corners[0]);
+        vector3_cross(normal, sides[0], sides[1]);
+        if (!vector3_normalise(normal))
+            continue;
+        /* Faces of solids are turned so that they look outwards. */
+        vec3   own = m->normals[i];
+        double known[3] = {0, 0, 0};
+        for (int row = 0; row < 3; row++)
+            known[row] = world->m[row] * (double)own.x + world->m[4 + row] * (double)own.y +
+                         world->m[8 + row] * (double)own.z;
+        double sign = vector3_dot(known, normal) < 0 ? -1 : 1;
+        *least = away;
+        for (int k = 0; k < 3; k++)
+            out[k] = sign * normal[k];
+    }
+}
+
+lmn_status vector_face_normal(const vector_job *j, const double at[3], double out[3], lmn_error *error)
+{
+    stroke_scene scene = {0};
+    double       least = INFINITY;
+    lmn_status   status = stroke_scene_create(&scene, &j->pose, j->stroked, j->plan.crease_angle, NULL, NULL, error);
+    for (size_t i = 0; i < scene.item_count && status == LMN_OK; i++)
+        nearest_face(&scene, i, at, &least, out);
+    stroke_scene_release(&scene);
+    if (status == LMN_OK && !(least < INFINITY))
+        return error_set(error, LMN_USAGE, "there is no face that an auxiliary view could look at");
+    return status;
 }
 
 lmn_status vector_check_drafting(const vector_job *j, lmn_error *error)

@@ -161,6 +161,9 @@ static lmn_status add_extras(vector_job *j, lmn_error *error)
     lmn_sheet               *s = j->out;
     lmn_status status = draft_extras_parse(&s->extras, j->wanted->sections, j->wanted->details, j->wanted->auxiliary,
                                            j->scene->up, j->plan.fit.box, error);
+    for (size_t i = 0; i < s->extras.count && status == LMN_OK; i++)
+        if (s->extras.items[i].of_face)
+            status = vector_face_normal(j, s->extras.items[i].at, s->extras.items[i].eye, error);
     for (size_t i = 0; i < s->extras.count && status == LMN_OK; i++) {
         draft_extra *e = &s->extras.items[i];
         vector_view *v = &s->views[s->view_count];

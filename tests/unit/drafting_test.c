@@ -447,15 +447,18 @@ static void test_auxiliary(void **state)
         "multmatrix([[0.8660254037844387,0,0.5,0],[0,1,0,0],[-0.5,0,0.8660254037844387,0],[0,0,0,1]]) {\n"
         "difference() { cube(size=[40,30,20], center=true); cylinder($fn=64, h=60, r1=6, r2=6, center=true); } }\n");
     lmn_sheet_desc d = usual();
-    d.auxiliary = "0.5,0,0.8660254037844387";
+    d.auxiliary = "0.5,0,0.8660254037844387;face@7,10,7";
     lmn_sheet *s = draw(&d);
+    for (int i = 0; i < 12; i++) /* straight at the top, by a place on it: the same view */
+        assert_true(fabs(view_named(s, "auxiliary-B")->camera.view.m[i] - view_named(s, "auxiliary-A")->camera.view.m[i]) <
+                    1e-6);
     project(view_named(s, "auxiliary-A"), 0, 0, 0, at);
     each_path(s, "view-auxiliary-A", NULL, find_circle, at);
     project(view_named(s, "top"), 0, 0, 0, off);
     each_path(s, "view-top", NULL, find_circle, off);
     assert_true(at[3] >= 1 && off[3] == 0);
     assert_int_equal(lmn_sheet_warning_count(s), 0); /* the front view has the arrow */
-    assert_true(each_path(s, "marks of views", NULL, NULL, NULL) == 2);
+    assert_true(each_path(s, "marks of views", NULL, NULL, NULL) == 4);
     lmn_sheet_destroy(&s);
     lmn_scene_destroy(&f.scene);
     f.scene = kept;
@@ -511,7 +514,7 @@ static void test_refused(void **state)
                                            "front 3"};
     static const char *const details[] = {"front",         "front@1,2/3",     "front@1,2,3",
                                           "front@1,2,3/0", "front@1,2,3/4/5", "front@1,2,3/4/5:0"};
-    static const char *const directions[] = {"0,0,0", "1,2", "1,2,3,4", "up"};
+    static const char *const directions[] = {"0,0,0", "1,2", "1,2,3,4", "up", "face@1,2"};
     (void)state;
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         lmn_sheet_desc d = usual();
