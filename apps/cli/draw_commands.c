@@ -121,7 +121,8 @@ static const option options[] = {
     {"detail", 0, OPTION_LIST, AT(details), "VIEW@X,Y,Z/RADIUS[/SCALE]",
      "Beside --views: a part of a view, enlarged; for example front@10,0,25/4/5:1. May be repeated."},
     {"auxiliary", 0, OPTION_LIST, AT(auxiliary), "X,Y,Z",
-     "Beside --views: a view along a direction, which points to the eye; or face@X,Y,Z, straight at the face nearest to "
+     "Beside --views: a view along a direction, which points to the eye; or face@X,Y,Z, straight at the face nearest "
+     "to "
      "this position. May be repeated."},
     {"plotter", 0, OPTION_FLAG, AT(plotter), NULL,
      "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},

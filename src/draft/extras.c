@@ -49,7 +49,7 @@ static int axis_of(const double a[3])
 
 int draft_section_axis(const draft_extra *e)
 {
-    return axis_of(e->axes[2]);
+    return axis_of(e->axes[e->kind == DRAFT_REVOLVED ? 0 : 2]);
 }
 
 /* The view that a text begins with; the end of its name. */
@@ -101,12 +101,26 @@ static void write_cut(draft_extra *e, const reader *r)
     }
 }
 
+/* Seen from the right, what is to the right of the plane is taken away. */
+static lmn_status parse_revolved(draft_extra *e, const reader *r, const char *at)
+{
+    int across = axis_of(e->axes[0]);
+    e->kind = DRAFT_REVOLVED;
+    e->turns[0] = (side(r, across, false) + side(r, across, true)) / 2;
+    if (at < r->end && *at == ',')
+        at = read_place(r, at + 1, across, &e->turns[0]);
+    snprintf(e->cut, sizeof e->cut, "%s%c=%.17g", e->axes[0][across] > 0 ? "" : "-", 'x' + across, e->turns[0]);
+    return at == r->end ? LMN_OK : wrong(r, "behind revolved stands one place");
+}
+
 static lmn_status parse_section(draft_extra *e, reader *r, char up)
 {
     const char *at = read_view(r, r->at, &e->view);
     if (!at)
         return wrong(r, "it begins with front, back, left, right, top or bottom");
     camera_view_axes(e->view, up, e->axes);
+    if (r->end - at >= 9 && strncmp(at, "@revolved", 9) == 0)
+        return parse_revolved(e, r, at + 9);
     int    depth = axis_of(e->axes[2]), across = axis_of(e->axes[0]);
     double values[2 * DRAFT_DEPTHS_MOST];
     size_t count = 0;
@@ -213,7 +227,8 @@ lmn_status draft_extras_parse(draft_extras *out, const char *sections, const cha
                 .error = error,
                 .what = "section",
                 .form =
-                    "VIEW, VIEW@DEPTH, VIEW@DEPTH,TURN,DEPTH…, VIEW@half or VIEW@DEPTH,half; for example front@40%"};
+                    "VIEW, VIEW@DEPTH, VIEW@DEPTH,TURN,DEPTH…, VIEW@half, VIEW@DEPTH,half or VIEW@revolved,WHERE; for "
+                    "example front@40%"};
     *out = (draft_extras){.count = 0};
     lmn_status status = parse_list(out, DRAFT_SECTION, sections, parse_section, up, &r);
     r.what = "detail";

@@ -8,7 +8,8 @@
 
 enum { DRAFT_EXTRAS_MOST = 12, DRAFT_DEPTHS_MOST = 4, DRAFT_CUT_SIZE = 1200 };
 
-typedef enum draft_kind { DRAFT_SECTION, DRAFT_DETAIL, DRAFT_AUXILIARY } draft_kind;
+/* A revolved section is no view of its own: it lies in another one, turned into the plane of the sheet. */
+typedef enum draft_kind { DRAFT_SECTION, DRAFT_DETAIL, DRAFT_AUXILIARY, DRAFT_REVOLVED } draft_kind;
 
 typedef struct draft_extra {
     draft_kind kind;
@@ -19,7 +20,7 @@ typedef struct draft_extra {
      * axis, world */
     double depths[DRAFT_DEPTHS_MOST], turns[DRAFT_DEPTHS_MOST];
     size_t depth_count;
-    bool   half;                 /* what is right of turns[0] is cut */
+    bool   half;                 /* what is right of turns[0] is cut; revolved ones have turns[0] alone */
     char   cut[DRAFT_CUT_SIZE];  /* what is taken away, as cut_parse reads it */
     bool   of_face;              /* auxiliary: along the normal of the face nearest to `at` */
     double at[3], radius, scale; /* details: around what, world; scale 0: twice as large or more */

@@ -30,7 +30,7 @@ static double letter_height(const vector_job *j)
     return fmin(fmax(10 * vector_wide(j), 3.5), 7);
 }
 
-static draft_view drafting_view(const vector_job *j, const vector_view *v, uint32_t group)
+draft_view vector_drafting_view(const vector_job *j, const vector_view *v, uint32_t group)
 {
     colour     ground = j->out->page.ground;
     draft_view d = {.page = &j->out->page,
@@ -126,8 +126,8 @@ static void nearest_face(const stroke_scene *scene, size_t item, const double at
         vec3   own = m->normals[i];
         double known[3] = {0, 0, 0};
         for (int row = 0; row < 3; row++)
-            known[row] = world->m[row] * (double)own.x + world->m[4 + row] * (double)own.y +
-                         world->m[8 + row] * (double)own.z;
+            known[row] =
+                world->m[row] * (double)own.x + world->m[4 + row] * (double)own.y + world->m[8 + row] * (double)own.z;
         double sign = vector3_dot(known, normal) < 0 ? -1 : 1;
         *least = away;
         for (int k = 0; k < 3; k++)
@@ -152,7 +152,8 @@ lmn_status vector_check_drafting(const vector_job *j, lmn_error *error)
 {
     bool sections = false, details = false, marks = false;
     for (size_t i = 0; i < j->out->extras.count; i++) {
-        sections = sections || j->out->extras.items[i].kind == DRAFT_SECTION;
+        sections =
+            sections || j->out->extras.items[i].kind == DRAFT_SECTION || j->out->extras.items[i].kind == DRAFT_REVOLVED;
         details = details || j->out->extras.items[i].kind == DRAFT_DETAIL;
     }
     for (size_t i = 0; i < j->look->rule_count; i++)
@@ -251,7 +252,8 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
         const draft_cylinder *c = &j->cylinders.items[i];
         shown[i] = is_shown(c, view, cut, !j->cut_open && draws_hidden(j, c->part));
     }
-    draft_view d = drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
+    draft_view d =
+        vector_drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
     lmn_status status = draft_centres(&d, &j->cylinders, &j->pitches, shown, &j->out->centres, error);
     mem_free(shown);
     return status;
@@ -269,7 +271,7 @@ static void put_title(const vector_job *j, const vector_view *v, double letter)
 {
     const draft_extra *e = v->extra;
     char               words[64], scale[32];
-    draft_view         d = drafting_view(j, v, sheet_add_group(&j->out->page, -1, "view titles", "view-title", 0));
+    draft_view d = vector_drafting_view(j, v, sheet_add_group(&j->out->page, -1, "view titles", "view-title", 0));
     if (e->kind == DRAFT_SECTION)
         snprintf(words, sizeof words, "%c\xE2\x80\x93%c", e->letter, e->letter);
     else if (e->kind == DRAFT_AUXILIARY)
@@ -294,7 +296,7 @@ static void put_origin(vector_job *j, const draft_extra *e, double letter)
         const vector_view *v = &j->out->views[i];
         if (v->apart || v->extra == e || (e->kind == DRAFT_DETAIL && (v->direction != e->view)))
             continue;
-        draft_view d = drafting_view(j, v, 0);
+        draft_view d = vector_drafting_view(j, v, 0);
         if (v->direction == LMN_VIEW_ISO || (e->kind == DRAFT_SECTION && !draft_shows_plane(&d, e)))
             continue;
         d.group = sheet_add_group(&j->out->page, -1, "marks of views", "view-mark", 0);
@@ -314,6 +316,15 @@ static void put_origin(vector_job *j, const draft_extra *e, double letter)
 void vector_put_marks_of_views(vector_job *j)
 {
     double letter = letter_height(j);
+    for (size_t i = 0; i < j->out->extras.count; i++) {
+        const draft_extra *e = &j->out->extras.items[i];
+        bool               there = e->kind != DRAFT_REVOLVED;
+        for (size_t k = 0; k < j->out->view_count; k++)
+            there = there || (!j->out->views[k].extra && j->out->views[k].direction == e->view);
+        if (!there)
+            warnings_add(&j->out->warnings, WARNING_PAGE,
+                         "a revolved section lies in a view that is not on the sheet; it is left out");
+    }
     for (size_t i = 0; i < j->out->view_count; i++)
         if (j->out->views[i].extra) {
             put_origin(j, j->out->views[i].extra, letter);

@@ -493,6 +493,8 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, const cut *cut,
         status = vector_put_fills(page, &ink, v, j->shown, &j->plan, report_part, j, error);
     if (status == LMN_OK)
         status = draw_ink(j, v, &ink, cut, error);
+    if (status == LMN_OK && !v->extra)
+        status = vector_put_revolved(j, v, group, error);
     if (v->extra && v->extra->kind == DRAFT_DETAIL)
         cut_out_detail(page, v, first);
     make_paler(j, first);

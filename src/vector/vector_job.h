@@ -61,8 +61,12 @@ lmn_status vector_find_axes(vector_job *j, lmn_error *error);
 /* Centre lines of a view. `cut`: what is not there in it. Errors: LMN_MEMORY. */
 lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
                               uint32_t group, lmn_error *error);
+/* Sections that lie turned in a view. Errors: LMN_USAGE, LMN_MEMORY, LMN_CANCELLED. */
+lmn_status vector_put_revolved(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error);
 /* Once all views are drawn: cutting planes, circles around details, arrows, letters. */
 void vector_put_marks_of_views(vector_job *j);
+/* A view of the sheet as those who draw on it see it. */
+draft_view vector_drafting_view(const vector_job *j, const vector_view *v, uint32_t group);
 /* Widths of lines: wide and narrow ones, mm. */
 double vector_wide(const vector_job *j);
 double vector_narrow(const vector_job *j);

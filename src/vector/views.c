@@ -167,6 +167,8 @@ static lmn_status add_extras(vector_job *j, lmn_error *error)
     for (size_t i = 0; i < s->extras.count && status == LMN_OK; i++) {
         draft_extra *e = &s->extras.items[i];
         vector_view *v = &s->views[s->view_count];
+        if (e->kind == DRAFT_REVOLVED)
+            continue;
         if (j->unit_mm > 0 && e->kind == DRAFT_DETAIL && e->scale > 0 && !(e->scale * e->radius * j->unit_mm < 1e4))
             return error_set(error, LMN_LIMIT, "detail %c is more than 10 m large on the sheet", e->letter);
         *v = (vector_view){.direction = e->view, .extra = e, .apart = e->kind != DRAFT_SECTION};

@@ -385,6 +385,24 @@ static void test_half_section(void **state)
     lmn_sheet_destroy(&s);
 }
 
+/* Turned in its place: as wide as the plate is deep, its middle where the plane is. */
+static void test_revolved(void **state)
+{
+    double         at[2];
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.sections = "front@revolved,35";
+    lmn_sheet *s = draw(&d);
+    reach      r = reach_of(s, "view-front", "revolved", 0);
+    project(view_named(s, "front"), 35, 0, 5, at);
+    print_message("%.4f by %.4f mm, off by %.1e, %.1e\n", r.high[0] - r.low[0], r.high[1] - r.low[1],
+                  (r.high[0] + r.low[0]) / 2 - at[0], (r.high[1] + r.low[1]) / 2 - at[1]);
+    assert_true(fabs(r.high[0] - r.low[0] - 60) < 1e-3 && fabs(r.high[1] - r.low[1] - 10) < 1e-3);
+    assert_true(fabs((r.high[0] + r.low[0]) / 2 - at[0]) < 1e-3 && fabs((r.high[1] + r.low[1]) / 2 - at[1]) < 1e-3);
+    assert_int_equal(s->view_count, 2);
+    lmn_sheet_destroy(&s);
+}
+
 static void test_apart(void **state)
 {
     lmn_sheet_desc d = usual();
@@ -450,8 +468,8 @@ static void test_auxiliary(void **state)
     d.auxiliary = "0.5,0,0.8660254037844387;face@7,10,7";
     lmn_sheet *s = draw(&d);
     for (int i = 0; i < 12; i++) /* straight at the top, by a place on it: the same view */
-        assert_true(fabs(view_named(s, "auxiliary-B")->camera.view.m[i] - view_named(s, "auxiliary-A")->camera.view.m[i]) <
-                    1e-6);
+        assert_true(fabs(view_named(s, "auxiliary-B")->camera.view.m[i] -
+                         view_named(s, "auxiliary-A")->camera.view.m[i]) < 1e-6);
     project(view_named(s, "auxiliary-A"), 0, 0, 0, at);
     each_path(s, "view-auxiliary-A", NULL, find_circle, at);
     project(view_named(s, "top"), 0, 0, 0, off);
@@ -574,9 +592,9 @@ int main(void)
                                        cmocka_unit_test(test_tangent_edges),
 #endif
                                        cmocka_unit_test(test_centre_lines),  cmocka_unit_test(test_section_in_steps),
-                                       cmocka_unit_test(test_half_section),  cmocka_unit_test(test_apart),
-                                       cmocka_unit_test(test_detail),        cmocka_unit_test(test_auxiliary),
-                                       cmocka_unit_test(test_title_block),   cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_out_of_memory)};
+                                       cmocka_unit_test(test_half_section),  cmocka_unit_test(test_revolved),
+                                       cmocka_unit_test(test_apart),         cmocka_unit_test(test_detail),
+                                       cmocka_unit_test(test_auxiliary),     cmocka_unit_test(test_title_block),
+                                       cmocka_unit_test(test_refused),       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
