@@ -385,6 +385,12 @@ static void test_half_section(void **state)
     lmn_sheet_destroy(&s);
 }
 
+static void measure_closed(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    if (path->closed)
+        measure(s, item, path, user);
+}
+
 /* Turned in its place: as wide as the plate is deep, its middle where the plane is. */
 static void test_revolved(void **state)
 {
@@ -393,7 +399,10 @@ static void test_revolved(void **state)
     (void)state;
     d.sections = "front@revolved,35";
     lmn_sheet *s = draw(&d);
-    reach      r = reach_of(s, "view-front", "revolved", 0);
+    reach      hatch = reach_of(s, "view-front", "hatch", 0), r = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0, 0};
+    each_path(s, "view-front", "revolved", measure_closed, &r);
+    assert_true(hatch.low[0] > r.low[0] - 1e-3 && hatch.high[0] < r.high[0] + 1e-3 && hatch.low[1] > r.low[1] - 1e-3 &&
+                hatch.high[1] < r.high[1] + 1e-3 && hatch.high[0] - hatch.low[0] > 55);
     project(view_named(s, "front"), 35, 0, 5, at);
     print_message("%.4f by %.4f mm, off by %.1e, %.1e\n", r.high[0] - r.low[0], r.high[1] - r.low[1],
                   (r.high[0] + r.low[0]) / 2 - at[0], (r.high[1] + r.low[1]) / 2 - at[1]);
@@ -529,7 +538,9 @@ static void test_refused(void **state)
                                            "front@1,half,2",
                                            "front@1,30,2,20,3",
                                            "front@half,half",
-                                           "front 3"};
+                                           "front 3",
+                                           "front@revolved,",
+                                           "front@revolved,1,2"};
     static const char *const details[] = {"front",         "front@1,2/3",     "front@1,2,3",
                                           "front@1,2,3/0", "front@1,2,3/4/5", "front@1,2,3/4/5:0"};
     static const char *const directions[] = {"0,0,0", "1,2", "1,2,3,4", "up", "face@1,2"};
