@@ -314,6 +314,7 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                  {0}};
     /* By looks in ink the nearest ones, too, are to be told from it. */
     const double pale = apart > 0 ? (double)v->fade * (0.55 + 0.6 * fabs(seconds - e->now) / apart) : 0;
+    label.image = 2 + (uint32_t)j->glyph_count;
     label.pale = is_now ? 0 : (int)fmin(fmax(round(pale * PALE_MOST), pale > 0), PALE_MOST);
     lmn_status status = depict_pose(&p, j, seconds, error);
     now->posed = NULL;
