@@ -143,6 +143,17 @@ static void relax(page_way *w)
     mem_free(next);
 }
 
+/* From a sample on, one way or the other, those that were moved go back to where the way is: the turn is left out that
+ * they had given way to. */
+static void put_back(page_way *w, size_t from, bool onward)
+{
+    const course way = course_of(w);
+    for (size_t i = from; i < w->sample_count && w->moved[i] && !w->gone[i]; i += onward ? 1 : SIZE_MAX) {
+        course_at(&way, w->places[i], w->samples[i]);
+        w->moved[i] = false;
+    }
+}
+
 /* What is still sharp turns back nearly where it came from: legs that would lie on each other are left out. */
 static void break_reversals(page_way *w)
 {
@@ -156,6 +167,8 @@ static void break_reversals(page_way *w)
             gap++;
         for (size_t k = i - gap + 1; k < i + gap; k++)
             w->gone[k] = true;
+        put_back(w, i - gap, false);
+        put_back(w, i + gap, true);
     }
 }
 
@@ -283,7 +296,7 @@ void rounded_make(rounded_way *out, const depict_job *j, const double (*points)[
     } else {
         out->failed = out->failed || turns;
     }
-    if (!out->failed && turns && any_of(w.moved, w.sample_count))
+    if (!out->failed && turns && (any_of(w.moved, w.sample_count) || any_of(w.gone, w.sample_count)))
         put_runs(out, &w, points);
     else if (!out->failed)
         put_all(out, points, count);

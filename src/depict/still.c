@@ -195,7 +195,25 @@ typedef struct present {
     const pose  *posed; /* NULL: it is not seen */
     shape_change change;
     float        within; /* what is nearer to it is the same */
+    float        least;  /* what has gone less is not told */
 } present;
+
+/* Is any of it so far from where it is now? */
+static bool is_moved(const glyph_mesh *m, const vec3 *now, float within)
+{
+    for (size_t i = 0; i < m->position_count; i++)
+        if (!is_near(&m->positions[i], &now[i], within))
+            return true;
+    return false;
+}
+
+/* What of a piece is told beside that of now: all that is elsewhere, and of that what has gone far enough. What keeps
+ * its form, as a forearm of wood, has gone with its end: none of it is torn off. Was any left out? */
+static bool leave_told(glyph_mesh *m, const vec3 *there, const present *now, bool keeps_form)
+{
+    const bool whole = keeps_form && now->least > now->within && is_moved(m, there, now->least);
+    return leave_moved(m, there, whole ? now->within : fmaxf(now->least, now->within));
+}
 
 /* Where a primitive is put that keeps its form, but for what is linear in the change; false: it does not. */
 static bool find_place(mat4 *out, const pose *p, size_t part, size_t instance, const shape_change *c)
@@ -255,7 +273,7 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
         place_vertices(m.positions, p, part, instance, from, change);
     if (!m.failed && there)
         place_vertices(there, now->posed, part, instance, from, &now->change);
-    if (!m.failed && there && leave_moved(&m, there, now->within)) {
+    if (!m.failed && there && leave_told(&m, there, now, !pose_part_deforms(&p->parts[part]))) {
         step_back(j, &m); /* what is left may lie in faces that are seen now */
     } else if (!m.failed && find_place(&world, p, part, instance, change)) {
         memcpy(m.positions, from->positions, from->vertex_count * sizeof *m.positions);
@@ -320,11 +338,11 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
     now->posed = NULL;
     if (status == LMN_OK && !is_now)
         status = depict_pose(&now->posed, j, e->now, error);
-    const float within = now->within;
+    now->least = 0;
     if (status == LMN_OK && now->posed && v->least > 0) {
         float farthest;
         status = find_farthest(&farthest, j, t, p, change, now, error);
-        now->within = fmaxf(within, v->least * farthest);
+        now->least = v->least * farthest;
     }
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
@@ -339,7 +357,6 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
             status = put_primitive(j, p, i, k % draws, k / draws, change, now, &label, error);
         }
     }
-    now->within = within;
     return status;
 }
 

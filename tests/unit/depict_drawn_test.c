@@ -51,10 +51,30 @@ static void nothing_runs_through_other_times(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A pendulum is told with all of it, though what lies at its hinge has gone less far than its tip. */
+static void what_keeps_its_form_is_not_torn(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"limner_script\": 1, \"nodes\": [{\"name\": \"hinge\"}, {\"name\": \"bar\", \"parent\": \"hinge\", "
+        "\"box\": {\"size\": [4, 0.3, 0.3]}, \"translation\": [2, 0, 0]}, {\"name\": \"stub\", \"parent\": \"hinge\", "
+        "\"box\": {\"size\": [0.5, 0.5, 0.5]}}], \"behaviour\": {\"target\": \"hinge\", \"property\": "
+        "\"rotation\", \"axis\": [0, 0, 1], \"linear\": [0, 120], \"duration\": 2}}";
+    lmn_scene *s = load_or_fail(temp_file("pendulum.json", text, strlen(text)));
+    tell_at(s, 1, "[{\"target\": \"hinge\", \"depict\": \"still\", \"count\": 3, \"least\": 0.6}]");
+    size_t past = 0, triangles = 0;
+    for (const primitive *p; (p = glyph_at(s, "still", "past", past)) != NULL; past++)
+        triangles = p->index_count / 3;
+    assert_int_equal(past, 1); /* the stub stays */
+    assert_int_equal(triangles, 12);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_runs_through_other_times),
+        cmocka_unit_test(what_keeps_its_form_is_not_torn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
