@@ -23,8 +23,10 @@ static const param still_params[] = {
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
     PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
-                           "future: of a figure that sways, the limbs that swing are shown."),
+                    .doc =
+                        "Limbs that have gone less far than this part of what goes farthest have no image of past and "
+                        "future: of a figure that sways, those that swing are shown. A limb is what a joint leads, or "
+                        "what keeps its form."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -39,8 +41,10 @@ static const param plane_params[] = {
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
     PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
-                           "future: of a figure that sways, the limbs that swing are shown."),
+                    .doc =
+                        "Limbs that have gone less far than this part of what goes farthest have no image of past and "
+                        "future: of a figure that sways, those that swing are shown. A limb is what a joint leads, or "
+                        "what keeps its form."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -198,21 +202,36 @@ typedef struct present {
     float        least;  /* what has gone less is not told */
 } present;
 
-/* Is any of it so far from where it is now? */
-static bool is_moved(const glyph_mesh *m, const vec3 *now, float within)
+static float away(const vec3 *a, const vec3 *b)
 {
-    for (size_t i = 0; i < m->position_count; i++)
-        if (!is_near(&m->positions[i], &now[i], within))
-            return true;
-    return false;
+    return fmaxf(fmaxf(fabsf(a->x - b->x), fabsf(a->y - b->y)), fabsf(a->z - b->z));
 }
 
-/* What of a piece is told beside that of now: all that is elsewhere, and of that what has gone far enough. What keeps
- * its form, as a forearm of wood, has gone with its end: none of it is torn off. Was any left out? */
-static bool leave_told(glyph_mesh *m, const vec3 *there, const present *now, bool keeps_form)
+/* The joint that leads a vertex most; 0: there are none, and all goes as one. */
+static uint16_t joint_of(const primitive *from, uint32_t vertex)
 {
-    const bool whole = keeps_form && now->least > now->within && is_moved(m, there, now->least);
-    return leave_moved(m, there, whole ? now->within : fmaxf(now->least, now->within));
+    const size_t first = (size_t)vertex * from->influences;
+    uint32_t     best = 0;
+    for (uint32_t i = 1; i < from->influences; i++)
+        best = from->weights[first + i] > from->weights[first + best] ? i : best;
+    return from->influences ? from->joints[first + best] : 0;
+}
+
+/* Vertices of limbs that have gone less far than is told are where they are now, then: they are not told. A limb is
+ * what one joint leads, or all that keeps its form: it has gone as far as its end, and none of it is torn off. False:
+ * out of memory. */
+static bool settle_limbs(const glyph_mesh *m, vec3 *there, const primitive *from, float least)
+{
+    float *gone = mem_calloc((size_t)UINT16_MAX + 1, sizeof *gone); /* the farthest of each joint */
+    for (uint32_t i = 0; i < from->vertex_count && gone; i++) {
+        float *of_joint = &gone[joint_of(from, i)];
+        *of_joint = fmaxf(*of_joint, away(&m->positions[i], &there[i]));
+    }
+    for (uint32_t i = 0; i < from->vertex_count && gone; i++)
+        if (gone[joint_of(from, i)] < least)
+            there[i] = m->positions[i];
+    mem_free(gone);
+    return gone != NULL;
 }
 
 /* Where a primitive is put that keeps its form, but for what is linear in the change; false: it does not. */
@@ -273,7 +292,9 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
         place_vertices(m.positions, p, part, instance, from, change);
     if (!m.failed && there)
         place_vertices(there, now->posed, part, instance, from, &now->change);
-    if (!m.failed && there && leave_told(&m, there, now, !pose_part_deforms(&p->parts[part]))) {
+    if (!m.failed && there && now->least > now->within)
+        m.failed = !settle_limbs(&m, there, from, now->least);
+    if (!m.failed && there && leave_moved(&m, there, now->within)) {
         step_back(j, &m); /* what is left may lie in faces that are seen now */
     } else if (!m.failed && find_place(&world, p, part, instance, change)) {
         memcpy(m.positions, from->positions, from->vertex_count * sizeof *m.positions);

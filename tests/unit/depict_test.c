@@ -549,6 +549,8 @@ static void every_option_changes_the_glyphs(void **state)
             continue; /* others have tests of their own */
         for (size_t k = 0; k < row->param_count; k++) {
             char plain[256], set[320], value[64];
+            if (strcmp(row->params[k].key, "least") == 0)
+                continue; /* of a thing without limbs all goes as far: depict_drawn_test has it */
             other_value(&row->params[k], value, sizeof value);
             const char *more = strcmp(row->characteristic, "still") == 0 ? ", \"stretch\": 0.3" : "";
             if (strcmp(row->params[k].key, "stretch") == 0 || strcmp(row->params[k].key, "count") == 0)
