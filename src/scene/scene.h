@@ -381,9 +381,11 @@ int node_paleness(const node *n);
 /* And the colour that it has where the look makes it paler. Attribute NODE_TINT. False: that of its material. */
 #define NODE_TINT "tint"
 bool node_tint(const node *n, colour *out);
-/* Signs throw no shadow. Attribute NODE_SHADOWLESS. */
+/* Signs throw no shadow. Attribute NODE_SHADOWLESS: the number of the image that it is a piece of, as a ghost is made
+ * of several; 0: of none. */
 #define NODE_SHADOWLESS "shadowless"
 bool     node_throws_shadow(const node *n);
+uint32_t node_image(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);
 uint64_t mesh_line_count(const mesh *m);
 
