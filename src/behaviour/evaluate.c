@@ -40,7 +40,7 @@ void schedule_rest(const lmn_scene *scene, animation_path path, int32_t target, 
             out[k] = (double)rest[k];
         return;
     }
-    double t[3], r[4], size[3];
+    double            t[3], r[4], size[3];
     const node_place *at = node_place_of(n);
     memcpy(t, at->translation, sizeof t);
     memcpy(r, at->rotation, sizeof r);

@@ -149,7 +149,7 @@ static bool is_part_of_known(const lmn_scene *scene, const node *n)
 static bool is_ball_by_itself(const lmn_scene *scene, const node *n)
 {
     const double *size = node_place_of(n)->scale;
-    const double even = 0.05 * fabs(size[0]);
+    const double  even = 0.05 * fabs(size[0]);
     return fabs(fabs(size[1]) - fabs(size[0])) <= even && fabs(fabs(size[2]) - fabs(size[0])) <= even &&
            is_ball(scene, n) && !is_part_of_known(scene, n);
 }

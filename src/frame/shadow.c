@@ -178,9 +178,8 @@ static bool has_movers(const plan *p)
 
 static void keep(frame *f, const frame *light)
 {
-    bool *parts = has_movers(f->plan) || gpu_failed(f->g)
-                      ? NULL
-                      : mem_copy(f->plan->throws, f->plan->part_count * sizeof *parts);
+    bool *parts =
+        has_movers(f->plan) || gpu_failed(f->g) ? NULL : mem_copy(f->plan->throws, f->plan->part_count * sizeof *parts);
     if (parts)
         f->up->lit = (seen_by_light){f->shadow, light->camera.view, light->camera.projection, parts};
 }
@@ -205,7 +204,7 @@ void shadow_draw(frame *f)
     /* The ground is seen before and behind the model, too. */
     if (cast)
         camera_set_range(&viewer, f->camera.near * (f->camera.orthographic ? 1 : 0.2), f->camera.far * 2);
-    bool      hard = read || !(v->shadow_softness > 0);
+    bool  hard = read || !(v->shadow_softness > 0);
     frame light = *f;
     light.camera = f->shadow_camera =
         camera_of_light(f->plan->box, back, hard && !is_seen_elsewhere(f) ? &viewer : NULL);

@@ -467,8 +467,7 @@ int32_t city_object(city_builder *b, char *id, const char *type, size_t type_siz
     }
     n->name = id;
     char *name = scene_clean_name(type, type_size);
-    if (!name || !city_add(&b->scene->city, CITY_OBJECTS, name, 1) ||
-        !city_attribute(b->scene, index, "type", name)) {
+    if (!name || !city_add(&b->scene->city, CITY_OBJECTS, name, 1) || !city_attribute(b->scene, index, "type", name)) {
         mem_free(name);
         error_memory(b->error);
         return NONE;

@@ -9,7 +9,7 @@
 typedef struct import_job {
     const char          *path;
     const char          *model; /* the path that the caller gave; another one in files that it imports */
-    file_data           *file; /* readers may cut off what they have read */
+    file_data           *file;  /* readers may cut off what they have read */
     lmn_scene           *scene;
     const lmn_load_desc *desc; /* what only one format has; NULL: nothing */
 } import_job;

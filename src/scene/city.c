@@ -155,27 +155,27 @@ typedef enum word {
 } word;
 
 /* What surfaces are, and what they are called. */
-#define WORD_LIST(DO) \
-    DO(ROOF, "roof") \
-    DO(WALL, "wall") \
-    DO(GROUND, "ground") \
-    DO(CLOSURE, "closure") \
-    DO(CEILING, "ceiling") \
-    DO(FLOOR, "floor") \
-    DO(WINDOW, "window") \
-    DO(DOOR, "door") \
-    DO(INTERIOR, "interior") \
-    DO(WATER, "water") \
-    DO(ROAD, "road") \
-    DO(RAIL, "rail") \
-    DO(VERGE, "verge") \
-    DO(PLANT, "plant") \
-    DO(LAND, "land") \
-    DO(TERRAIN, "terrain") \
-    DO(FURNITURE, "furniture") \
-    DO(PERSON, "person") \
-    DO(VEHICLE, "vehicle") \
-    DO(BRIDGE, "bridge") \
+#define WORD_LIST(DO)                                                                                                  \
+    DO(ROOF, "roof")                                                                                                   \
+    DO(WALL, "wall")                                                                                                   \
+    DO(GROUND, "ground")                                                                                               \
+    DO(CLOSURE, "closure")                                                                                             \
+    DO(CEILING, "ceiling")                                                                                             \
+    DO(FLOOR, "floor")                                                                                                 \
+    DO(WINDOW, "window")                                                                                               \
+    DO(DOOR, "door")                                                                                                   \
+    DO(INTERIOR, "interior")                                                                                           \
+    DO(WATER, "water")                                                                                                 \
+    DO(ROAD, "road")                                                                                                   \
+    DO(RAIL, "rail")                                                                                                   \
+    DO(VERGE, "verge")                                                                                                 \
+    DO(PLANT, "plant")                                                                                                 \
+    DO(LAND, "land")                                                                                                   \
+    DO(TERRAIN, "terrain")                                                                                             \
+    DO(FURNITURE, "furniture")                                                                                         \
+    DO(PERSON, "person")                                                                                               \
+    DO(VEHICLE, "vehicle")                                                                                             \
+    DO(BRIDGE, "bridge")                                                                                               \
     DO(TUNNEL, "tunnel")
 
 #define NAMED(word, name) [word] = name,

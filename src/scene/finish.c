@@ -224,7 +224,7 @@ static void repair_transforms(check *c)
     for (size_t i = 0; i < c->scene->node_count; i++) {
         node             *n = &c->scene->nodes[i];
         const node_place *at = node_place_of(n);
-        bool good = !n->place || (all_finite(at->matrix.m, 16) && all_finite(at->translation, 3) &&
+        bool              good = !n->place || (all_finite(at->matrix.m, 16) && all_finite(at->translation, 3) &&
                                   all_finite(at->rotation, 4) && all_finite(at->scale, 3));
         for (size_t k = 0; k < n->instance_count; k++)
             if (!all_finite(n->instances[k].m, 16)) {

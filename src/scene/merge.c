@@ -24,8 +24,8 @@ static bool reserve_nodes(lmn_scene *into, lmn_scene *from)
 static bool reserve_all(lmn_scene *into, lmn_scene *from)
 {
 #define RESERVE(array, count, capacity)                                                                                \
-    (into->count == 0 || mem_grow((void **)&into->array, &into->capacity, into->count + from->count,                   \
-                                  sizeof *into->array))
+    (into->count == 0 ||                                                                                               \
+     mem_grow((void **)&into->array, &into->capacity, into->count + from->count, sizeof *into->array))
     return reserve_nodes(into, from) && RESERVE(meshes, mesh_count, mesh_capacity) &&
            RESERVE(materials, material_count, material_capacity) && RESERVE(images, image_count, image_capacity) &&
            RESERVE(cameras, camera_count, camera_capacity) && RESERVE(lights, light_count, light_capacity) &&

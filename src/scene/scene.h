@@ -51,9 +51,9 @@ typedef struct primitive {
     vec3         *normals;  /* unit; NULL: made from the crease angle when drawn */
     vec3         *straight; /* where the vertices were in the world before a projection bent it; NULL: it is not bent */
     vec2         *uvs[UV_SETS];
-    vec4         *colours;    /* linear, straight alpha */
-    uint16_t     *joints;     /* `influences` per vertex */
-    float        *weights;    /* of the joints, as many; those of a vertex sum to 1 */
+    vec4         *colours; /* linear, straight alpha */
+    uint16_t     *joints;  /* `influences` per vertex */
+    float        *weights; /* of the joints, as many; those of a vertex sum to 1 */
     uint32_t     *indices;
     uint32_t     *lines; /* NULL: none, as where there are triangles */
     morph_target *morphs;
@@ -148,23 +148,23 @@ typedef struct node_place {
 
 /* One node. Its world matrix is parent · local; `local` is its place's matrix when `has_matrix`, else T·R·S. */
 typedef struct node {
-    char      *name;                              /* may be NULL */
-    int32_t    parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
-    int32_t    last_child;                        /* makes scene_link_child O(1) */
-    int32_t    mesh, skin, camera, light;
-    int32_t    solid;     /* a node has a mesh or a solid */
-    bool       has_matrix;
-    bool       lent;      /* name and attributes are the program's, for many nodes: never freed, never written */
-    bool       hidden;    /* with all below it, by who uses the library */
-    bool       removed;   /* taken out of the scene, and empty */
-    bool       numbered;  /* its file has no name for it: the reader made one of a number */
-    bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
-    node_place *place;    /* NULL: that of its parent, without a matrix */
-    mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
-    uint32_t   instance_count; /* 0: the node itself is the one instance */
-    uint32_t   morph_weight_count, attribute_count;
-    float     *morph_weights; /* NULL: the mesh's */
-    attribute *attributes;
+    char       *name;                              /* may be NULL */
+    int32_t     parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
+    int32_t     last_child;                        /* makes scene_link_child O(1) */
+    int32_t     mesh, skin, camera, light;
+    int32_t     solid; /* a node has a mesh or a solid */
+    bool        has_matrix;
+    bool        lent;      /* name and attributes are the program's, for many nodes: never freed, never written */
+    bool        hidden;    /* with all below it, by who uses the library */
+    bool        removed;   /* taken out of the scene, and empty */
+    bool        numbered;  /* its file has no name for it: the reader made one of a number */
+    bool        ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
+    node_place *place;     /* NULL: that of its parent, without a matrix */
+    mat4       *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
+    uint32_t    instance_count; /* 0: the node itself is the one instance */
+    uint32_t    morph_weight_count, attribute_count;
+    float      *morph_weights; /* NULL: the mesh's */
+    attribute  *attributes;
 } node;
 
 typedef struct skin {

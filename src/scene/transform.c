@@ -100,9 +100,8 @@ mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3])
     return m;
 }
 
-static const node_place nowhere = {.matrix = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
-                                   .rotation = {0, 0, 0, 1},
-                                   .scale = {1, 1, 1}};
+static const node_place nowhere = {
+    .matrix = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
 
 const node_place *node_place_of(const node *n)
 {

@@ -131,7 +131,7 @@ typedef struct upload {
     csg_program     program; /* of all solids */
     csg_plane      *planes;  /* of all solids, in their own axes; items know theirs */
     size_t          plane_count, plane_capacity;
-    seen_by_light lit;
+    seen_by_light   lit;
     float (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table;     /* the same, two texels an operand, 512 operands a row; NULL: no solids */

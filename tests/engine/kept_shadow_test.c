@@ -1,5 +1,5 @@
-/* What the light sees is kept from one picture to the next. Whatever has changed between them, the next picture is, byte
- * by byte, that of a renderer that has never drawn; and where nothing has, the light is not asked again. */
+/* What the light sees is kept from one picture to the next. Whatever has changed between them, the next picture is,
+ * byte by byte, that of a renderer that has never drawn; and where nothing has, the light is not asked again. */
 #include "checked.h"
 
 #include <stdio.h>
@@ -97,7 +97,10 @@ static void pictures_know_of_every_change(void **state)
         case 0: break; /* the same again */
         case 1: w.light = "[-0.5,1,0.4]"; break;
         case 2: w.select = "!tower"; break; /* the scene has not changed; what throws shadows has */
-        case 3: w.select = "*"; w.eye[0] = 5; break;
+        case 3:
+            w.select = "*";
+            w.eye[0] = 5;
+            break;
         case 4: w.side = SIDE / 2; break;
         case 5: w.softness = 12; break;
         case 6: w.light = "[0.5,1,0.4]"; break; /* mirrored: the light's picture is as large as before */

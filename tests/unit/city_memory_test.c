@@ -13,11 +13,11 @@ enum { HOUSES = 4000, MOST_OF_FILE = 4 };
 /* Three of four have gables. Returns how many vertices it has. */
 static int append_house(text *objects, text *vertices, int i, int first)
 {
-    static const char *const flat[] = {"0,3,2,1", "0,1,5,4", "1,2,6,5", "2,3,7,6", "3,0,4,7", "4,5,6,7", NULL},
+    static const char *const        flat[] = {"0,3,2,1", "0,1,5,4", "1,2,6,5", "2,3,7,6", "3,0,4,7", "4,5,6,7", NULL},
                              *const gabled[] = {"0,3,2,1", "0,1,5,8,4", "1,2,6,5", "2,3,7,9,6",
                                                 "3,0,4,7", "4,8,9,7",   "5,6,9,8", NULL};
-    const bool gable = i % 4 != 0;
-    const int  x = 17000 * (i % 64), y = 20000 * (i / 64), width = 7013 + 613 * (i % 11), height = 5117 + 703 * (i % 9);
+    const bool                      gable = i % 4 != 0;
+    const int x = 17000 * (i % 64), y = 20000 * (i / 64), width = 7013 + 613 * (i % 11), height = 5117 + 703 * (i % 9);
     text_append(objects,
                 "%s\"house-%06d\":{\"type\":\"Building\",\"attributes\":{\"function\":\"residential\","
                 "\"yearOfConstruction\":%d,\"measuredHeight\":%.2f,\"storeysAboveGround\":%d},\"geometry\":[{\"type\":"
