@@ -2,7 +2,7 @@
 # the includes against it.
 include(${CMAKE_CURRENT_LIST_DIR}/embed.cmake)
 
-set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose behaviour cut field stroke_texture contact csg light halftone marks stroke info import export film layer lines surface perturb compose motion finish look plan annotate stage trace solids depict frame vector draw api)
+set(LIMNER_FOLDERS base fence scene sheet technique gpu construct csg_tree pose behaviour cut field stroke_texture contact csg light halftone marks stroke info import export film layer lines surface perturb compose motion finish look plan annotate stage trace solids depict draft frame vector draw api)
 
 # What one folder alone sees of libraries; all see the first.
 set(limner_all EPOXY JANSSON PNG JPEG WEBP ZLIB DEFLATE ASSIMP GLU)

@@ -96,6 +96,7 @@ typedef struct step_reader {
     const import_job *job;
     fence_reader      r;
     lmn_error        *error;
+    step_losses       losses;
     lmn_status        status;
     int32_t           plain; /* the material of what has no colour; NONE: not needed yet */
     uint64_t          vertices, triangles, lines;
@@ -306,6 +307,20 @@ static void tell_unit(step_reader *s, const char *unit_name)
             out_of_memory(s);
 }
 
+static void tell_losses(const step_reader *s)
+{
+    warnings   *list = &s->job->scene->warnings;
+    step_losses is = s->losses;
+    if (is.lost)
+        warnings_add(list, WARNING_BAD_GEOMETRY, "%u of %u faces could not be made and are missing, the first: #%u",
+                     (unsigned)is.lost, (unsigned)is.faces, (unsigned)is.first_lost);
+    if (is.damaged)
+        warnings_add(list, WARNING_BAD_GEOMETRY,
+                     "%u entities are damaged or refer to what the file does not have, the first: #%u; "
+                     "parts or edges of them may be missing",
+                     (unsigned)is.damaged, (unsigned)is.first_damaged);
+}
+
 static void read_nodes(step_reader *s)
 {
     uint32_t count = take_count(s, 4 + 4 + 16 * sizeof(double) + 4);
@@ -319,11 +334,13 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
 {
     step_reader s = {.job = job, .r = fence_read(bytes, size), .error = error, .plain = NONE};
     char       *unit_name = take_name(&s);
-    const void *from = fence_take(&s.r, sizeof(float));
+    const void *from = fence_take(&s.r, sizeof(float)), *losses = fence_take(&s.r, sizeof s.losses);
     float       coarser = 1;
     uint32_t    meshes = take_count(&s, 16);
     if (from)
         memcpy(&coarser, from, sizeof coarser);
+    if (losses)
+        memcpy(&s.losses, losses, sizeof s.losses);
     for (uint32_t i = 0; i < meshes && s.status == LMN_OK; i++)
         read_mesh(&s);
     if (s.status == LMN_OK)
@@ -336,6 +353,8 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
         warnings_add(&job->scene->warnings, WARNING_BAD_VALUE,
                      "the deflection is less than a millionth of a part's size: chords are up to %.3g times as coarse",
                      (double)coarser);
+    if (s.status == LMN_OK)
+        tell_losses(&s);
     return s.status;
 }
 

@@ -27,7 +27,7 @@ static int append_house(text *objects, text *vertices, int i, int first)
         const char *separator = face == gabled || face == flat ? "" : ",";
         text_append(objects, "%s[[", separator);
         for (const char *at = *face; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL)
-            text_append(objects, "%s%d", at == *face ? "" : ",", first + atoi(at));
+            text_append(objects, "%s%d", at == *face ? "" : ",", first + (int)strtol(at, NULL, 10));
         text_append(objects, "]]");
     }
     text_append(objects,
