@@ -199,6 +199,8 @@ static void warn_of_lines(const session *s, const lmn_scene *scene, warnings *wa
         for (size_t k = 0; k < scene->part_count && !has_strokes(fig->rule); k++) {
             if (!fig->designated[k] || !scene->parts[k].lines || (!lines && scene->parts[k].triangles))
                 continue;
+            if (scene->parts[k].edge_lines) /* pictures find these edges themselves */
+                continue;
             warnings_add(warnings, WARNING_UNUSED,
                          "lines that the file brings are drawn by looks with strokes (--set lines.operator=strokes)");
             return;

@@ -212,7 +212,7 @@ static void release_page(frame *f)
         f->kept_depth = f->page_depth;
     else
         gpu_target_release(f->g, f->page_depth);
-    gpu_target_release(f->g, f->shadow);
+    shadow_release(f);
     gpu_target_release(f->g, f->visibility);
     gpu_target_release(f->g, f->facts);
     f->facts = NULL;

@@ -106,8 +106,10 @@ bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- shadow.c --- */
 /* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a
- * direction. The caller gives f->shadow back. */
+ * direction. */
 void shadow_draw(frame *f);
+/* Gives f->shadow back, unless it is kept for the next frame. */
+void shadow_release(frame *f);
 
 /* --- visibility.c: soft shadows and ambient occlusion --- */
 /* Draws f->visibility, where the look wants it. The caller gives it back. */

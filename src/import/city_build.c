@@ -281,8 +281,14 @@ static lmn_status make_primitive(city_builder *b, const city_shape *s, size_t fr
 
 static lmn_status add_form(city_builder *b, primitive *primitives, size_t count, uint8_t word, city_forms *out)
 {
-    if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
-        return error_memory(b->error);
+    if (out->count == out->capacity) { /* most objects have three: arrays of objects wait by the thousand */
+        size_t     room = out->capacity ? 2 * out->capacity : 4;
+        city_form *grown = mem_realloc(out->items, room * sizeof *grown);
+        if (!grown)
+            return error_memory(b->error);
+        out->items = grown;
+        out->capacity = room;
+    }
     primitive *kept = mem_copy(primitives, count * sizeof *primitives);
     if (!kept)
         return error_memory(b->error);
@@ -424,7 +430,7 @@ bool city_attribute_sized(lmn_scene *scene, int32_t node_index, const char *key,
                           size_t value_size)
 {
     node      *n = &scene->nodes[node_index];
-    attribute *grown = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown);
+    attribute *grown = node_own_facts(n) ? mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown) : NULL;
     if (!grown)
         return false;
     n->attributes = grown;

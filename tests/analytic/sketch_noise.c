@@ -9,7 +9,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { RIM = 4, SIDE = 128, SCALE = 24 };
+enum { RIM = 4, WIDE = 150, SIDE = 128, SCALE = 24 };
 
 /* The field of a shape that fills the picture; the small amount keeps the rim in which fields shrink narrow. */
 static bool field_of(shot *out, const shape *s, const char *settings, const shot_view *view)
@@ -129,7 +129,7 @@ static void formula_on_surfaces(void)
                 {2, false, false, 1, 6.1, "position"}, {2, true, false, 6, 11, "position"},
                 {1, false, true, 3, 8, "normal"},      {2, true, true, 0, 8, "normal"},
                 {2, false, false, 2, 8, "curvature"},  {1, true, true, 5, 8, "curvature"}};
-    double(*said)[3] = check_alloc(SIDE * SIDE, sizeof *said);
+    double(*said)[3] = check_alloc(WIDE * SIDE, sizeof *said);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         const double radius = 4, pixel = 2 * rows[r].distance * tan(15 * pi / 180) / SIDE;
         const char  *kind = rows[r].turbulence ? "turbulence" : "noise", *by = rows[r].by;
@@ -139,7 +139,7 @@ static void formula_on_surfaces(void)
         snprintf(settings, sizeof settings,
                  "\"lock\":\"object\",\"scale\":%d,\"octaves\":%d,\"field\":\"%s\",\"by\":\"%s\"", SCALE,
                  rows[r].octaves, kind, by);
-        shot_view   view = {.width = SIDE,
+        shot_view   view = {.width = WIDE,
                             .height = SIDE,
                             .eye = {0, 0, rows[r].distance},
                             .up = {0, 1, 0},
@@ -150,8 +150,8 @@ static void formula_on_surfaces(void)
             shape_sphere(&s, "ball", dvec_of(0, 0, 0), radius, 128, 256, true);
         else
             shape_quad(&s, "wall", 40, 0);
-        for (int i = 0; i < SIDE * SIDE; i++) {
-            double x = (i % SIDE + 0.5 - SIDE / 2) * pixel, y = (SIDE / 2 - 0.5 - i / SIDE) * pixel;
+        for (int i = 0; i < WIDE * SIDE; i++) {
+            double x = (i % WIDE + 0.5 - WIDE / 2) * pixel, y = (SIDE / 2 - 0.5 - i / WIDE) * pixel;
             /* Over two pixels, to the right and up, a ball's normal turns by two pixels of its radius each. */
             const double across[3] = {2 * x / radius, 2 * y / radius,
                                       2 * sqrt(1 - (x * x + y * y) / (radius * radius))},

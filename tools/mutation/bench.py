@@ -78,12 +78,13 @@ def list_tests(build):
         text = path.read_text()
         for match in re.finditer(rf"^add_test\({quoted}\s+(?P<command>.*)\)$", text, re.MULTILINE):
             command = [re.sub(r"\\(.)", r"\1", word) for word in re.findall(r'"((?:\\.|[^"\\])*)"', match["command"])]
-            tests[match["name"]] = {"name": match["name"], "command": command, "folder": path.parent, "environment": {}, "skip": None}
+            tests[match["name"]] = {"name": match["name"], "command": command, "folder": path.parent, "environment": {}, "skip": None, "cost": SECONDS_UNKNOWN}
         for match in re.finditer(rf"^set_tests_properties\({quoted}\s+PROPERTIES\s+(?P<rows>.*)\)$", text, re.MULTILINE):
             test, rows = tests[match["name"]], dict(re.findall(r'(\w+) "((?:\\.|[^"\\])*)"', match["rows"]))
             test["folder"] = rows.get("WORKING_DIRECTORY", test["folder"])
             test["environment"] = dict(pair.split("=", 1) for pair in rows.get("ENVIRONMENT", "").split(";") if pair)
             test["skip"] = int(rows["SKIP_RETURN_CODE"]) if "SKIP_RETURN_CODE" in rows else None
+            test["cost"] = float(rows.get("COST", SECONDS_UNKNOWN))
     return list(tests.values())
 
 
@@ -199,7 +200,8 @@ class Bench:
             os.utime(path, ns=(0, path.stat().st_mtime_ns))  # the next one who reads leaves a later time
         reached = self.work / "reached.txt"
         reached.unlink(missing_ok=True)
-        green, seconds, said = self.run(test, None, MUTANT_REACHED=str(reached))
+        with tempfile.TemporaryDirectory(dir=self.work) as cache:  # what is kept is made here, too
+            green, seconds, said = self.run(test, None, MUTANT_REACHED=str(reached), LIMNER_CACHE=cache)
         read = [p.relative_to(self.tree).as_posix() for p in shaders if p.stat().st_atime_ns]
         functions = sorted(set(reached.read_text().splitlines())) if reached.exists() else []
         known = {"digest": digest, "green": green, "seconds": seconds, "reached": functions + read}
@@ -219,17 +221,22 @@ class Bench:
         return m.path
 
     def in_turn(self, m):
-        """The tests that have to do with a mutant, and what is known of them, by what they cost and found."""
+        """The tests that have to do with a mutant, and what is known of them, by what they cost and found; None where one is dearer than the budget."""
         place = self.place_of(m)
 
+        def cost(test):
+            return self.known[test["name"]]["seconds"] if test["name"] in self.known else test["cost"]
+
         def price(test):
-            known = self.known.get(test["name"], {"seconds": SECONDS_UNKNOWN})
-            return known["seconds"] / (1 + 3 * self.kills.get((test["name"], m.path), 0))
+            return cost(test) / (1 + 3 * self.kills.get((test["name"], m.path), 0))
 
         for test in sorted(self.probes[m.room], key=price):
-            known = self.know(test)
-            if known["green"] and place in known["reached"]:
-                yield test, known
+            if cost(test) > self.budget:
+                yield None, None
+            else:
+                known = self.know(test)
+                if known["green"] and place in known["reached"]:
+                    yield test, known
 
     # --- mutants ---
 
@@ -238,7 +245,7 @@ class Bench:
         ran, spent, outcome, by = [], 0, "invalid" if m.key in self.invalid else "survived", None
         if outcome == "survived":
             for test, known in self.in_turn(m):
-                if spent > self.budget:
+                if test is None or spent > self.budget:
                     outcome = "unfinished"
                     break
                 ran.append(test["name"])
