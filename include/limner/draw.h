@@ -158,7 +158,8 @@ LMN_API lmn_status lmn_drawing_encode(const lmn_drawing *drawing, const char *fo
 LMN_API void lmn_bytes_free(uint8_t *bytes);
 
 /* Writes depth.pfm, normal.pfm, id.png, edge.png and shade.png into a folder (made when missing), uncertainty.pfm
- * where something is perturbed, direction.pfm where strokes follow the form on the page, velocity.pfm of scenes that
+ * where something is perturbed, perturbed.depth.pfm, perturbed.edge.png and perturbed.shade.png besides, which are what
+ * is composed, direction.pfm where strokes follow the form on the page, velocity.pfm of scenes that
  * are drawn at a time, and for looks that are
  * seen through the same of every layer, layerK.depth.pfm and so on (docs/reference/report.md). The drawing must
  * have been made with desc.maps. Errors: LMN_USAGE, LMN_WRITE, LMN_MEMORY. */

@@ -222,7 +222,7 @@ static bool read_answer(openscad_run *e, polyhedron *out, const char *descriptio
     return good;
 }
 
-static lmn_status ask(csg_reader *r, openscad_run *e, const char *program, polyhedron *out, const char **why)
+static lmn_status ask(openscad_run *e, const char *program, polyhedron *out, const char **why)
 {
     char       path[OPENSCAD_PATH_CAPACITY + 16];
     lmn_status status = openscad_make_folder(e, "answer.off");
@@ -234,7 +234,6 @@ static lmn_status ask(csg_reader *r, openscad_run *e, const char *program, polyh
         *why = NULL;
     if (e->folder[0])
         temporary_folder_remove(e->folder);
-    (void)r;
     return status;
 }
 
@@ -261,7 +260,7 @@ lmn_status csg_evaluate(csg_reader *r, const char *head, const mat4 *above, cons
         *why =
             !openscad_is_allowed() ? "--safe runs no programs" : "openscad, which is not on the PATH, would compute it";
         if (openscad_is_allowed() && openscad_find(e))
-            status = ask(r, e, finished, out, why);
+            status = ask(e, finished, out, why);
     }
     mem_free(e);
     mem_free(finished);

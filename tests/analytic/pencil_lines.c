@@ -423,6 +423,24 @@ static int passes_of(const shot *s)
     return count;
 }
 
+/* How often a pass draws; 0: there is none. */
+static int draws_of(const shot *s, const char *name)
+{
+    json_t *report = json_loads(s->report, 0, NULL), *passes = json_object_get(report, "passes"), *pass;
+    size_t  i;
+    int     draws = 0;
+    json_array_foreach(passes, i, pass)
+    {
+        const char *own = json_string_value(json_object_get(pass, "name"));
+        draws += own && strcmp(own, name) == 0 ? (int)json_integer_value(json_object_get(pass, "draws")) : 0;
+    }
+    json_decref(report);
+    return draws;
+}
+
+/* Row P38: one pass of the scene and one of the full screen, whatever the number of copies. Edges are found once,
+ * before, and the page is encoded once, after: a copy that found its own, as Müller's do, would read the maps around it
+ * again. */
 static void one_pass(void)
 {
     static const char *const keys[] = {"\"dark\":1,\"light\":0", "\"dark\":4,\"light\":3", "\"dark\":16,\"light\":16"};
@@ -437,6 +455,8 @@ static void one_pass(void)
             int count = passes_of(&drawn);
             first = k ? first : count;
             check_near("P38", count, first, 0, "passes with %s, as with one copy", keys[k]);
+            check_near("P38", draws_of(&drawn, "geometry"), 1, 0, "  draws of the scene");
+            check_near("P38", draws_of(&drawn, "compose: sprite"), 1, 0, "  draws of the full screen for all copies");
             check_at_most("P38", count, 4, "the scene, its edges, all copies, and the page's encoding");
         }
         shot_release(&drawn);
