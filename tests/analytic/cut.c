@@ -208,12 +208,37 @@ static void open_parts_are_told(void)
     shape_release(&s);
 }
 
+/* Faces of a section are what it is made for: seen through, they let a fifth as much through as all else does. */
+static void cut_faces_are_nearly_solid(void)
+{
+    static const double opacities[] = {0.2, 0.5};
+    const shot_view     view = {.width = 120, .height = 120, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const char *const changes[] = {"scene.cut", "z=0.25", "scene.cut_hatch", "0px", "scene.cut_fill", "#000000", NULL};
+    for (int k = 0; k < 2; k++) {
+        char  look[300];
+        shape s = {0};
+        shot  cut;
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"x\",\"rules\":[{\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\","
+                 "\"count\":1},"
+                 "\"compose\":{\"technique\":\"xray\",\"opacity\":%g,\"rim\":0}}],\"finish\":{\"ground\":\"#ffffff\"}}",
+                 opacities[k]);
+        shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        if (shot_of_shape(&cut, &s, "xray.glb", look, changes, &view))
+            check_near("cut", cut.picture[4 * (60 * 120 + 60)] / 255.0, 0.2 * (1 - opacities[k]), 0.01,
+                       "white behind a black cut face of an x-ray of opacity %g", opacities[k]);
+        shot_release(&cut);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"a_ball_has_a_disc", a_ball_has_a_disc},
         {"a_corner_is_open", a_corner_is_open},
         {"hatch_covers_its_fraction", hatch_covers_its_fraction},
+        {"cut_faces_are_nearly_solid", cut_faces_are_nearly_solid},
         {"outlines_are_lines", outlines_are_lines},
         {"dialects_agree", dialects_agree},
         {"open_parts_are_told", open_parts_are_told},

@@ -158,10 +158,46 @@ static void run_profiles(void)
     }
 }
 
+/* Creases of a solid, which no record knows: one that runs up and one that runs to the right have as much ink, on both
+ * sides. */
+static void run_creases(void)
+{
+    const shot_view view = {
+        .width = SIDE, .height = SIDE, .eye = {0.003, 0.002, 5}, .up = {0, 1, 0}, .orthographic = true};
+    double ink[2][2] = {{0}};
+    for (int level = 0; level < 2; level++) {
+        shot        s = {0};
+        const char *path = check_path("wedge.csg");
+        FILE       *file = fopen(path, "w");
+        if (!check_that("line-crease", file != NULL, "a solid is written"))
+            return;
+        const char *turn = level
+                               ? "[[1,0,0,0.0021],[0,0.7071068,-0.7071068,0.0013],[0,0.7071068,0.7071068,0],[0,0,0,1]]"
+                               : "[[0.7071068,0,0.7071068,0.0021],[0,1,0,0.0013],[-0.7071068,0,0.7071068,0],[0,0,0,1]]";
+        fprintf(file, "multmatrix(%s) { cube(size=[1.2,1.2,1.2],center=true); }\n", turn);
+        fclose(file);
+        if (shot_take(&s, path, shot_line_look("{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":2}"),
+                      NULL, &view)) {
+            for (int side = 0; side < 2; side++) /* of the ridge, whose middle is that of the picture */
+                for (int across = 0; across < 5; across++)
+                    for (int along = SIDE / 2 - 20; along < SIDE / 2 + 20; along++) {
+                        int at = side ? SIDE / 2 + across : SIDE / 2 - 1 - across, x = level ? along : at,
+                            y = level ? at : along;
+                        ink[level][side] += (1 - picture_shown(s.picture[4 * (y * SIDE + x)])) / 40;
+                    }
+            shot_release(&s);
+        }
+    }
+    check_near("line-crease", ink[0][0] + ink[0][1], 2, 0.25,
+               "a crease that runs up: its ink, pixels (left %.2f, right %.2f)", ink[0][0], ink[0][1]);
+    check_near("line-crease", ink[1][0] + ink[1][1], ink[0][0] + ink[0][1], 0.03,
+               "  one that runs to the right (above %.2f, below %.2f)", ink[1][0], ink[1][1]);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"profiles", run_profiles}, {"corners", run_corners}};
-    int                     status = check_main(argc, argv, "line_width", cases, 2);
+    static const check_case cases[] = {{"profiles", run_profiles}, {"corners", run_corners}, {"creases", run_creases}};
+    int                     status = check_main(argc, argv, "line_width", cases, 3);
     shot_end();
     return status;
 }
