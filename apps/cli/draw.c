@@ -195,10 +195,28 @@ static int store_result(const draw_session *s, const result *r, const char *inpu
     return status;
 }
 
+/* The words of a list with ';' between them; NULL: there are none. Free it. */
+static bool join_words(char **out, const word_list *list)
+{
+    size_t size = 1, used = 0;
+    for (size_t i = 0; i < list->count; i++)
+        size += strlen(list->items[i]) + 1;
+    *out = list->count ? malloc(size) : NULL;
+    for (size_t i = 0; i < list->count && *out; i++)
+        used += (size_t)snprintf(*out + used, size - used, "%s%s", i ? ";" : "", list->items[i]);
+    return *out || !list->count;
+}
+
 static lmn_status draw_sheet(draw_session *s, const lmn_scene *scene, lmn_sheet **out, lmn_error *error)
 {
+    const double       groups[] = {0.25, 0.35, 0.5, 0.7};
     const draw_values *v = s->values;
-    lmn_sheet_desc     d = LMN_SHEET_DESC_INIT;
+    const word_list   *lists[4] = {&v->sections, &v->details, &v->auxiliary, &v->fields};
+    char              *joined[4] = {NULL, NULL, NULL, NULL};
+    bool               enough = true;
+    for (int i = 0; i < 4 && enough; i++)
+        enough = join_words(&joined[i], lists[i]);
+    lmn_sheet_desc d = LMN_SHEET_DESC_INIT;
     d.page = v->page;
     d.scale = v->scale;
     d.unit = v->unit;
@@ -212,7 +230,18 @@ static lmn_status draw_sheet(draw_session *s, const lmn_scene *scene, lmn_sheet 
     d.verify = v->verify;
     if (v->smooth.given)
         d.smooth = v->smooth.value;
-    return lmn_draw_sheet(out, s->renderer, scene, s->look, &s->desc, &d, error);
+    d.line_group = v->line_group >= 0 ? groups[v->line_group] : 0;
+    d.centre_lines = v->centre_lines;
+    d.sections = joined[0];
+    d.details = joined[1];
+    d.auxiliary = joined[2];
+    d.fields = joined[3];
+    lmn_status status = enough ? lmn_draw_sheet(out, s->renderer, scene, s->look, &s->desc, &d, error) : LMN_MEMORY;
+    if (!enough)
+        *error = (lmn_error){.status = LMN_MEMORY, .message = "out of memory"};
+    for (int i = 0; i < 4; i++)
+        free(joined[i]);
+    return status;
 }
 
 static int draw_picture(draw_session *s, const lmn_scene *scene, const char *input, long frame, double load_ms)

@@ -9,19 +9,19 @@
 #include "viewpoint.h"
 
 typedef struct draw_values {
-    const char      *output, *format, *look, *select, *cut, *frames, *background, *maps, *report;
-    const char      *clip, *motion, *poses;
-    const char      *expressions, *interval; /* of depict alone, with `explain` */
-    const char      *page, *scale, *unit, *views, *title;
-    word_list        sets;
-    option_size      size;
-    option_number    time, seed, samples, dpi, smooth;
-    int              up_axis, angle, perspective; /* perspective: 0 that of a camera, else lmn_projection + 1 */
-    option_number    bend, bend_from, bend_to, horizon;
-    const char      *lod, *terrain;
-    option_number    populate, deflection;
-    word_list        defines;
-    bool             quiet, verbose, frame, plotter, fill, verify, lenient, strict, fit_time, resume, explain;
+    const char   *output, *format, *look, *select, *cut, *frames, *background, *maps, *report;
+    const char   *clip, *motion, *poses;
+    const char   *expressions, *interval; /* of depict alone, with `explain` */
+    const char   *page, *scale, *unit, *views, *title;
+    word_list     sets, sections, details, auxiliary, fields;
+    option_size   size;
+    option_number time, seed, samples, dpi, smooth;
+    int up_axis, angle, line_group, perspective; /* perspective: 0 that of a camera, else lmn_projection + 1 */
+    option_number bend, bend_from, bend_to, horizon;
+    const char   *lod, *terrain;
+    option_number populate, deflection;
+    word_list     defines;
+    bool quiet, verbose, frame, plotter, centre_lines, fill, verify, lenient, strict, fit_time, resume, explain;
     viewpoint_values viewpoint;
     job_values       job;
     task_values      task;

@@ -83,6 +83,10 @@ static int check_effect(const draw_session *s)
          "goes with pictures; here are lines and areas alone"},
         {v->fill && v->plotter, "fill", "does not go with --plotter, which draws lines alone"},
         {v->angle >= 0 && !v->views, "projection", "says how --views lie, and there are none"},
+        {v->fields.count && !v->frame, "field", "stands in the title block of --frame"},
+        {v->sections.count && !v->views, "section", "stands beside other --views, for example front,top"},
+        {v->details.count && !v->views, "detail", "stands beside other --views, for example front,top"},
+        {v->auxiliary.count && !v->views, "auxiliary", "stands beside other --views, for example front,top"},
         {v->verify && !v->report, "verify", "puts its result into the report; add --report FILE"},
         {v->viewpoint.fit.given && v->views, "fit", "does not go with --views, which fill the page"},
         {v->viewpoint.fit.given && v->scale, "fit", "does not go with --scale"},
@@ -129,10 +133,22 @@ static int check_vectors(const draw_session *s)
     const struct {
         const char *name;
         bool        given;
-    } sheet_only[] = {{"scale", v->scale != NULL},   {"unit", v->unit != NULL},   {"views", v->views != NULL},
-                      {"projection", v->angle >= 0}, {"title", v->title != NULL}, {"frame", v->frame},
-                      {"plotter", v->plotter},       {"fill", v->fill},           {"verify", v->verify},
-                      {"smooth", v->smooth.given}};
+    } sheet_only[] = {{"scale", v->scale != NULL},
+                      {"unit", v->unit != NULL},
+                      {"views", v->views != NULL},
+                      {"projection", v->angle >= 0},
+                      {"title", v->title != NULL},
+                      {"frame", v->frame},
+                      {"plotter", v->plotter},
+                      {"fill", v->fill},
+                      {"verify", v->verify},
+                      {"smooth", v->smooth.given},
+                      {"field", v->fields.count > 0},
+                      {"line-group", v->line_group >= 0},
+                      {"centre-lines", v->centre_lines},
+                      {"section", v->sections.count > 0},
+                      {"detail", v->details.count > 0},
+                      {"auxiliary", v->auxiliary.count > 0}};
     char list[FORMAT_LIST_SIZE];
     for (size_t i = 0; i < OPTION_COUNT(sheet_only) && !s->format.vectors; i++)
         if (sheet_only[i].given)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const char *const angles[] = {"third", "first", NULL};
+static const char *const line_groups[] = {"0.25", "0.35", "0.5", "0.7", NULL};
 static const char *const perspectives[] = {"single", "multi", "panorama", NULL};
 
 static void write_format_doc(char *out, size_t size)
@@ -105,6 +106,24 @@ static const option options[] = {
     {"title", 0, OPTION_TEXT, AT(title), "TEXT", "Title of a vector drawing."},
     {"frame", 0, OPTION_FLAG, AT(frame), NULL,
      "Frame and title block around a vector drawing; its scale is one of the usual ones."},
+    {"field", 0, OPTION_LIST, AT(fields), "KEY=VALUE",
+     "Of the title block of --frame, which then has all fields of ISO 7200: owner, number, date, sheet, creator, "
+     "approver, type, department, reference, status, revision, language, supplement. May be repeated."},
+    {"line-group", 0, OPTION_CHOICE, AT(line_group), "0.25|0.35|0.5|0.7",
+     "Of vector drawings: widths of lines by ISO 128-2, outlines and edges so wide (mm), all else half of it. Default: "
+     "widths of the look.",
+     .choices = line_groups},
+    {"centre-lines", 0, OPTION_FLAG, AT(centre_lines), NULL,
+     "Of vector drawings in parallel projection: axes of cylinders, and pitch circles."},
+    {"section", 0, OPTION_LIST, AT(sections), "VIEW[@WHERE]",
+     "Beside --views: a view cut open, with its cutting plane on another view. front, front@40%, front@10,50%,25 (in "
+     "steps: at depth 10 up to half of the width, then at 25), front@half. May be repeated."},
+    {"detail", 0, OPTION_LIST, AT(details), "VIEW@X,Y,Z/RADIUS[/SCALE]",
+     "Beside --views: a part of a view, enlarged; for example front@10,0,25/4/5:1. May be repeated."},
+    {"auxiliary", 0, OPTION_LIST, AT(auxiliary), "X,Y,Z",
+     "Beside --views: a view along a direction, which points to the eye; or face@X,Y,Z, straight at the face nearest "
+     "to "
+     "this position. May be repeated."},
     {"plotter", 0, OPTION_FLAG, AT(plotter), NULL,
      "Vector drawings of lines alone, pen by pen, in an order that makes the pen's way short."},
     {"fill", 0, OPTION_FLAG, AT(fill), NULL,

@@ -35,10 +35,19 @@ typedef struct lmn_sheet_desc {
     bool   verify;  /* check visibility of all strokes by casting rays; the report has the result */
     double smooth;  /* mm: lines are drawn as straight lines, arcs and cubics that are nowhere farther from them than
                        this, 0 to 10; 0: as polylines. Since 0.1 */
+    /* Drafting (docs/DRAFTING.md), since 0.1: */
+    double line_group; /* mm: widths of ISO 128-2, outlines and edges so wide, all else half of it: 0.25, 0.35, 0.5,
+                          0.7; 0: those of the look */
+    bool        centre_lines; /* of cylinders, and pitch circles */
+    const char *sections;     /* "front@40%;top@half": views cut open, separated by ';'; NULL: none */
+    const char *details;      /* "front@10,0,25/4/5:1": enlarged parts of views; NULL: none */
+    const char *auxiliary;    /* "1,0,1;face@10,5,8": views along directions, or straight at a face; NULL: none */
+    const char *fields;       /* "creator=A. Smith;number=4711": of the title block; NULL: none */
 } lmn_sheet_desc;
 #define LMN_SHEET_DESC_INIT                                                                                            \
     {                                                                                                                  \
-        sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false, 0.02 \
+        sizeof(lmn_sheet_desc), NULL, NULL, NULL, NULL, LMN_THIRD_ANGLE, NULL, false, false, false, false, false,      \
+            0.02, 0, false, NULL, NULL, NULL, NULL                                                                     \
     }
 
 /* Do the look's surfaces need pixels, which lie below the lines as a picture? When not, lmn_draw_sheet needs no

@@ -8,6 +8,7 @@
 #include "base/file_store.h"
 #include "base/memory.h"
 #include "base/work.h"
+#include "draft/draw.h"
 #include "draw/sheet.h"
 #include "export/export.h"
 
@@ -36,6 +37,11 @@ static lmn_status complete(lmn_sheet_desc *full, const lmn_sheet_desc *given, lm
         return error_set(error, LMN_USAGE, "lmn_draw_sheet: there is no angle %d", (int)full->angle);
     if (status == LMN_OK && !(full->smooth >= 0 && full->smooth <= 10))
         return error_set(error, LMN_USAGE, "lmn_draw_sheet: smooth is %g mm; it is 0 to 10", full->smooth);
+    if (status == LMN_OK && full->line_group != 0 && !draft_group_is_known(full->line_group))
+        return error_set(
+            error, LMN_USAGE,
+            "lmn_draw_sheet: line_group is %g mm; it is 0.25, 0.35, 0.5 or 0.7, or 0 for widths of the look",
+            full->line_group);
     return status;
 }
 

@@ -224,10 +224,11 @@ bool cairo_find_letters(cairo_letters *out, const char *words, double size)
     static const double finer = 64; /* cairo keeps positions as multiples of 1/256 */
     static const char   kinds[] = {'m', 'l', 'c', 'h'};
     static const int    numbers[] = {2, 2, 6, 0};
-    cairo_surface_t    *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t            *context = cairo_create(surface);
-    PangoLayout        *layout = layout_of(context, words, finer * size);
-    int                 width, height;
+    /* Without bounds: far beyond those of a surface cairo leaves letters out. */
+    cairo_surface_t *surface = cairo_recording_surface_create(CAIRO_CONTENT_ALPHA, NULL);
+    cairo_t         *context = cairo_create(surface);
+    PangoLayout     *layout = layout_of(context, words, finer * size);
+    int              width, height;
     pango_layout_get_size(layout, &width, &height);
     *out = (cairo_letters){.width = (double)width / PANGO_SCALE / finer};
     cairo_move_to(context, 0, -(double)pango_layout_get_baseline(layout) / PANGO_SCALE);

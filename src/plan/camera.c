@@ -49,6 +49,15 @@ static void named_view(lmn_view view, char up, double to_eye[3], double up_axis[
     }
 }
 
+void camera_view_axes(lmn_view view, char up_axis, double out[3][3])
+{
+    named_view(view, up_axis, out[2], out[1]);
+    normalise3(out[2]);
+    cross3(out[1], out[2], out[0]);
+    normalise3(out[0]);
+    cross3(out[2], out[0], out[1]);
+}
+
 static void corners_of(box3 box, double out[8][3])
 {
     for (int i = 0; i < 8; i++) {

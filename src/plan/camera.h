@@ -24,6 +24,9 @@ typedef struct view_camera {
 lmn_status camera_place(view_camera *out, const lmn_draw_desc *desc, const pose *pose, const fit_body *body,
                         lmn_error *error);
 
+/* Where a named view's right, up and way to the eye point, unit. `up_axis`: of the scene, 'y' or 'z'. */
+void camera_view_axes(lmn_view view, char up_axis, double out[3][3]);
+
 /* Sets near and far so that they hug depths from `nearest` to `farthest` (eye depth), and the projection. */
 void camera_set_range(view_camera *camera, double nearest, double farthest);
 

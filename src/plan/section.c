@@ -45,6 +45,13 @@ lmn_status section_find(section *out, const pose *pose, const lmn_look *look, co
     return status;
 }
 
+lmn_status section_spare(section *s, const lmn_scene *scene, const char *selector, lmn_error *error)
+{
+    mem_free(s->spared);
+    s->spared = NULL;
+    return match_parts(&s->spared, scene, selector, false, error);
+}
+
 void section_release(section *s)
 {
     mem_free(s->spared);

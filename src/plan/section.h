@@ -15,6 +15,8 @@ typedef struct section {
 /* Percentages of a cut count along the bounds of what is selected (NULL: all). Errors: LMN_USAGE, LMN_MEMORY.
  * Release it also after one. */
 lmn_status section_find(section *out, const pose *pose, const lmn_look *look, const char *select, lmn_error *error);
+/* Sets which parts stay whole, by a selector. Errors: LMN_USAGE, LMN_MEMORY. */
+lmn_status section_spare(section *s, const lmn_scene *scene, const char *selector, lmn_error *error);
 void       section_release(section *s);
 /* Of a scene with so many parts and ghosts; false when memory is gone. */
 bool section_copy(section *out, const section *from, size_t part_count);

@@ -1,9 +1,12 @@
-/* Cutting what lies on a sheet at a box: lines and areas end there, dots outside go. Pictures and texts stay. */
+/* Cutting what lies on a sheet at a box or a circle: lines and areas end there, dots outside go. Pictures and texts
+ * stay. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "sheet/sheet.h"
+
+enum { CIRCLE_SIDES = 72 }; /* of the polygon that areas are cut at */
 
 typedef struct clipper {
     const sheet *from;
@@ -11,6 +14,7 @@ typedef struct clipper {
     float (*points)[2];
     size_t path_count, path_capacity, point_count, point_capacity;
     float  low[2], high[2];
+    float  centre[2], radius; /* of a circle; 0: the box counts */
     bool   failed;
 } clipper;
 
@@ -44,6 +48,8 @@ static void put_path(clipper *c, const sheet_path *like, size_t first, size_t le
 
 static bool is_inside(const clipper *c, const float p[2])
 {
+    if (c->radius > 0)
+        return hypotf(p[0] - c->centre[0], p[1] - c->centre[1]) <= c->radius;
     return p[0] >= c->low[0] && p[0] <= c->high[0] && p[1] >= c->low[1] && p[1] <= c->high[1];
 }
 
@@ -58,9 +64,24 @@ static void clip_dots(clipper *c, const sheet_path *path)
     put_path(c, path, first, 1, false);
 }
 
+static bool cut_at_circle(const clipper *c, const float a[2], const float b[2], float cut[2])
+{
+    double x = (double)a[0] - (double)c->centre[0], y = (double)a[1] - (double)c->centre[1];
+    double dx = (double)b[0] - (double)a[0], dy = (double)b[1] - (double)a[1], square = dx * dx + dy * dy;
+    double half = x * dx + y * dy, rest = x * x + y * y - (double)c->radius * (double)c->radius;
+    double under = half * half - square * rest;
+    if (!(square > 0) || !(under > 0))
+        return false;
+    cut[0] = (float)fmax((-half - sqrt(under)) / square, 0);
+    cut[1] = (float)fmin((-half + sqrt(under)) / square, 1);
+    return cut[0] < cut[1];
+}
+
 /* The part of a straight piece that lies inside, as fractions; false: nothing. */
 static bool cut_piece(const clipper *c, const float a[2], const float b[2], float cut[2])
 {
+    if (c->radius > 0)
+        return cut_at_circle(c, a, b, cut);
     cut[0] = 0;
     cut[1] = 1;
     for (int k = 0; k < 2; k++) {
@@ -104,20 +125,28 @@ static void clip_line(clipper *c, const sheet_path *path)
     put_path(c, &like, first, 2, false);
 }
 
-/* An area, cut at one side of the box after the other (Sutherland and Hodgman). */
+/* How far inside of one side of the box, or of the polygon around the circle, a point is. */
+static float inside_of_side(const clipper *c, int side, const float p[2])
+{
+    if (c->radius > 0) {
+        float angle = 6.28318531f * (float)side / CIRCLE_SIDES;
+        return c->radius - (p[0] - c->centre[0]) * cosf(angle) - (p[1] - c->centre[1]) * sinf(angle);
+    }
+    return side & 1 ? c->high[side / 2] - p[side / 2] : p[side / 2] - c->low[side / 2];
+}
+
+/* An area, cut at one side after the other (Sutherland and Hodgman). */
 static void clip_area(clipper *c, const sheet_path *path)
 {
     size_t begin = c->point_count;
     for (uint32_t i = 0; i < path->count; i++)
         put_point(c, c->from->points[path->first + i][0], c->from->points[path->first + i][1]);
-    for (int side = 0; side < 4 && !c->failed; side++) {
-        int    axis = side / 2;
-        float  limit = side & 1 ? c->high[axis] : c->low[axis], sign = side & 1 ? -1 : 1;
-        size_t from = begin, count = c->point_count - begin, next = c->point_count;
+    for (int side = 0; side < (c->radius > 0 ? CIRCLE_SIDES : 4) && !c->failed; side++) {
+        size_t count = c->point_count - begin, next = c->point_count;
         for (size_t i = 0; i < count && !c->failed; i++) {
-            const float a[2] = {c->points[from + i][0], c->points[from + i][1]};
-            const float b[2] = {c->points[from + (i + 1) % count][0], c->points[from + (i + 1) % count][1]};
-            float       before = sign * (a[axis] - limit), after = sign * (b[axis] - limit);
+            const float a[2] = {c->points[begin + i][0], c->points[begin + i][1]};
+            const float b[2] = {c->points[begin + (i + 1) % count][0], c->points[begin + (i + 1) % count][1]};
+            float       before = inside_of_side(c, side, a), after = inside_of_side(c, side, b);
             if (before >= 0)
                 put_point(c, a[0], a[1]);
             if ((before < 0) != (after < 0)) {
@@ -142,12 +171,20 @@ static bool reaches_out(const clipper *c, const sheet_path *path)
     return false;
 }
 
-bool sheet_clip(sheet *s, double x, double y, double width, double height)
+static void keep_path(clipper *c, const sheet_path *path)
 {
-    clipper c = {.from = s, .low = {(float)x, (float)y}, .high = {(float)(x + width), (float)(y + height)}};
-    bool    any = false;
-    for (size_t i = 0; i < s->path_count && !any; i++)
-        any = reaches_out(&c, &s->paths[i]);
+    size_t begin = c->point_count;
+    for (uint32_t n = 0; n < path->count; n++)
+        put_point(c, c->from->points[path->first + n][0], c->from->points[path->first + n][1]);
+    put_path(c, path, begin, 1, path->closed);
+}
+
+static bool clip_from(sheet *s, clipper c, size_t first_item)
+{
+    bool any = false;
+    for (size_t i = first_item; i < s->item_count; i++)
+        for (uint32_t k = 0; k < s->items[i].count && !any; k++)
+            any = reaches_out(&c, &s->paths[s->items[i].first + k]);
     if (!any || s->failed)
         return false;
     size_t kept = 0;
@@ -159,18 +196,14 @@ bool sheet_clip(sheet *s, double x, double y, double width, double height)
             const sheet_path *path = &s->paths[item.first + k];
             if (path->count == 0)
                 continue;
-            if (item.kind == SHEET_DOTS)
+            if (i < first_item || !reaches_out(&c, path))
+                keep_path(&c, path);
+            else if (item.kind == SHEET_DOTS)
                 clip_dots(&c, path);
             else if (path->filled)
                 clip_area(&c, path);
-            else if (reaches_out(&c, path))
+            else
                 clip_line(&c, path);
-            else {
-                size_t begin = c.point_count;
-                for (uint32_t n = 0; n < path->count; n++)
-                    put_point(&c, s->points[path->first + n][0], s->points[path->first + n][1]);
-                put_path(&c, path, begin, 1, path->closed);
-            }
         }
         if (has_paths) {
             item.first = (uint32_t)first;
@@ -190,4 +223,16 @@ bool sheet_clip(sheet *s, double x, double y, double width, double height)
     s->path_capacity = c.path_capacity;
     s->point_capacity = c.point_capacity;
     return true;
+}
+
+bool sheet_clip(sheet *s, double x, double y, double width, double height)
+{
+    return clip_from(
+        s, (clipper){.from = s, .low = {(float)x, (float)y}, .high = {(float)(x + width), (float)(y + height)}}, 0);
+}
+
+bool sheet_clip_circle(sheet *s, size_t first_item, const double centre[2], double radius)
+{
+    return clip_from(s, (clipper){.from = s, .centre = {(float)centre[0], (float)centre[1]}, .radius = (float)radius},
+                     first_item);
 }

@@ -117,4 +117,7 @@ void sheet_add_line(sheet *s, uint32_t group, colour ink, const double a[2], con
  * anything outside. */
 bool sheet_clip(sheet *s, double x, double y, double width, double height);
 
+/* The same at a circle, of what was added from an item on; pictures stay, and areas are cut at a polygon. */
+bool sheet_clip_circle(sheet *s, size_t first_item, const double centre[2], double radius);
+
 #endif

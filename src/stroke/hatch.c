@@ -40,13 +40,19 @@ typedef struct hatcher {
     uint32_t           trimmed; /* its item */
 } hatcher;
 
+double hatch_turn(int axis)
+{
+    static const double turns[3] = {0, 90, 50};
+    return axis >= 0 && axis < 3 ? turns[axis] : 0;
+}
+
 /* As draughtsmen do, each part and body turns its lines, and what has the same angle has another distance; planes that
  * meet in a corner differ as well. The numbers are those of light/cut.glsl. */
 static hatching hatching_of(const hatcher *h, uint32_t item, const edge_cap *cap)
 {
-    static const double turns[6] = {0, 90, -15, 105, 15, 75}, axes[3] = {0, 90, 50}, scales[3] = {1, 0.8, 1.25};
+    static const double turns[6] = {0, 90, -15, 105, 15, 75}, scales[3] = {1, 0.8, 1.25};
     uint32_t            index = h->v->scene->items[item].part_index + cap->body;
-    double              angle = h->angle + (turns[index % 6] + axes[cap->axis]) * RADIANS;
+    double              angle = h->angle + (turns[index % 6] + hatch_turn(cap->axis)) * RADIANS;
     return (hatching){
         {cos(angle), sin(angle)}, {-sin(angle), cos(angle)}, h->apart * scales[index / 2 % 3], 0.37 * index};
 }

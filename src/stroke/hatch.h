@@ -20,6 +20,10 @@ typedef struct hatch_lines {
 lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, double angle, const bool *parts,
                       lmn_error *error);
 
+/* By how much lines are turned on planes nearest to being at right angles to an axis (0 … 2), degrees: all planes of
+ * one drawing that shows a single one need no turn. */
+double hatch_turn(int axis);
+
 /* Holds the lines against rays, as stroke_verify does. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status hatch_verify(stroke_check *out, const hatch_lines *lines, const stroke_view *v, float apart,
                         lmn_error *error);

@@ -97,6 +97,8 @@ float ribbon_width(const ribbon_job *job, const stroke *s)
     const stroke_style *style = job->style;
     if (s->hidden_by > 0 && style->hidden_width > 0)
         return style->hidden_width;
+    if (style->narrow && (s->kind == STROKE_MATERIAL || s->kind >= STROKE_DRAWN))
+        return style->width / 2;
     return (float)stroke_width_on_piece(s, style->width * (is_outline(s->kind) ? 1 : style->crease_width));
 }
 

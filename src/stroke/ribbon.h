@@ -16,6 +16,7 @@ typedef struct stroke_style {
     float   crease_width;          /* of all that is no outline, fraction of the width */
     int32_t brush;                 /* stroke_brush */
     float   cover;                 /* the most of the page that lines cover where they crowd; 0 and 1: any */
+    bool    narrow;                /* borders of colours and tangent edges are half as wide, as on drawings */
     float   taper;                 /* length over which ends thin out; 0: none */
     float   pressure;              /* 0 … 1: how much the width varies along */
     float   wobble, wobble_length; /* how far from the true line; how far apart its waves are */

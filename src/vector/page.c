@@ -108,7 +108,8 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
         for (size_t i = 0; i < *count; i++)
             if (out[i].direction == (lmn_view)which)
                 return error_set(error, LMN_USAGE, "the views are '%.80s'; %s is there twice", text, view_names[which]);
-        out[*count] = (vector_view){.name = view_names[which], .direction = (lmn_view)which};
+        out[*count] = (vector_view){.direction = (lmn_view)which};
+        snprintf(out[*count].name, sizeof out[*count].name, "%s", view_names[which]);
         ++*count;
         at += length;
         if (!*at)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "compose/compose.h"
+#include "draft/draw.h"
 #include "vector/vector_private.h"
 #include "finish/finish.h"
 #include "layer/layer.h"
@@ -93,6 +94,24 @@ bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *s
     take_layers(options, style, r);
     take_hand(style, r);
     return options->contours != CONTOURS_NONE || options->creases || options->borders;
+}
+
+void vector_style_in_group(stroke_style *style, double wide)
+{
+    const float narrow = (float)(wide / 2 * VECTOR_PIXELS_PER_MM);
+    style->width = 2 * narrow;
+    style->crease_width = 1;
+    style->narrow = true;
+    style->hidden_width = narrow;
+    style->hidden_dash = (float)DRAFT_HIDDEN_DASH * narrow;
+    style->hidden_gap = (float)DRAFT_HIDDEN_GAP * narrow;
+    style->hidden = style->hidden == HIDDEN_NONE ? HIDDEN_NONE : HIDDEN_DASHED;
+    style->hidden_fade = 1;
+    style->taper = style->pressure = style->wobble = style->overshoot = style->dash = style->cover = 0;
+    style->repeats = 1;
+    style->brush = BRUSH_PEN;
+    style->hidden_colour = (colour){style->colours[STROKE_CONTOUR].r, style->colours[STROKE_CONTOUR].g,
+                                    style->colours[STROKE_CONTOUR].b, 1};
 }
 
 /* --- surfaces ------------------------------------------------------------------------------------------- */

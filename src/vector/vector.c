@@ -16,41 +16,16 @@
 #include "plan/round_scene.h"
 #include "plan/time.h"
 #include "plan/unit.h"
-#include "vector/vector_private.h"
+#include "vector/vector_job.h"
 #include "export/export.h"
 #include "finish/finish.h"
 #include "sheet/fit.h"
+#include "stroke/hatch.h"
 #include "light/light.h"
 
-static const double gap_between_views = 12; /* mm */
-static const double speck_on_page = 0.1;    /* mm; the thinnest pens draw wider lines */
+static const double speck_on_page = 0.1; /* mm; the thinnest pens draw wider lines */
 /* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
 static const double simplified_part = 0.25, written_error = 0.0007;
-
-/* What one drawing needs while it is made. */
-typedef struct vector_job {
-    lmn_sheet            *out;
-    surfaces_fn           draw_surfaces; /* NULL: nobody can */
-    void                 *user;
-    pose                  pose;
-    pose_deformation      deformation; /* that the pose's moment asks for */
-    swept_boxes           swept;
-    plan                  plan;
-    const lmn_scene      *scene;
-    round_scene           round; /* what `scene` is where the look wants it so */
-    const lmn_look       *look;
-    const lmn_draw_desc  *desc;
-    const lmn_sheet_desc *wanted;
-    bool                  lines_only, pixels, usual_scale;
-    double                scale; /* 0: as large as fits */
-    double                unit_mm;
-    bool                  unit_stated;
-    bool                 *stroked; /* per part: drawn by some rule */
-    section               section;
-    stroke_scene          strokes;
-    stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
-    double                begun, fraction, reported; /* progress: of the stage at hand, and the most that was told */
-} vector_job;
 
 /* Progress of a part of the work, as a part of the whole. */
 static bool report_part(double fraction, const char *stage, void *user)
@@ -167,156 +142,13 @@ static void lay_ground(vector_job *j)
                      "finish.paper: the grain of paper is left out of drawings of lines alone");
 }
 
-/* --- views ---------------------------------------------------------------------------------------------- */
-
-/* The description that a view's camera is placed by. */
-static lmn_draw_desc view_desc(const vector_job *j, const vector_view *v)
-{
-    lmn_draw_desc d = *j->desc;
-    d.width = v->width;
-    d.height = v->height;
-    if (j->wanted->views) {
-        d.view = v->direction;
-        d.eye_given = false;
-        d.camera = NULL;
-        d.orthographic = true;
-    }
-    d.orthographic = d.orthographic || j->scale > 0;
-    return d;
-}
-
-/* Width and height of the model as a view shows it, its unit. */
-static lmn_status measure_view(const vector_job *j, const vector_view *v, double out[2], lmn_error *error)
-{
-    vector_view square = *v;
-    view_camera c;
-    square.width = square.height = 64;
-    lmn_draw_desc d = view_desc(j, &square);
-    lmn_status    status = camera_place(&c, &d, &j->pose, &j->plan.fit, error);
-    out[0] = 2 * c.half_size[0];
-    out[1] = 2 * c.half_size[1];
-    bool fitted = out[0] > 0 || out[1] > 0;
-    for (int i = 0; i < 8 && status == LMN_OK && !fitted && !box3_is_empty(j->plan.fit.box); i++) {
-        const double *m = c.view.m,
-                     corner[3] = {(double)(i & 1 ? j->plan.fit.box.max.x : j->plan.fit.box.min.x),
-                                  (double)(i & 2 ? j->plan.fit.box.max.y : j->plan.fit.box.min.y),
-                                  (double)(i & 4 ? j->plan.fit.box.max.z : j->plan.fit.box.min.z)},
-                     middle[3] = {c.target[0], c.target[1], c.target[2]};
-        for (int k = 0; k < 2; k++) {
-            double from_middle = 0;
-            for (int n = 0; n < 3; n++)
-                from_middle += m[4 * n + k] * (corner[n] - middle[n]);
-            out[k] = fmax(out[k], 2 * fabs(from_middle));
-        }
-    }
-    return status;
-}
-
-/* Whole pixels around the same middle; far more than the page has is of no use. */
-static lmn_status settle_box(vector_view *v, const sheet *page, lmn_error *error)
-{
-    int *sides[2] = {&v->width, &v->height};
-    for (int k = 0; k < 2; k++) {
-        double most = 2 * (k ? page->height : page->width), over = fmax(v->box[2 + k] - most, 0);
-        v->box[k] += over / 2;
-        v->box[2 + k] -= over;
-        double pixels = fmax(round(v->box[2 + k] * VECTOR_PIXELS_PER_MM), 1);
-        if (!(pixels <= LIMIT_PICTURE_SIDE))
-            return error_set(error, LMN_LIMIT, "a view is %.0f mm wide or high on the sheet, the limit is %.0f mm",
-                             v->box[2 + k], LIMIT_PICTURE_SIDE / VECTOR_PIXELS_PER_MM);
-        *sides[k] = (int)pixels;
-        double size = pixels / VECTOR_PIXELS_PER_MM;
-        v->box[k] += (v->box[2 + k] - size) / 2;
-        v->box[2 + k] = size;
-    }
-    return LMN_OK;
-}
-
-static lmn_status place_camera(vector_job *j, vector_view *v, lmn_error *error)
-{
-    lmn_draw_desc d = view_desc(j, v);
-    lmn_status    status = camera_place(&v->camera, &d, &j->pose, &j->plan.fit, error);
-    if (status != LMN_OK)
-        return status;
-    double scale = j->out->scale; /* paper over model */
-    if (scale > 0 && !v->camera.orthographic) {
-        error_set(error, LMN_USAGE, "a scale needs parallel projection, and the camera '%s' has perspective",
-                  d.camera ? d.camera : "");
-        return LMN_USAGE;
-    }
-    if (scale > 0)
-        v->camera.half_height = v->height / (2 * scale * j->unit_mm * VECTOR_PIXELS_PER_MM);
-    else if (v->camera.orthographic && j->unit_mm > 0)
-        j->out->scale = v->height / (2 * v->camera.half_height * j->unit_mm * VECTOR_PIXELS_PER_MM);
-    plan_camera_range(&j->plan, &v->camera, &j->out->warnings);
-    return LMN_OK;
-}
-
-/* Several views on one sheet, or one at a scale of its own. */
-static lmn_status arrange_views(vector_job *j, const double area[4], lmn_error *error)
-{
-    lmn_sheet *s = j->out;
-    double     sizes[VIEWS_MOST][2];
-    lmn_status status = LMN_OK;
-    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
-        status = measure_view(j, &s->views[i], sizes[i], error);
-        sizes[i][0] *= j->unit_mm;
-        sizes[i][1] *= j->unit_mm;
-    }
-    if (status != LMN_OK)
-        return status;
-    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12),
-                         .angle = j->wanted->angle,
-                         .scale = j->scale,
-                         .usual = j->usual_scale,
-                         .fit = 1};
-    memcpy(how.area, area, sizeof how.area);
-    s->scale = vector_place_views(&how, s->views, s->view_count, (const double(*)[2])sizes);
-    for (size_t i = 0; i < s->view_count; i++) {
-        const double *box = s->views[i].box;
-        if (box[0] < area[0] - how.gap || box[1] < area[1] - how.gap || box[0] + box[2] > area[0] + area[2] + how.gap ||
-            box[1] + box[3] > area[1] + area[3] + how.gap) {
-            char scale[32];
-            vector_print_scale(scale, s->scale);
-            warnings_add(&s->warnings, WARNING_PAGE, "at %s the views do not fit on the page", scale);
-            break;
-        }
-    }
-    return LMN_OK;
-}
-
-static lmn_status place_views(vector_job *j, lmn_error *error)
-{
-    lmn_sheet *s = j->out;
-    double     area[4];
-    lmn_status status = LMN_OK;
-    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
-    if (j->wanted->views) {
-        status = vector_parse_views(j->wanted->views, s->views, &s->view_count, error);
-        if (status == LMN_OK)
-            status = arrange_views(j, area, error);
-    } else {
-        bool eye = j->desc->eye_given || j->desc->camera;
-        s->views[0] = (vector_view){.name = eye ? "view" : vector_view_name(j->desc->view), .direction = j->desc->view};
-        memcpy(s->views[0].box, area, sizeof area);
-        s->view_count = 1;
-        s->scale = j->scale;
-    }
-    for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
-        status = settle_box(&s->views[i], &s->page, error);
-        if (status == LMN_OK)
-            status = place_camera(j, &s->views[i], error);
-    }
-    if (status == LMN_OK && s->scale > 0)
-        vector_print_scale(s->scale_text, s->scale);
-    return status;
-}
-
 static lmn_status begin_page(vector_job *j, lmn_error *error)
 {
     double     resolution = paper_pixels_per_mm(j->desc->width, j->desc->height, j->desc->dpi);
     double     size[2] = {j->desc->width / resolution, j->desc->height / resolution};
-    lmn_status status = j->wanted->page ? vector_parse_page(j->wanted->page, size, error) : LMN_OK;
+    lmn_status status = vector_check_fields(j->wanted, error);
+    if (status == LMN_OK && j->wanted->page)
+        status = vector_parse_page(j->wanted->page, size, error);
     if (status == LMN_OK && j->wanted->scale)
         status = vector_parse_scale(j->wanted->scale, &j->scale, error);
     if (status == LMN_OK)
@@ -348,7 +180,7 @@ static void set_resolution(const vector_job *j, lmn_draw_desc *d)
 static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
 {
     uint8_t      *pixels = NULL;
-    lmn_draw_desc d = view_desc(j, v);
+    lmn_draw_desc d = vector_view_desc(j, v);
     char          ground[10];
     colour_print(j->plan.ground, ground);
     d.background = ground;
@@ -470,6 +302,13 @@ static lmn_status draw_rule(vector_job *j, stroke_view *view, const rule *r, rib
     *out = (ribbon_set){0};
     if (!vector_rule_strokes(r, &options, &style))
         return LMN_OK;
+    if (j->wanted->line_group > 0)
+        vector_style_in_group(&style, j->wanted->line_group);
+    if (j->cut_open) { /* what lies behind a section is not drawn there */
+        style.hidden = HIDDEN_NONE;
+        options.hidden = false;
+    }
+    options.width = style.width;
     options.fine = (float)(simplified_part * j->wanted->smooth * VECTOR_PIXELS_PER_MM);
     style.keeps_dashed = !j->wanted->plotter;
     bool *parts = parts_of(j, r, &count);
@@ -551,9 +390,13 @@ static colour colour_of_hatch(const rule *r, colour otherwise)
 
 static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vector_ink *ink, lmn_error *error)
 {
-    const scene_values *v = j->look->wide[KIND_SCENE].values;
-    stroke_check        check = {0};
-    colour             *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
+    scene_values values = *(const scene_values *)j->look->wide[KIND_SCENE].values, *v = &values;
+    stroke_check check = {0};
+    if (j->wanted->line_group > 0)
+        v->cut_width = (float)(vector_narrow(j) * VECTOR_PIXELS_PER_MM);
+    if (j->cut_open) /* 45 degrees to the page, whatever it is cut along */
+        v->cut_angle -= (float)hatch_turn(draft_section_axis(j->cut_open));
+    colour *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
     for (size_t i = 0; colours && i < j->scene->part_count; i++)
         colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
     lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours, &j->out->hatches,
@@ -566,22 +409,24 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
 }
 
 /* What lies on surfaces, and lines over it. */
-static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, lmn_error *error)
+static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink *ink, const cut *cut, lmn_error *error)
 {
     stroke_view  *view = NULL;
     stroke_camera camera = {v->camera.view, v->camera.projection, v->camera.near, v->camera.orthographic, v->width,
                             v->height};
-    lmn_status    status = stroke_view_create(&view, &j->strokes, &camera, report_part, j, error);
+    lmn_status    status = stroke_view_create(&view, j->shown, &camera, report_part, j, error);
     stroke_view  *as_is = NULL;
     if (status == LMN_OK && j->as_is.item_count)
         status = stroke_view_create(&as_is, &j->as_is, &camera, report_part, j, error);
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
         status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
     stroke_view_destroy(&as_is);
-    if (status == LMN_OK && j->section.cut.cell_count)
+    if (status == LMN_OK && cut->cell_count)
         status = draw_hatch(j, view, ink, error);
     if (status == LMN_OK)
         status = draw_lines(j, view, &camera, ink, error);
+    if (status == LMN_OK)
+        status = vector_put_centres(j, v, view, cut, ink->group, error);
     if (status == LMN_OK && j->out->has_traces && j->pose.at_rest)
         trace_warn(&j->out->traces, &j->out->warnings);
     stroke_view_destroy(&view);
@@ -629,7 +474,15 @@ static void make_paler(vector_job *j, size_t first)
     }
 }
 
-static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *error)
+/* A detail ends at its circle, whose rim is drawn by a break line. */
+static void cut_out_detail(sheet *page, const vector_view *v, size_t first)
+{
+    const double centre[2] = {v->box[0] + v->box[2] / 2, v->box[1] + v->box[3] / 2};
+    sheet_clip_circle(page, first, centre,
+                      v->extra->radius * v->height / (2 * v->camera.half_height) / VECTOR_PIXELS_PER_MM);
+}
+
+static lmn_status draw_view(vector_job *j, const vector_view *v, const cut *cut, lmn_error *error)
 {
     sheet       *page = &j->out->page;
     const size_t first = page->item_count;
@@ -641,16 +494,19 @@ static lmn_status draw_view(vector_job *j, const vector_view *v, lmn_error *erro
     if (j->pixels)
         status = put_picture(j, v, sheet_add_group(page, (int32_t)group, "surfaces", "surfaces", 0), error);
     if (status == LMN_OK && j->wanted->fill && !j->lines_only)
-        status = vector_put_fills(page, &ink, v, &j->strokes, &j->plan, report_part, j, error);
+        status = vector_put_fills(page, &ink, v, j->shown, &j->plan, report_part, j, error);
     if (status == LMN_OK)
-        status = draw_ink(j, v, &ink, error);
+        status = draw_ink(j, v, &ink, cut, error);
+    if (status == LMN_OK && !v->extra)
+        status = vector_put_revolved(j, v, group, error);
+    if (v->extra && v->extra->kind == DRAFT_DETAIL)
+        cut_out_detail(page, v, first);
     make_paler(j, first);
     return status == LMN_OK && annotate_wanted(j->look) && !j->wanted->plotter ? put_annotations(j, v, group, error)
                                                                                : status;
 }
 
-/* Lines of frames: as dark as the page is light. */
-static colour frame_ink(colour ground)
+colour vector_frame_ink(colour ground)
 {
     float light = 0.2126f * ground.r + 0.7152f * ground.g + 0.0722f * ground.b;
     return ground.a > 0 && light < 0.2f ? (colour){1, 1, 1, 1} : (colour){0.01f, 0.01f, 0.01f, 1};
@@ -697,28 +553,28 @@ static lmn_status make_scene(vector_job *j, lmn_error *error)
                : status;
 }
 
-/* The largest usual scale at which all views lie on the page; 0: there is none. */
-static double scale_that_fits(const vector_job *j, lmn_error *error)
+/* A section has a scene of its own. */
+static lmn_status draw_section(vector_job *j, const vector_view *v, lmn_error *error)
 {
-    const lmn_sheet *s = j->out;
-    double           area[4], sizes[VIEWS_MOST][2];
-    vector_view      views[VIEWS_MOST];
-    vector_inside_frame(j->wanted, s->page.width, s->page.height, area);
-    memcpy(views, s->views, sizeof views);
-    for (size_t i = 0; i < s->view_count; i++) {
-        if (measure_view(j, &views[i], sizes[i], error) != LMN_OK)
-            return 0;
-        sizes[i][0] *= j->unit_mm;
-        sizes[i][1] *= j->unit_mm;
-        if (!(sizes[i][0] > 0 || sizes[i][1] > 0))
-            return 0;
+    section      own = {.spared = NULL};
+    stroke_scene scene = {0};
+    memset(&own.cut, 0, sizeof own.cut);
+    lmn_status           status = vector_section(&own, j, v->extra, error);
+    const stroke_section cut = {&own.cut, own.spared};
+    if (status == LMN_OK)
+        status =
+            stroke_scene_create_cut(&scene, &j->pose, j->stroked, j->plan.crease_angle, 0, &cut, report_part, j, error);
+    if (status == LMN_OK) {
+        vector_hide_turns(&scene, v->extra);
+        j->shown = &scene;
+        j->cut_open = v->extra;
+        status = draw_view(j, v, &own.cut, error);
+        j->shown = &j->strokes;
+        j->cut_open = NULL;
     }
-    vector_layout how = {.gap = fmin(gap_between_views, fmin(area[2], area[3]) / 12),
-                         .angle = j->wanted->angle,
-                         .usual = true,
-                         .fit = 1};
-    memcpy(how.area, area, sizeof how.area);
-    return vector_place_views(&how, views, s->view_count, (const double(*)[2])sizes);
+    stroke_scene_release(&scene);
+    section_release(&own);
+    return status;
 }
 
 /* How large the largest view of the model is on the page, mm; infinite where that is not told by a scale. */
@@ -728,7 +584,7 @@ static double size_on_page(const vector_job *j)
     for (size_t i = 0; i < j->out->view_count && j->out->scale > 0; i++) {
         double    size[2];
         lmn_error ignored = {0};
-        if (measure_view(j, &j->out->views[i], size, &ignored) == LMN_OK)
+        if (vector_measure_view(j, &j->out->views[i], size, &ignored) == LMN_OK)
             most = fmax(most, fmax(size[0], size[1]) * j->unit_mm * j->out->scale);
     }
     return j->out->scale > 0 ? most : INFINITY;
@@ -748,7 +604,7 @@ static lmn_status check_page(vector_job *j, lmn_error *error)
         return refuse(&r, LMN_USAGE, WARNING_PAGE, "take another look, or draw a picture (.png)",
                       "nothing of the model lies on the page: the look '%s' has no strokes for it",
                       j->look->name ? j->look->name : "");
-    double fitting = scale_that_fits(j, error);
+    double fitting = vector_scale_that_fits(j, error);
     if (fitting > 0 && s->scale > 0) {
         vector_print_scale(scale, fitting);
         snprintf(instead, sizeof instead, "it fits at --scale %s", scale);
@@ -773,7 +629,7 @@ static lmn_status finish_page(vector_job *j, lmn_error *error)
         warnings_add(&s->warnings, WARNING_PAGE, "at %s the model reaches beyond the page", j->wanted->scale);
     lmn_status status = check_page(j, error);
     if (status == LMN_OK)
-        vector_put_frame(s, j->wanted, frame_ink(s->page.ground));
+        vector_put_frame(s, j->wanted, vector_frame_ink(s->page.ground));
     return status;
 }
 
@@ -785,11 +641,18 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     j->fraction = 0.2;
     if (status == LMN_OK)
         status = make_scene(j, error);
+    j->shown = &j->strokes;
+    if (status == LMN_OK)
+        status = vector_find_axes(j, error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {
         j->fraction = 0.45 / (double)s->view_count;
         j->begun = 0.5 + j->fraction * (double)i;
-        status = draw_view(j, &s->views[i], error);
+        status = s->views[i].extra && s->views[i].extra->kind == DRAFT_SECTION
+                     ? draw_section(j, &s->views[i], error)
+                     : draw_view(j, &s->views[i], &j->section.cut, error);
     }
+    if (status == LMN_OK)
+        vector_put_marks_of_views(j);
     if (status == LMN_OK)
         status = finish_page(j, error);
     if (status == LMN_OK && j->wanted->plotter)
@@ -858,7 +721,9 @@ static lmn_status prepare(vector_job *j, lmn_error *error)
     if (status != LMN_OK)
         return status;
     lay_ground(j);
-    status = place_views(j, error);
+    status = vector_place_all(j, error);
+    if (status == LMN_OK)
+        status = vector_check_drafting(j, error);
     return status == LMN_OK ? keep_facts(j, error) : status;
 }
 
@@ -867,6 +732,8 @@ static void end_job(vector_job *j)
     stroke_scene_release(&j->strokes);
     stroke_scene_release(&j->as_is);
     section_release(&j->section);
+    draft_cylinders_release(&j->cylinders);
+    draft_pitches_release(&j->pitches);
     plan_release(&j->plan);
     swept_boxes_release(&j->swept);
     pose_deformation_release(&j->deformation);

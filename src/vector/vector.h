@@ -4,6 +4,7 @@
 #define LIMNER_VECTOR_VECTOR_H
 
 #include "base/warnings.h"
+#include "draft/extras.h"
 #include "limner/draw.h"
 #include "limner/sheet.h"
 #include "look/look.h"
@@ -13,15 +14,18 @@
 #include "stroke/ribbon.h"
 #include "trace/trace.h"
 
-enum { VIEWS_MOST = 7 };
+enum { VIEWS_MOST = 7, SHEET_VIEWS_MOST = VIEWS_MOST + DRAFT_EXTRAS_MOST };
 
 /* One view of the scene on the sheet. */
 typedef struct vector_view {
-    const char *name;          /* "front", "iso" …, "view" when the drawing says where the eye is; lasts */
-    lmn_view    direction;     /* where it is one of these */
-    double      box[4];        /* on the sheet: x, y, width, height, mm */
-    int         width, height; /* the same in pixels */
-    view_camera camera;
+    char               name[24];  /* "front", "iso" …, "view" when the drawing says where the eye is, "section-A" */
+    lmn_view           direction; /* where it is one of these */
+    double             box[4];    /* on the sheet: x, y, width, height, mm */
+    int                width, height; /* the same in pixels */
+    view_camera        camera;
+    const draft_extra *extra; /* what it is else; NULL: an ordinary view. Of the sheet */
+    bool               apart; /* it lies beside those that are in line */
+    double             scale; /* of details: millimetres of paper for one of the model; 0: the sheet's */
 } vector_view;
 
 struct lmn_sheet {
@@ -29,7 +33,8 @@ struct lmn_sheet {
     warnings warnings;
     /* for the report */
     report_facts   facts;
-    vector_view    views[VIEWS_MOST];
+    vector_view    views[SHEET_VIEWS_MOST];
+    draft_extras   extras;
     size_t         view_count;
     double         scale;          /* millimetres of paper for one of the model; 0: perspective */
     char           scale_text[32]; /* "1:20"; empty: perspective */
@@ -43,6 +48,7 @@ struct lmn_sheet {
     uint64_t       counts[STROKE_CLASS_COUNT], hidden;
     uint64_t       dots, marks; /* that lie on surfaces: dots, strokes */
     uint64_t       hatches;     /* lines on cut faces */
+    uint64_t       centres;     /* centre lines and pitch circles */
     bool           verified;
     stroke_check   check;
 };

@@ -36,14 +36,18 @@ typedef struct vector_layout {
     double    fit;   /* fraction of the area that is filled then */
 } vector_layout;
 
-/* Places views of these sizes (width, height of each, model mm) around the front view. Sets their boxes, which have
- * half a gap around the model, and returns the scale. */
+/* Places views of these sizes (width, height of each, model mm) around the front view, and what lies apart beside or
+ * below them. Sets their boxes, which have half a gap around the model, and the scales of details, and returns the
+ * scale. */
 double vector_place_views(const vector_layout *how, vector_view *views, size_t count, const double (*sizes)[2]);
 
 /* --- style.c: looks as strokes ------------------------------------------------------------------- */
 
 /* How the lines of a rule are drawn as strokes; false: it has none. */
 bool vector_rule_strokes(const rule *r, stroke_options *options, stroke_style *style);
+/* The same in widths of ISO 128-2: outlines and edges wide, `wide` mm, all else half as wide, hidden lines in its
+ * dashes; without a hand's unevenness. */
+void vector_style_in_group(stroke_style *style, double wide);
 bool vector_rule_needs_pixels(const rule *r, colour ground);
 /* The colour that fills a part's area: the surface's own, that of what is known about it (`datum`, may be NULL), the
  * material's else. sRGB. */
@@ -106,8 +110,12 @@ lmn_status vector_order_for_plotter(sheet *page, lmn_error *error);
 /* --- page_frame.c ------------------------------------------------------------------------------------- */
 
 /* Leaves room for frame and title: what is left of the page. */
-void vector_inside_frame(const lmn_sheet_desc *wanted, double width, double height, double out[4]);
-void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink);
+/* Are there only fields that are known? Errors: LMN_USAGE. */
+lmn_status vector_check_fields(const lmn_sheet_desc *wanted, lmn_error *error);
+void       vector_inside_frame(const lmn_sheet_desc *wanted, double width, double height, double out[4]);
+/* Lines of frames: as dark as the page is light. */
+colour vector_frame_ink(colour ground);
+void   vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink);
 
 /* --- fill.c -------------------------------------------------------------------------------------- */
 

@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include "base/memory.h"
+#include "export/cairo_sheet.h"
 #include "export/export.h"
 #include "sheet/fit.h"
 
@@ -168,9 +169,27 @@ static void many_groups_are_no_layers(void **state)
     sheet_release(&s);
 }
 
+/* Far from where a text begins its letters are there, too: cairo leaves out what lies far outside of a surface. */
+static void long_texts_are_whole(void **state)
+{
+    cairo_letters all = {.steps = NULL};
+    double        reach = 0;
+    (void)state;
+    assert_true(cairo_find_letters(
+        &all, "Title, supplementary title, and as many more words as a title block has room for", 3));
+    for (size_t i = 0; i < all.count; i++)
+        reach = all.steps[i].kind == 'm' || all.steps[i].kind == 'l'
+                    ? (all.steps[i].at[0] > reach ? all.steps[i].at[0] : reach)
+                    : reach;
+    print_message("letters reach %.2f mm of %.2f\n", reach, all.width);
+    assert_true(reach > all.width - 1 && reach < all.width + 1);
+    cairo_letters_release(&all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_on_the_page), cmocka_unit_test(layers_are_a_tree),
-                                       cmocka_unit_test(many_groups_are_no_layers)};
+                                       cmocka_unit_test(many_groups_are_no_layers),
+                                       cmocka_unit_test(long_texts_are_whole)};
     return cmocka_run_group_tests_name("pdf", tests, NULL, NULL);
 }

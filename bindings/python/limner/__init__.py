@@ -377,18 +377,21 @@ def draw(models: Scene | Path | Sequence[Path], look: Look | Path = "edges", siz
 def draw_svg(models: Scene | Path | Sequence[Path], look: Look | Path = "technical", size: tuple[int, int] = (1024, 1024), *,
              settings: Mapping[str, Any] | None = None, page: str | None = None, scale: str | None = None, unit: str | None = None,
              views: str | None = None, angle: str = "third", title: str | None = None, frame: bool = False, plotter: bool = False,
-             lines_only: bool = False, fill: bool = False, smooth: float = 0.02, view: str = "iso", eye: Vector | None = None, target: Vector | None = None,
+             lines_only: bool = False, fill: bool = False, smooth: float = 0.02, line_group: float = 0, centre_lines: bool = False,
+             sections: str | None = None, details: str | None = None, auxiliary: str | None = None, fields: str | None = None, view: str = "iso", eye: Vector | None = None, target: Vector | None = None,
              up: Vector | None = None, camera: str | None = None, ortho: bool = False, fov: float = 30, fit: float = 0.9,
              time: float | None = None, clip: str | None = None, fit_time: bool = False, seed: int = 0, samples: int = 0,
              background: str | None = None, select: str | None = None, dpi: float = 0, up_axis: str | None = None,
              lenient: bool = False, renderer: Renderer | None = None, progress: Progress | None = None) -> Sheet:
-    """Draws models as vectors (docs/VECTOR.md): lines with exact visibility, for SVG, PDF and, with lines_only, DXF."""
+    """Draws models as vectors (docs/VECTOR.md, docs/DRAFTING.md): lines with exact visibility, for SVG, PDF and, with lines_only, DXF."""
     scene, look = _scene_of(models, up_axis, progress), _look_of(look, settings)
     desc = _describe(scene, size, view, eye, target, up, camera, ortho, fov, fit, time, clip, fit_time, seed, samples, background, select, dpi, lenient)
     paper = c.STANDARDS[c.lmn_sheet_desc]()
     paper.page, paper.scale, paper.unit, paper.views, paper.title = (encode(text) for text in (page, scale, unit, views, title))
     paper.angle = _choice("angle", angle, _ANGLES)
     paper.frame, paper.plotter, paper.lines_only, paper.fill, paper.smooth = frame, plotter, lines_only, fill, smooth
+    paper.line_group, paper.centre_lines = line_group, centre_lines
+    paper.sections, paper.details, paper.auxiliary, paper.fields = (encode(text) for text in (sections, details, auxiliary, fields))
     if renderer is None and look.needs_pixels and not (lines_only or plotter or fill):
         renderer = _own_renderer()
     sheet = Sheet()

@@ -1,0 +1,611 @@
+/* Sheets as draughtsmen make them: widths of lines, centre lines, sections, details and auxiliary views, against what
+ * is known of the models. */
+#include <math.h>
+
+#include "csg_support.h"
+
+#include "export/export.h"
+#include "limner/limner.h"
+#include "vector/vector_private.h"
+
+/* A plate of 80 by 60 by 10 with a sleeve of 15 and a bore of 8 in its middle, six bores of 3 around it at 22, and one
+ * of 4 in a corner, not through. Millimetres. */
+#define AT(x, y, z)      "multmatrix([[1,0,0," #x "],[0,1,0," #y "],[0,0,1," #z "],[0,0,0,1]]) "
+#define BORE(x, y, z, r) AT(x, y, z) "{ cylinder($fn=48, h=50, r1=" #r ", r2=" #r "); }\n"
+static const char plate[] =
+    "difference() { union() { " AT(-40, -30, 0) "{ cube(size=[80,60,10], center=false); }\n"
+                                                "cylinder($fn=96, h=30, r1=15, r2=15); }\n" BORE(0, 0, -1, 8)
+                                                    BORE(22, 0, -1, 3) BORE(-22, 0, -1, 3) BORE(11, 19.05255888, -1, 3)
+                                                        BORE(-11, 19.05255888, -1, 3) BORE(11, -19.05255888, -1, 3)
+                                                            BORE(-11, -19.05255888, -1, 3) BORE(34, 24, 6, 4) "}\n";
+
+typedef struct fixture {
+    lmn_scene *scene;
+    lmn_look  *look;
+} fixture;
+
+static fixture f;
+
+static int set_up(void **state)
+{
+    lmn_error error = {0};
+    (void)state;
+    f.scene = load_text(plate);
+    return lmn_look_load(&f.look, "technical", &error) != LMN_OK;
+}
+
+static int tear_down(void **state)
+{
+    lmn_look_destroy(&f.look);
+    lmn_scene_destroy(&f.scene);
+    return remove_temp_folder(state);
+}
+
+static lmn_sheet_desc usual(void)
+{
+    lmn_sheet_desc d = LMN_SHEET_DESC_INIT;
+    d.views = "front,top";
+    d.page = "A3";
+    d.scale = "1:1";
+    d.line_group = 0.5;
+    d.smooth = 0;
+    return d;
+}
+
+static lmn_sheet *draw(const lmn_sheet_desc *desc)
+{
+    lmn_draw_desc how = LMN_DRAW_DESC_INIT;
+    lmn_sheet    *s = NULL;
+    lmn_error     error = {0};
+    if (lmn_draw_sheet(&s, NULL, f.scene, f.look, &how, desc, &error) != LMN_OK)
+        fail_msg("%s", error.message);
+    return s;
+}
+
+/* Is an item in a group with this name, or of this class, or in one of those in it? */
+static bool is_in(const sheet *s, const sheet_item *item, const char *name)
+{
+    for (int32_t at = (int32_t)item->group; at >= 0; at = s->groups[at].parent)
+        if ((s->groups[at].name && strcmp(s->groups[at].name, name) == 0) ||
+            (s->groups[at].css_class && strstr(s->groups[at].css_class, name)))
+            return true;
+    return false;
+}
+
+static const vector_view *view_named(const lmn_sheet *s, const char *name)
+{
+    for (size_t i = 0; i < s->view_count; i++)
+        if (strcmp(s->views[i].name, name) == 0)
+            return &s->views[i];
+    fail_msg("no view %s", name);
+    return NULL;
+}
+
+/* Where a position of the model is on the sheet, by the camera alone. */
+static void project(const vector_view *v, double x, double y, double z, double out[2])
+{
+    const mat4  *m = &v->camera.view;
+    const double scale = v->box[3] / (2 * v->camera.half_height);
+    for (int k = 0; k < 2; k++) {
+        double eye = m->m[k] * x + m->m[4 + k] * y + m->m[8 + k] * z + m->m[12 + k];
+        out[k] = v->box[k] + v->box[2 + k] / 2 + (k ? -scale : scale) * eye;
+    }
+}
+
+typedef void (*visit_fn)(const sheet *s, const sheet_item *item, const sheet_path *path, void *user);
+
+static size_t each_path(const lmn_sheet *s, const char *in, const char *also, visit_fn visit, void *user)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->page.item_count; i++) {
+        const sheet_item *item = &s->page.items[i];
+        if (item->kind != SHEET_PATH || !is_in(&s->page, item, in) || (also && !is_in(&s->page, item, also)))
+            continue;
+        for (uint32_t k = 0; k < item->count; k++, count++)
+            if (visit)
+                visit(&s->page, item, &s->page.paths[item->first + k], user);
+    }
+    return count;
+}
+
+/* --- widths --------------------------------------------------------------------------------------------- */
+
+static void check_width(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    const double wide = *(const double *)user;
+    bool         is_wide = is_in(s, item, "visible") && !is_in(s, item, "material") && !is_in(s, item, "drawn");
+    if (path->filled)
+        return;
+    if (fabs((double)path->width - (is_wide ? wide : wide / 2)) > 1e-6)
+        fail_msg("%s is %g mm wide in the group of %g", s->groups[item->group].name, (double)path->width, wide);
+    if (is_in(s, item, "hidden") && path->dash_count == 2) { /* 12 and 3 widths, stretched to end at corners */
+        const float *dash = s->dashes + path->first_dash;
+        assert_true(fabs((double)(dash[0] / dash[1]) - 4) < 0.2);
+    }
+}
+
+static size_t count_text(const export_bytes *b, const char *words)
+{
+    size_t count = 0, length = strlen(words);
+    for (size_t i = 0; i + length <= b->size; i++)
+        count += memcmp(b->data + i, words, length) == 0;
+    return count;
+}
+
+/* What the files say. */
+static void check_files(const lmn_sheet *s, double wide)
+{
+    export_bytes svg, dxf;
+    lmn_error    error = {0};
+    char         words[64];
+    assert_int_equal(export_svg(&svg, &s->page, &error), LMN_OK);
+    assert_int_equal(export_dxf(&dxf, &s->page, &error), LMN_OK);
+    size_t all = count_text(&svg, "stroke-width:"), known = 0;
+    for (int k = 1; k <= 2; k++) {
+        snprintf(words, sizeof words, "%g", wide / k);
+        char style[80];
+        snprintf(style, sizeof style, "stroke-width:%s", words + (words[0] == '0'));
+        for (int ends = 0; ends < 2; ends++) {
+            char whole[96];
+            snprintf(whole, sizeof whole, "%s%c", style, ends ? ';' : '}');
+            known += count_text(&svg, whole);
+        }
+        snprintf(words, sizeof words, "370\n%.0f\n", floor(wide / k * 100 + 0.5));
+        assert_true(count_text(&dxf, words) > 0);
+    }
+    assert_true(all > 0 && known == all);
+    mem_free(svg.data);
+    mem_free(dxf.data);
+}
+
+static void test_widths(void **state)
+{
+    static const double groups[] = {0.25, 0.35, 0.5, 0.7};
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        lmn_sheet_desc d = usual();
+        d.line_group = groups[i];
+        d.centre_lines = true;
+        d.sections = "front";
+        lmn_sheet *s = draw(&d);
+        double     wide = groups[i];
+        assert_true(each_path(s, "view-front", "hidden", check_width, &wide) >= 1);
+        size_t count = each_path(s, "view-top", NULL, check_width, &wide);
+        count += each_path(s, "view-section-A", NULL, check_width, &wide);
+        print_message("%g mm: %zu lines\n", wide, count);
+        assert_true(count > 30);
+        check_files(s, wide);
+        lmn_sheet_destroy(&s);
+    }
+}
+
+#ifdef LIMNER_HAVE_STEP
+/* Edges of a file over which faces go on smoothly are narrow. */
+static void test_tangent_edges(void **state)
+{
+    lmn_scene *kept = f.scene;
+    double     wide = 0.5;
+    (void)state;
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/bracket.step");
+    lmn_sheet_desc d = usual();
+    lmn_sheet     *s = draw(&d);
+    assert_true(each_path(s, "view-top", "drawn", check_width, &wide) >= 1);
+    assert_true(each_path(s, "view-top", NULL, check_width, &wide) >= 3);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+#endif
+
+/* --- centre lines --------------------------------------------------------------------------------------- */
+
+typedef struct wanted_line {
+    double ends[2][2];
+    size_t found;
+} wanted_line;
+
+static void match_line(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    wanted_line *w = user;
+    (void)item;
+    const float *a = s->points[path->first], *b = s->points[path->first + path->count - 1];
+    for (int turned = 0; turned < 2; turned++) {
+        const double *p = w->ends[turned], *q = w->ends[1 - turned];
+        double        off =
+            fmax(hypot((double)a[0] - p[0], (double)a[1] - p[1]), hypot((double)b[0] - q[0], (double)b[1] - q[1]));
+        w->found += off < 2e-3;
+    }
+}
+
+/* One centre line from one position of the model to another, run on by ten widths. */
+static void assert_centre(const lmn_sheet *s, const vector_view *v, const char *group, const double from[3],
+                          const double to[3])
+{
+    wanted_line w = {.found = 0};
+    double      a[2], b[2];
+    project(v, from[0], from[1], from[2], a);
+    project(v, to[0], to[1], to[2], b);
+    double length = hypot(b[0] - a[0], b[1] - a[1]);
+    for (int k = 0; k < 2; k++) {
+        w.ends[0][k] = a[k] - 2.5 * (b[k] - a[k]) / length;
+        w.ends[1][k] = b[k] + 2.5 * (b[k] - a[k]) / length;
+    }
+    each_path(s, group, "centre", match_line, &w);
+    if (w.found != 1)
+        fail_msg("%zu centre lines from %g %g %g to %g %g %g", w.found, from[0], from[1], from[2], to[0], to[1], to[2]);
+}
+
+static void find_circle(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    double *c = user; /* x, y, radius; how many; how far facets may be off */
+    double  most = 0;
+    (void)item;
+    for (uint32_t i = 0; i < path->count; i++) {
+        const float *p = s->points[path->first + i];
+        most = fmax(most, fabs(hypot((double)p[0] - c[0], (double)p[1] - c[1]) - c[2]));
+    }
+    c[3] += path->closed && path->count > 8 && most < c[4];
+}
+
+static void test_centre_lines(void **state)
+{
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.centre_lines = true;
+    lmn_sheet         *s = draw(&d);
+    const vector_view *top = view_named(s, "top"), *front = view_named(s, "front");
+    double             circle[5] = {0, 0, 22, 0, 1e-3};
+    /* The cross of the sleeve, which is one with the marks of the two bores beside it on the same line. */
+    assert_centre(s, top, "view-top", (double[]){0, -15, 0}, (double[]){0, 15, 0});
+    assert_centre(s, top, "view-top", (double[]){-25, 0, 0}, (double[]){25, 0, 0});
+    assert_centre(s, top, "view-top", (double[]){30, 24, 0}, (double[]){38, 24, 0});
+    assert_centre(s, top, "view-top", (double[]){34, 20, 0}, (double[]){34, 28, 0});
+    for (int i = 0; i < 6; i++) { /* across the pitch circle */
+        double angle = i * 3.14159265358979323846 / 3, x = cos(angle), y = sin(angle);
+        if (i % 3)
+            assert_centre(s, top, "view-top", (double[]){19 * x, 19 * y, 0}, (double[]){25 * x, 25 * y, 0});
+    }
+    project(top, 0, 0, 0, circle);
+    each_path(s, "view-top", "centre", find_circle, circle);
+    assert_int_equal((int)circle[3], 1);
+    assert_int_equal(each_path(s, "view-top", "centre", NULL, NULL), 2 + 2 + 4 + 1);
+    /* From the front: axes at −22, −11, 0, 11, 22, and the blind one as deep as it is. */
+    for (int i = -2; i <= 2; i++)
+        assert_centre(s, front, "view-front", (double[]){11 * i, 0, 0}, (double[]){11 * i, 0, i ? 10 : 30});
+    assert_centre(s, front, "view-front", (double[]){34, 0, 6}, (double[]){34, 0, 10});
+    assert_int_equal(each_path(s, "view-front", "centre", NULL, NULL), 6);
+    lmn_sheet_destroy(&s);
+    d.centre_lines = false;
+    s = draw(&d);
+    assert_int_equal(each_path(s, "view-top", "centre", NULL, NULL), 0);
+    lmn_sheet_destroy(&s);
+}
+
+/* --- sections ------------------------------------------------------------------------------------------- */
+
+typedef struct reach {
+    double low[2], high[2];
+    double upright_at; /* lines along this x of the sheet */
+    double length;     /* of them */
+} reach;
+
+static void measure(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    reach *r = user;
+    (void)item;
+    for (uint32_t i = 0; i < path->count; i++) {
+        const float *p = s->points[path->first + i];
+        for (int k = 0; k < 2; k++) {
+            r->low[k] = fmin(r->low[k], (double)p[k]);
+            r->high[k] = fmax(r->high[k], (double)p[k]);
+        }
+        if (i && fabs((double)p[0] - r->upright_at) < 0.01 && fabs((double)p[-2] - r->upright_at) < 0.01)
+            r->length += fabs((double)p[1] - (double)p[-1]);
+    }
+}
+
+static reach reach_of(const lmn_sheet *s, const char *in, const char *also, double upright_at)
+{
+    reach r = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, upright_at, 0};
+    each_path(s, in, also, measure, &r);
+    return r;
+}
+
+/* The trace on the view from above: the path of this many points. */
+static void find_trace(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    const sheet_path **out = user;
+    (void)s;
+    (void)item;
+    if (path->dash_count == 4)
+        *out = path;
+}
+
+static void test_section_in_steps(void **state)
+{
+    const sheet_path *trace = NULL;
+    double            at[2], corner[2];
+    lmn_sheet_desc    d = usual();
+    (void)state;
+    d.views = "top";
+    d.sections = "front@0,28,24"; /* through the middle, then through the bore in the corner */
+    lmn_sheet         *s = draw(&d);
+    const vector_view *top = view_named(s, "top"), *section = view_named(s, "section-A");
+    assert_false(section->apart); /* it takes the place of the front view: in line with the top view */
+    assert_true(fabs(section->box[0] + section->box[2] / 2 - top->box[0] - top->box[2] / 2) < 0.2);
+    each_path(s, "marks of views", NULL, find_trace, &trace);
+    assert_non_null(trace);
+    assert_int_equal(trace->count, 4);
+    static const double corners[4][2] = {{0, 0}, {28, 0}, {28, 24}, {0, 24}};
+    for (uint32_t i = 0; i < 4; i++) {
+        const float *p = s->page.points[trace->first + i];
+        project(top, corners[i][0], corners[i][1], 0, at);
+        assert_true(fabs((double)p[1] - at[1]) < 1e-3 && (i == 0 || i == 3 || fabs((double)p[0] - at[0]) < 1e-3));
+    }
+    /* Hatched is what is cut: not the bores, and the floor below the blind one. */
+    project(section, -40, 0, 0, corner);
+    reach all = reach_of(s, "view-section-A", "hatch", 0);
+    assert_true(fabs(all.low[0] - corner[0]) < 0.5 && fabs(all.high[0] - corner[0] - 80) < 0.5);
+    project(section, 34, 0, 8, at); /* in the middle of the blind bore */
+    for (size_t i = 0; i < s->page.item_count; i++) {
+        const sheet_item *item = &s->page.items[i];
+        for (uint32_t k = 0; k < item->count && item->kind == SHEET_PATH && is_in(&s->page, item, "hatch"); k++) {
+            const sheet_path *path = &s->page.paths[item->first + k];
+            for (int n = 0; n <= 20; n++) {
+                const float *a = s->page.points[path->first], *b = s->page.points[path->first + 1];
+                double       x = (double)(a[0] + (b[0] - a[0]) * (float)n / 20),
+                       y = (double)(a[1] + (b[1] - a[1]) * (float)n / 20);
+                assert_false(fabs(x - at[0]) < 3.8 && fabs(y - at[1]) < 1.8);
+            }
+        }
+    }
+    /* No edge where the plane turns, and the edges that are there are drawn. */
+    project(section, 28, 0, 0, at);
+    reach turn = reach_of(s, "view-section-A", "visible", at[0]);
+    project(section, 38, 0, 0, at);
+    reach wall = reach_of(s, "view-section-A", "visible", at[0]);
+    print_message("at the turn %g mm, at the wall of the bore %g mm\n", turn.length, wall.length);
+    assert_true(turn.length == 0 && fabs(wall.length - 4) < 0.05);
+    lmn_sheet_destroy(&s);
+}
+
+static void test_half_section(void **state)
+{
+    double         at[2];
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.views = "top";
+    d.sections = "front@half";
+    lmn_sheet         *s = draw(&d);
+    const vector_view *section = view_named(s, "section-A");
+    project(section, 0, 0, 0, at);
+    reach hatch = reach_of(s, "view-section-A", "hatch", 0), middle = reach_of(s, "view-section-A", "visible", at[0]);
+    assert_true(hatch.low[0] > at[0] + 7.5 && hatch.high[0] < at[0] + 40.5); /* right of the bore alone */
+    assert_true(middle.length == 0);
+    lmn_sheet_destroy(&s);
+}
+
+static void measure_closed(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    if (path->closed)
+        measure(s, item, path, user);
+}
+
+/* Turned in its place: as wide as the plate is deep, its middle where the plane is. */
+static void test_revolved(void **state)
+{
+    double         at[2];
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.sections = "front@revolved,35";
+    lmn_sheet *s = draw(&d);
+    reach      hatch = reach_of(s, "view-front", "hatch", 0), r = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0, 0};
+    each_path(s, "view-front", "revolved", measure_closed, &r);
+    assert_true(hatch.low[0] > r.low[0] - 1e-3 && hatch.high[0] < r.high[0] + 1e-3 && hatch.low[1] > r.low[1] - 1e-3 &&
+                hatch.high[1] < r.high[1] + 1e-3 && hatch.high[0] - hatch.low[0] > 55);
+    project(view_named(s, "front"), 35, 0, 5, at);
+    print_message("%.4f by %.4f mm, off by %.1e, %.1e\n", r.high[0] - r.low[0], r.high[1] - r.low[1],
+                  (r.high[0] + r.low[0]) / 2 - at[0], (r.high[1] + r.low[1]) / 2 - at[1]);
+    assert_true(fabs(r.high[0] - r.low[0] - 60) < 1e-3 && fabs(r.high[1] - r.low[1] - 10) < 1e-3);
+    assert_true(fabs((r.high[0] + r.low[0]) / 2 - at[0]) < 1e-3 && fabs((r.high[1] + r.low[1]) / 2 - at[1]) < 1e-3);
+    assert_int_equal(s->view_count, 2);
+    lmn_sheet_destroy(&s);
+}
+
+static void test_apart(void **state)
+{
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.sections = "front@25%"; /* the front view is there, too */
+    lmn_sheet         *s = draw(&d);
+    const vector_view *front = view_named(s, "front"), *section = view_named(s, "section-A");
+    assert_true(section->apart);
+    assert_true(section->box[0] >= front->box[0] + front->box[2] || section->box[1] >= front->box[1] + front->box[3]);
+    assert_int_equal(lmn_sheet_warning_count(s), 0);
+    assert_true(each_path(s, "view-section-A", "hatch", NULL, NULL) > 10); /* what is behind the plane is there */
+    lmn_sheet_destroy(&s);
+    d.views = "iso"; /* none shows where it is */
+    s = draw(&d);
+    assert_int_equal(lmn_sheet_warning_count(s), 1);
+    lmn_sheet_destroy(&s);
+}
+
+/* --- details and auxiliary views ------------------------------------------------------------------------ */
+
+static void test_detail(void **state)
+{
+    double         middle[2], most = 0;
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.details = "top@34,24,10/7/5:1";
+    lmn_sheet         *s = draw(&d);
+    const vector_view *v = view_named(s, "detail-A"), *top = view_named(s, "top");
+    project(v, 34, 24, 10, middle);
+    for (size_t i = 0; i < s->page.item_count; i++) {
+        const sheet_item *item = &s->page.items[i];
+        for (uint32_t k = 0; k < item->count && item->kind == SHEET_PATH && is_in(&s->page, item, "view-detail-A"); k++)
+            for (uint32_t n = 0; n < s->page.paths[item->first + k].count; n++) {
+                const float *p = s->page.points[s->page.paths[item->first + k].first + n];
+                most = fmax(most, hypot((double)p[0] - middle[0], (double)p[1] - middle[1]));
+            }
+    }
+    print_message("the detail reaches %.6f mm\n", most);
+    assert_true(fabs(most - 35) < 1e-3); /* the plate's edges reach its rim, and nothing goes beyond */
+    double rim[5] = {0, 0, 20, 0, 0.05}, around[5] = {0, 0, 7, 0, 1e-3};
+    project(v, 34, 24, 10, rim);
+    each_path(s, "view-detail-A", "visible", find_circle, rim);
+    project(top, 34, 24, 10, around);
+    each_path(s, "marks of views", NULL, find_circle, around);
+    assert_true(rim[3] >= 1 && (int)around[3] == 1); /* 4 mm five times as large, and the circle around it */
+    bool said = false;
+    for (size_t i = 0; i < s->page.item_count; i++)
+        said = said || (s->page.items[i].text && strcmp(s->page.items[i].text, "A (5:1)") == 0);
+    assert_true(said);
+    lmn_sheet_destroy(&s);
+}
+
+/* A block that leans by 30 degrees: its bore is round where the view is along it, and nowhere else. */
+static void test_auxiliary(void **state)
+{
+    lmn_scene *kept = f.scene;
+    double     at[5] = {0, 0, 6, 0, 0.01}, off[5] = {0, 0, 6, 0, 0.01};
+    (void)state;
+    f.scene = load_text(
+        "multmatrix([[0.8660254037844387,0,0.5,0],[0,1,0,0],[-0.5,0,0.8660254037844387,0],[0,0,0,1]]) {\n"
+        "difference() { cube(size=[40,30,20], center=true); cylinder($fn=64, h=60, r1=6, r2=6, center=true); } }\n");
+    lmn_sheet_desc d = usual();
+    d.auxiliary = "0.5,0,0.8660254037844387;face@7,10,7";
+    lmn_sheet *s = draw(&d);
+    for (int i = 0; i < 12; i++) /* straight at the top, by a place on it: the same view */
+        assert_true(fabs(view_named(s, "auxiliary-B")->camera.view.m[i] -
+                         view_named(s, "auxiliary-A")->camera.view.m[i]) < 1e-6);
+    project(view_named(s, "auxiliary-A"), 0, 0, 0, at);
+    each_path(s, "view-auxiliary-A", NULL, find_circle, at);
+    project(view_named(s, "top"), 0, 0, 0, off);
+    each_path(s, "view-top", NULL, find_circle, off);
+    assert_true(at[3] >= 1 && off[3] == 0);
+    assert_int_equal(lmn_sheet_warning_count(s), 0); /* the front view has the arrow */
+    assert_true(each_path(s, "marks of views", NULL, NULL, NULL) == 4);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+
+/* --- words ---------------------------------------------------------------------------------------------- */
+
+static void test_title_block(void **state)
+{
+    static const char *const wanted[] = {"A. Writer", "4711", "Works", "Plate",     "in steel",
+                                         "1:1",       "mm",   "A3",    "Created by"};
+    lmn_sheet_desc           d = usual();
+    (void)state;
+    d.frame = true;
+    d.title = "Plate";
+    d.fields = "creator=A. Writer;number=4711;owner=Works;supplement=in steel";
+    lmn_sheet *s = draw(&d);
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        size_t count = 0;
+        for (size_t k = 0; k < s->page.item_count; k++) {
+            const sheet_item *item = &s->page.items[k];
+            if (!item->text || strcmp(item->text, wanted[i]) != 0)
+                continue;
+            count++;
+            assert_true(item->box[0] > 420 - 10 - 180 && item->box[0] < 410 && item->box[1] > 297 - 10 - 36);
+        }
+        assert_int_equal(count, 1);
+    }
+    lmn_sheet_destroy(&s);
+}
+
+static void refuse(const lmn_sheet_desc *d, lmn_status status, const char *words)
+{
+    lmn_draw_desc how = LMN_DRAW_DESC_INIT;
+    lmn_sheet    *s = NULL;
+    lmn_error     error = {0};
+    assert_int_equal(lmn_draw_sheet(&s, NULL, f.scene, f.look, &how, d, &error), status);
+    if (!strstr(error.message, words))
+        fail_msg("'%s' lacks '%s'", error.message, words);
+}
+
+static void test_refused(void **state)
+{
+    static const char *const sections[] = {"iso",
+                                           "fron",
+                                           "front@",
+                                           "front@x",
+                                           "front@1,2",
+                                           "front@1,2,3,4",
+                                           "front@1,half,2",
+                                           "front@1,30,2,20,3",
+                                           "front@half,half",
+                                           "front 3",
+                                           "front@revolved,",
+                                           "front@revolved,1,2"};
+    static const char *const details[] = {"front",         "front@1,2/3",     "front@1,2,3",
+                                          "front@1,2,3/0", "front@1,2,3/4/5", "front@1,2,3/4/5:0"};
+    static const char *const directions[] = {"0,0,0", "1,2", "1,2,3,4", "up", "face@1,2"};
+    (void)state;
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        lmn_sheet_desc d = usual();
+        d.sections = sections[i];
+        refuse(&d, LMN_USAGE, "the section is '");
+    }
+    for (size_t i = 0; i < sizeof details / sizeof *details; i++) {
+        lmn_sheet_desc d = usual();
+        d.details = details[i];
+        refuse(&d, LMN_USAGE, "the detail is '");
+    }
+    for (size_t i = 0; i < sizeof directions / sizeof *directions; i++) {
+        lmn_sheet_desc d = usual();
+        d.auxiliary = directions[i];
+        refuse(&d, LMN_USAGE, "the auxiliary view is '");
+    }
+    lmn_sheet_desc d = usual();
+    d.sections = "front;front;front;front;front;front;front;front;front;front;front;front;front";
+    refuse(&d, LMN_USAGE, "12 sections");
+    d = usual(), d.views = NULL, d.sections = "front";
+    refuse(&d, LMN_USAGE, "stand beside other views");
+    d = usual(), d.line_group = 0.4;
+    refuse(&d, LMN_USAGE, "line_group is 0.4 mm");
+    d = usual(), d.fields = "creator=A";
+    refuse(&d, LMN_USAGE, "title block of a frame");
+    d = usual(), d.frame = true, d.fields = "author=A";
+    refuse(&d, LMN_USAGE, "no field 'author'");
+}
+
+/* Every allocation fails once. */
+static void test_out_of_memory(void **state)
+{
+    lmn_sheet_desc d = usual();
+    lmn_draw_desc  how = LMN_DRAW_DESC_INIT;
+    lmn_status     status = LMN_MEMORY;
+    long           n = 1;
+    (void)state;
+    d.views = "top";
+    d.sections = "front@half";
+    d.centre_lines = true;
+    for (; status != LMN_OK && n < 100000; n += n < 200 ? 1 : 37) {
+        lmn_sheet *s = NULL;
+        lmn_error  error = {0};
+        mem_fail_at(n);
+        status = lmn_draw_sheet(&s, NULL, f.scene, f.look, &how, &d, &error);
+        mem_fail_at(0);
+        assert_true(status == LMN_OK || status == LMN_MEMORY);
+        lmn_sheet_destroy(&s);
+    }
+    assert_true(n > 200 && n < 100000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_widths),
+#ifdef LIMNER_HAVE_STEP
+                                       cmocka_unit_test(test_tangent_edges),
+#endif
+                                       cmocka_unit_test(test_centre_lines),  cmocka_unit_test(test_section_in_steps),
+                                       cmocka_unit_test(test_half_section),  cmocka_unit_test(test_revolved),
+                                       cmocka_unit_test(test_apart),         cmocka_unit_test(test_detail),
+                                       cmocka_unit_test(test_auxiliary),     cmocka_unit_test(test_title_block),
+                                       cmocka_unit_test(test_refused),       cmocka_unit_test(test_out_of_memory)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
