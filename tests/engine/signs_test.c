@@ -19,6 +19,9 @@ enum { SIDE = 128, PIXELS = SIDE * SIDE, OPTIONS_LEAST = 100 };
 #define FLIES(NAME, FROM, TO)                                                                                          \
     "{\"target\": \"" NAME "\", \"linear\": [" FROM ", " FROM ", " TO "], \"times\": [0, 0.5, 2]}"
 
+#define LIMB(OF)        "{\"name\": \"limb\", \"parent\": \"" OF "\", \"sphere\": {\"radius\": 0.3}}"
+#define SWINGS(SECONDS) "{\"target\": \"limb\", \"linear\": [[-1.5, 0, 0], [1.5, 0.5, 0]], \"duration\": " SECONDS "}"
+
 typedef struct stage {
     const char *nodes, *behaviour;
     double      eye[3], seen[3];
@@ -30,9 +33,16 @@ static const stage
               "0], \"floor\": 0.5, \"duration\": 3}",
               {3, 2, 14},
               {3, 2, 0}},
-    plane = {"{\"name\": \"plane\", \"semantics\": \"paper-plane\", \"cone\": {\"radius\": 1, \"height\": 2}}",
-             "{\"target\": \"plane\", \"curve\": {\"points\": [[-4, 0, 0], [-1, 1.5, 0], [1, -1.5, 0], [4, "
-             "0, 0]]}, \"duration\": 2}",
+    /* Things with a limb that goes farther than all else. */
+    arm = {BALL("ball") ", " LIMB("ball"),
+           "[{\"target\": \"ball\", \"function\": \"bounce\", \"start\": [0, 4, 0], \"velocity\": [2, 0, "
+           "0], \"floor\": 0.5, \"duration\": 3}, " SWINGS("3") "]",
+           {3, 2, 14},
+           {3, 2, 0}},
+    plane = {"{\"name\": \"plane\", \"semantics\": \"paper-plane\", \"cone\": {\"radius\": 1, \"height\": 2}}, " LIMB(
+                 "plane"),
+             "[{\"target\": \"plane\", \"curve\": {\"points\": [[-4, 0, 0], [-1, 1.5, 0], [1, -1.5, 0], [4, "
+             "0, 0]]}, \"duration\": 2}, " SWINGS("2") "]",
              {0, 4, 14},
              {0, 0, 0}},
     spin = {CRATE("crate", "[0, 0, 0]"),
@@ -94,7 +104,7 @@ typedef struct scenario {
 static const scenario scenarios[] = {
     {"path", NULL, &bounce, "\"target\": \"ball\"", 1.3},
     {"motion", NULL, &bounce, "\"target\": \"ball\"", 0.8},
-    {"still", NULL, &bounce, "\"target\": \"ball\", \"count\": 3, \"stretch\": 0.4", 1.3},
+    {"still", NULL, &arm, "\"target\": \"ball\", \"count\": 3, \"stretch\": 0.4", 1.3},
     {"still", "paper-plane", &plane, "\"target\": \"plane\", \"count\": 3", 0.7},
     {"collision", NULL, &bounce, "\"target\": \"ball\", \"text\": \"POW\"", 2.2},
     {"turnaround", NULL, &spin, "\"target\": \"crate\"", 1.2},

@@ -78,11 +78,77 @@ static void what_keeps_its_form_is_not_torn(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* Where the vertices of the only part are at a time. */
+static vec3 *placed_at(const lmn_scene *s, double seconds)
+{
+    const primitive *from = &s->meshes[s->nodes[s->parts[0].node].mesh].primitives[0];
+    moment           when;
+    pose             p;
+    vec3            *out = calloc(from->vertex_count, sizeof *out);
+    assert_int_equal(moment_find(&when, s, NULL, seconds, NULL, NULL), LMN_OK);
+    assert_int_equal(pose_create(&p, s, &when, NULL), LMN_OK);
+    const mat4 world = pose_instance(&p, 0, 0);
+    pose_vertices(&p.parts[0], from, NULL, NULL, from->vertex_count, out, NULL);
+    for (uint32_t i = 0; i < from->vertex_count; i++)
+        out[i] = mat4_transform_point(&world, out[i]);
+    pose_release(&p);
+    return out;
+}
+
+/* Of what bends those triangles are told that follow a joint which leads something far enough, and none of others. */
+static void skins_are_parted_at_their_joints(void **state)
+{
+    (void)state;
+    lmn_scene       *s = load_or_fail(LIMNER_SOURCE_DIR "/examples/fox.glb");
+    const primitive *from = &s->meshes[s->nodes[s->parts[0].node].mesh].primitives[0];
+    const double     now = 1.2, least = 0.5;
+    vec3            *then = placed_at(s, 0), *here = placed_at(s, now);
+    double           gone[256] = {0}, farthest = 0;
+    size_t           told = 0, follows = 0;
+    uint8_t         *leads = calloc(from->vertex_count, 1);
+    double          *away = calloc(from->vertex_count, sizeof *away);
+    for (uint32_t v = 0; v < from->vertex_count; v++) {
+        float most = -1;
+        for (uint32_t k = 0; k < from->influences; k++)
+            if (from->weights[v * from->influences + k] > most) {
+                most = from->weights[v * from->influences + k];
+                leads[v] = (uint8_t)from->joints[v * from->influences + k];
+            }
+        away[v] = fmax(fmax(fabs((double)then[v].x - (double)here[v].x), fabs((double)then[v].y - (double)here[v].y)),
+                       fabs((double)then[v].z - (double)here[v].z));
+        gone[leads[v]] = fmax(gone[leads[v]], away[v]);
+        farthest = fmax(farthest, away[v]);
+    }
+    for (uint32_t i = 0; i + 2 < from->index_count; i += 3) {
+        bool any = false, far = false;
+        for (uint32_t k = i; k < i + 3; k++) {
+            any = any || (gone[leads[from->indices[k]]] >= least * farthest && away[from->indices[k]] > 0);
+            far = far || away[from->indices[k]] >= least * farthest;
+        }
+        follows += any;
+        told += far;
+    }
+    tell_at(s, now, "[{\"target\": \"fox\", \"depict\": \"still\", \"count\": 2, \"from\": 0, \"least\": 0.5}]");
+    const primitive *image = glyph_at(s, "still", "past", 0);
+    assert_non_null(image);
+    /* What has hardly moved of it is left out; what has gone far on its own is always there. */
+    if (image->index_count / 3 > follows || image->index_count / 3 <= told + (follows - told) / 2)
+        fail_msg("%u triangles are told; %zu follow what goes far, %zu go far themselves", image->index_count / 3,
+                 follows, told);
+    assert_true(follows < from->index_count / 6);
+    free(then);
+    free(here);
+    free(leads);
+    free(away);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_runs_through_other_times),
         cmocka_unit_test(what_keeps_its_form_is_not_torn),
+        cmocka_unit_test(skins_are_parted_at_their_joints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
