@@ -404,19 +404,17 @@ lmn_status lmn_scene_add_node(lmn_scene *scene, const lmn_node_desc *desc, uint3
               .first_child = NONE,
               .next_sibling = NONE,
               .last_child = NONE,
-              .has_matrix = true,
-              .rotation = {0, 0, 0, 1},
-              .scale = {1, 1, 1},
               .mesh = content_index(full.mesh),
               .skin = content_index(full.skin),
               .camera = content_index(full.camera),
               .light = content_index(full.light),
               .solid = NONE};
-    memcpy(n.matrix.m, full.matrix, sizeof n.matrix.m);
-    if (!content_copy_name(&n.name, full.name))
-        return error_memory(error);
-    status = scene_add_node(scene, &n, error);
+    mat4 matrix;
+    memcpy(matrix.m, full.matrix, sizeof matrix.m);
+    status = content_copy_name(&n.name, full.name) && node_set_matrix(&n, &matrix) ? scene_add_node(scene, &n, error)
+                                                                                   : error_memory(error);
     if (status != LMN_OK) {
+        mem_free(n.place);
         mem_free(n.name);
         return status;
     }

@@ -77,6 +77,15 @@ void file_data_release(file_data *data)
     memset(data, 0, sizeof *data);
 }
 
+void file_data_cut(file_data *data, size_t size)
+{
+    unsigned char *kept = size < data->size ? mem_realloc((void *)data->data, size + 1) : NULL;
+    if (!kept)
+        return;
+    kept[size] = '\0';
+    *data = (file_data){kept, size};
+}
+
 void file_ending(const char *path, char *out, size_t size)
 {
     out[0] = '\0';

@@ -15,6 +15,8 @@ typedef struct file_data {
  * file_data_release. */
 lmn_status file_load(file_data *out, const char *path, lmn_error *error);
 void       file_data_release(file_data *data);
+/* Gives back the memory of all but the first `size` bytes, which may move. */
+void file_data_cut(file_data *data, size_t size);
 
 /* The ending of a path in lower case with its dot (".glb"), "" when there is none; at most size−1 characters. */
 void file_ending(const char *path, char *out, size_t size);

@@ -161,10 +161,10 @@ void *mem_calloc(size_t count, size_t size)
 
 void *mem_realloc(void *block, size_t size)
 {
-    if (must_fail() || !work_has_memory(size))
-        return NULL;
     long long before = block ? (long long)size_of(block) : 0;
-    void     *moved = resize(block, size ? size : 1);
+    if (must_fail() || (size > (size_t)before && !work_has_memory(size)))
+        return NULL;
+    void *moved = resize(block, size ? size : 1);
     if (moved)
         work_count((long long)size_of(moved) - before);
     return moved;

@@ -245,15 +245,15 @@ static void split_matrix(lmn_scene *scene, int32_t index)
 {
     node  *n = &scene->nodes[index];
     double t[3], r[4], size[3];
-    if (!n->has_matrix || !mat4_decompose(&n->matrix, t, r, size)) {
+    if (!n->has_matrix || !mat4_decompose(&n->place->matrix, t, r, size)) {
         node_split_matrix(scene, index);
         return;
     }
-    memcpy(n->translation, t, sizeof t);
-    memcpy(n->rotation, r, sizeof r);
-    memcpy(n->scale, size, sizeof size);
+    memcpy(n->place->translation, t, sizeof t);
+    memcpy(n->place->rotation, r, sizeof r);
+    memcpy(n->place->scale, size, sizeof size);
     n->has_matrix = false;
-    n->matrix = mat4_identity();
+    n->place->matrix = mat4_identity();
 }
 
 lmn_status behaviour_write_clip(lmn_scene *scene, int32_t index, lmn_error *error)

@@ -40,12 +40,13 @@ void schedule_rest(const lmn_scene *scene, animation_path path, int32_t target, 
             out[k] = (double)rest[k];
         return;
     }
-    double t[3], r[4], size[3];
-    memcpy(t, n->translation, sizeof t);
-    memcpy(r, n->rotation, sizeof r);
-    memcpy(size, n->scale, sizeof size);
+    double            t[3], r[4], size[3];
+    const node_place *at = node_place_of(n);
+    memcpy(t, at->translation, sizeof t);
+    memcpy(r, at->rotation, sizeof r);
+    memcpy(size, at->scale, sizeof size);
     if (n->has_matrix)
-        mat4_decompose(&n->matrix, t, r, size);
+        mat4_decompose(&at->matrix, t, r, size);
     memcpy(out,
            path == PATH_TRANSLATION ? t
            : path == PATH_ROTATION  ? r

@@ -148,8 +148,9 @@ static bool is_part_of_known(const lmn_scene *scene, const node *n)
 /* Nothing but its shape says that it is a ball: it has to be as round where it is as it was made. */
 static bool is_ball_by_itself(const lmn_scene *scene, const node *n)
 {
-    const double even = 0.05 * fabs(n->scale[0]);
-    return fabs(fabs(n->scale[1]) - fabs(n->scale[0])) <= even && fabs(fabs(n->scale[2]) - fabs(n->scale[0])) <= even &&
+    const double *size = node_place_of(n)->scale;
+    const double  even = 0.05 * fabs(size[0]);
+    return fabs(fabs(size[1]) - fabs(size[0])) <= even && fabs(fabs(size[2]) - fabs(size[0])) <= even &&
            is_ball(scene, n) && !is_part_of_known(scene, n);
 }
 

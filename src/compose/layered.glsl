@@ -94,7 +94,7 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     find_positions(pixel);
-    float depth = own_depth(pixel_at(fill_position()));
+    float surface = own_depth(pixel_at(fill_position())), depth = surface;
     vec4 fill = depth < 1.0 && u_filled ? layer_fill(fill_position()) : vec4(0.0), ink = vec4(0.0);
 #ifdef HAS_LINES
 #ifdef MERGED
@@ -119,6 +119,10 @@ void main()
 #endif
 #endif
     vec4 colour = ink + fill * (fill_fraction() * (1.0 - ink.a));
+#ifdef SEEN_DEPTH
+    /* A surface is there, too, where its fill shows nothing. */
+    colour.a = surface < 1.0 ? 1.0 : colour.a;
+#endif
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = colour * (u_rear * (1.0 - u_ghost.a));

@@ -187,7 +187,6 @@ lmn_status solid_edit_create(lmn_scene *scene, solid_kind root, const char *name
     }
     n->name = copy;
     n->solid = (int32_t)(*out = scene->solid_count - 1);
-    n->has_matrix = true;
     /* What comes first decides, as with files; shapes stand on the plane of x and y, as in OpenSCAD. */
     if (!scene->up)
         scene->up = 'z';

@@ -174,8 +174,6 @@ static lmn_status add_root(lmn_scene *scene, int32_t *root, lmn_error *error)
                          .first_child = NONE,
                          .next_sibling = NONE,
                          .last_child = NONE,
-                         .rotation = {0, 0, 0, 1},
-                         .scale = {1, 1, 1},
                          .mesh = NONE,
                          .skin = NONE,
                          .camera = NONE,

@@ -14,7 +14,8 @@ static bool take_arrays(preview *out, const lmn_scene *s, size_t glyphs)
     out->scene.meshes = mem_alloc((s->mesh_count + glyphs + 1) * sizeof *s->meshes);
     out->scene.parts = mem_alloc((parts + glyphs + 1) * sizeof *s->parts);
     out->primitives = mem_calloc(glyphs + 1, sizeof *out->primitives);
-    if (!out->scene.nodes || !out->scene.meshes || !out->scene.parts || !out->primitives)
+    out->places = mem_calloc(glyphs + 1, sizeof *out->places);
+    if (!out->scene.nodes || !out->scene.meshes || !out->scene.parts || !out->primitives || !out->places)
         return false;
     memcpy(out->scene.nodes, s->nodes, s->node_count * sizeof *s->nodes);
     if (s->mesh_count)
@@ -41,14 +42,13 @@ static void put_glyph(preview *out, const glyph *g, size_t i)
     for (uint32_t k = 0; k < p->vertex_count; k++)
         p->bounds = box3_with_point(p->bounds, p->positions[k]);
     s->meshes[s->mesh_count] = (mesh){.primitives = p, .primitive_count = 1};
+    out->places[i] = (node_place){.matrix = g->world, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     s->nodes[s->node_count] = (node){.parent = NONE,
                                      .first_child = NONE,
                                      .next_sibling = NONE,
                                      .last_child = NONE,
-                                     .rotation = {0, 0, 0, 1},
-                                     .scale = {1, 1, 1},
                                      .has_matrix = g->shape != 0,
-                                     .matrix = g->world,
+                                     .place = &out->places[i],
                                      .mesh = (int32_t)s->mesh_count++,
                                      .skin = NONE,
                                      .camera = NONE,
@@ -84,5 +84,6 @@ void preview_release(preview *p)
     mem_free(p->scene.meshes);
     mem_free(p->scene.parts);
     mem_free(p->primitives);
+    mem_free(p->places);
     memset(p, 0, sizeof *p);
 }

@@ -5,10 +5,11 @@
 #include "depict/depict_private.h"
 
 typedef struct preview {
-    lmn_scene  scene; /* to be posed, and nothing else: what it has belongs to the job's scene */
-    primitive *primitives;
-    char       key[sizeof NODE_GLYPH];
-    attribute  mark; /* that all glyphs have */
+    lmn_scene   scene; /* to be posed, and nothing else: what it has belongs to the job's scene */
+    primitive  *primitives;
+    node_place *places;
+    char        key[sizeof NODE_GLYPH];
+    attribute   mark; /* that all glyphs have */
 } preview;
 
 /* With the job's glyphs, which must stay, and without what these stand for. Errors: LMN_MEMORY. Release it also after

@@ -74,17 +74,15 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
                          .first_child = NONE,
                          .next_sibling = NONE,
                          .last_child = NONE,
-                         .rotation = {0, 0, 0, 1},
-                         .scale = {1, 1, 1},
-                         .has_matrix = g->shape != 0,
-                         .matrix = g->world,
                          .mesh = mesh,
                          .skin = NONE,
                          .camera = NONE,
                          .light = NONE,
                          .solid = NONE};
-    lmn_status status = wanted.name ? scene_add_node(s, &wanted, error) : error_memory(error);
+    bool       good = wanted.name && (!g->shape || node_set_matrix(&wanted, &g->world));
+    lmn_status status = good ? scene_add_node(s, &wanted, error) : error_memory(error);
     if (status != LMN_OK) {
+        mem_free(wanted.place);
         mem_free(wanted.name);
         return status;
     }

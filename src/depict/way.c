@@ -88,10 +88,11 @@ static mat4 local_at(const lmn_scene *scene, const way_step *step, double second
     const node *n = &scene->nodes[step->node];
     if (!step->translation && !step->rotation && !step->scale)
         return node_local_matrix(n);
-    double t[3], r[4], s[3];
-    memcpy(t, n->translation, sizeof t);
-    memcpy(r, n->rotation, sizeof r);
-    memcpy(s, n->scale, sizeof s);
+    double            t[3], r[4], s[3];
+    const node_place *at = node_place_of(n);
+    memcpy(t, at->translation, sizeof t);
+    memcpy(r, at->rotation, sizeof r);
+    memcpy(s, at->scale, sizeof s);
     if (step->translation)
         animation_channel_at(step->translation, seconds, t);
     if (step->rotation)

@@ -371,6 +371,7 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     d->programs = gpu_program_count(s->renderer->g);
     lmn_status status = gpu_check(s->renderer->g, error);
     memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
+    d->search = s->frame.search;
     d->traces = s->frame.traces;
     for (size_t i = 0; i < s->plan.figure_count; i++)
         d->has_traces = d->has_traces || (traces_of_rule(s->plan.figures[i].rule) && !s->plan.figures[i].unmarked);

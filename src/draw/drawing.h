@@ -14,18 +14,19 @@ struct lmn_drawing {
     kept_textures *kept;        /* NULL: none */
     warnings       warnings;
     /* for the report */
-    report_facts facts;
-    view_camera  camera;
-    char        *vendor, *renderer, *version;
-    uint64_t    *part_pixels; /* per part; NULL unless profiled */
-    double       frame_ms;
-    gpu_profile  profile;
-    uint64_t     strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
-    trace_facts  traces;
-    bool         has_traces; /* some rule wants them */
-    int          layers;
-    const char  *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
-    size_t       programs; /* compiled by the renderer so far */
+    report_facts   facts;
+    view_camera    camera;
+    char          *vendor, *renderer, *version;
+    uint64_t      *part_pixels; /* per part; NULL unless profiled */
+    double         frame_ms;
+    gpu_profile    profile;
+    outline_search search;
+    uint64_t       strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
+    trace_facts    traces;
+    bool           has_traces; /* some rule wants them */
+    int            layers;
+    const char    *producer; /* of layers, a name that lasts; NULL: nothing is seen through */
+    size_t         programs; /* compiled by the renderer so far */
 };
 
 lmn_status renderer_draw(lmn_drawing **out, lmn_renderer *r, const lmn_scene *scene, const lmn_look *look,

@@ -3,6 +3,8 @@
 #include <stdio.h>
 
 #include "draw/drawing.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "draw/exposure.h"
 
 /* The host's depth of what has a depth on the page: a factor, a summand, and what is farthest. Both projections put
@@ -36,17 +38,21 @@ static depth_line line_of(const view_camera *own, const double h[16], const doub
 static void put_on_target(session *s, const gpu_host_target *host, const lmn_target *target,
                           const double projection[16])
 {
-    gpu        *g = s->renderer->g;
-    frame      *f = &s->frame;
-    bool        deep = target->depth == LMN_TARGET_DEPTH_TEST_AND_WRITE;
-    depth_line  line = {.factor = 1};
-    char        prelude[96];
-    const int   box[4] = {target->x, target->y, target->width, target->height};
-    const char *head = deep ? f->seen_depth ? "#define WITH_DEPTH\n#define HAS_SEEN\n" : "#define WITH_DEPTH\n" : "";
+    gpu       *g = s->renderer->g;
+    frame     *f = &s->frame;
+    bool       deep = target->depth == LMN_TARGET_DEPTH_TEST_AND_WRITE;
+    depth_line line = {.factor = 1};
+    text       prelude = {0};
+    const int  box[4] = {target->x, target->y, target->width, target->height};
+    text_append(&prelude, "%s%s%s%s", deep ? "#define WITH_DEPTH\n" : "", f->seen_depth ? "#define HAS_SEEN\n" : "",
+                f->moved_depth ? "#define HAS_MOVED\n" : "", host->encodes ? "#define DECODES\n" : "");
+    char *defines = text_take(&prelude);
+    if (!defines)
+        gpu_fail(g, LMN_MEMORY, "out of memory");
     if (deep)
         line = line_of(&f->camera, projection, host->range);
-    snprintf(prelude, sizeof prelude, "%s%s", head, host->encodes ? "#define DECODES\n" : "");
-    gpu_program *p = gpu_program_of(g, GPU_FLOOR, "gpu/screen.vert", "draw/into.frag", prelude);
+    gpu_program *p = defines ? gpu_program_of(g, GPU_FLOOR, "gpu/screen.vert", "draw/into.frag", defines) : NULL;
+    mem_free(defines);
     if (!p || gpu_failed(g))
         return;
     gpu_host_begin(g, host, box);
@@ -59,7 +65,10 @@ static void put_on_target(session *s, const gpu_host_target *host, const lmn_tar
     gpu_set_ivec2(g, "u_origin", target->x, target->y);
     if (deep) {
         gpu_set_texture(g, "t_depth", f->kept_depth, false);
-        gpu_set_texture(g, "t_seen", f->seen_depth, false);
+        if (f->seen_depth)
+            gpu_set_texture(g, "t_seen", f->seen_depth, false);
+        if (f->moved_depth)
+            gpu_set_texture(g, "t_moved", f->moved_depth, false);
         gpu_set_int(g, "u_samples", f->samples);
         gpu_set_int(g, "u_beside", f->seen_depth && f->ground.a <= 0 ? f->seen_reach : 0);
         gpu_set_vec3(g, "u_depth_line", (float[]){(float)line.factor, (float)line.summand, (float)line.farthest});

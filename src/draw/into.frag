@@ -6,6 +6,9 @@ uniform sampler2D t_depth; /* of the page, supersamples counted */
 #ifdef HAS_SEEN
 uniform sampler2D t_seen;  /* of what is seen through, which the page's leaves out */
 #endif
+#ifdef HAS_MOVED
+uniform sampler2D t_moved; /* of what is seen through, as perturbed as it was drawn */
+#endif
 uniform int u_samples;     /* a side */
 uniform int u_beside;       /* how far ink lies beside what has depth, samples */
 uniform vec3 u_depth_line; /* the host's depth: factor, summand; and of where nothing is */
@@ -18,6 +21,9 @@ float depth_of(ivec2 at)
     float depth = texelFetch(t_depth, at, 0).r;
 #ifdef HAS_SEEN
     depth = min(depth, texelFetch(t_seen, at, 0).r);
+#endif
+#ifdef HAS_MOVED
+    depth = min(depth, texelFetch(t_moved, at, 0).r);
 #endif
     return depth;
 }

@@ -1,6 +1,7 @@
 /* The maps as files: depth.pfm, normal.pfm, id.png, edge.png, shade.png, uncertainty.pfm where something is
  * perturbed, direction.pfm where strokes follow the form on the page, velocity.pfm where the model moves, and the same
- * for each layer. PNG rows run from the top, PFM rows from the bottom. */
+ * for each layer; where something is perturbed also what compositions find, perturbed.*. PNG rows run from the top, PFM
+ * rows from the bottom. */
 #include "draw/maps.h"
 
 #include <math.h>
@@ -125,7 +126,7 @@ static lmn_status write_layer_floats(const frame_maps *m, const layer_map *layer
 static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_count, const char *directory,
                               lmn_error *error)
 {
-    const layer_map *layer = m->layers[index];
+    const layer_map *layer = m->layers.items[index];
     char             name[48];
     snprintf(name, sizeof name, "layer%zu.depth.pfm", index);
     lmn_status status = write_layer_floats(m, layer, 1, directory, name, error);
@@ -139,6 +140,20 @@ static lmn_status write_layer(const frame_maps *m, size_t index, size_t part_cou
     if (status == LMN_OK)
         status = write_picture(m, layer_edge_texel, layer, directory, name, error);
     snprintf(name, sizeof name, "layer%zu.shade.png", index);
+    return status == LMN_OK ? write_picture(m, layer_shade_texel, layer, directory, name, error) : status;
+}
+
+/* PREFIXperturbed.depth.pfm, .edge.png, .shade.png: what compositions find. */
+static lmn_status write_perturbed(const frame_maps *m, const layer_map *layer, const char *prefix,
+                                  const char *directory, lmn_error *error)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%sperturbed.depth.pfm", prefix);
+    lmn_status status = write_layer_floats(m, layer, 1, directory, name, error);
+    snprintf(name, sizeof name, "%sperturbed.edge.png", prefix);
+    if (status == LMN_OK)
+        status = write_picture(m, layer_edge_texel, layer, directory, name, error);
+    snprintf(name, sizeof name, "%sperturbed.shade.png", prefix);
     return status == LMN_OK ? write_picture(m, layer_shade_texel, layer, directory, name, error) : status;
 }
 
@@ -175,7 +190,14 @@ lmn_status maps_write(const frame_maps *m, size_t part_count, const char *direct
         if (status == LMN_OK)
             status = store(directory, "velocity.pfm", &bytes, error);
     }
-    for (size_t i = 0; i < m->layer_count && status == LMN_OK; i++)
+    for (size_t i = 0; i < m->layers.count && status == LMN_OK; i++)
         status = write_layer(m, i, part_count, directory, error);
+    if (m->perturbed.count && status == LMN_OK)
+        status = write_perturbed(m, m->perturbed.items[0], "", directory, error);
+    for (size_t i = 0; i < m->perturbed_layers.count && status == LMN_OK; i++) {
+        char prefix[32];
+        snprintf(prefix, sizeof prefix, "layer%zu.", i);
+        status = write_perturbed(m, m->perturbed_layers.items[i], prefix, directory, error);
+    }
     return status;
 }

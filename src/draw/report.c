@@ -45,6 +45,7 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "load_ms", json_real(d->facts.load_ms));
     json_object_set_new(root, "frame_ms", json_real(d->frame_ms));
     json_object_set_new(root, "strokes", report_strokes_json(d->strokes));
+    report_search(root, d->search);
     if (d->has_traces || d->traces.telling.count)
         json_object_set_new(root, "motion", trace_facts_json(&d->traces));
     json_object_set_new(root, "parts_visible", parts_json(d));

@@ -71,6 +71,7 @@ void renderer_destroy(lmn_renderer **renderer)
     pose_deformation_release(&r->deformation);
     swept_boxes_release(&r->swept);
     swept_boxes_release(&r->plate);
+    round_scene_release(&r->round);
     made_textures_release(&r->made, r->g);
     gpu_destroy(&r->g);
     mem_free(r);
@@ -279,7 +280,9 @@ lmn_status session_open(session *s, lmn_renderer *r, const lmn_scene *scene, con
     memset(s, 0, sizeof *s);
     s->renderer = r;
     kept_drop(r);
-    lmn_status status = prepare(s, scene, look, options, side, warnings, error);
+    lmn_status status = round_scene_find(&scene, &r->round, scene, look, error);
+    if (status == LMN_OK)
+        status = prepare(s, scene, look, options, side, warnings, error);
     if (status != LMN_OK)
         return status;
     r->width = desc->width;
@@ -316,6 +319,7 @@ void session_close(session *s)
         gpu_target_release(s->renderer->g, s->out);
         gpu_target_release(s->renderer->g, s->frame.kept_depth);
         gpu_target_release(s->renderer->g, s->frame.seen_depth);
+        gpu_target_release(s->renderer->g, s->frame.moved_depth);
     }
     plan_release(&s->plan);
     plan_textures_release(&s->textures);

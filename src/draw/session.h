@@ -6,6 +6,7 @@
 
 #include "frame/frame.h"
 #include "limner/draw.h"
+#include "plan/round_scene.h"
 #include "plan/time.h"
 #include "pose/pose.h"
 #include "stage/made_textures.h"
@@ -21,6 +22,7 @@ typedef struct kept_textures {
 struct lmn_renderer {
     gpu             *g;
     kept_textures   *kept;        /* of the last drawing; NULL: it has left none */
+    round_scene      round;       /* of the last scene that a look drew round */
     pose             pose;        /* of the last scene that was drawn */
     pose_deformation deformation; /* that its moment asks for */
     swept_boxes      swept;       /* of its clips */

@@ -197,7 +197,8 @@ void frame_set_common(frame *f, const figure_state *s)
 {
     gpu *g = f->g;
     /* Before any texture is bound: making this one binds it in place of another. */
-    if (gpu_has_uniform(g, "u_rest") || gpu_has_uniform(g, "u_world_from_eye"))
+    bool of_parts = gpu_has_uniform(g, "u_world_from_eye") || gpu_has_uniform(g, "t_part_frames");
+    if (gpu_has_uniform(g, "u_rest") || of_parts)
         upload_part_frames(f->up, g);
     gpu_set_vec2(g, "u_size", (float)f->width, (float)f->height);
     gpu_set_float(g, "u_pixels_per_mm", (float)f->pixels_per_mm);
@@ -218,7 +219,7 @@ void frame_set_common(frame *f, const figure_state *s)
     gpu_set_float(g, "u_time", (float)f->time_s);
     if (rule_use(s->figure->rule, KIND_PERTURB))
         set_field(f, s);
-    if (gpu_has_uniform(g, "u_world_from_eye"))
+    if (of_parts)
         set_part_frames(f, s);
     if (gpu_has_uniform(g, "u_light_position"))
         lights_set(f);

@@ -43,6 +43,13 @@ lmn_status frame_maps_create_pixel(frame_maps *m, int x, int y, lmn_error *error
     return error_memory(error);
 }
 
+static void release_layers(layer_maps *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        mem_free(l->items[i]);
+    mem_free(l->items);
+}
+
 void frame_maps_release(frame_maps *m)
 {
     mem_free(m->depth);
@@ -53,9 +60,9 @@ void frame_maps_release(frame_maps *m)
     mem_free(m->uncertainty);
     mem_free(m->direction);
     mem_free(m->velocity);
-    for (size_t i = 0; i < m->layer_count; i++)
-        mem_free(m->layers[i]);
-    mem_free(m->layers);
+    release_layers(&m->layers);
+    release_layers(&m->perturbed);
+    release_layers(&m->perturbed_layers);
     memset(m, 0, sizeof *m);
 }
 
@@ -200,13 +207,12 @@ void collect_direction(frame *f, figure_state *s)
     mem_free(coarse);
 }
 
-static layer_map *layer_at(frame *f, size_t index)
+layer_map *collect_layer_of(frame *f, layer_maps *m, size_t index)
 {
-    frame_maps *m = f->maps;
-    size_t      count = (size_t)f->width * (size_t)f->height;
-    while (m->layer_count <= index && !gpu_failed(f->g)) {
+    size_t count = (size_t)f->width * (size_t)f->height;
+    while (m->count <= index && !gpu_failed(f->g)) {
         layer_map *layer = mem_calloc(count, sizeof *layer);
-        if (!layer || !mem_grow((void **)&m->layers, &m->layer_capacity, m->layer_count + 1, sizeof *m->layers)) {
+        if (!layer || !mem_grow((void **)&m->items, &m->capacity, m->count + 1, sizeof *m->items)) {
             mem_free(layer);
             gpu_fail(f->g, LMN_MEMORY, "out of memory");
             return NULL;
@@ -215,9 +221,9 @@ static layer_map *layer_at(frame *f, size_t index)
             layer[i].depth = INFINITY;
             memset(layer[i].edge, 255, sizeof layer[i].edge);
         }
-        m->layers[m->layer_count++] = layer;
+        m->items[m->count++] = layer;
     }
-    return gpu_failed(f->g) ? NULL : m->layers[index];
+    return gpu_failed(f->g) ? NULL : m->items[index];
 }
 
 /* Reads velocities where there are any; false when memory is gone. */
@@ -256,9 +262,11 @@ static void collect(frame *f, figure_state *s, bool layered)
             gpu_read(f->g, s->targets[TARGET_SHADE], r.shade);
         if (!gpu_failed(f->g) && (!layered || s->layer == 0))
             merge_maps(f->maps, s, &r);
-        layer_map *layer = layered && whole ? layer_at(f, (size_t)s->layer) : NULL;
+        layer_map *layer = layered && whole ? collect_layer_of(f, &f->maps->layers, (size_t)s->layer) : NULL;
         if (layer)
             merge_layer(layer, count, s, &r);
+        if (whole && !gpu_failed(f->g))
+            collect_perturbed(f, s, r.edge, layered);
     } else {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     }

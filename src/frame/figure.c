@@ -173,23 +173,76 @@ static void mark_part(const frame *f, tile_grid *t, size_t part, int reach)
     mark_box(f, t, now->part_boxes[part], reach, true);
 }
 
-/* Passes over a figure of a few things that lie apart are drawn where these are. */
+/* The tiles that what is small on the page can reach, by a ball around it: towns have hundreds of thousands of such
+ * parts. False: it is not small, or near the eye. `clip`: projection · view. */
+static bool mark_small(const frame *f, tile_grid *t, const mat4 *clip, box3 box, int reach)
+{
+    const view_camera *c = &f->camera;
+    const double      *m = clip->m, *p = c->projection.m, radius = box3_diagonal(box) / 2;
+    double             middle[3], at[4];
+    box3_middle(box, middle);
+    for (int k = 0; k < 4; k++)
+        at[k] = m[k] * middle[0] + m[4 + k] * middle[1] + m[8 + k] * middle[2] + m[12 + k];
+    const double depth = c->orthographic ? 1 : at[3] - radius; /* its nearest */
+    if (!(depth > radius || c->orthographic))
+        return false;
+    /* Away from the middle of a perspective balls are drawn out, by as much as this at most. */
+    const double across = at[0] / (at[3] * p[0]), up = at[1] / (at[3] * p[5]);
+    const double drawn_out = c->orthographic ? 1 : 1 + across * across + up * up;
+    const double size = fmax(p[0] * f->width, p[5] * f->height) / 2 * radius * drawn_out / depth;
+    if (!(size < t->size))
+        return false;
+    const int sides[2] = {f->width, f->height}, around = (int)ceil(size) + reach + 1;
+    int       pixels[4];
+    for (int k = 0; k < 2; k++) {
+        const double pixel = (at[k] / at[3] * 0.5 + 0.5) * sides[k];
+        pixels[k] = (int)fmin(fmax(pixel, -1e6), 1e6) - around;
+        pixels[2 + k] = 2 * around + 1;
+    }
+    tiles_mark(t, pixels, true);
+    return true;
+}
+
+static bool all_full(const tile_grid *t)
+{
+    bool full = true;
+    for (int y = 0; y < t->rows; y++)
+        for (int x = 0; x < t->columns; x++)
+            full = full && t->full[y][x];
+    return full;
+}
+
+/* False: all tiles have something. */
+static bool mark_parts(const frame *f, tile_grid *t, const figure *fig, int reach)
+{
+    enum { LOOK_EVERY = 4096 };
+    const plan *p = f->plan;
+    const mat4  clip = mat4_multiply(&f->camera.projection, &f->camera.view);
+    for (size_t i = 0; i < p->part_count; i++) {
+        if (i % LOOK_EVERY == LOOK_EVERY - 1 && all_full(t))
+            return false;
+        if (fig->designated[i] && !mark_small(f, t, &clip, f->up->pose->part_boxes[i], reach))
+            mark_part(f, t, i, reach);
+    }
+    return true;
+}
+
+/* Passes over a figure of things that lie apart are drawn where these are. */
 void figure_find_boxes(frame *f, figure_state *s)
 {
-    enum { PARTS_MOST = 4096 }; /* of more, some are everywhere */
-    const plan *p = f->plan;
-    if (f->maps || s->figure->part_count > PARTS_MOST)
+    if (f->maps)
         return;
     tile_grid *t = mem_alloc(sizeof *t);
     s->boxes = mem_alloc(TILE_BOXES_MAX * sizeof *s->boxes);
     if (t && s->boxes) {
-        const int reach = figure_reach(s->figure);
         tiles_start(t, s->pixels);
         tiles_clear(t);
-        for (size_t i = 0; i < p->part_count; i++)
-            if (s->figure->designated[i])
-                mark_part(f, t, i, reach);
-        s->box_count = tiles_boxes(t, 0, s->pixels, s->boxes);
+        if (mark_parts(f, t, s->figure, figure_reach(s->figure))) {
+            s->box_count = tiles_boxes(t, 0, s->pixels, s->boxes);
+        } else {
+            mem_free(s->boxes);
+            s->boxes = NULL;
+        }
     } else {
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     }

@@ -137,6 +137,23 @@ static void encode(frame *f, gpu_texture *out)
     watch_stop(&f->profile, w, "", "encode");
 }
 
+/* Is its depth kept while it is composed, which alone knows where its perturbation puts it? */
+static bool keeps_moved_depth(const figure *fig)
+{
+    return fig->layered && !fig->mover && rule_use(fig->rule, KIND_PERTURB) != NULL;
+}
+
+static void open_moved_depth(frame *f)
+{
+    bool any = false;
+    for (size_t i = 0; i < f->plan->figure_count; i++)
+        any = any || keeps_moved_depth(&f->plan->figures[i]);
+    gpu_target_release(f->g, f->moved_depth);
+    f->moved_depth = any ? frame_acquire(f, TARGET_DEPTH) : NULL;
+    if (f->moved_depth && !gpu_failed(f->g))
+        gpu_pass_begin(f->g, &(gpu_pass){.depth = f->moved_depth, .clear = true});
+}
+
 /* Figures that are seen through leave no depth on the page, nor do those that move. */
 static void keep_seen_depth(frame *f)
 {
@@ -148,7 +165,7 @@ static void keep_seen_depth(frame *f)
     }
     for (size_t i = 0; i < p->figure_count; i++) {
         const figure *fig = &p->figures[i];
-        if (!fig->layered && !fig->mover)
+        if ((!fig->layered && !fig->mover) || keeps_moved_depth(fig))
             continue;
         int reach = figure_reach(fig);
         f->seen_reach = reach > f->seen_reach ? reach : f->seen_reach;
@@ -168,11 +185,14 @@ static void draw_page(frame *f)
     f->page = frame_acquire(f, TARGET_PAGE);
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     memset(f->strokes, 0, sizeof f->strokes);
+    f->search = (outline_search){0, 0};
     memset(&f->traces, 0, sizeof f->traces);
     facts_open(f);
     shadow_draw(f);
     if (!gpu_failed(f->g))
         visibility_draw(f);
+    if (f->keeps_depth && !gpu_failed(f->g))
+        open_moved_depth(f);
     if (!gpu_failed(f->g)) {
         clear_page(f);
         ground_draw(f);
@@ -191,7 +211,7 @@ static void release_page(frame *f)
         f->kept_depth = f->page_depth;
     else
         gpu_target_release(f->g, f->page_depth);
-    gpu_target_release(f->g, f->shadow);
+    shadow_release(f);
     gpu_target_release(f->g, f->visibility);
     gpu_target_release(f->g, f->facts);
     f->facts = NULL;

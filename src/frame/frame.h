@@ -38,21 +38,23 @@ typedef struct frame {
     gpu_texture *kept_depth;  /* with keeps_depth: the page's; the caller's to release */
     gpu_texture
         *seen_depth; /* the same of what is seen through or moves, which the page's leaves out; NULL: there is none */
-    int  seen_reach; /* how far ink of that lies beside it, samples */
-    gpu_texture *facts;  /* what is known of parts in packs: facts.c; NULL: there are none, or no page is drawn */
-    gpu_texture *shadow; /* depth of what the first light sees; NULL: it throws no shadow */
+    gpu_texture *moved_depth; /* of what is seen through and perturbed, where its sketch is; NULL: there is none */
+    int          seen_reach;  /* how far ink of that lies beside it, samples */
+    gpu_texture *facts;       /* what is known of parts in packs: facts.c; NULL: there are none, or no page is drawn */
+    gpu_texture *shadow;      /* depth of what the first light sees; NULL: it throws no shadow */
     view_camera  shadow_camera; /* the light's eye */
     gpu_texture *visibility; /* light that arrives at what is seen, soft; NULL: the look wants neither soft shadows nor
                                 occlusion */
-    tone_range    tone_range;
-    ground_plane  ground_plane;                /* what the model stands on */
-    float         clip_plane[4];               /* eye space, while a mirror's view is drawn */
-    int           layers;                      /* drawn by the deepest stack */
-    const char   *producer;                    /* of layers; NULL: there were none */
-    bool          lists_full;                  /* lists had no room, so that layers were peeled instead */
-    const figure *mirror;                      /* whose view is drawn; NULL: the scene itself */
-    uint64_t      strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
-    trace_facts   traces;                      /* of all figures */
+    tone_range     tone_range;
+    ground_plane   ground_plane;                /* what the model stands on */
+    float          clip_plane[4];               /* eye space, while a mirror's view is drawn */
+    int            layers;                      /* drawn by the deepest stack */
+    const char    *producer;                    /* of layers; NULL: there were none */
+    bool           lists_full;                  /* lists had no room, so that layers were peeled instead */
+    const figure  *mirror;                      /* whose view is drawn; NULL: the scene itself */
+    uint64_t       strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
+    outline_search search;                      /* for them */
+    trace_facts    traces;                      /* of all figures */
 } frame;
 
 /* The camera of strokes: what the frame sees, on its sheet, whatever pixels it has. All its bytes are set. */
@@ -77,6 +79,12 @@ typedef struct layer_map {
     uint8_t  edge[4], shade[4]; /* shade: sRGB, straight alpha */
 } layer_map;
 
+/* Those of all layers, nearest first. */
+typedef struct layer_maps {
+    layer_map **items;
+    size_t      count, capacity;
+} layer_maps;
+
 enum { FRAME_MAPS = LMN_MAP_DIRECTION + 1 };
 
 /* What the figures were made of, merged by nearest depth; row 0 at the bottom. */
@@ -91,10 +99,12 @@ struct frame_maps {
     float    *velocity;    /* 3: pixels moved over the exposure, right, up, 0; NULL: the scene is at rest */
     float *direction; /* 3: the directions of strokes on the page, s · (cos 2θ, sin 2θ), 0; NULL where no surface asks
                          for it */
-    bool        whole;  /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
-    bool        part;   /* not whole: a box of the page, and its normals too */
-    layer_map **layers; /* of figures that are seen through, nearest first */
-    size_t      layer_count, layer_capacity;
+    bool       whole;     /* all maps, of all layers too; else only depth and id of what is nearest, the rest is NULL */
+    bool       part;      /* not whole: a box of the page, and its normals too */
+    layer_maps layers;    /* of figures that are seen through */
+    layer_maps perturbed; /* depth, edge and shade as compositions find them: of what is nearest, one, or none where
+                             nothing is perturbed */
+    layer_maps perturbed_layers;
     /* The same on the GPU instead, by lmn_map, without those of layers; the caller's to release. */
     bool         on_gpu;
     gpu_texture *textures[FRAME_MAPS];

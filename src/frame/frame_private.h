@@ -106,8 +106,10 @@ bool lights_first_direction(const frame *f, double out[3]);
 
 /* --- shadow.c --- */
 /* Draws what the first light sees, where the look wants shadows or a pass reads them, and the light has a
- * direction. The caller gives f->shadow back. */
+ * direction. */
 void shadow_draw(frame *f);
+/* Gives f->shadow back, unless it is kept for the next frame. */
+void shadow_release(frame *f);
 
 /* --- visibility.c: soft shadows and ambient occlusion --- */
 /* Draws f->visibility, where the look wants it. The caller gives it back. */
@@ -234,6 +236,10 @@ void passes_prepare(frame *f, figure_state *s);
 /* What a mover's technique of motion adds to what throws shadows. */
 void passes_throw_shadows(frame *f, figure_state *s);
 void passes_run_kind(frame *f, figure_state *s, kind_id id);
+/* The figure's edge map, fill and eye depth (0: nothing) as its composition finds them, moved by its perturbation;
+ * RGBA32F, the caller's to release. */
+enum { LOOKED_UP = 3 };
+void passes_look_up(frame *f, figure_state *s, gpu_texture *out[LOOKED_UP]);
 /* Detects and inks the line techniques one by one, the first with the fill; `nearest_first` puts each under those
  * before. */
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first);
@@ -272,7 +278,11 @@ bool mirror_prepare(const frame *f, const figure *mirror, frame *inner);
 void collect_edges(frame *f, figure_state *s);
 void collect_figure(frame *f, figure_state *s);
 void collect_layer(frame *f, figure_state *s); /* of layer s->layer */
-void collect_uncertainty(frame *f, figure_state *s);
-void collect_direction(frame *f, figure_state *s);
+/* What the composition finds, where something of the drawing is perturbed; `edges` as figure_state has them. */
+void collect_perturbed(frame *f, figure_state *s, const float *edges, bool layered);
+/* The layer's map, made when it is not there; NULL after an error. */
+layer_map *collect_layer_of(frame *f, layer_maps *maps, size_t index);
+void       collect_uncertainty(frame *f, figure_state *s);
+void       collect_direction(frame *f, figure_state *s);
 
 #endif

@@ -21,6 +21,12 @@ static bool goes_onto_page(const pass *p)
     return p->writes == TARGET_PAGE || p->writes == TARGET_LAYERS || p->writes == TARGET_SHADOW;
 }
 
+/* Does the figure's perturbation move what the pass looks up? */
+static bool is_moved(const pass *p, const pass_params *params)
+{
+    return params->perturbed && (p->looks_up || goes_onto_page(p));
+}
+
 /* Is its picture one that is there and added to? */
 static bool adds(const pass *p)
 {
@@ -33,13 +39,16 @@ static bool in_boxes(const figure_state *s, const pass *p)
     return s->boxes && !p->tiles && target_row_of(s, p->writes)->scale == SCALE_PAGE;
 }
 
-static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params)
+static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p, const pass_params *params,
+                                 bool depth_alone)
 {
     text prelude = {0};
+    if (depth_alone)
+        text_append(&prelude, "#define SEEN_DEPTH\n");
     for (size_t i = 0; i < params->count; i++)
         uniforms_declare(&prelude, params->sets[i]);
     reads_declare(&prelude, f, s, p, params->merged);
-    if (s->targets[TARGET_EDGE] || params->merged)
+    if ((s->targets[TARGET_EDGE] || params->merged) && !p->looks_up)
         text_append(&prelude, "#define HAS_LINES\n");
     char path[160];
     snprintf(path, sizeof path, "%s", p->shader);
@@ -57,7 +66,7 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define WRITES_TOO\n");
     if (p->tiles)
         text_append(&prelude, "#define TILES %s\n", target_row_of(s, p->tiles)->name);
-    if (params->perturbed && goes_onto_page(p)) {
+    if (is_moved(p, params)) {
         text_append(&prelude, "#define PERTURBED\n");
         const technique_use *lines = rule_inked_lines(s->figure->rule);
         if (lines && ((const lines_common *)lines->values)->width > (float)LINES_FOUND_WIDTH * (float)f->samples)
@@ -191,39 +200,60 @@ static void keep_written(frame *f, figure_state *s, target t, gpu_texture *writt
     s->targets[t] = written;
 }
 
+/* Into pictures that are there, with all that the program asks for. */
+static void draw_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, gpu_program *program,
+                      const gpu_pass *target, gpu_state state, int iteration)
+{
+    gpu_pass_begin(f->g, target);
+    gpu_use(f->g, program, state);
+    frame_set_common(f, s);
+    gpu_set_int(f->g, "u_iteration", iteration);
+    for (size_t i = 0; i < params->count; i++)
+        uniforms_set(f->g, params->sets[i]);
+    reads_set(f, s, p, params->merged);
+    if (is_moved(p, params)) {
+        used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
+        frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
+    }
+    if (params->made)
+        used_textures_set(f->g, params->made, &s->figure->textures->motion);
+    gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
+    if (p->strips)
+        draw_strips(f, s, p, params->made);
+    else if (in_boxes(s, p))
+        gpu_draw_boxes(f->g, s->boxes, s->box_count);
+    else if (p->tiles)
+        draw_tiles(f, s);
+    else
+        gpu_draw_screen(f->g);
+}
+
+/* A sketch that is seen through has its nearest layer's depth, which only who composes it knows: once more, for the
+ * depth alone. One field moves all layers, so that none of them gets before it. */
+static void keep_moved_depth(frame *f, figure_state *s, const pass *p, const pass_params *params)
+{
+    if (p->writes != TARGET_LAYERS || !f->moved_depth || s->layer > 0 || s->figure->mover || !params->perturbed)
+        return;
+    gpu_program *program = pass_program(f, s, p, params, true);
+    gpu_pass     target = {.depth = f->moved_depth};
+    set_scissor(f, s, p, &target);
+    if (program && !gpu_failed(f->g))
+        draw_pass(f, s, p, params, program, &target, (gpu_state){.depth_test = true, .depth_write = true}, 0);
+}
+
 static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, const char *group,
                      int iteration)
 {
     stopwatch    w = watch_start(&f->profile);
-    gpu_program *program = pass_program(f, s, p, params);
+    gpu_program *program = pass_program(f, s, p, params, false);
     bool         page = adds(p);
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     gpu_texture *too = p->writes_too ? frame_acquire_for(f, s, p->writes_too) : NULL;
     if (program && written && !gpu_failed(f->g)) {
         gpu_pass target = pass_target(f, s, p, written, too);
         set_scissor(f, s, p, &target);
-        gpu_pass_begin(f->g, &target);
-        gpu_use(f->g, program, pass_state(s, p));
-        frame_set_common(f, s);
-        gpu_set_int(f->g, "u_iteration", iteration);
-        for (size_t i = 0; i < params->count; i++)
-            uniforms_set(f->g, params->sets[i]);
-        reads_set(f, s, p, params->merged);
-        if (params->perturbed && goes_onto_page(p)) {
-            used_textures_set(f->g, rule_use(s->figure->rule, KIND_PERTURB), &s->figure->textures->perturb);
-            frame_set_numbers(f, rule_use(s->figure->rule, KIND_PERTURB));
-        }
-        if (params->made)
-            used_textures_set(f->g, params->made, &s->figure->textures->motion);
-        gpu_set_vec2(f->g, "u_target", (float)f->width, (float)f->height);
-        if (p->strips)
-            draw_strips(f, s, p, params->made);
-        else if (in_boxes(s, p))
-            gpu_draw_boxes(f->g, s->boxes, s->box_count);
-        else if (p->tiles)
-            draw_tiles(f, s);
-        else
-            gpu_draw_screen(f->g);
+        draw_pass(f, s, p, params, program, &target, pass_state(s, p), iteration);
+        keep_moved_depth(f, s, p, params);
     }
     if (!page)
         keep_written(f, s, p->writes, written);
@@ -451,6 +481,40 @@ void passes_run_kind(frame *f, figure_state *s, kind_id id)
                  kinds[id]->name, 0);
         collect_uncertainty(f, s);
     }
+}
+
+void passes_look_up(frame *f, figure_state *s, gpu_texture *out[LOOKED_UP])
+{
+    static const target_row rows[LOOKED_UP] = {
+        {"t_found_edge", TEXEL_RGBA32F}, {"t_found_shade", TEXEL_RGBA32F}, {"t_found_depth", TEXEL_RGBA32F}};
+    static const pass    passes[] = {{.name = "lines and fill",
+                                      .shader = "compose/looked_up.frag",
+                                      .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_UNCERTAINTY},
+                                      .writes = TARGET_OWN(0),
+                                      .writes_too = TARGET_OWN(1),
+                                      .looks_up = true},
+                                     {.name = "depth",
+                                      .shader = "compose/looked_up.frag",
+                                      .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_ID, TARGET_UNCERTAINTY},
+                                      .writes = TARGET_OWN(2),
+                                      .looks_up = true}};
+    const technique_use *perturb = rule_use(s->figure->rule, KIND_PERTURB);
+    const technique_use *lines = rule_inked_lines(s->figure->rule);
+    pass_params          params = {.count = 0};
+    if (lines)
+        params.sets[params.count++] = use_common_set(KIND_LINES, lines);
+    if (perturb) {
+        params.sets[params.count++] = use_own_set(KIND_PERTURB, perturb);
+        params.perturbed = perturb->technique->perturbs;
+    }
+    s->own_targets = rows;
+    for (int i = 0; i < 2; i++)
+        run_pass(f, s, &passes[i], &params, "maps", 0);
+    for (int i = 0; i < LOOKED_UP; i++) {
+        out[i] = s->targets[TARGET_OWN(i)];
+        s->targets[TARGET_OWN(i)] = NULL;
+    }
+    s->own_targets = NULL;
 }
 
 void passes_compose_lines(frame *f, figure_state *s, bool nearest_first)

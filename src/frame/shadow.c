@@ -2,7 +2,9 @@
 #include "frame/frame_private.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/memory.h"
 #include "light/light.h"
 
 /* Twice as fine as the picture, about; half of that is enough for soft borders. */
@@ -148,6 +150,46 @@ static bool is_read(const frame *f)
     return false;
 }
 
+/* Would the light see what it saw last? */
+static bool sees_the_same(const frame *f, const frame *light)
+{
+    const seen_by_light *k = &f->up->lit;
+    return k->depth && gpu_texture_width(k->depth) == light->width &&
+           memcmp(&k->view, &light->camera.view, sizeof k->view) == 0 &&
+           memcmp(&k->projection, &light->camera.projection, sizeof k->projection) == 0 &&
+           memcmp(k->parts, f->plan->throws, f->plan->part_count * sizeof *k->parts) == 0;
+}
+
+static void forget(frame *f)
+{
+    gpu_target_release(f->g, f->up->lit.depth);
+    mem_free(f->up->lit.parts);
+    f->up->lit = (seen_by_light){.depth = NULL};
+}
+
+/* Movers put shadows of their own into the picture. */
+static bool has_movers(const plan *p)
+{
+    bool found = false;
+    for (size_t i = 0; i < p->figure_count; i++)
+        found = found || p->figures[i].mover;
+    return found;
+}
+
+static void keep(frame *f, const frame *light)
+{
+    bool *parts =
+        has_movers(f->plan) || gpu_failed(f->g) ? NULL : mem_copy(f->plan->throws, f->plan->part_count * sizeof *parts);
+    if (parts)
+        f->up->lit = (seen_by_light){f->shadow, light->camera.view, light->camera.projection, parts};
+}
+
+void shadow_release(frame *f)
+{
+    if (f->shadow != f->up->lit.depth)
+        gpu_target_release(f->g, f->shadow);
+}
+
 void shadow_draw(frame *f)
 {
     const scene_values *v = f->plan->look->wide[KIND_SCENE].values;
@@ -162,13 +204,18 @@ void shadow_draw(frame *f)
     /* The ground is seen before and behind the model, too. */
     if (cast)
         camera_set_range(&viewer, f->camera.near * (f->camera.orthographic ? 1 : 0.2), f->camera.far * 2);
-    bool      hard = read || !(v->shadow_softness > 0);
-    stopwatch w = watch_start(&f->profile);
-    frame     light = *f;
+    bool  hard = read || !(v->shadow_softness > 0);
+    frame light = *f;
     light.camera = f->shadow_camera =
         camera_of_light(f->plan->box, back, hard && !is_seen_elsewhere(f) ? &viewer : NULL);
     light.width = light.height = side_of(f, !hard);
     light.maps = NULL;
+    if (sees_the_same(f, &light)) {
+        f->shadow = f->up->lit.depth;
+        return;
+    }
+    stopwatch w = watch_start(&f->profile);
+    forget(f);
     gpu_texture *depth = frame_acquire_sized(f, TARGET_SHADOW, light.width, light.height);
     light.page_depth = depth; /* what solids are gathered in must be as large */
     if (!gpu_failed(f->g))
@@ -176,5 +223,6 @@ void shadow_draw(frame *f)
     f->shadow = depth;
     if (v->shadows || cast)
         movers_throw_shadows(f);
+    keep(f, &light);
     watch_stop(&f->profile, w, "scene", "shadow");
 }

@@ -338,6 +338,10 @@ static lmn_status make_ribbons(ribbon_set *out, stroke_store *store, frame *f, c
         lift_strokes(&set);
     if (status == LMN_OK && s->figure->layered)
         keep_layer(&set, (uint32_t)s->layer);
+    if (status == LMN_OK && s->layer == 0) { /* all layers have theirs from one search */
+        f->search.faces += set.search.faces;
+        f->search.tested += set.search.tested;
+    }
     for (size_t i = 0; i < set.stroke_count && status == LMN_OK; i++)
         f->strokes[set.strokes[i].kind]++;
     if (status == LMN_OK)

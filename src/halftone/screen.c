@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-const char *const screen_detail_names[DETAIL_COUNT + 1] = {"kept", "minimum", "average", NULL};
+const char *const screen_detail_names[DETAIL_COUNT + 1] = {"kept", "minimum", "average", "nearest", NULL};
 
 enum { SIDE_MOST = 4096, NOBODY = -1 };
 
@@ -237,7 +237,7 @@ static void draw_level(raster *r, int level)
 }
 
 /* In place: each texel is written where all that is read later lies behind it. */
-static void reduce_level(raster *r, bool average)
+static void reduce_level(raster *r, screen_detail detail)
 {
     int half = r->side / 2;
     for (int y = 0; y < half; y++)
@@ -247,12 +247,13 @@ static void reduce_level(raster *r, bool average)
             for (size_t i = 0; i < 4; i++) {
                 size_t parent = at + (i & 1) + (i >> 1) * (size_t)r->side;
                 sum += r->ink[parent];
-                if (r->owner[parent] != NOBODY && (r->owner[darkest] == NOBODY || r->ink[parent] > r->ink[darkest]))
+                if (detail != DETAIL_NEAREST && r->owner[parent] != NOBODY &&
+                    (r->owner[darkest] == NOBODY || r->ink[parent] > r->ink[darkest]))
                     darkest = parent;
             }
             size_t  to = (size_t)y * (size_t)half + (size_t)x;
             int32_t owner = r->owner[darkest];
-            r->ink[to] = average ? (uint16_t)((sum + 2) / 4) : r->ink[darkest];
+            r->ink[to] = detail == DETAIL_AVERAGE ? (uint16_t)((sum + 2) / 4) : r->ink[darkest];
             r->owner[to] = owner;
         }
     r->side = half;
@@ -265,7 +266,7 @@ static void raster_level(raster *r, int level)
         r->side = r->options->side >> level;
         draw_level(r, level);
     } else {
-        reduce_level(r, r->options->detail == DETAIL_AVERAGE);
+        reduce_level(r, r->options->detail);
     }
 }
 

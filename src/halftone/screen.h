@@ -16,6 +16,7 @@ typedef enum screen_detail {
                   * coarse level; a curve of several chords is one stroke. */
     DETAIL_MINIMUM, /* the darkest of four parents: wide but fuzzy (IM-05), for comparison */
     DETAIL_AVERAGE, /* box filter, as drivers do it: grey far away (IM-01), for comparison */
+    DETAIL_NEAREST, /* one of four parents, as without levels: patterns that are not there (IM-01), for comparison */
     DETAIL_COUNT
 } screen_detail;
 extern const char *const screen_detail_names[DETAIL_COUNT + 1];
@@ -86,6 +87,15 @@ typedef struct screen_layer {
 } screen_layer;
 lmn_status screen_of_layers(mip_chain *out, const screen_layer *layers, size_t count, double gain, int side,
                             screen_detail detail, lmn_error *error);
+
+/* Levels that were drawn one by one (IM-04), the finest first: picture k is level k, resampled to half the side of the
+ * one before; further levels are paper. Errors: as above. */
+lmn_status screen_of_levels(mip_chain *out, const screen_layer *levels, size_t count, int side, lmn_error *error);
+
+/* Normals that were painted (IM-17): red and green of a picture are x to the right and y up of unit normals, 0 … 255
+ * for −1 … 1, row 0 on top. Slopes are `steep` times what is painted; levels are means. RG8. Errors: as above. */
+lmn_status screen_normals_of_picture(mip_chain *out, const screen_layer *picture, double steep, int side,
+                                     lmn_error *error);
 
 /* Makes the tone of each level linear in place, antialiased greys included (IM-14): texels keep their order, and
  * the fraction below v becomes v until there is no more ink; then it stays. So the same light gives the same tone on

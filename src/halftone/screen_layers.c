@@ -211,7 +211,11 @@ static bool fill_painting(mip_chain *out, painting *p, screen_detail detail)
             good = keep_detail(p, &m, side, fraction, whole);
         else
             reduce(p->ink, side, p->mean, p->next);
-        memcpy(p->ink, detail == DETAIL_AVERAGE ? p->mean : p->next, count * sizeof *p->ink);
+        if (detail == DETAIL_NEAREST)
+            for (size_t i = 0; i < count; i++) /* in place: what is read later lies behind */
+                p->ink[i] = p->ink[2 * (i / (size_t)side) * (size_t)(2 * side) + 2 * (i % (size_t)side)];
+        else
+            memcpy(p->ink, detail == DETAIL_AVERAGE ? p->mean : p->next, count * sizeof *p->ink);
         ink_encode(out->data[k], p->ink, count);
     }
     screen_marks_release(&m);
@@ -259,4 +263,74 @@ lmn_status screen_of_layers(mip_chain *out, const screen_layer *layers, size_t c
         return LMN_OK;
     mip_chain_release(out);
     return error_memory(error);
+}
+
+lmn_status screen_of_levels(mip_chain *out, const screen_layer *levels, size_t count, int side, lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    lmn_status status = check(levels, count, 1, side, error);
+    if (status == LMN_OK)
+        status = mip_chain_create(out, side, side, 1, 0, MIP_R8, error);
+    uint16_t *ink = status == LMN_OK ? mem_alloc((size_t)side * (size_t)side * sizeof *ink) : NULL;
+    for (int k = 0; ink && k < out->levels; k++) {
+        int    own = mip_width(out, k);
+        size_t texels = (size_t)own * (size_t)own;
+        memset(ink, 0, texels * sizeof *ink);
+        if ((size_t)k < count)
+            add_layer(ink, own, &levels[k], 0);
+        ink_encode(out->data[k], ink, texels);
+    }
+    bool enough = ink != NULL;
+    mem_free(ink);
+    if (status != LMN_OK || enough)
+        return status;
+    mip_chain_release(out);
+    return error_memory(error);
+}
+
+/* --- painted normals ------------------------------------------------------------------------------------ */
+
+/* The mean of red or green where a texel is. */
+static double mean_channel(const screen_layer *p, int side, int x, int y, size_t channel)
+{
+    size_t size = p->width, sides = (size_t)side, row = sides - 1 - (size_t)y;
+    size_t left = (size_t)x * size / sides, right = ((size_t)x + 1) * size / sides, top = row * size / sides,
+           bottom = (row + 1) * size / sides;
+    double sum = 0;
+    right = right > left ? right : left + 1;
+    bottom = bottom > top ? bottom : top + 1;
+    for (size_t i = top; i < bottom; i++)
+        for (size_t k = left; k < right; k++)
+            sum += p->rgba[4 * (i * size + k) + channel];
+    return sum / (double)((right - left) * (bottom - top));
+}
+
+static uint8_t normal_byte(double component)
+{
+    return (uint8_t)(128.5 + 127 * component);
+}
+
+static void put_normal(uint8_t *to, double x, double y, double steep)
+{
+    double up = sqrt(fmax(1 - x * x - y * y, 0.0025)), u = x / up * steep, v = y / up * steep;
+    double unit = 1 / sqrt(1 + u * u + v * v);
+    to[0] = normal_byte(u * unit);
+    to[1] = normal_byte(v * unit);
+}
+
+lmn_status screen_normals_of_picture(mip_chain *out, const screen_layer *picture, double steep, int side,
+                                     lmn_error *error)
+{
+    memset(out, 0, sizeof *out);
+    lmn_status status = check(picture, 1, 1, side, error);
+    if (status == LMN_OK)
+        status = mip_chain_create(out, side, side, 1, 0, MIP_RG8, error);
+    for (int k = 0; status == LMN_OK && k < out->levels; k++) {
+        int      own = mip_width(out, k);
+        uint8_t *to = out->data[k];
+        for (int i = 0; i < own * own; i++, to += 2)
+            put_normal(to, (mean_channel(picture, own, i % own, i / own, 0) - 127.5) / 127.5,
+                       (mean_channel(picture, own, i % own, i / own, 1) - 127.5) / 127.5, steep);
+    }
+    return status;
 }

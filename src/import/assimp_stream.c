@@ -464,10 +464,12 @@ static void read_node(stream *s, uint32_t index)
         return;
     }
     n->name = record.name;
-    n->has_matrix = true;
+    mat4 place;
     memcpy(matrix, record.matrix, sizeof matrix);
     for (int i = 0; i < 16; i++)
-        n->matrix.m[i] = matrix[i];
+        place.m[i] = (double)matrix[i];
+    if (!node_set_matrix(n, &place))
+        out_of_memory(s);
     /* assimp calls the root like the file or "ROOT"; the scene has its own node for that. */
     if (record.parent == UINT32_MAX) {
         mem_free(n->name);

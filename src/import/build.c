@@ -41,15 +41,9 @@ bool build_attribute(node *n, const char *key, const char *value)
     if (!grown)
         return false;
     n->attributes = grown;
-    attribute *a = &grown[n->attribute_count];
-    *a = (attribute){mem_copy_text(key), mem_copy_text(value)};
-    if (!a->key || !a->value) {
-        mem_free(a->key);
-        mem_free(a->value);
-        return false;
-    }
-    n->attribute_count++;
-    return true;
+    bool good = attribute_make(&grown[n->attribute_count], key, value);
+    n->attribute_count += good;
+    return good;
 }
 
 int build_line(const char *from, const char *at)

@@ -55,8 +55,11 @@ static bool add_bone(lmn_scene *s, int32_t mesh_index, const bvh_joint *from, co
         return false;
     n->name = mem_copy_text(from->name);
     n->mesh = mesh_index;
-    n->scale[0] = n->scale[1] = n->scale[2] = length;
-    turn_from_y(o, length, n->rotation);
+    node_place *own = node_own_place(n);
+    if (!own)
+        return false;
+    own->scale[0] = own->scale[1] = own->scale[2] = length;
+    turn_from_y(o, length, own->rotation);
     scene_link_child(s, from->node, (int32_t)s->node_count - 1);
     return !from->name || n->name;
 }
@@ -68,9 +71,11 @@ static bool add_joint(lmn_scene *s, bvh_joint *j, int32_t parent)
         return false;
     j->node = (int32_t)s->node_count - 1;
     n->name = mem_copy_text(j->name);
-    memcpy(n->translation, j->offset, sizeof n->translation);
+    node_place *own = node_own_place(n);
+    if (own)
+        memcpy(own->translation, j->offset, sizeof own->translation);
     scene_link_child(s, parent, j->node);
-    return !j->name || n->name;
+    return own && (!j->name || n->name);
 }
 
 lmn_status bvh_build_skeleton(lmn_scene *s, bvh_skeleton *skeleton, lmn_error *error)

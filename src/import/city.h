@@ -7,6 +7,7 @@
 #define LIMNER_IMPORT_CITY_H
 
 #include "import/import.h"
+#include "import/json_scan.h"
 #include "scene/city.h"
 
 enum { CITY_INNER = 1 }; /* a face of an inner shell: it looks into the cavity */
@@ -67,7 +68,11 @@ void city_builder_points(city_builder *b, const vec3 *points, size_t count);
 int32_t city_object(city_builder *b, char *id, const char *type, size_t type_size);
 /* Makes `child` a child of `parent`; false when it would be its own ancestor or has a parent. */
 bool city_link(city_builder *b, int32_t parent, int32_t child);
-bool city_attribute(lmn_scene *scene, int32_t node, char *key, char *value);
+/* Texts are copied. False when memory is gone. */
+bool city_attribute(lmn_scene *scene, int32_t node, const char *key, const char *value);
+bool city_attribute_sized(lmn_scene *scene, int32_t node, const char *key, size_t key_size, const char *value,
+                          size_t value_size);
+bool city_attribute_of_spans(lmn_scene *scene, int32_t node, json_span key, json_span value);
 
 /* What a shape becomes: a mesh for each kind of surface. Templates are made once and attached several times. */
 typedef struct city_mesh {

@@ -281,8 +281,14 @@ static lmn_status make_primitive(city_builder *b, const city_shape *s, size_t fr
 
 static lmn_status add_form(city_builder *b, primitive *primitives, size_t count, uint8_t word, city_forms *out)
 {
-    if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
-        return error_memory(b->error);
+    if (out->count == out->capacity) { /* most objects have three: arrays of objects wait by the thousand */
+        size_t     room = out->capacity ? 2 * out->capacity : 4;
+        city_form *grown = mem_realloc(out->items, room * sizeof *grown);
+        if (!grown)
+            return error_memory(b->error);
+        out->items = grown;
+        out->capacity = room;
+    }
     primitive *kept = mem_copy(primitives, count * sizeof *primitives);
     if (!kept)
         return error_memory(b->error);
@@ -420,23 +426,34 @@ lmn_status city_make(city_builder *b, city_shape *s, uint8_t own, bool building,
 
 /* --- nodes ---------------------------------------------------------------------------------------------- */
 
-bool city_attribute(lmn_scene *scene, int32_t node_index, char *key, char *value)
+bool city_attribute_sized(lmn_scene *scene, int32_t node_index, const char *key, size_t key_size, const char *value,
+                          size_t value_size)
 {
     node      *n = &scene->nodes[node_index];
-    attribute *grown = key && value ? mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown) : NULL;
-    if (!grown) {
-        mem_free(key);
-        mem_free(value);
+    attribute *grown = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown);
+    if (!grown)
         return false;
-    }
     n->attributes = grown;
-    grown[n->attribute_count++] = (attribute){key, value};
-    return true;
+    bool good = attribute_make_sized(&grown[n->attribute_count], key, key_size, value, value_size);
+    n->attribute_count += good;
+    return good;
 }
 
-static bool say(lmn_scene *scene, int32_t node, const char *key, const char *value)
+bool city_attribute(lmn_scene *scene, int32_t node, const char *key, const char *value)
 {
-    return city_attribute(scene, node, mem_copy_text(key), mem_copy_text(value));
+    return city_attribute_sized(scene, node, key, strlen(key), value, strlen(value));
+}
+
+/* As most texts are: what stands in the file is what is meant. */
+bool city_attribute_of_spans(lmn_scene *scene, int32_t node, json_span key, json_span value)
+{
+    if (span_is_plain(key) && span_is_plain(value))
+        return city_attribute_sized(scene, node, key.at, key.size, value.at, value.size);
+    char *name = span_decode(key), *copy = name ? span_decode(value) : NULL;
+    bool  good = copy && city_attribute(scene, node, name, copy);
+    mem_free(name);
+    mem_free(copy);
+    return good;
 }
 
 int32_t city_object(city_builder *b, char *id, const char *type, size_t type_size)
@@ -450,8 +467,7 @@ int32_t city_object(city_builder *b, char *id, const char *type, size_t type_siz
     }
     n->name = id;
     char *name = scene_clean_name(type, type_size);
-    if (!name || !city_add(&b->scene->city, CITY_OBJECTS, name, 1) ||
-        !city_attribute(b->scene, index, mem_copy_text("type"), mem_copy_text(name))) {
+    if (!name || !city_add(&b->scene->city, CITY_OBJECTS, name, 1) || !city_attribute(b->scene, index, "type", name)) {
         mem_free(name);
         error_memory(b->error);
         return NONE;
@@ -474,15 +490,16 @@ bool city_link(city_builder *b, int32_t parent, int32_t child)
     return good;
 }
 
-static lmn_status put(city_builder *b, int32_t at, const city_mesh *m, const mat4 *matrix)
+/* Puts a mesh there; `alone`: the node is for it alone and gets its name, too. */
+static lmn_status put(city_builder *b, int32_t at, const city_mesh *m, const mat4 *matrix, bool alone)
 {
     node *n = &b->scene->nodes[at];
     n->mesh = m->mesh;
-    if (matrix) {
-        n->has_matrix = true;
-        n->matrix = *matrix;
-    }
-    if (m->word != CITY_NO_WORD && !say(b->scene, at, CITY_SURFACE_KEY, city_words[m->word]))
+    if (matrix && !node_set_matrix(n, matrix))
+        return error_memory(b->error);
+    if (alone)
+        city_lend_facts(n, m->word);
+    else if (m->word != CITY_NO_WORD && !city_attribute(b->scene, at, CITY_SURFACE_KEY, city_words[m->word]))
         return error_memory(b->error);
     return LMN_OK;
 }
@@ -491,15 +508,12 @@ lmn_status city_attach(city_builder *b, int32_t node_index, const city_meshes *m
 {
     alone = alone || !matrix;
     if (meshes->count == 1 && alone && b->scene->nodes[node_index].mesh == NONE)
-        return put(b, node_index, &meshes->items[0], matrix);
+        return put(b, node_index, &meshes->items[0], matrix, false);
     for (size_t i = 0; i < meshes->count; i++) {
-        node *n = scene_append_node(b->scene);
-        if (!n)
+        if (!scene_append_node(b->scene))
             return error_memory(b->error);
-        uint8_t word = meshes->items[i].word;
-        n->name = mem_copy_text(word == CITY_NO_WORD ? "other" : city_words[word]);
         int32_t    index = (int32_t)b->scene->node_count - 1;
-        lmn_status status = n->name ? put(b, index, &meshes->items[i], matrix) : error_memory(b->error);
+        lmn_status status = put(b, index, &meshes->items[i], matrix, true);
         if (status != LMN_OK)
             return status;
         scene_link_child(b->scene, node_index, index);

@@ -119,10 +119,8 @@ static void release(citygml_reader *r)
 {
     for (size_t i = 0; i < r->objects_count; i++) {
         gml_object *o = &r->objects[i];
-        for (size_t k = 0; k < o->attribute_count; k++) {
-            mem_free(o->attributes[k].key);
-            mem_free(o->attributes[k].value);
-        }
+        for (size_t k = 0; k < o->attribute_count; k++)
+            attribute_release(&o->attributes[k]);
         mem_free(o->attributes);
         mem_free(o->id);
     }

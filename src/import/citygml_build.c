@@ -398,9 +398,8 @@ static bool put_node(citygml_reader *r, gml_object *o)
         return false;
     }
     for (size_t k = 0; k < o->attribute_count; k++) {
-        attribute a = o->attributes[k];
-        o->attributes[k] = (attribute){NULL, NULL};
-        if (!city_attribute(r->scene, o->node, a.key, a.value))
+        const attribute *a = &o->attributes[k];
+        if (!city_attribute(r->scene, o->node, a->key, a->value))
             return citygml_no_memory(r);
     }
     return true;

@@ -218,14 +218,13 @@ static void add_attribute(citygml_reader *r, const char *key, const char *value)
         return;
     }
     o->attributes = grown;
-    attribute a = {scene_clean_name(key, strlen(key)), scene_clean_name(value, strlen(value))};
-    if (!a.key || !a.value) {
-        mem_free(a.key);
-        mem_free(a.value);
+    char *name = scene_clean_name(key, strlen(key)), *text = scene_clean_name(value, strlen(value));
+    if (name && text && attribute_make(&grown[o->attribute_count], name, text))
+        o->attribute_count++;
+    else
         citygml_no_memory(r);
-        return;
-    }
-    grown[o->attribute_count++] = a;
+    mem_free(name);
+    mem_free(text);
 }
 
 static bool is_metre(const char *uom)

@@ -160,7 +160,20 @@ static void check_version(cityjson_reader *r, const cityjson_document *d)
     }
 }
 
-static void read_content(cityjson_reader *r, const cityjson_document *d)
+/* Where vertices are behind the objects, as most writers have it, their text is a third of the file, and no longer
+ * wanted once they are read. Nothing else may point into the file then. */
+static void cut_vertices(cityjson_reader *r, cityjson_document *d)
+{
+    const char *from = (const char *)r->job->file->data;
+    if (!d->vertices.at || !d->objects.at || d->vertices.at < d->objects.at || d->appearance.at || d->templates.at)
+        return;
+    const size_t objects = (size_t)(d->objects.at - from);
+    file_data_cut(r->job->file, (size_t)(d->vertices.at - from));
+    d->objects.at = (const char *)r->job->file->data + objects;
+}
+
+/* `whole`: the document is all that the file has. */
+static void read_content(cityjson_reader *r, cityjson_document *d, bool whole)
 {
     if (d->appearance.at) {
         cityjson_end_appearance(r);
@@ -170,6 +183,8 @@ static void read_content(cityjson_reader *r, const cityjson_document *d)
         cityjson_read_templates(r, d->templates);
     if (r->status == LMN_OK && (d->vertices.at || !r->placed))
         cityjson_read_points(r, d->vertices, d->metadata);
+    if (r->status == LMN_OK && whole)
+        cut_vertices(r, d);
     if (r->status == LMN_OK && d->objects.at)
         cityjson_read_objects(r, d->objects);
 }
@@ -192,8 +207,11 @@ static void read_model(cityjson_reader *r, json_scan *s)
     read_crs(r, d.metadata);
     if (r->status == LMN_OK)
         r->status = import_progress(r->job, 0.1, "reading vertices", r->error);
+    const bool whole = !scan_peek(s);
     if (r->status == LMN_OK)
-        read_content(r, &d);
+        read_content(r, &d, whole);
+    if (whole) /* the file may lie elsewhere now */
+        *s = scan_of((json_span){"", 0});
 }
 
 /* The lines behind the model of a sequence. */
@@ -205,7 +223,7 @@ static void read_features(cityjson_reader *r, json_scan *s)
         const char       *line = s->at;
         scan_document(r, s, &d);
         if (r->status == LMN_OK && span_is(d.type, "CityJSONFeature"))
-            read_content(r, &d);
+            read_content(r, &d, false);
         else if (r->status == LMN_OK)
             cityjson_fail(r, LMN_FORMAT, line, "behind the first line of a sequence come features (CityJSONFeature)");
         if (count % 256 == 255 && r->status == LMN_OK)

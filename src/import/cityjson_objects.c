@@ -199,10 +199,7 @@ static bool put_attribute(cityjson_reader *r, int32_t node, json_span key, json_
     json_span value = null ? (json_span){0} : text ? scan_string(s) : scan_skip(s);
     if (null || !value.at || s->wrong || value.size > ATTRIBUTE_BYTES_MAX)
         return true;
-    char *name = span_decode(key), *copy = name ? span_decode(value) : NULL;
-    if (!city_attribute(r->scene, node, name, copy))
-        return cityjson_no_memory(r);
-    return true;
+    return city_attribute_of_spans(r->scene, node, key, value) || cityjson_no_memory(r);
 }
 
 static void put_attributes(cityjson_reader *r, const cityjson_object *o)
@@ -396,7 +393,7 @@ static void put_object(cityjson_reader *r, cityjson_object *o, city_forms *forme
 /* --- several at a time ---------------------------------------------------------------------------------- */
 
 /* What objects look like is made by the batch, on all processors; nodes then follow one by one, in the file's order. */
-enum { BATCH = 8192, LEAST_OF_THREAD = 512 };
+enum { BATCH = 2048, LEAST_OF_THREAD = 256 };
 
 typedef struct forming {
     cityjson_reader *r;

@@ -121,6 +121,13 @@ bool csg_read_colour(const csg_reader *r, int32_t node, vec4 *out);
 lmn_status csg_minkowski(csg_reader *r, int32_t node, int32_t *shape);
 lmn_status csg_projection(csg_reader *r, int32_t node, region *out);
 
+/* --- csg_openscad.c ------------------------------------------------------------------------------------- */
+
+/* The surface of "HEAD {shapes}", each placed by `above`, as openscad evaluates it, or has once. *why is NULL when it
+ * has, else it says why not, and `out` is empty. Errors: LMN_MEMORY, LMN_WRITE, LMN_CANCELLED. */
+lmn_status csg_evaluate(csg_reader *r, const char *head, const mat4 *above, const int32_t *shapes, size_t count,
+                        polyhedron *out, const char **why);
+
 /* --- csg_regions.c -------------------------------------------------------------------------------------- */
 
 lmn_status csg_region_of(csg_reader *r, int32_t node, region *out, bool *absent);

@@ -189,6 +189,55 @@ static lmn_status add_children(csg_reader *r, int32_t node, piece_list *sum, int
     return LMN_OK;
 }
 
+/* All operands at once, by openscad. *made stays NONE where it cannot be asked; *why says why. */
+static lmn_status sum_by_openscad(csg_reader *r, int32_t node, int32_t *made, const char **why)
+{
+    const mat4 identity = mat4_identity();
+    int32_t   *shapes = NULL, mesh;
+    size_t     count = 0, capacity = 0;
+    polyhedron sum = {0};
+    lmn_status status = LMN_OK;
+    for (int32_t c = csg_child(r, node, NONE); c != NONE && status == LMN_OK; c = csg_child(r, node, c)) {
+        int32_t own;
+        status = csg_shape_of(r, c, &own);
+        if (status == LMN_OK && own < 0)
+            continue;
+        if (status == LMN_OK && !mem_grow((void **)&shapes, &capacity, count + 1, sizeof *shapes))
+            status = error_memory(r->error);
+        if (status == LMN_OK)
+            shapes[count++] = own;
+    }
+    if (status == LMN_OK)
+        status = csg_evaluate(r, "minkowski()", &identity, shapes, count, &sum, why);
+    mem_free(shapes);
+    if (status != LMN_OK || *why || sum.triangle_count == 0) {
+        polyhedron_release(&sum);
+        return status;
+    }
+    status = csg_append_mesh(r, &sum, &mesh);
+    if (status == LMN_OK)
+        status = csg_append_shape(r, SOLID_OPERAND, node, made);
+    if (status == LMN_OK)
+        r->shapes[*made].mesh = mesh;
+    return status;
+}
+
+/* Where pieces are of no use. */
+static lmn_status sum_of_concave(csg_reader *r, int32_t node, int32_t *shape)
+{
+    const char *why = NULL;
+    int32_t     made = NONE;
+    lmn_status  status = sum_by_openscad(r, node, &made, &why);
+    if (status == LMN_OK && !why)
+        *shape = made;
+    else if (status == LMN_OK)
+        csg_warn(r, node, WARNING_APPROXIMATE,
+                 "minkowski() draws its first operand alone: two operands are concave, one is not a union, or it takes "
+                 "more than %d pieces; %s",
+                 OPERANDS_MAX, why);
+    return status;
+}
+
 lmn_status csg_minkowski(csg_reader *r, int32_t node, int32_t *shape)
 {
     piece_list sum = {0};
@@ -198,10 +247,7 @@ lmn_status csg_minkowski(csg_reader *r, int32_t node, int32_t *shape)
     if (status == LMN_OK && several && possible)
         status = shape_of_pieces(r, node, &sum, shape);
     else if (status == LMN_OK && several)
-        csg_warn(r, node, WARNING_APPROXIMATE,
-                 "minkowski() draws its first operand alone: two operands are concave, one is not a union, or it takes "
-                 "more than %d pieces",
-                 OPERANDS_MAX);
+        status = sum_of_concave(r, node, shape);
     release_pieces(&sum);
     return csg_tolerate(r, node, status);
 }

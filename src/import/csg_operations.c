@@ -221,6 +221,7 @@ lmn_status csg_resize(csg_reader *r, int32_t node, int32_t *shape)
 typedef struct hull_input {
     csg_reader *reader;
     int32_t     node;
+    const char *why; /* openscad has not computed it */
     polyhedron *items;
     size_t      count, capacity;
 } hull_input;
@@ -237,13 +238,23 @@ static lmn_status add_to_hull(hull_input *h, int32_t shape, const mat4 *above)
         return polyhedron_transform(&h->items[h->count++], &r->meshes[s->mesh].polyhedron, &position, r->error);
     }
     if (s->kind != SOLID_UNION)
-        csg_warn(r, h->node, WARNING_APPROXIMATE, "hull() takes the %s() in line %u as its first operand",
-                 csg_word(&r->tree, s->node), (unsigned)r->tree.nodes[s->node].line);
+        csg_warn(r, h->node, WARNING_APPROXIMATE, "hull() takes the %s() in line %u as its first operand; %s",
+                 csg_word(&r->tree, s->node), (unsigned)r->tree.nodes[s->node].line, h->why);
     lmn_status status = LMN_OK;
     for (int32_t c = s->first_child; c != NONE && status == LMN_OK;
          c = s->kind == SOLID_UNION ? r->shapes[c].next : NONE)
         status = add_to_hull(h, c, &position);
     return status;
+}
+
+/* Is something taken away or cut out below? */
+static bool has_more_than_unions(const csg_reader *r, int32_t shape)
+{
+    const csg_shape *s = &r->shapes[shape];
+    bool             out = s->kind != SOLID_OPERAND && s->kind != SOLID_UNION;
+    for (int32_t c = s->first_child; c != NONE && s->kind != SOLID_OPERAND && !out; c = r->shapes[c].next)
+        out = has_more_than_unions(r, c);
+    return out;
 }
 
 lmn_status csg_hull(csg_reader *r, int32_t node, polyhedron *out)
@@ -254,6 +265,11 @@ lmn_status csg_hull(csg_reader *r, int32_t node, polyhedron *out)
         return status;
     const mat4 identity = mat4_identity();
     hull_input h = {.reader = r, .node = node};
+    if (has_more_than_unions(r, shape)) {
+        status = csg_evaluate(r, "hull()", &identity, &shape, 1, out, &h.why);
+        if (status != LMN_OK || !h.why)
+            return status;
+    }
     status = add_to_hull(&h, shape, &identity);
     if (status == LMN_OK)
         status = polyhedron_hull(out, h.items, h.count, r->error);

@@ -127,14 +127,15 @@ static void thin_out(heights *h, double low, double high)
 }
 
 /* Cuts at many heights, united: through the corners, where the outline of what is round is widest, and between. */
-static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
+static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, const char *why,
+                                 region *out)
 {
     region  cuts[CUTS] = {{0}};
     heights h = {0};
     double  low = INFINITY, high = -INFINITY;
     reach(r, shape, above, &low, &high);
-    csg_warn(r, node, WARNING_APPROXIMATE, "projection() of the %s() in line %u is put together from %d cuts",
-             csg_word(&r->tree, r->shapes[shape].node), (unsigned)r->tree.nodes[r->shapes[shape].node].line, CUTS);
+    csg_warn(r, node, WARNING_APPROXIMATE, "projection() of the %s() in line %u is put together from %d cuts; %s",
+             csg_word(&r->tree, r->shapes[shape].node), (unsigned)r->tree.nodes[r->shapes[shape].node].line, CUTS, why);
     lmn_status status = low < high ? gather_heights(r, shape, above, &h) : LMN_OK;
     if (status == LMN_OK && low < high)
         thin_out(&h, low, high);
@@ -155,6 +156,21 @@ static lmn_status shadow_by_cuts(csg_reader *r, int32_t node, int32_t shape, con
     return status;
 }
 
+/* Of what is not a union: as a plate by openscad, which is cut through its middle; else put together from cuts. */
+static lmn_status shadow_of_tree(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
+{
+    polyhedron  plate = {0};
+    const char *why = NULL;
+    lmn_status  status =
+        csg_evaluate(r, "linear_extrude(height=2,center=true)projection(cut=false)", above, &shape, 1, &plate, &why);
+    if (status == LMN_OK && !why && plate.triangle_count > 0)
+        status = polyhedron_slice(out, &plate, r->error);
+    else if (status == LMN_OK && why)
+        status = shadow_by_cuts(r, node, shape, above, why, out);
+    polyhedron_release(&plate);
+    return status;
+}
+
 static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 *above, region *out)
 {
     const csg_shape *s = &r->shapes[shape];
@@ -162,7 +178,7 @@ static lmn_status shadow(csg_reader *r, int32_t node, int32_t shape, const mat4 
     if (s->kind == SOLID_UNION)
         return combine_children(r, node, shape, &position, shadow, out);
     if (s->kind != SOLID_OPERAND)
-        return shadow_by_cuts(r, node, shape, above, out);
+        return shadow_of_tree(r, node, shape, above, out);
     polyhedron p = {0};
     lmn_status status = polyhedron_transform(&p, &r->meshes[s->mesh].polyhedron, &position, r->error);
     if (status == LMN_OK)

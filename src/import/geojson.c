@@ -244,8 +244,7 @@ static void put_attributes(geojson_reader *r, int32_t node, json_span properties
         json_span value = null ? (json_span){NULL, 0} : text ? scan_string(&s) : scan_skip(&s);
         if (null || !value.at || s.wrong || value.size > BYTES_MAX)
             continue;
-        char *name = span_decode(key), *copy = name ? span_decode(value) : NULL;
-        if (!city_attribute(r->scene, node, name, copy)) {
+        if (!city_attribute_of_spans(r->scene, node, key, value)) {
             no_memory(r);
             return;
         }

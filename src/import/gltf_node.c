@@ -11,17 +11,18 @@
 
 /* --- what nodes carry ----------------------------------------------------------------------------------- */
 
-static void read_transform(json_t *object, node *n)
+static bool read_transform(json_t *object, node *n)
 {
-    double matrix[16];
-    if (gltf_numbers(object, "matrix", matrix, 16)) {
-        n->has_matrix = true;
-        memcpy(n->matrix.m, matrix, sizeof matrix);
-        return;
-    }
-    gltf_numbers(object, "translation", n->translation, 3);
-    gltf_numbers(object, "rotation", n->rotation, 4);
-    gltf_numbers(object, "scale", n->scale, 3);
+    mat4        matrix;
+    node_place *own = node_own_place(n);
+    if (!own)
+        return false;
+    if (gltf_numbers(object, "matrix", matrix.m, 16))
+        return node_set_matrix(n, &matrix);
+    gltf_numbers(object, "translation", own->translation, 3);
+    gltf_numbers(object, "rotation", own->rotation, 4);
+    gltf_numbers(object, "scale", own->scale, 3);
+    return true;
 }
 
 /* Scalars as text; lists and objects as compact JSON. */
@@ -92,7 +93,7 @@ static void read_instances(gltf_reader *r, json_t *object, node *n)
         }
         n->instances[i] = mat4_from_trs(translation, rotation, scale);
     }
-    n->instance_count = n->instances ? count : 0;
+    n->instance_count = n->instances ? (uint32_t)count : 0;
     mem_free(t);
     mem_free(q);
     mem_free(s);
@@ -107,7 +108,7 @@ static void read_weights(gltf_reader *r, json_t *object, node *n)
     n->morph_weights = gltf_alloc(r, count, sizeof *n->morph_weights);
     for (size_t i = 0; n->morph_weights && i < count; i++)
         n->morph_weights[i] = (float)json_number_value(json_array_get(weights, i));
-    n->morph_weight_count = n->morph_weights ? count : 0;
+    n->morph_weight_count = n->morph_weights ? (uint32_t)count : 0;
 }
 
 /* Everything of node `index` but its position in the tree. `drawn`: it belongs to the scene and is not hidden. */
@@ -119,7 +120,8 @@ static void fill_node(gltf_reader *r, json_t *object, size_t index, int32_t at, 
     snprintf(where, sizeof where, "nodes[%zu]", index);
     node *n = &r->scene->nodes[at];
     n->name = gltf_name(r, object);
-    read_transform(object, n);
+    if (!read_transform(object, n))
+        gltf_out_of_memory(r);
     read_extras(r, object, n);
     read_weights(r, object, n);
     if (!drawn)

@@ -1,6 +1,7 @@
 /* The table of formats, and the way from a path to a finished scene. */
 #include "base/error.h"
 #include "import/import.h"
+#include "import/openscad.h"
 
 #include <string.h>
 
@@ -132,8 +133,7 @@ static lmn_status finish(const import_job *job, const import_format *format, lmn
 static lmn_status check_options(const import_format *format, const char *path, const lmn_load_desc *desc,
                                 lmn_error *error)
 {
-    const lmn_task_desc *conditions = work_conditions();
-    if (format == &import_scad && conditions && (conditions->files == LMN_FILES_FOLDER || conditions->read_file)) {
+    if (format == &import_scad && !openscad_is_allowed()) {
         error_in_file(error, LMN_UNSUPPORTED, path, 0,
                       "this is a program, which openscad runs, and which may read any file");
         error_hint(error, "--safe refuses programs; evaluate it where it may run: openscad -o model.csg model.scad");

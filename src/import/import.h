@@ -9,7 +9,7 @@
 typedef struct import_job {
     const char          *path;
     const char          *model; /* the path that the caller gave; another one in files that it imports */
-    const file_data     *file;
+    file_data           *file;  /* readers may cut off what they have read */
     lmn_scene           *scene;
     const lmn_load_desc *desc; /* what only one format has; NULL: nothing */
 } import_job;

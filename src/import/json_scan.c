@@ -206,6 +206,14 @@ bool span_is(json_span span, const char *text)
     return span.at && strlen(text) == span.size && memcmp(span.at, text, span.size) == 0;
 }
 
+bool span_is_plain(json_span span)
+{
+    bool plain = true;
+    for (size_t i = 0; i < span.size; i++)
+        plain &= (unsigned char)span.at[i] - 0x20u < 0x5Fu && span.at[i] != '\\';
+    return plain;
+}
+
 /* --- texts ---------------------------------------------------------------------------------------------- */
 
 static int hex4(const char *at, const char *end)

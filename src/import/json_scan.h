@@ -46,6 +46,8 @@ bool scan_number(json_scan *s, double *out);
 bool scan_null(json_scan *s);
 
 bool span_is(json_span span, const char *text);
+/* Does it decode to itself: printable ASCII without escapes? */
+bool span_is_plain(json_span span);
 /* Bytes between quotes as UTF-8 without escapes and control characters, allocated. NULL when memory is gone. */
 char *span_decode(json_span span);
 

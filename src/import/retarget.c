@@ -52,9 +52,9 @@ static void pose_motion(retargeter *r, long frame)
         const animation_channel *moving = frame == AT_REST ? NULL : r->moving[i];
         double                   turn[4], place[3];
         for (int k = 0; k < 4; k++)
-            turn[k] = turning ? (double)turning->values[4 * frame + k] : n->rotation[k];
+            turn[k] = turning ? (double)turning->values[4 * frame + k] : node_place_of(n)->rotation[k];
         for (int k = 0; k < 3; k++)
-            place[k] = moving ? (double)moving->values[3 * frame + k] : n->translation[k];
+            place[k] = moving ? (double)moving->values[3 * frame + k] : node_place_of(n)->translation[k];
         if (n->parent == NONE) {
             memcpy(r->turns[i], turn, sizeof turn);
             memcpy(r->places[i], place, sizeof place);
@@ -94,7 +94,8 @@ static double lowest_point(const retargeter *r)
     int    up = r->motion->up == 'z' ? 2 : 1;
     double low = INFINITY;
     for (size_t i = 0; i < r->motion->node_count; i++) {
-        double tip[3] = {0, r->motion->nodes[i].mesh == NONE ? 0 : r->motion->nodes[i].scale[1], 0}; /* of a bone */
+        const node *n = &r->motion->nodes[i];
+        double      tip[3] = {0, n->mesh == NONE ? 0 : node_place_of(n)->scale[1], 0}; /* of a bone */
         quaternion_turn(r->turns[i], tip, tip);
         low = fmin(low, fmin(r->places[i][up], r->places[i][up] + tip[up]));
     }

@@ -140,7 +140,7 @@ static void read_function(map_reader *q)
         return;
     }
     if (!script_vector(r, q->object, "start", 3, length, m->start) && q->n->path == PATH_TRANSLATION)
-        memcpy(m->start, r->scene->nodes[q->n->target].translation, sizeof m->start);
+        memcpy(m->start, node_place_of(&r->scene->nodes[q->n->target])->translation, sizeof m->start);
     script_vector(r, q->object, "velocity", 3, length / rate, m->velocity);
     script_vector(r, q->object, "gravity", 3, length / (rate * rate), m->gravity);
     script_number(r, q->object, "floor", length, &m->floor);

@@ -112,10 +112,14 @@ static void place_node(script_reader *r, json_t *object, int32_t index)
         const double along[3] = {at[0] - t[0], at[1] - t[1], at[2] - t[2]};
         look_along(r, along, q);
     }
-    node *n = &r->scene->nodes[index];
-    memcpy(n->translation, t, sizeof t);
-    memcpy(n->rotation, q, sizeof q);
-    memcpy(n->scale, s, sizeof s);
+    node_place *own = node_own_place(&r->scene->nodes[index]);
+    if (!own) {
+        script_out_of_memory(r);
+        return;
+    }
+    memcpy(own->translation, t, sizeof t);
+    memcpy(own->rotation, q, sizeof q);
+    memcpy(own->scale, s, sizeof s);
 }
 
 /* --- what it is ------------------------------------------------------------------------------------------ */

@@ -96,6 +96,7 @@ typedef struct step_reader {
     const import_job *job;
     fence_reader      r;
     lmn_error        *error;
+    step_losses       losses;
     lmn_status        status;
     int32_t           plain; /* the material of what has no colour; NONE: not needed yet */
     uint64_t          vertices, triangles, lines;
@@ -288,8 +289,10 @@ static void read_node(step_reader *s, uint32_t index)
         return;
     }
     n->name = name;
-    n->has_matrix = true;
-    memcpy(n->matrix.m, matrix, sizeof n->matrix.m);
+    mat4 place;
+    memcpy(place.m, matrix, sizeof place.m);
+    if (!node_set_matrix(n, &place))
+        out_of_memory(s);
     n->mesh = drawn == STEP_NONE ? NONE : (int32_t)drawn;
     if (parent != STEP_NONE)
         scene_link_child(s->job->scene, (int32_t)parent, (int32_t)index);
@@ -302,6 +305,20 @@ static void tell_unit(step_reader *s, const char *unit_name)
     for (size_t i = 0; unit_name && i < scene->node_count && s->status == LMN_OK; i++)
         if (scene->nodes[i].mesh != NONE && !build_attribute(&scene->nodes[i], "file-unit", unit_name))
             out_of_memory(s);
+}
+
+static void tell_losses(const step_reader *s)
+{
+    warnings   *list = &s->job->scene->warnings;
+    step_losses is = s->losses;
+    if (is.lost)
+        warnings_add(list, WARNING_BAD_GEOMETRY, "%u of %u faces could not be made and are missing, the first: #%u",
+                     (unsigned)is.lost, (unsigned)is.faces, (unsigned)is.first_lost);
+    if (is.damaged)
+        warnings_add(list, WARNING_BAD_GEOMETRY,
+                     "%u entities are damaged or refer to what the file does not have, the first: #%u; "
+                     "parts or edges of them may be missing",
+                     (unsigned)is.damaged, (unsigned)is.first_damaged);
 }
 
 static void read_nodes(step_reader *s)
@@ -317,11 +334,13 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
 {
     step_reader s = {.job = job, .r = fence_read(bytes, size), .error = error, .plain = NONE};
     char       *unit_name = take_name(&s);
-    const void *from = fence_take(&s.r, sizeof(float));
+    const void *from = fence_take(&s.r, sizeof(float)), *losses = fence_take(&s.r, sizeof s.losses);
     float       coarser = 1;
     uint32_t    meshes = take_count(&s, 16);
     if (from)
         memcpy(&coarser, from, sizeof coarser);
+    if (losses)
+        memcpy(&s.losses, losses, sizeof s.losses);
     for (uint32_t i = 0; i < meshes && s.status == LMN_OK; i++)
         read_mesh(&s);
     if (s.status == LMN_OK)
@@ -334,6 +353,8 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
         warnings_add(&job->scene->warnings, WARNING_BAD_VALUE,
                      "the deflection is less than a millionth of a part's size: chords are up to %.3g times as coarse",
                      (double)coarser);
+    if (s.status == LMN_OK)
+        tell_losses(&s);
     return s.status;
 }
 

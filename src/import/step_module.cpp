@@ -24,6 +24,8 @@
 #include <Bnd_Box.hxx>
 #include <GCPnts_TangentialDeflection.hxx>
 #include <GeomLib.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Message.hxx>
 #include <NCollection_DataMap.hxx>
 #include <Message_Messenger.hxx>
@@ -33,6 +35,8 @@
 #include <Precision.hxx>
 #include <Quantity_ColorRGBA.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_Face.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_OutOfMemory.hxx>
 #include <Standard_Version.hxx>
@@ -51,10 +55,14 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <Transfer_Binder.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 
 namespace
 {
@@ -648,11 +656,12 @@ void add(Tree &t, const TDF_Label &label, uint32_t parent, const Colour &above, 
     }
 }
 
-void put_tree(const Answer &a, const Tree &t, const std::string &unit)
+void put_tree(const Answer &a, const Tree &t, const std::string &unit, const step_losses &losses)
 {
     const auto coarser = static_cast<float>(t.mesher.coarser);
     a.text(unit);
     a.bytes(&coarser, sizeof coarser);
+    a.bytes(&losses, sizeof losses);
     a.number(static_cast<uint32_t>(t.meshes.size()));
     for (const Mesh &m : t.meshes)
         put_mesh(a, m);
@@ -699,6 +708,32 @@ std::string unit_of(STEPCAFControl_Reader &reader)
     return lengths.IsEmpty() ? "" : lengths.First().ToCString();
 }
 
+// What the file names and cannot be had: OpenCASCADE draws the rest without a word.
+step_losses losses_of(STEPCAFControl_Reader &reader)
+{
+    const Handle(XSControl_WorkSession) session = reader.Reader().WS();
+    const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
+    const Handle(Transfer_TransientProcess) transfer = session->TransferReader()->TransientProcess();
+    step_losses losses = {0, 0, 0, 0, 0};
+    if (model.IsNull() || transfer.IsNull())
+        return losses;
+    Interface_CheckIterator checks = session->ModelCheckList(Standard_False);
+    for (checks.Start(); checks.More(); checks.Next())
+        if (checks.Value()->HasFailed() && losses.damaged++ == 0 && checks.Number() > 0)
+            losses.first_damaged = static_cast<uint32_t>(model->IdentLabel(model->Value(checks.Number())));
+    for (int i = 1; i <= model->NbEntities(); i++) {
+        const Handle(Standard_Transient) entity = model->Value(i);
+        if (!entity->IsKind(STANDARD_TYPE(StepShape_Face)))
+            continue;
+        losses.faces++;
+        // A face that nothing uses has no binder; one that was tried has one, and a result if it came to something.
+        const Handle(Transfer_Binder) binder = transfer->Find(entity);
+        if (!binder.IsNull() && !binder->HasResult() && losses.lost++ == 0)
+            losses.first_lost = static_cast<uint32_t>(model->IdentLabel(entity));
+    }
+    return losses;
+}
+
 void read_all(const step_request &request, const Answer &answer)
 {
     Bytes                 bytes(request.bytes, request.size);
@@ -713,6 +748,7 @@ void read_all(const step_request &request, const Answer &answer)
     const std::string unit = unit_of(reader);
     if (!reader.Transfer(document))
         throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
+    const step_losses losses = losses_of(reader);
     TDF_LabelSequence roots;
     Tree              tree;
     tree.shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -724,7 +760,7 @@ void read_all(const step_request &request, const Answer &answer)
         add(tree, roots.Value(i), STEP_NONE, Colour(), 0);
     if (tree.meshes.empty())
         throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
-    put_tree(answer, tree, unit);
+    put_tree(answer, tree, unit, losses);
 }
 
 step_result read(const step_request *request, step_put_fn put, void *to, char *message, size_t message_size)

@@ -1,11 +1,14 @@
 /* Inside the import folder: between OpenCASCADE, which is C++ and lies in a module of its own, and step.c. Numbers are
- * in the machine's order, texts are a length and bytes; the reader trusts nothing. What the module puts: text: the
- * file's unit of length, "" when it says none; float: by how much chords missed what was asked for (1: nothing) meshes:
- * how many, and each: name · kinds of colours, how many, and each: flag and four floats (sRGB, straight alpha) ·
- * vertices, indices (counts) · positions, normals (floats) · indices · a byte for each index, what the edge from this
- * corner to the next is (step_edge) · vertices, lines (counts) · positions · two indices a line nodes, parents first:
- * how many, and each: parent (STEP_NONE: a root) · name · 16 doubles by columns · mesh or STEP_NONE Lengths are
- * millimetres. */
+ * in the machine's order, texts are a length and bytes, lengths are millimetres; the reader trusts nothing. What the
+ * module puts:
+ *   - text: the file's unit of length, "" when it says none
+ *   - float: by how much chords missed what was asked for (1: nothing)
+ *   - step_losses
+ *   - meshes: how many, and each: name; kinds of colours, how many, and each: flag and four floats (sRGB, straight
+ *     alpha), vertices, indices (counts), positions, normals (floats), indices, a byte for each index, what the edge
+ *     from this corner to the next is (step_edge); vertices, lines (counts), positions, two indices a line
+ *   - nodes, parents first: how many, and each: parent (STEP_NONE: a root), name, 16 doubles by columns, mesh or
+ *     STEP_NONE */
 #ifndef LIMNER_IMPORT_STEP_MODULE_H
 #define LIMNER_IMPORT_STEP_MODULE_H
 
@@ -20,7 +23,7 @@ extern "C" {
 #define STEP_NONE 0xffffffffu
 
 /* Changes whenever what goes between the two does. */
-enum { STEP_INTERFACE = 1 };
+enum { STEP_INTERFACE = 2 };
 
 /* What an edge of a triangle is: inside of a face, or along an edge of the solid that turns, or that does not. */
 typedef enum step_edge { STEP_INSIDE = 1, STEP_SHARP = 2 } step_edge;
@@ -32,6 +35,12 @@ typedef enum step_result {
     STEP_TOO_MUCH_MEMORY,
     STEP_TOO_MANY, /* triangles */
 } step_result;
+
+/* What the file names and cannot be had. Firsts are the file's own numbers (#12), 0 when it has none. */
+typedef struct step_losses {
+    uint32_t damaged, first_damaged;  /* entities that refer to nothing, or to what does not fit */
+    uint32_t faces, lost, first_lost; /* of the file; of them, those whose surface or border could not be made */
+} step_losses;
 
 /* Where the answer goes; false stops the module. */
 typedef bool (*step_put_fn)(void *to, const void *bytes, size_t size);

@@ -424,7 +424,7 @@ static lmn_status into_scene(street *s, city_builder *b, prop_kind kind)
         return status;
     b->scene->nodes[node].numbered = true;
     b->scene->nodes[node].instances = l->items;
-    b->scene->nodes[node].instance_count = l->count;
+    b->scene->nodes[node].instance_count = (uint32_t)l->count;
     l->items = NULL;
     /* The object itself has been counted. */
     return city_add(&b->scene->city, CITY_OBJECTS, type, l->count - 1) ? LMN_OK : error_memory(b->error);

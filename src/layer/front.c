@@ -14,7 +14,7 @@ static const param params[] = {
     PARAM_BOOL_ROW(front_values, complement, .def = 1, .cpu_only = true,
                    .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they "
                           "meet this rule's parts. Not where the rule is perturbed: a sketch looks beside a pixel for "
-                          "what it shows there, and must not find others."),
+                          "what it shows there, and must not find others; a warning names parts that meet."),
     PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
                    .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless "
                           "the surface technique needs its geometry."),

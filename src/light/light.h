@@ -18,6 +18,7 @@ typedef enum ground_kind { GROUND_NONE, GROUND_CONTACT, GROUND_CAST } ground_kin
 typedef struct scene_values {
     direction   light_direction;
     float       fill, crease_angle;
+    bool        round; /* src/plan/round_scene.h */
     int32_t     lights;
     float       light_scale;
     bool        shadows;

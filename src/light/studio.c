@@ -22,6 +22,9 @@ static const param params[] = {
                     .doc = "Strength of a fill light from the other side."),
     PARAM_FLOAT_ROW(scene_values, crease_angle, .def = 30, .min = 0, .max = 180, .unit = UNIT_DEGREES, .cpu_only = true,
                     .doc = "Faces that meet at less are smoothed where a model brings no normals."),
+    PARAM_BOOL_ROW(scene_values, round, .def = 0, .cpu_only = true,
+                   .doc = "Coarse meshes are drawn as the curved surfaces that their normals tell of, outlines "
+                          "included; flat faces and sharp edges stay."),
     PARAM_ENUM_ROW(scene_values, lights, .names = source_names, .cpu_only = true,
                    .doc = "studio: the two lights above; file: the model's lights, if it has any."),
     PARAM_FLOAT_ROW(scene_values, light_scale, .def = 1, .min = 0, .max = 1000, .soft_max = 4, .cpu_only = true,

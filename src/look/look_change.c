@@ -219,8 +219,8 @@ static bool shapes_differ(const kind *k, const technique *t, const void *a, cons
 {
     if (k->id == KIND_SCENE) {
         const scene_values *one = a, *other = b;
-        return one->crease_angle != other->crease_angle || strcmp(one->cut.text, other->cut.text) != 0 ||
-               strcmp(one->cut_keep.text, other->cut_keep.text) != 0;
+        return one->crease_angle != other->crease_angle || one->round != other->round ||
+               strcmp(one->cut.text, other->cut.text) != 0 || strcmp(one->cut_keep.text, other->cut_keep.text) != 0;
     }
     if (k->id == KIND_LINES && draws_strokes(t)) {
         /* How lines are drawn is no shape; which there are is. */

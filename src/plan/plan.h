@@ -72,6 +72,7 @@ typedef struct plan_options {
     double      pixels_per_mm; /* of paper, supersamples counted */
     bool        as_sprites;    /* no figure is drawn directly (maps need their buffers) */
     bool        surfaces_only; /* neither lines, nor marks on surfaces, nor hatching of sections */
+    bool        on_sheet;      /* lines are strokes, which find each other whatever rule they are of */
     bool        parts_only;    /* no figures, ghosts and sections: for who draws parts by the look's own rules */
 } plan_options;
 

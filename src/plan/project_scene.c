@@ -73,10 +73,8 @@ static bool copy_node(lmn_scene *to, const node *from)
     n->attributes = from->attribute_count ? mem_alloc(from->attribute_count * sizeof *n->attributes) : NULL;
     bool good = copy_text(&n->name, from->name) && (n->attributes || !from->attribute_count);
     for (size_t i = 0; i < from->attribute_count && good; i++) {
-        n->attributes[i] = (attribute){NULL, NULL};
-        n->attribute_count = i + 1;
-        good = copy_text(&n->attributes[i].key, from->attributes[i].key) &&
-               copy_text(&n->attributes[i].value, from->attributes[i].value);
+        good = attribute_make(&n->attributes[i], from->attributes[i].key, from->attributes[i].value);
+        n->attribute_count = (uint32_t)i + good;
     }
     return good;
 }
@@ -85,11 +83,7 @@ static bool copy_node(lmn_scene *to, const node *from)
 static node *place_node(lmn_scene *to, const node *from, const mat4 *world)
 {
     node *n = scene_append_node(to);
-    if (!n || !copy_text(&n->name, from->name))
-        return NULL;
-    n->has_matrix = true;
-    n->matrix = *world;
-    return n;
+    return n && copy_text(&n->name, from->name) && node_set_matrix(n, world) ? n : NULL;
 }
 
 static bool copy_viewers(lmn_scene *to, const lmn_scene *from, const pose *p)

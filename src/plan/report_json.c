@@ -56,6 +56,14 @@ json_t *report_strokes_json(const uint64_t counts[STROKE_CLASS_COUNT])
     return out;
 }
 
+void report_search(json_t *root, outline_search search)
+{
+    if (search.faces)
+        json_object_set_new(
+            root, "outline_search",
+            json_pack("{s:I, s:I}", "faces", (json_int_t)search.faces, "tested", (json_int_t)search.tested));
+}
+
 char *report_dump(json_t *root)
 {
     char *dumped = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(12));

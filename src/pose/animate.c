@@ -127,10 +127,10 @@ static bool open_nodes(animator *a)
     a->moved = mem_calloc(s->node_count, sizeof *a->moved);
     a->out->locals = mem_alloc(s->node_count * sizeof *a->out->locals);
     for (size_t i = 0; a->nodes && i < s->node_count; i++) {
-        const node *n = &s->nodes[i];
-        memcpy(a->nodes[i].translation, n->translation, sizeof n->translation);
-        memcpy(a->nodes[i].rotation, n->rotation, sizeof n->rotation);
-        memcpy(a->nodes[i].scale, n->scale, sizeof n->scale);
+        const node_place *at = node_place_of(&s->nodes[i]);
+        memcpy(a->nodes[i].translation, at->translation, sizeof at->translation);
+        memcpy(a->nodes[i].rotation, at->rotation, sizeof at->rotation);
+        memcpy(a->nodes[i].scale, at->scale, sizeof at->scale);
     }
     return a->nodes && a->moved && a->out->locals;
 }

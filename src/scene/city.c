@@ -154,13 +154,33 @@ typedef enum word {
     WORDS
 } word;
 
-const char *const city_words[] = {
-    [ROOF] = "roof",           [WALL] = "wall",     [GROUND] = "ground",   [CLOSURE] = "closure",
-    [CEILING] = "ceiling",     [FLOOR] = "floor",   [WINDOW] = "window",   [DOOR] = "door",
-    [INTERIOR] = "interior",   [WATER] = "water",   [ROAD] = "road",       [RAIL] = "rail",
-    [VERGE] = "verge",         [PLANT] = "plant",   [LAND] = "land",       [TERRAIN] = "terrain",
-    [FURNITURE] = "furniture", [PERSON] = "person", [VEHICLE] = "vehicle", [BRIDGE] = "bridge",
-    [TUNNEL] = "tunnel",       [WORDS] = NULL};
+/* What surfaces are, and what they are called. */
+#define WORD_LIST(DO)                                                                                                  \
+    DO(ROOF, "roof")                                                                                                   \
+    DO(WALL, "wall")                                                                                                   \
+    DO(GROUND, "ground")                                                                                               \
+    DO(CLOSURE, "closure")                                                                                             \
+    DO(CEILING, "ceiling")                                                                                             \
+    DO(FLOOR, "floor")                                                                                                 \
+    DO(WINDOW, "window")                                                                                               \
+    DO(DOOR, "door")                                                                                                   \
+    DO(INTERIOR, "interior")                                                                                           \
+    DO(WATER, "water")                                                                                                 \
+    DO(ROAD, "road")                                                                                                   \
+    DO(RAIL, "rail")                                                                                                   \
+    DO(VERGE, "verge")                                                                                                 \
+    DO(PLANT, "plant")                                                                                                 \
+    DO(LAND, "land")                                                                                                   \
+    DO(TERRAIN, "terrain")                                                                                             \
+    DO(FURNITURE, "furniture")                                                                                         \
+    DO(PERSON, "person")                                                                                               \
+    DO(VEHICLE, "vehicle")                                                                                             \
+    DO(BRIDGE, "bridge")                                                                                               \
+    DO(TUNNEL, "tunnel")
+
+#define NAMED(word, name) [word] = name,
+const char *const city_words[] = {WORD_LIST(NAMED)[WORDS] = NULL};
+#undef NAMED
 
 const size_t city_word_count = WORDS;
 
@@ -229,6 +249,20 @@ uint8_t city_word_of_class(const char *name, size_t size)
         if (strlen(classes[i].name) == size && memcmp(classes[i].name, name, size) == 0)
             return classes[i].word;
     return CITY_NO_WORD;
+}
+
+/* A list for each word, for all nodes of surfaces that there ever are. */
+#define FACT(word, name) [word] = {CITY_SURFACE_KEY, name},
+static const attribute surface_facts[] = {WORD_LIST(FACT)[WORDS] = {CITY_SURFACE_KEY, "other"}};
+#undef FACT
+
+void city_lend_facts(node *n, uint8_t word)
+{
+    const bool known = word < WORDS;
+    n->name = surface_facts[known ? word : WORDS].value;
+    n->attributes = known ? (attribute *)&surface_facts[word] : NULL;
+    n->attribute_count = known;
+    n->lent = true;
 }
 
 bool node_is_surface(const node *n)

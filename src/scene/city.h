@@ -63,4 +63,9 @@ uint8_t city_word_of_class(const char *name, size_t size);
 /* The attribute that holds the word. */
 #define CITY_SURFACE_KEY "surface"
 
+/* Names a node after a kind of surface and says that it is one; CITY_NO_WORD: "other". The node has neither a name nor
+ * attributes yet, and they are lent. */
+struct node;
+void city_lend_facts(struct node *n, uint8_t word);
+
 #endif

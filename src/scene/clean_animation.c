@@ -113,9 +113,9 @@ void node_split_matrix(lmn_scene *s, int32_t node_index)
     node *n = &s->nodes[node_index];
     if (!n->has_matrix)
         return;
-    bool exact = mat4_decompose(&n->matrix, n->translation, n->rotation, n->scale);
+    bool exact = mat4_decompose(&n->place->matrix, n->place->translation, n->place->rotation, n->place->scale);
     n->has_matrix = false;
-    n->matrix = mat4_identity();
+    n->place->matrix = mat4_identity();
     const char *name = n->name ? n->name : "(no name)";
     if (exact)
         warnings_add(&s->warnings, WARNING_BAD_VALUE,

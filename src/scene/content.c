@@ -163,12 +163,16 @@ lmn_status scene_add_node(lmn_scene *s, const node *wanted, lmn_error *error)
 
 lmn_status scene_move_node(lmn_scene *s, int32_t index, const mat4 *matrix, lmn_error *error)
 {
-    node before = s->nodes[index];
-    s->nodes[index].has_matrix = true;
-    s->nodes[index].matrix = *matrix;
+    node      *n = &s->nodes[index];
+    const bool had = n->has_matrix;
+    const mat4 before = node_place_of(n)->matrix;
+    if (!node_set_matrix(n, matrix))
+        return error_memory(error);
     lmn_status status = measure_parts(s, is_below, index, error);
-    if (status != LMN_OK)
-        s->nodes[index] = before;
+    if (status != LMN_OK) {
+        n->has_matrix = had;
+        n->place->matrix = before;
+    }
     return status;
 }
 
@@ -181,7 +185,7 @@ lmn_status scene_set_instances(lmn_scene *s, int32_t index, mat4 *instances, siz
     if (total > LIMIT_INSTANCES)
         return error_set(error, LMN_LIMIT, "more than %zu instances", LIMIT_INSTANCES);
     s->nodes[index].instances = instances;
-    s->nodes[index].instance_count = count;
+    s->nodes[index].instance_count = (uint32_t)count;
     lmn_status status = measure_parts(s, is_below, index, error);
     if (status == LMN_OK)
         mem_free(before.instances);
@@ -249,27 +253,23 @@ lmn_status scene_set_attribute(lmn_scene *s, int32_t index, const char *key, con
     while (at < n->attribute_count && strcmp(n->attributes[at].key, key) != 0)
         at++;
     bool      known = at < n->attribute_count;
-    attribute made = {mem_copy_text(key), value ? mem_copy_text(value) : NULL};
-    bool      good = made.key && (made.value || !value);
+    attribute made = {NULL, NULL};
+    bool      good = (!value || attribute_make(&made, key, value)) && node_own_facts(n);
     if (good && !known && value) {
         attribute *more = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *more);
         good = more != NULL;
         n->attributes = more ? more : n->attributes;
     }
     if (!good || (!known && !value)) {
-        mem_free(made.key);
-        mem_free(made.value);
+        attribute_release(&made);
         return good ? LMN_OK : error_memory(error);
     }
-    if (known) {
-        mem_free(n->attributes[at].key);
-        mem_free(n->attributes[at].value);
-    }
+    if (known)
+        attribute_release(&n->attributes[at]);
     if (value) {
         n->attributes[at] = made;
         n->attribute_count += !known;
     } else {
-        mem_free(made.key);
         n->attributes[at] = n->attributes[--n->attribute_count];
     }
     s->revision = scene_next_revision();

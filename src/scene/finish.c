@@ -222,9 +222,10 @@ static bool all_finite(const double *values, int count)
 static void repair_transforms(check *c)
 {
     for (size_t i = 0; i < c->scene->node_count; i++) {
-        node *n = &c->scene->nodes[i];
-        bool  good = all_finite(n->matrix.m, 16) && all_finite(n->translation, 3) && all_finite(n->rotation, 4) &&
-                    all_finite(n->scale, 3);
+        node             *n = &c->scene->nodes[i];
+        const node_place *at = node_place_of(n);
+        bool              good = !n->place || (all_finite(at->matrix.m, 16) && all_finite(at->translation, 3) &&
+                                  all_finite(at->rotation, 4) && all_finite(at->scale, 3));
         for (size_t k = 0; k < n->instance_count; k++)
             if (!all_finite(n->instances[k].m, 16)) {
                 n->instances[k] = mat4_identity();
@@ -233,9 +234,9 @@ static void repair_transforms(check *c)
         if (good)
             continue;
         warnings_add(&c->scene->warnings, WARNING_BAD_VALUE, "a node's transform is not finite and was left out");
-        if (!all_finite(n->matrix.m, 16))
-            n->matrix = mat4_identity();
-        n->has_matrix = true;
+        if (n->place && !all_finite(at->matrix.m, 16))
+            n->place->matrix = mat4_identity();
+        n->has_matrix = n->place != NULL;
     }
 }
 

@@ -23,17 +23,17 @@ static bool reserve_nodes(lmn_scene *into, lmn_scene *from)
 
 static bool reserve_all(lmn_scene *into, lmn_scene *from)
 {
-#define RESERVE(array, count, capacity, more)                                                                          \
-    mem_grow((void **)&into->array, &into->capacity, into->count + (more), sizeof *into->array)
-    return reserve_nodes(into, from) && RESERVE(meshes, mesh_count, mesh_capacity, from->mesh_count) &&
-           RESERVE(materials, material_count, material_capacity, from->material_count) &&
-           RESERVE(images, image_count, image_capacity, from->image_count) &&
-           RESERVE(cameras, camera_count, camera_capacity, from->camera_count) &&
-           RESERVE(lights, light_count, light_capacity, from->light_count) &&
-           RESERVE(skins, skin_count, skin_capacity, from->skin_count) &&
-           RESERVE(solids, solid_count, solid_capacity, into->solid_count + 2 * from->solid_count) &&
-           RESERVE(animations, animation_count, animation_capacity, from->animation_count) &&
-           RESERVE(files, file_count, file_capacity, 1) && behaviour_reserve(into, from);
+#define RESERVE(array, count, capacity)                                                                                \
+    (into->count == 0 ||                                                                                               \
+     mem_grow((void **)&into->array, &into->capacity, into->count + from->count, sizeof *into->array))
+    return reserve_nodes(into, from) && RESERVE(meshes, mesh_count, mesh_capacity) &&
+           RESERVE(materials, material_count, material_capacity) && RESERVE(images, image_count, image_capacity) &&
+           RESERVE(cameras, camera_count, camera_capacity) && RESERVE(lights, light_count, light_capacity) &&
+           RESERVE(skins, skin_count, skin_capacity) && RESERVE(animations, animation_count, animation_capacity) &&
+           mem_grow((void **)&into->solids, &into->solid_capacity, into->solid_count + 2 * from->solid_count,
+                    sizeof *into->solids) &&
+           mem_grow((void **)&into->files, &into->file_capacity, into->file_count + 1, sizeof *into->files) &&
+           behaviour_reserve(into, from);
 #undef RESERVE
 }
 
@@ -168,52 +168,72 @@ static lmn_status check_capacity(const lmn_scene *into, const lmn_scene *from, c
                          what);
 }
 
-static void move_nodes(lmn_scene *into, lmn_scene *from, char *name, const mat4 *position)
+static void swap_arrays(void **a, size_t *a_capacity, void **b, size_t *b_capacity)
+{
+    void  *array = *a;
+    size_t capacity = *a_capacity;
+    *a = *b;
+    *a_capacity = *b_capacity;
+    *b = array;
+    *b_capacity = capacity;
+}
+
+static void move_nodes(lmn_scene *into, lmn_scene *from, char *name, node_place *place)
 {
     size_t count = from->node_count;
     if (into->node_count == 0) {
-        node  *nodes = into->nodes;
-        size_t capacity = into->node_capacity;
-        into->nodes = from->nodes;
-        into->node_capacity = from->node_capacity;
-        from->nodes = nodes;
-        from->node_capacity = capacity;
+        swap_arrays((void **)&into->nodes, &into->node_capacity, (void **)&from->nodes, &from->node_capacity);
         memmove(into->nodes + 1, into->nodes, count * sizeof *into->nodes);
     }
     node *root = scene_append_node(into); /* room was reserved */
     root->name = name;
     root->numbered = true; /* after the file, which is no name of a thing */
     root->has_matrix = true;
-    root->matrix = *position;
+    root->place = place;
     if (into->node_count > 1 && count)
         memcpy(into->nodes + into->node_count, from->nodes, count * sizeof *into->nodes);
     into->node_count += count;
     from->node_count = 0;
 }
 
+/* An empty scene takes arrays over as they are; for others room was reserved. */
 static void move_elements(lmn_scene *into, lmn_scene *from)
 {
-#define MOVE(array, count)                                                                                             \
+#define MOVE(array, count, capacity)                                                                                   \
     do {                                                                                                               \
-        if (from->count)                                                                                               \
+        if (into->count)                                                                                               \
             memcpy(into->array + into->count, from->array, from->count * sizeof *from->array);                         \
+        else                                                                                                           \
+            swap_arrays((void **)&into->array, &into->capacity, (void **)&from->array, &from->capacity);               \
         into->count += from->count;                                                                                    \
         from->count = 0;                                                                                               \
     } while (0)
-    MOVE(meshes, mesh_count);
-    MOVE(materials, material_count);
-    MOVE(images, image_count);
-    MOVE(cameras, camera_count);
-    MOVE(lights, light_count);
-    MOVE(skins, skin_count);
-    MOVE(animations, animation_count);
-    MOVE(solids, solid_count);
+    MOVE(meshes, mesh_count, mesh_capacity);
+    MOVE(materials, material_count, material_capacity);
+    MOVE(images, image_count, image_capacity);
+    MOVE(cameras, camera_count, camera_capacity);
+    MOVE(lights, light_count, light_capacity);
+    MOVE(skins, skin_count, skin_capacity);
+    MOVE(animations, animation_count, animation_capacity);
 #undef MOVE
+    if (from->solid_count)
+        memcpy(into->solids + into->solid_count, from->solids, from->solid_count * sizeof *from->solids);
+    into->solid_count += from->solid_count;
+    from->solid_count = 0;
 }
 
 /* Ghosts stay behind the ordinary parts of all files; room was reserved. */
 static void move_parts(lmn_scene *into, lmn_scene *from)
 {
+    if (into->part_count + into->ghost_count == 0) {
+        mem_free(into->parts);
+        into->parts = from->parts;
+        into->part_count = from->part_count;
+        into->ghost_count = from->ghost_count;
+        from->parts = NULL;
+        from->part_count = from->ghost_count = 0;
+        return;
+    }
     part *behind = into->parts + into->part_count;
     if (into->ghost_count)
         memmove(behind + from->part_count, behind, into->ghost_count * sizeof *behind);
@@ -228,7 +248,7 @@ static void move_parts(lmn_scene *into, lmn_scene *from)
 }
 
 /* Behind this nothing can fail. */
-static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, const mat4 *position)
+static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, node_place *place)
 {
     offsets by = {(int32_t)into->node_count + 1, (int32_t)into->mesh_count,   (int32_t)into->material_count,
                   (int32_t)into->image_count,    (int32_t)into->camera_count, (int32_t)into->light_count,
@@ -236,7 +256,7 @@ static void commit(lmn_scene *into, lmn_scene *from, char *name, char *path, con
     behaviour_take(into, from, &(behaviour_offsets){by.nodes, by.cameras, by.lights, (int32_t)into->animation_count});
     shift_references(from, &by);
     int32_t root = by.nodes - 1;
-    move_nodes(into, from, name, position);
+    move_nodes(into, from, name, place);
     move_elements(into, from);
     move_parts(into, from);
     for (size_t i = (size_t)by.nodes; i < into->node_count; i++)
@@ -282,6 +302,14 @@ static bool list_parts(const lmn_scene *into, lmn_scene *from, const char *name,
     return parts_list(from, name, (uint32_t)into->part_count, position, out);
 }
 
+static bool reserve_parts(lmn_scene *into, const part_list *more)
+{
+    size_t had = into->part_count + into->ghost_count;
+    part  *grown = had ? mem_realloc(into->parts, (had + more->part_count + more->ghost_count) * sizeof *grown) : NULL;
+    into->parts = grown ? grown : into->parts;
+    return grown || !had;
+}
+
 lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_error *error)
 {
     lmn_status status = check_capacity(into, from, file, error);
@@ -289,26 +317,23 @@ lmn_status scene_merge(lmn_scene *into, lmn_scene *from, const char *file, lmn_e
         return status;
     mat4 position = scene_up_rotation(from->up, scene_up_together(into, from));
     put_in_place(&position, into, from);
-    char     *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
-    part_list list = {.parts = NULL};
-    part     *grown = NULL;
-    bool      good = name && path && reserve_all(into, from) && list_parts(into, from, name, &position, &list);
-    if (good) {
-        size_t total = into->part_count + into->ghost_count + list.part_count + list.ghost_count;
-        grown = mem_realloc(into->parts, total * sizeof *grown);
-        good = grown != NULL;
-    }
+    char       *name = root_name(into, file), *path = scene_clean_name(file, strlen(file));
+    node_place *place = mem_calloc(1, sizeof *place);
+    part_list   list = {.parts = NULL};
+    bool good = name && path && place && reserve_all(into, from) && list_parts(into, from, name, &position, &list) &&
+                reserve_parts(into, &list);
     if (!good) {
         mem_free(name);
         mem_free(path);
+        mem_free(place);
         parts_release(list.parts, list.part_count + list.ghost_count);
         return error_memory(error);
     }
-    into->parts = grown;
+    *place = (node_place){.matrix = position, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     from->parts = list.parts;
     from->part_count = list.part_count;
     from->ghost_count = list.ghost_count;
     into->up = scene_up_together(into, from);
-    commit(into, from, name, path, &position);
+    commit(into, from, name, path, place);
     return LMN_OK;
 }

@@ -13,10 +13,10 @@
 /* A path is cut here, so that a deep tree of long names does not grow without bounds. */
 enum { PATH_BYTES_MAX = 1024, PATH_DEPTH_MAX = 1100 };
 
-/* Paths seen so far, open addressing; `repeats` counts how often a path was asked for. */
+/* Paths seen so far, open addressing, by the number of the part that has it, from 1; `repeats` counts how often a path
+ * was asked for. */
 typedef struct path_entry {
-    const char *path;
-    size_t      repeats;
+    uint32_t part, repeats; /* 0: nothing */
 } path_entry;
 
 typedef struct path_set {
@@ -44,10 +44,11 @@ static uint64_t hash_text(const char *t)
     return h ^ (h >> 29);
 }
 
-static path_entry *find_path(const path_set *set, const char *path)
+static path_entry *find_path(const listing *l, const char *path)
 {
-    size_t slot = hash_text(path) & (set->capacity - 1);
-    while (set->entries[slot].path && strcmp(set->entries[slot].path, path) != 0)
+    const path_set *set = &l->seen;
+    size_t          slot = hash_text(path) & (set->capacity - 1);
+    while (set->entries[slot].part && strcmp(l->parts[set->entries[slot].part - 1].path, path) != 0)
         slot = (slot + 1) & (set->capacity - 1);
     return &set->entries[slot];
 }
@@ -97,27 +98,27 @@ static char *make_path(const listing *l, int32_t index, const char *name)
     return text_take(&t);
 }
 
-/* Takes `path` over and returns it or, when another part has it, the path with "#2", "#3" … behind it. */
-static char *make_unique(path_set *set, char *path)
+/* Where a part before has its path, "#2", "#3" … is put behind it. False: memory is gone. */
+static bool make_unique(listing *l, size_t number)
 {
-    path_entry *entry = find_path(set, path);
-    if (!entry->path) {
-        *entry = (path_entry){path, 1};
-        return path;
+    char       *path = l->parts[number].path;
+    path_entry *entry = find_path(l, path);
+    if (!entry->part) {
+        *entry = (path_entry){(uint32_t)number + 1, 1};
+        return true;
     }
     for (;;) {
         text t = {0};
-        text_append(&t, "%s#%zu", path, ++entry->repeats);
+        text_append(&t, "%s#%u", path, (unsigned)++entry->repeats);
         char *changed = text_take(&t);
-        if (!changed) {
+        if (!changed)
+            return false;
+        path_entry *other = find_path(l, changed);
+        if (!other->part) {
+            *other = (path_entry){(uint32_t)number + 1, 1};
             mem_free(path);
-            return NULL;
-        }
-        path_entry *other = find_path(set, changed);
-        if (!other->path) {
-            *other = (path_entry){changed, 1};
-            mem_free(path);
-            return changed;
+            l->parts[number].path = changed;
+            return true;
         }
         mem_free(changed);
     }
@@ -193,10 +194,8 @@ static void add_trees(listing *l, bool ghosts)
 static bool make_paths_unique(listing *l)
 {
     bool good = true;
-    for (size_t i = 0; i < l->count && good; i++) {
-        l->parts[i].path = make_unique(&l->seen, l->parts[i].path);
-        good = l->parts[i].path != NULL;
-    }
+    for (size_t i = 0; i < l->count && good; i++)
+        good = make_unique(l, i);
     return good;
 }
 
@@ -210,7 +209,7 @@ bool parts_list(const lmn_scene *s, const char *prefix, uint32_t first_id, const
     }
     listing l = {.scene = s, .prefix = prefix, .first_id = first_id};
     l.seen.capacity = 16;
-    while (l.seen.capacity < count * 3)
+    while (l.seen.capacity < count * 2)
         l.seen.capacity *= 2;
     l.seen.entries = mem_calloc(l.seen.capacity, sizeof *l.seen.entries);
     l.parts = mem_calloc(count, sizeof *l.parts);

@@ -62,9 +62,6 @@ node *scene_append_node(lmn_scene *s)
         return NULL;
     n->parent = n->first_child = n->last_child = n->next_sibling = NONE;
     n->mesh = n->skin = n->camera = n->light = n->solid = NONE;
-    n->rotation[3] = 1;
-    n->scale[0] = n->scale[1] = n->scale[2] = 1;
-    n->matrix = mat4_identity();
     return n;
 }
 
@@ -194,15 +191,60 @@ bool mesh_set_primitives(mesh *m, const primitive *primitives, size_t count)
     return true;
 }
 
+bool attribute_make_sized(attribute *out, const char *key, size_t key_size, const char *value, size_t value_size)
+{
+    out->key = mem_alloc(key_size + value_size + 2);
+    out->value = out->key ? out->key + key_size + 1 : NULL;
+    if (!out->key)
+        return false;
+    memcpy(out->key, key, key_size);
+    memcpy(out->value, value, value_size);
+    out->key[key_size] = out->value[value_size] = '\0';
+    return true;
+}
+
+bool attribute_make(attribute *out, const char *key, const char *value)
+{
+    return attribute_make_sized(out, key, strlen(key), value, strlen(value));
+}
+
+void attribute_release(attribute *a)
+{
+    mem_free(a->key);
+}
+
+bool node_own_facts(node *n)
+{
+    if (!n->lent)
+        return true;
+    char      *name = mem_copy_text(n->name);
+    attribute *own = mem_calloc(n->attribute_count, sizeof *own);
+    bool       good = own && (name || !n->name);
+    for (size_t i = 0; i < n->attribute_count && good; i++)
+        good = attribute_make(&own[i], n->attributes[i].key, n->attributes[i].value);
+    if (good) {
+        n->name = name;
+        n->attributes = own;
+        n->lent = false;
+        return true;
+    }
+    for (size_t i = 0; own && i < n->attribute_count; i++)
+        attribute_release(&own[i]);
+    mem_free(own);
+    mem_free(name);
+    return false;
+}
+
 static void node_release(node *n)
 {
-    mem_free(n->name);
+    mem_free(n->place);
     mem_free(n->instances);
     mem_free(n->morph_weights);
-    for (size_t i = 0; i < n->attribute_count; i++) {
-        mem_free(n->attributes[i].key);
-        mem_free(n->attributes[i].value);
-    }
+    if (n->lent)
+        return;
+    mem_free(n->name);
+    for (size_t i = 0; i < n->attribute_count; i++)
+        attribute_release(&n->attributes[i]);
     mem_free(n->attributes);
 }
 

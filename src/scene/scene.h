@@ -43,22 +43,22 @@ typedef struct edge_visibility {
  * mesh those with triangles come first. */
 typedef struct primitive {
     uint32_t      vertex_count, index_count;
+    uint32_t      influences; /* joints a vertex; 0 without joints */
+    uint32_t      line_count; /* pairs */
+    int32_t       material;   /* NONE: the default material */
+    bool          welded;     /* no two vertices lie at one position */
     vec3         *positions;
     vec3         *normals;  /* unit; NULL: made from the crease angle when drawn */
     vec3         *straight; /* where the vertices were in the world before a projection bent it; NULL: it is not bent */
     vec2         *uvs[UV_SETS];
-    vec4         *colours;    /* linear, straight alpha */
-    uint16_t     *joints;     /* `influences` per vertex */
-    float        *weights;    /* of the joints, as many; those of a vertex sum to 1 */
-    uint32_t      influences; /* 0 without joints */
+    vec4         *colours; /* linear, straight alpha */
+    uint16_t     *joints;  /* `influences` per vertex */
+    float        *weights; /* of the joints, as many; those of a vertex sum to 1 */
     uint32_t     *indices;
-    uint32_t     *lines;      /* NULL: none, as where there are triangles */
-    uint32_t      line_count; /* pairs */
-    int32_t       material;   /* NONE: the default material */
+    uint32_t     *lines; /* NULL: none, as where there are triangles */
     morph_target *morphs;
     size_t        morph_count;
     edge_visibility edges;
-    bool            welded; /* no two vertices lie at one position */
     box3            bounds; /* of positions; set by scene_finish */
 } primitive;
 
@@ -130,31 +130,41 @@ typedef struct light {
     float      range, inner_cone, outer_cone;
 } light;
 
-/* Free-form facts a file states about a node: glTF extras, later city attributes. Values as text. */
+/* Free-form facts a file states about a node: glTF extras, attributes of city objects. Values as text. Both lie in one
+ * block, that of the key: cities have millions of them. */
 typedef struct attribute {
     char *key, *value;
 } attribute;
+/* A copy of texts; false when memory is gone. */
+bool attribute_make(attribute *out, const char *key, const char *value);
+bool attribute_make_sized(attribute *out, const char *key, size_t key_size, const char *value, size_t value_size);
+void attribute_release(attribute *a);
 
-/* One node. Its world matrix is parent · local; `local` is matrix when `has_matrix`, else T·R·S. */
+/* Where a node is below its parent. Most nodes of a city are where their parents are. */
+typedef struct node_place {
+    mat4   matrix;
+    double translation[3], rotation[4] /* x y z w */, scale[3];
+} node_place;
+
+/* One node. Its world matrix is parent · local; `local` is its place's matrix when `has_matrix`, else T·R·S. */
 typedef struct node {
-    char      *name;                              /* may be NULL */
-    int32_t    parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
-    int32_t    last_child;                        /* makes scene_link_child O(1) */
-    bool       has_matrix;
-    mat4       matrix;
-    double     translation[3], rotation[4] /* x y z w */, scale[3];
-    int32_t    mesh, skin, camera, light;
-    int32_t    solid;     /* a node has a mesh or a solid */
-    bool       hidden;    /* with all below it, by who uses the library */
-    bool       removed;   /* taken out of the scene, and empty */
-    bool       numbered;  /* its file has no name for it: the reader made one of a number */
-    bool       ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
-    mat4      *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
-    size_t     instance_count; /* 0: the node itself is the one instance */
-    float     *morph_weights;  /* NULL: the mesh's */
-    size_t     morph_weight_count;
-    attribute *attributes;
-    size_t     attribute_count;
+    char       *name;                              /* may be NULL */
+    int32_t     parent, first_child, next_sibling; /* NONE when absent; children keep the file's order */
+    int32_t     last_child;                        /* makes scene_link_child O(1) */
+    int32_t     mesh, skin, camera, light;
+    int32_t     solid; /* a node has a mesh or a solid */
+    bool        has_matrix;
+    bool        lent;      /* name and attributes are the program's, for many nodes: never freed, never written */
+    bool        hidden;    /* with all below it, by who uses the library */
+    bool        removed;   /* taken out of the scene, and empty */
+    bool        numbered;  /* its file has no name for it: the reader made one of a number */
+    bool        ghost;     /* what its parent's solid takes away; nothing counts or draws it unless it is asked for */
+    node_place *place;     /* NULL: that of its parent, without a matrix */
+    mat4       *instances; /* EXT_mesh_gpu_instancing: each instance draws world · instances[i] */
+    uint32_t    instance_count; /* 0: the node itself is the one instance */
+    uint32_t    morph_weight_count, attribute_count;
+    float      *morph_weights; /* NULL: the mesh's */
+    attribute  *attributes;
 } node;
 
 typedef struct skin {
@@ -313,6 +323,12 @@ mat4 *scene_world_matrices(const lmn_scene *scene, const mat4 *locals);
 /* That of one node. */
 mat4 scene_world_matrix(const lmn_scene *scene, int32_t node_index);
 mat4 node_local_matrix(const node *n);
+/* Its place, or one that changes nothing; and a place of its own to be changed, NULL when memory is gone. */
+const node_place *node_place_of(const node *n);
+node_place       *node_own_place(node *n);
+bool              node_set_matrix(node *n, const mat4 *matrix);
+/* Gives it a name and attributes of its own. False when memory is gone. */
+bool node_own_facts(node *n);
 
 /* What --camera calls a camera: its name, else that of a node that has it (may be NULL), else "camera-N", counted
  * from 1, in `numbered`. */

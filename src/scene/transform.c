@@ -1,6 +1,7 @@
 /* Matrices and boxes. */
 #include <math.h>
 
+#include "base/memory.h"
 #include "scene/scene.h"
 
 mat4 mat4_identity(void)
@@ -99,9 +100,34 @@ mat4 mat4_from_trs(const double t[3], const double r[4], const double s[3])
     return m;
 }
 
+static const node_place nowhere = {
+    .matrix = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+
+const node_place *node_place_of(const node *n)
+{
+    return n->place ? n->place : &nowhere;
+}
+
+node_place *node_own_place(node *n)
+{
+    if (!n->place)
+        n->place = mem_copy(&nowhere, sizeof nowhere);
+    return n->place;
+}
+
+bool node_set_matrix(node *n, const mat4 *matrix)
+{
+    if (!node_own_place(n))
+        return false;
+    n->has_matrix = true;
+    n->place->matrix = *matrix;
+    return true;
+}
+
 mat4 node_local_matrix(const node *n)
 {
-    return n->has_matrix ? n->matrix : mat4_from_trs(n->translation, n->rotation, n->scale);
+    const node_place *at = node_place_of(n);
+    return n->has_matrix ? at->matrix : mat4_from_trs(at->translation, at->rotation, at->scale);
 }
 
 box3 box3_empty(void)

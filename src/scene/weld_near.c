@@ -1,6 +1,7 @@
 /* Vertices that were one before somebody rounded them: poles of spheres whose sines are 1e-17 and not 0, seams that two
  * programs computed. A mesh is torn there, and its outlines too. */
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "scene/mesh.h"
@@ -15,21 +16,26 @@ typedef struct near_table {
     uint32_t   *heads, *nexts;
 } near_table;
 
-static size_t cell_hash(const int64_t cell[3])
+/* Numbers of cells stay doubles: far positions over a fine tolerance leave the range of every integer. */
+static size_t cell_hash(const double cell[3])
 {
-    uint64_t h = (uint64_t)cell[0] * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)cell[1] * UINT64_C(0xC2B2AE3D27D4EB4F) ^
-                 (uint64_t)cell[2] * UINT64_C(0x165667B19E3779F9);
-    return (size_t)(h ^ h >> 31);
+    uint64_t bits[3];
+    memcpy(bits, cell, sizeof bits);
+    uint64_t h = bits[0] * UINT64_C(0x9E3779B97F4A7C15) ^ bits[1] * UINT64_C(0xC2B2AE3D27D4EB4F) ^
+                 bits[2] * UINT64_C(0x165667B19E3779F9);
+    h = (h ^ h >> 32) *
+        UINT64_C(0xD6E8FEB86659FD93); /* doubles of small whole numbers differ in their high bits alone */
+    return (size_t)(h ^ h >> 32);
 }
 
-static void cell_of(const near_table *t, vec3 p, double aside[3], int64_t cell[3])
+static void cell_of(const near_table *t, vec3 p, double aside[3], double cell[3])
 {
     const float at[3] = {p.x, p.y, p.z};
     for (int k = 0; k < 3; k++)
-        cell[k] = (int64_t)floor(((double)at[k] + aside[k] * t->tolerance) / t->cell);
+        cell[k] = floor(((double)at[k] + aside[k] * t->tolerance) / t->cell) + 0.0; /* no zero with a sign */
 }
 
-static uint32_t find_in(const near_table *t, vec3 p, const int64_t cell[3])
+static uint32_t find_in(const near_table *t, vec3 p, const double cell[3])
 {
     enum { MOST = 64 }; /* so many share a slot only in meshes that are made to be slow */
     int left = MOST;
@@ -45,11 +51,11 @@ static uint32_t find_in(const near_table *t, vec3 p, const int64_t cell[3])
 /* An earlier vertex that lies so near. */
 static uint32_t find_near(const near_table *t, vec3 p)
 {
-    int64_t own[3];
+    double own[3];
     cell_of(t, p, (double[3]){0, 0, 0}, own);
     uint32_t found = find_in(t, p, own);
     for (int corner = 0; corner < 8 && found == FREE; corner++) {
-        int64_t cell[3];
+        double cell[3];
         cell_of(t, p, (double[3]){corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1}, cell);
         if (cell[0] != own[0] || cell[1] != own[1] || cell[2] != own[2])
             found = find_in(t, p, cell);
@@ -89,7 +95,7 @@ bool mesh_weld_near(const vec3 *positions, uint32_t *ids, size_t count, double t
             ids[i] = found;
             continue;
         }
-        int64_t cell[3];
+        double cell[3];
         cell_of(&t, p, (double[3]){0, 0, 0}, cell);
         uint32_t *head = &t.heads[cell_hash(cell) & t.mask];
         t.nexts[i] = *head;

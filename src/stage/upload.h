@@ -91,6 +91,14 @@ enum { STROKES_OPAQUE, STROKES_SEEN_THROUGH, STROKES_LOOKED_UP, STROKE_STORES };
 enum { UPLOAD_KEYS_MOST = 1 << 24 };
 typedef struct upload_pack upload_pack;
 
+/* What the first light saw last, and by what: pictures of a scene that stands still, for the same viewer, need not ask
+ * again. Nothing but these can change it as long as the upload lives. */
+typedef struct seen_by_light {
+    gpu_texture *depth;            /* NULL: nothing is kept */
+    mat4         view, projection; /* of the light */
+    bool        *parts;            /* that throw shadows */
+} seen_by_light;
+
 typedef struct upload {
     uint64_t        revision, identity; /* of the scene */
     double          crease_angle;       /* radians */
@@ -123,6 +131,7 @@ typedef struct upload {
     csg_program     program; /* of all solids */
     csg_plane      *planes;  /* of all solids, in their own axes; items know theirs */
     size_t          plane_count, plane_capacity;
+    seen_by_light   lit;
     float (*operands)[8]; /* per operand: linear colour, part, index of a cut face, whether it is one, 0 */
     size_t        operand_capacity;
     gpu_texture  *operand_table;     /* the same, two texels an operand, 512 operands a row; NULL: no solids */

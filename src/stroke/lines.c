@@ -159,7 +159,13 @@ static lmn_status find_outline(collector *c, uint32_t index, lmn_error *error)
         return LMN_OK;
     c->outline = mem_alloc((size_t)m->edge_count + 1);
     front_test test = {c->v, m, index};
-    return c->outline ? edge_mesh_silhouette(m, is_front, &test, c->outline, NULL, error) : error_memory(error);
+    uint64_t   tested = 0;
+    lmn_status status =
+        c->outline ? edge_mesh_silhouette(m, is_front, &test, c->outline, &tested, error) : error_memory(error);
+    for (uint32_t i = 0; i < m->refinement->surface.level_count; i++)
+        c->out->search.faces += m->refinement->surface.levels[i].face_count;
+    c->out->search.tested += tested;
+    return status;
 }
 
 static bool collect_edges(collector *c, uint32_t index)

@@ -76,14 +76,21 @@ typedef struct stroke_mark {
     float    arc;
 } stroke_mark;
 
+/* What finding the outlines of refined meshes took: faces of all levels, and those that were asked which way they look.
+ */
+typedef struct outline_search {
+    uint64_t faces, tested;
+} outline_search;
+
 typedef struct stroke_set {
-    stroke       *strokes;
-    stroke_point *points;
-    stroke_mark  *marks; /* in the order of the chains */
-    stroke_fine  *fine;  /* with stroke_options.fine */
-    size_t        stroke_count, point_count, chain_count, mark_count, fine_count;
-    bool          perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
-    uint64_t      pairs;       /* of lines and triangles that were compared: what the work was */
+    stroke        *strokes;
+    stroke_point  *points;
+    stroke_mark   *marks; /* in the order of the chains */
+    stroke_fine   *fine;  /* with stroke_options.fine */
+    size_t         stroke_count, point_count, chain_count, mark_count, fine_count;
+    bool           perspective; /* between two points it is 1 / depth that is linear on the page, not depth */
+    outline_search search;      /* over all meshes that were refined */
+    uint64_t       pairs;       /* of lines and triangles that were compared: what the work was */
 } stroke_set;
 void stroke_set_release(stroke_set *s);
 

@@ -246,6 +246,7 @@ typedef struct view_lines {
     uint32_t        end_count; /* numbers that ends have: 0 … end_count − 1 */
     uint32_t       *ignored;   /* what the segments' lists of faces are parts of */
     uint32_t       *beside;    /* … and those of pieces */
+    outline_search  search;
 } view_lines;
 /* --- beside.c --- */
 /* Leaves out crossings of pieces that nearly coincide, by what most of the length of those that hang together is, and

@@ -1,4 +1,5 @@
 /* Dots at the corners of a square grid, of one half as wide, and so on, as many as the picture has room for. */
+#include "surface/dot_area.glsl"
 #include "surface/halftone/position.glsl"
 #include "surface/halftone/tone.glsl"
 #include "surface/halftone/noise.glsl"
@@ -46,8 +47,7 @@ float dots_at(stroke_plane s, float darkness, uint set)
 #if TONE_BY == 0
     float area_of_dots = darkness * (1.0 + 0.5708 * pow(darkness, 6.0));
 #else
-    float grown = 0.5 + 0.2071 * (1.0 - pow(clamp((1.0 - darkness) / 0.2146, 0.0, 1.0), 0.385));
-    float area_of_dots = darkness < 0.7854 ? darkness : 3.14159 * grown * grown;
+    float area_of_dots = area_that_covers(darkness);
 #endif
     float whole = size / (1.0 + come) * area_of_dots;
     vec4 ink = vec4(1.0, clamp(come, 0.0, 1.0), clamp(come - 1.0, 0.0, 1.0), clamp(come - 2.0, 0.0, 1.0)) * whole;

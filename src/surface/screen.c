@@ -11,12 +11,15 @@ static const char *const indication_names[] = {"add", "limit", NULL};
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_TRIPLANAR),
     HALFTONE_INK_ROWS,
-    PARAM_TEXT_ROW(screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
-                   .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, "
-                          "random), a procedure (lines, dots, ordered, "
-                          "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; "
-                          "NAME-1.png, NAME-2.png … are its layers); material takes the strokes that lie beside each "
-                          "material's picture under its name (.stx). Empty: cross."),
+    PARAM_TEXT_ROW(
+        screen_values, screen, .example = "dots", .is_file = true, .check = screen_check_name,
+        .doc = "The screen: a pattern of strokes (parallel, cross, contour, brick, stipple, scribble, "
+               "random), a procedure (lines, dots, ordered, "
+               "blue-noise, hatch-map), a file of strokes (.stx, .svg) or a painted one (.png, .jpg, .webp; "
+               "NAME-1.png, NAME-2.png … are its layers, NAME-level-1.png and so on its coarser levels, half as "
+               "large each, where an artist draws them; paper follows the last); material takes the strokes that lie "
+               "beside each "
+               "material's picture under its name (.stx). Empty: cross."),
     PARAM_ENUM_ROW(screen_values, scheme, .names = scheme_names, .def = SCHEME_SHARP, .variant = true,
                    .doc = "binary: hard thresholds; smooth: a ramp in the tone (Freudenberg 2003); sharp: a ramp of a "
                           "pixel at any zoom; multiply: all strokes, "
@@ -34,14 +37,18 @@ static const param params[] = {
                     .logarithmic = true, .only_if = "coordinates=uv",
                     .doc = "How often the screen is laid into a unit of texture coordinates."),
     PARAM_ENUM_ROW(screen_values, detail, .names = screen_detail_names, .cpu_only = true,
-                   .doc = "Far away: kept leaves out whole strokes and keeps the width of others; minimum and average "
-                          "are the textbook's ways, for comparison."),
+                   .doc =
+                       "Far away: kept leaves out whole strokes and keeps the width of others; minimum, average and "
+                       "nearest are the textbook's ways, for comparison: fuzzy, grey, and with patterns that are not "
+                       "there."),
     PARAM_BOOL_ROW(screen_values, equalised, .def = 1, .cpu_only = true,
                    .doc = "Makes the fraction of ink follow the tone, as far as strokes can cover the surface; between "
                           "levels in sharp schemes."),
-    PARAM_FLOAT_ROW(screen_values, relief, .def = 0, .min = -8, .max = 8, .soft_min = -2, .soft_max = 2,
-                    .doc = "Lights each stroke by itself, as a groove (or, below 0, a ridge) this steep: those towards "
-                           "the light go first."),
+    PARAM_FLOAT_ROW(
+        screen_values, relief, .def = 0, .min = -8, .max = 8, .soft_min = -2, .soft_max = 2,
+        .doc = "Lights each stroke by itself, as a groove (or, below 0, a ridge) this steep: those towards "
+               "the light go first. Painted screens take their slopes from NAME-normals.png beside them (red to "
+               "the right, green up), times this."),
     PARAM_BOOL_ROW(screen_values, whole, .def = 0, .variant = true, .only_if = "coordinates=uv",
                    .doc = "Each stroke has the light of its middle, so that it is drawn whole or not at all."),
     PARAM_TEXT_ROW(

@@ -1,6 +1,7 @@
 #include "surface/screen_textures.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -91,6 +92,44 @@ static bool numbered(const char *first, int number, char **out)
     return *out != NULL;
 }
 
+/* "wall.png" and "-normals" are "wall-normals.png". The caller frees it; NULL: memory is gone. */
+static char *name_beside(const char *name, const char *suffix)
+{
+    const char *dot = strrchr(name, '.');
+    text        path = {0};
+    text_append_bytes(&path, name, dot ? (size_t)(dot - name) : strlen(name));
+    text_append(&path, "%s%s", suffix, dot ? dot : "");
+    return text_take(&path);
+}
+
+/* The name of the n-th level that was drawn after the finest one. */
+static char *name_of_level(const char *name, int level)
+{
+    char suffix[24];
+    snprintf(suffix, sizeof suffix, "-level-%d", level);
+    return name_beside(name, suffix);
+}
+
+static bool is_there(const char *path)
+{
+    return path && access(path, F_OK) == 0;
+}
+
+/* Pictures beside a painted one that belong to it: its levels, its normals. */
+static void describe_beside(text *out, const char *name)
+{
+    char *normals = name_beside(name, "-normals"), *level = NULL;
+    if (is_there(normals))
+        text_append(out, " normals %016llx", (unsigned long long)store_hash_of_file(normals));
+    mem_free(normals);
+    for (int i = 1; i <= LAYERS_MOST && is_there(level = name_of_level(name, i)); i++) {
+        text_append(out, " level %016llx", (unsigned long long)store_hash_of_file(level));
+        mem_free(level);
+        level = NULL;
+    }
+    mem_free(level);
+}
+
 static void describe_file(text *out, const char *name)
 {
     if (ends_in(name, stroke_endings) || image_is_named(name))
@@ -103,13 +142,15 @@ static void describe_file(text *out, const char *name)
             break;
         text_append(out, " %016llx", (unsigned long long)content);
     }
+    if (image_is_named(name))
+        describe_beside(out, name);
 }
 
 void screen_describe(text *out, const void *values)
 {
     const screen_values *v = values;
     text_append(out,
-                "10 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g "
+                "11 %s%s scale=%.6g width=%.6g detail=%d equalised=%d frames=%d seed=%d relief=%.6g gain=%.6g "
                 "page=%d angle=%.6g",
                 name_of(v), v->scheme == SCHEME_MULTIPLY ? " multiply" : "", (double)v->scale, (double)v->width,
                 v->detail, v->equalised, v->frames, v->pattern_seed, (double)v->relief, (double)v->gain,
@@ -244,16 +285,56 @@ static lmn_status load_layers(image_pixels *out, size_t *count, const char *name
     return status;
 }
 
+/* Texels a side for a picture. */
+static int side_for(const image_pixels *p)
+{
+    int side = SIDE_LEAST;
+    while (side < BITMAP_SIDE && (uint32_t)side < p->width)
+        side *= 2;
+    return side;
+}
+
+/* The levels that were drawn one by one (IM-04), as they are. *count is 0 when there are none. */
+static lmn_status make_of_levels(mip_chain *out, const screen_values *v, size_t *count, lmn_error *error)
+{
+    image_pixels pixels[LAYERS_MOST] = {{0}};
+    screen_layer levels[LAYERS_MOST];
+    lmn_status   status = LMN_OK;
+    lmn_error    problem = {0};
+    *count = 0;
+    for (int i = 0; i < LAYERS_MOST && status == LMN_OK; i++) {
+        char *path = i ? name_of_level(name_of(v), i) : mem_copy_text(name_of(v));
+        bool  there = is_there(path);
+        if (there)
+            status = image_load(&pixels[i], path, error);
+        mem_free(path);
+        if (!there || status != LMN_OK)
+            break;
+        levels[(*count)++] = (screen_layer){pixels[i].rgba, pixels[i].width, pixels[i].height};
+    }
+    *count = *count > 1 ? *count : 0;
+    if (status == LMN_OK && *count) {
+        status = screen_of_levels(out, levels, *count, side_for(&pixels[0]), &problem);
+        if (status != LMN_OK)
+            error_in_file(error, status, name_of(v), 0, "%s", problem.message);
+    }
+    for (int i = 0; i < LAYERS_MOST; i++)
+        mem_free(pixels[i].rgba);
+    return status;
+}
+
 static lmn_status make_of_picture(mip_chain *out, const screen_values *v, lmn_error *error)
 {
+    size_t     drawn;
+    lmn_status found = make_of_levels(out, v, &drawn, error);
+    if (drawn || found != LMN_OK)
+        return found;
     image_pixels pixels[LAYERS_MOST] = {{0}};
     screen_layer layers[LAYERS_MOST];
     size_t       count;
     lmn_status   status = load_layers(pixels, &count, name_of(v), error);
     lmn_error    problem = {0};
-    int          side = SIDE_LEAST;
-    while (status == LMN_OK && side < BITMAP_SIDE && (uint32_t)side < pixels[0].width)
-        side *= 2;
+    int          side = status == LMN_OK ? side_for(&pixels[0]) : SIDE_LEAST;
     for (size_t i = 0; i < count; i++)
         layers[i] = (screen_layer){pixels[i].rgba, pixels[i].width, pixels[i].height};
     if (status == LMN_OK) {
@@ -460,8 +541,31 @@ static lmn_status make_flat(mip_chain *out, mip_format format, int value, lmn_er
     return status;
 }
 
+/* Normals that were painted beside a painted screen; *there tells whether they were. */
+static lmn_status make_painted_relief(mip_chain *out, const screen_values *v, bool *there, lmn_error *error)
+{
+    image_pixels pixels = {0};
+    lmn_error    problem = {0};
+    char        *path = image_is_named(name_of(v)) ? name_beside(name_of(v), "-normals") : NULL;
+    *there = is_there(path);
+    lmn_status status = *there ? image_load(&pixels, path, error) : LMN_OK;
+    if (status == LMN_OK && *there) {
+        screen_layer picture = {pixels.rgba, pixels.width, pixels.height};
+        status = screen_normals_of_picture(out, &picture, (double)v->relief, side_for(&pixels), &problem);
+        if (status != LMN_OK)
+            error_in_file(error, status, path, 0, "%s", problem.message);
+    }
+    mem_free(pixels.rgba);
+    mem_free(path);
+    return status;
+}
+
 lmn_status screen_make_relief(mip_chain *out, const void *values, lmn_error *error)
 {
+    bool       there;
+    lmn_status status = make_painted_relief(out, values, &there, error);
+    if (there || status != LMN_OK)
+        return status;
     return has_strokes(values) ? make_of_strokes(out, values, to_relief, error) : make_flat(out, MIP_RG8, 128, error);
 }
 

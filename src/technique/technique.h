@@ -83,6 +83,7 @@ typedef struct pass {
                       with its geometry */
     bool onto;     /* drawn onto what is there, which it does not read */
     bool stylised; /* left out in maps, which show what was detected */
+    bool looks_up; /* where the figure's perturbation says, though it is not drawn onto the page */
 } pass;
 
 /* What a technique wants meshes to have besides positions and normals. */

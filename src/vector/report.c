@@ -64,6 +64,7 @@ char *vector_report_json(const lmn_sheet *s)
     json_object_set_new(root, "load_ms", json_real(s->facts.load_ms));
     json_object_set_new(root, "frame_ms", json_real(s->frame_ms));
     json_object_set_new(root, "strokes", strokes_json(s));
+    report_search(root, s->search);
     if (s->has_traces)
         json_object_set_new(root, "motion", trace_facts_json(&s->traces));
     json_object_set_new(root, "hidden_strokes", json_integer((json_int_t)s->hidden));

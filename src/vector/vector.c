@@ -13,6 +13,7 @@
 #include "plan/deformation.h"
 #include "plan/plan.h"
 #include "plan/refuse.h"
+#include "plan/round_scene.h"
 #include "plan/time.h"
 #include "plan/unit.h"
 #include "vector/vector_job.h"
@@ -78,7 +79,8 @@ static lmn_status refuse_of_solids(const vector_job *j, lmn_error *error)
 static lmn_status plan_parts(vector_job *j, lmn_error *error)
 {
     const lmn_scene   *scene = j->scene;
-    const plan_options options = {.select = j->desc->select,
+    const plan_options options = {.on_sheet = true,
+                                  .select = j->desc->select,
                                   .background = j->desc->background,
                                   .pixels_per_mm = VECTOR_PIXELS_PER_MM,
                                   .parts_only = true};
@@ -211,6 +213,8 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
 
 static void count_strokes(vector_job *j, const stroke_set *set, const stroke_style *style)
 {
+    j->out->search.faces += set->search.faces;
+    j->out->search.tested += set->search.tested;
     for (size_t i = 0; i < set->stroke_count; i++) {
         const stroke *s = &set->strokes[i];
         bool          drawn = s->hidden_by == 0 || (style->hidden != HIDDEN_NONE &&
@@ -734,6 +738,7 @@ static void end_job(vector_job *j)
     swept_boxes_release(&j->swept);
     pose_deformation_release(&j->deformation);
     pose_release(&j->pose);
+    round_scene_release(&j->round);
     mem_free(j->stroked);
 }
 
@@ -761,8 +766,10 @@ lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *
             warnings_add(&j.out->warnings, WARNING_NO_STROKES,
                          "the surfaces of the look '%s' need pixels and a renderer; lines alone are drawn",
                          look->name ? look->name : "");
-        status = prepare(&j, error);
+        status = round_scene_find(&j.scene, &j.round, scene, look, error);
     }
+    if (status == LMN_OK)
+        status = prepare(&j, error);
     if (status == LMN_OK)
         status = draw_sheet(&j, error);
     end_job(&j);

@@ -32,24 +32,25 @@ struct lmn_sheet {
     sheet    page;
     warnings warnings;
     /* for the report */
-    report_facts facts;
-    vector_view  views[SHEET_VIEWS_MOST];
-    draft_extras extras;
-    size_t       view_count;
-    double       scale;          /* millimetres of paper for one of the model; 0: perspective */
-    char         scale_text[32]; /* "1:20"; empty: perspective */
-    const char  *unit;           /* lasts */
-    uint64_t    *part_strokes;   /* visible ones of each part */
-    uint64_t    *part_marks;     /* dots and strokes on its surface */
-    double       frame_ms;
-    trace_facts  traces;
-    bool         has_traces; /* some rule wants them */
-    uint64_t     counts[STROKE_CLASS_COUNT], hidden;
-    uint64_t     dots, marks; /* that lie on surfaces: dots, strokes */
-    uint64_t     hatches;     /* lines on cut faces */
-    uint64_t     centres;     /* centre lines and pitch circles */
-    bool         verified;
-    stroke_check check;
+    report_facts   facts;
+    vector_view    views[SHEET_VIEWS_MOST];
+    draft_extras   extras;
+    size_t         view_count;
+    double         scale;          /* millimetres of paper for one of the model; 0: perspective */
+    char           scale_text[32]; /* "1:20"; empty: perspective */
+    const char    *unit;           /* lasts */
+    uint64_t      *part_strokes;   /* visible ones of each part */
+    uint64_t      *part_marks;     /* dots and strokes on its surface */
+    double         frame_ms;
+    trace_facts    traces;
+    bool           has_traces; /* some rule wants them */
+    outline_search search;
+    uint64_t       counts[STROKE_CLASS_COUNT], hidden;
+    uint64_t       dots, marks; /* that lie on surfaces: dots, strokes */
+    uint64_t       hatches;     /* lines on cut faces */
+    uint64_t       centres;     /* centre lines and pitch circles */
+    bool           verified;
+    stroke_check   check;
 };
 
 /* Do the surfaces of the look need pixels? */

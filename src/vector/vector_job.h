@@ -5,6 +5,7 @@
 #include "draft/centres.h"
 #include "draft/cylinder_fit.h"
 #include "plan/deformation.h"
+#include "plan/round_scene.h"
 #include "plan/section.h"
 #include "plan/time.h"
 #include "vector/vector_private.h"
@@ -19,6 +20,7 @@ typedef struct vector_job {
     swept_boxes           swept;
     plan                  plan;
     const lmn_scene      *scene;
+    round_scene           round; /* what `scene` is where the look wants it so */
     const lmn_look       *look;
     const lmn_draw_desc  *desc;
     const lmn_sheet_desc *wanted;

@@ -61,6 +61,65 @@ static void compare_side(profile_error *e, const shot *s, page_point a, page_poi
         }
 }
 
+/* The area of a pixel within half a width of a point. */
+static double disc_in_pixel(page_point c, int x, int y, double width)
+{
+    int inside = 0;
+    for (int v = 0; v < FINE; v++)
+        for (int u = 0; u < FINE; u++)
+            inside += hypot(x + (u + 0.5) / FINE - c.x, y + (v + 0.5) / FINE - c.y) <= width / 2;
+    return (double)inside / (FINE * FINE);
+}
+
+/* Beyond the corner b, whose neighbours are a and c, lines end round: pixels on the rim of the disc about it, of all to
+ * which nothing else is nearer. */
+static void compare_corner(profile_error *e, const shot *s, page_point a, page_point b, page_point c, double width)
+{
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            double px = x + 0.5 - b.x, py = y + 0.5 - b.y, away = hypot(px, py);
+            if (px * (a.x - b.x) + py * (a.y - b.y) > 0 || px * (c.x - b.x) + py * (c.y - b.y) > 0 ||
+                fabs(away - width / 2) > 1.5)
+                continue;
+            double truth = disc_in_pixel(b, x, y, width), ink = 1 - picture_shown(s->picture[4 * (y * s->width + x)]);
+            e->most = fmax(e->most, fabs(ink - truth));
+            e->area += fabs(ink - truth);
+            e->pixels++;
+        }
+}
+
+/* The corners of turned squares. */
+static void run_corners(void)
+{
+    const shot_view view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    const double    half = 0.8, width = 12;
+    char            lines[120];
+    snprintf(lines, sizeof lines, "{\"operator\":\"discontinuity\",\"colour\":\"#000000\",\"width\":%g}", width);
+    for (size_t i = 0; i < sizeof slopes / sizeof *slopes; i++) {
+        const double  turn = atan(slopes[i]);
+        shape         square = {0};
+        shot          s = {0};
+        profile_error e = {0};
+        shape_quad(&square, "square", half, 0);
+        shape_place(&square, (dvec){0, 0, 1}, turn * 180 / 3.14159265358979, (dvec){0.0123, 0.0077, 0});
+        if (shot_of_shape(&s, &square, "corners.ply", shot_line_look(lines), NULL, &view)) {
+            page_point corners[4];
+            for (int k = 0; k < 4; k++) {
+                double x = k == 0 || k == 3 ? -half : half, y = k < 2 ? -half : half;
+                corners[k] = on_page(
+                    &s, (dvec){0.0123 + x * cos(turn) - y * sin(turn), 0.0077 + x * sin(turn) + y * cos(turn), 0});
+            }
+            for (int k = 0; k < 4; k++)
+                compare_corner(&e, &s, corners[(k + 3) % 4], corners[k], corners[(k + 1) % 4], width);
+            check_at_least("line-corner", e.pixels, 40, "slope %g: pixels on the rims of the discs about the corners",
+                           slopes[i]);
+            check_at_most("line-corner", e.most, 0.05, "  ink against the area of the disc, worst");
+        }
+        shot_release(&s);
+        shape_release(&square);
+    }
+}
+
 static void profile_of(const shape *square, const char *file, double slope, double width, double limit)
 {
     shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
@@ -101,8 +160,8 @@ static void run_profiles(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"profiles", run_profiles}};
-    int                     status = check_main(argc, argv, "line_width", cases, 1);
+    static const check_case cases[] = {{"profiles", run_profiles}, {"corners", run_corners}};
+    int                     status = check_main(argc, argv, "line_width", cases, 2);
     shot_end();
     return status;
 }

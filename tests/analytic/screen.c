@@ -393,6 +393,108 @@ static void averaged_screens_grey_out(void)
     }
 }
 
+/* The share of a far screen's ink that waves in bands of 24 to 64 pixels across even lines, which have no such bands.
+ */
+static double bands_of(const char *detail)
+{
+    enum { SIDE = 192 };
+    const double   pi = 3.14159265358979323846;
+    halftone_scene scene = {0};
+    shot           s;
+    shot_view      view = halftone_view(SIDE, SIDE, SIDE);
+    char           surface[1024];
+    double         most = 0, mean = 0, rows[SIDE];
+    halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
+    snprintf(surface, sizeof surface,
+             "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"multiply\",\"uneven\":0,\"width\":1.2,"
+             "\"repeat\":7.3,\"detail\":\"%s\"",
+             check_path("even.stx"), detail);
+    if (halftone_shot(&s, &scene, "even.gltf", halftone_look(surface), NULL, &view)) {
+        for (int y = 0; y < SIDE; y++)
+            mean += (rows[y] = halftone_mean(&s, 0, y, SIDE, 1)) / SIDE;
+        for (double period = 24; period <= 64; period += 0.5) {
+            double in = 0, out = 0, weights = 0;
+            for (int y = 0; y < SIDE; y++) {
+                double window = 0.5 - 0.5 * cos(2 * pi * (y + 0.5) / SIDE);
+                in += window * (rows[y] - mean) * cos(2 * pi * y / period);
+                out += window * (rows[y] - mean) * sin(2 * pi * y / period);
+                weights += window;
+            }
+            most = fmax(most, 2 * hypot(in, out) / weights);
+        }
+    }
+    shot_release(&s);
+    halftone_release(&scene);
+    check_note("detail=%s: mean ink %.3f, bands of %.4f", detail, mean, most);
+    return mean > 0 ? most / mean : 0;
+}
+
+/* Row IM-01: nearest texels make bands of even lines, one in each repetition of the screen, as black as lines are; of
+ * whole lines that are left, a few lie nearer to each other than others. */
+static void nearest_texels_make_bands(void)
+{
+    FILE *file = fopen(check_path("even.stx"), "wb");
+    for (int i = 0; file && i < 33; i++) {
+        double rank = 0; /* of every second line, every fourth … */
+        for (int k = 0; k < 5; k++)
+            rank += (i >> k & 1) * pow(0.5, k + 1);
+        fprintf(file, "0 %.6f 1 %.6f 1 %.6f 0\n", (i + 0.5) / 33, (i + 0.5) / 33, i < 32 ? 1 - rank : 0);
+    }
+    if (!check_that("files", file && fclose(file) == 0, "even.stx written"))
+        return;
+    double kept = bands_of("kept"), nearest = bands_of("nearest"), average = bands_of("average");
+    check_at_least("IM-01", nearest, 1, "detail=nearest: bands, fraction of the mean ink");
+    check_at_least("IM-01", kept > 0 ? nearest / kept : 0, 3, "  times those of whole lines that are left");
+    check_at_most("IM-01", average, 0.1, "detail=average: bands, fraction of the mean ink");
+}
+
+/* Row IM-04: levels that an artist drew are the levels, one by one, and what follows the last is paper. Each has a mark
+ * of its own: a bar at the left, one on top, a square in the middle. */
+static bool level_has_ink(int level, int x, int y, int side)
+{
+    return level == 0   ? x < side / 2
+           : level == 1 ? y < side / 4
+           : level == 2 ? abs(2 * x - side) < side / 2 && abs(2 * y - side) < side / 2
+                        : false;
+}
+
+static void levels_are_as_drawn(void)
+{
+    static uint8_t rgba[128 * 128 * 4];
+    char           path[512], surface[1024];
+    for (int level = 0; level < 3; level++) {
+        int side = 128 >> level;
+        for (int i = 0; i < side * side; i++)
+            memset(&rgba[4 * i], level_has_ink(level, i % side, i / side, side) ? 0 : 255, 4);
+        for (int i = 0; i < side * side; i++)
+            rgba[4 * i + 3] = 255;
+        snprintf(path, sizeof path, "%s", level ? check_path("drawn-level-%d.png", level) : check_path("drawn.png"));
+        if (!check_that("files", picture_write_rgba(path, rgba, side, side), "%s written", path))
+            return;
+    }
+    for (int level = 0; level < 4; level++) {
+        halftone_scene scene = {0};
+        shot           s;
+        shot_view      view = halftone_view(128, 128, 128);
+        int            wrong = 0, inked = 0, side = 128 >> level;
+        halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
+        snprintf(surface, sizeof surface,
+                 "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"binary\",\"uneven\":0,\"shadow\":0.5,"
+                 "\"light\":0.5,\"scale\":8,\"repeat\":%d",
+                 check_path("drawn.png"), 1 << level);
+        if (halftone_shot(&s, &scene, "drawn.gltf", halftone_look(surface), NULL, &view))
+            for (int i = 0; i < 128 * 128; i++) {
+                bool ink = s.picture[4 * i] < 128;
+                inked += ink;
+                wrong += ink != level_has_ink(level, i % 128 % side, i / 128 % side, side);
+            }
+        check_at_most("IM-04", wrong, 128 * 128 / 50, "level %d: pixels that are not as it was drawn, of %d with ink",
+                      level, inked);
+        shot_release(&s);
+        halftone_release(&scene);
+    }
+}
+
 /* Mean ink of each column, and from it the lines. */
 typedef struct lines_seen {
     double mean, contrast, period, width;
@@ -990,6 +1092,8 @@ int main(int argc, char **argv)
         {"ramps", tone_of_screens},
         {"edges", edges_stay_sharp},
         {"average", averaged_screens_grey_out},
+        {"bands", nearest_texels_make_bands},
+        {"drawn", levels_are_as_drawn},
         {"hatch-map", hatch_map_over_distance},
         {"floor", hatch_map_in_the_depth},
         {"distance", strokes_over_distance},

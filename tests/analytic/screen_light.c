@@ -151,6 +151,52 @@ static void strokes_have_flanks(void)
         }
 }
 
+/* Row IM-17: of a painted screen an artist paints the normals, too. Four fields lean right, left, up, down; those that
+ * turn away from the light have the ink, and the other way round where the relief is negative. */
+static void normals_are_painted(void)
+{
+    static const double leaning[4][2] = {{0.7, 0}, {-0.7, 0}, {0, 0.7}, {0, -0.7}};
+    static uint8_t      grey[128 * 128 * 4], normals[128 * 128 * 4];
+    for (int i = 0; i < 128 * 128; i++) {
+        int field = i % 128 / 64 + 2 * (i / 128 / 64);
+        memset(&grey[4 * i], 128, 3);
+        normals[4 * i] = (uint8_t)(127.5 + 127.5 * leaning[field][0] + 0.5);
+        normals[4 * i + 1] = (uint8_t)(127.5 + 127.5 * leaning[field][1] + 0.5);
+        normals[4 * i + 2] = grey[4 * i + 3] = normals[4 * i + 3] = 255;
+    }
+    if (!check_that("files",
+                    picture_write_rgba(check_path("fields.png"), grey, 128, 128) &&
+                        picture_write_rgba(check_path("fields-normals.png"), normals, 128, 128),
+                    "pictures written"))
+        return;
+    static const char *const lights[] = {"1,0,0.7", "-1,0,0.7", "0,1,0.7", "0,-1,0.7"};
+    for (int relief = 1; relief >= -1; relief -= 2)
+        for (int i = 0; i < 4; i++) {
+            halftone_scene scene = {0};
+            shot           s;
+            shot_view      view = halftone_view(128, 128, 128);
+            char           surface[1024], light[128];
+            halftone_add_wall(&scene, "wall", (halftone_wall){0, 0, 0, 1, 1, 1});
+            snprintf(light, sizeof light, "\"fill\":0,\"light_direction\":\"%s\"", lights[i]);
+            snprintf(
+                surface, sizeof surface,
+                "screen\",\"screen\":\"%s\",\"coordinates\":\"uv\",\"scheme\":\"binary\",\"uneven\":0,\"equalised\":"
+                "false,\"scale\":8,\"relief\":%d,\"shadow\":0,\"light\":1",
+                check_path("fields.png"), relief);
+            if (halftone_shot(&s, &scene, "fields.gltf", halftone_look_with(surface, light, ""), NULL, &view)) {
+                double ink[4];
+                for (int k = 0; k < 4; k++)
+                    ink[k] = halftone_mean(&s, 8 + 64 * (k % 2), 8 + 64 * (k / 2), 48, 48);
+                int away = relief > 0 ? i ^ 1 : i;
+                check_at_least("IM-17", ink[away], 0.9, "relief %d, light from %s: ink where the paint turns away",
+                               relief, lights[i]);
+                check_at_most("IM-17", ink[away ^ 1], 0.1, "  and towards it");
+            }
+            shot_release(&s);
+            halftone_release(&scene);
+        }
+}
+
 /* --- whole strokes -------------------------------------------------------------------------------------- */
 
 typedef struct known_stroke {
@@ -577,10 +623,10 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"lamps", lamps_have_no_shadows},        {"indication", indication_shifts_tone},
         {"limit", indication_limits_tone},       {"relief", strokes_have_flanks},
-        {"whole", whole_or_not_at_all},          {"light-map", light_map_is_the_light},
-        {"islands", islands_have_margins},       {"tiles", tiles_are_lit_apart},
-        {"cylinder", whole_on_a_cylinder},       {"shadows", shadows_are_denser_strokes},
-        {"mirror", mirrored_hatching_has_edges},
+        {"normals", normals_are_painted},        {"whole", whole_or_not_at_all},
+        {"light-map", light_map_is_the_light},   {"islands", islands_have_margins},
+        {"tiles", tiles_are_lit_apart},          {"cylinder", whole_on_a_cylinder},
+        {"shadows", shadows_are_denser_strokes}, {"mirror", mirrored_hatching_has_edges},
     };
     halftone_begin();
     int status = check_main(argc, argv, "screen_light", cases, sizeof cases / sizeof *cases);

@@ -1,6 +1,7 @@
 /* Which edges are lines, decided on the GPU, against all edges of the mesh in double precision: thousands of views,
  * with and without perspective, of closed, open, turned, stretched and mirrored parts. Each edge gets a block of
  * two by two pixels whose corners are the corners of its quad, so that corners that do not agree show. */
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 #include "lines/stroke/strokes.h"
 #include "scenes.h"
 #include "shape.h"
+#include "shot.h"
 
 enum { SIDE = 512, EDGES_MAX = SIDE / 2 * (SIDE / 2), VIEWS = 260, WANT_CONTOUR = 32, ALL = 127 };
 
@@ -339,8 +341,48 @@ static void embedded(void)
     decisions_on(true);
 }
 
+/* --- row OE-10: what the search for outlines of refined meshes takes ------------------------------------------ */
+
+static json_t *search_of(const char *report)
+{
+    json_t *root = report ? json_loads(report, 0, NULL) : NULL, *search = json_object_get(root, "outline_search");
+    json_incref(search);
+    json_decref(root);
+    return search;
+}
+
+/* Levels of up to 16,384 faces are searched whole, the finer one near their outline alone, in pictures and sheets. */
+static void search_is_told(void)
+{
+    enum { FACES = 2 * 60 * 40, ALL = FACES * (1 + 4 + 16), WHOLE = FACES };
+    static const char look_text[] =
+        "{\"version\":1,\"name\":\"t\",\"rules\":[{\"select\":\"*\",\"surface\":\"flat\",\"lines\":{"
+        "\"technique\":\"strokes\",\"visibility\":\"exact\",\"refine\":%d}}]}";
+    for (int refine = 2; refine >= 0; refine -= 2) {
+        char      look[256];
+        shape     s = {0};
+        shot      drawn;
+        shot_view view = {.width = 160, .height = 160, .eye = {3, 4, 5}, .up = {0, 1, 0}, .without_maps = true};
+        snprintf(look, sizeof look, look_text, refine);
+        shape_torus(&s, "ring", 1, 0.4, 60, 40);
+        if (shot_of_shape(&drawn, &s, "search.glb", look, NULL, &view)) {
+            json_t *search = search_of(drawn.report);
+            double  faces = (double)json_integer_value(json_object_get(search, "faces")),
+                   tested = (double)json_integer_value(json_object_get(search, "tested"));
+            check_near("OE-10", faces, refine ? ALL : 0, 0, "faces of all levels, refined %d times", refine);
+            check_at_least("OE-10", tested, refine ? WHOLE + 1 : 0, "  of them tested, the first level's and more");
+            check_at_most("OE-10", tested, refine ? 0.5 * ALL : 0, "  but few");
+            json_decref(search);
+        }
+        shot_release(&drawn);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"desktop", desktop}, {"es", embedded}};
-    return check_main(argc, argv, "silhouette", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {{"desktop", desktop}, {"es", embedded}, {"search", search_is_told}};
+    int                     status = check_main(argc, argv, "silhouette", cases, sizeof cases / sizeof *cases);
+    shot_end();
+    return status;
 }

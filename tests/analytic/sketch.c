@@ -841,16 +841,18 @@ static void repeated(void)
     static const uint8_t colours[2][3] = {{0xd0, 0x20, 0x20}, {0x20, 0x40, 0xd0}};
     static const char    rule[] = "\"surface\":{\"technique\":\"flat\",\"colour\":\"none\"},\"lines\":{\"operator\":"
                                   "\"discontinuity\",\"colour\":\"#000000\"}";
-    static const double  degrees[] = {1, 1.3};
-    for (int c = 0; c < 2; c++) {
+    static const double  degrees[] = {1, 1.3, 0.7}, forces[] = {0, 0, 0.6};
+    for (int c = 0; c < 3; c++) {
         char         perturb[320];
         shape        s = {0};
         shot         drawn;
         sketch_style style = style_of(9);
         snprintf(perturb, sizeof perturb,
-                 "{\"technique\":\"uncertainty\",\"amount\":9,\"repeat\":3,\"repeat_degree\":%g,\"repeat_colours\":[\"#"
+                 "{\"technique\":\"uncertainty\",\"amount\":9,\"repeat\":3,\"repeat_degree\":%g,\"pressure\":%g,"
+                 "\"repeat_colours\":[\"#"
                  "d02020\",\"#2040d0\"]," EDGES(1, 0.2, -0.1, 0.9) ",\"fallback\":\"#ff00ff\"}",
-                 degrees[c]);
+                 degrees[c], forces[c]);
+        style.pressure = forces[c];
         style.edges = (sketch_degree){1, 0.2, -0.1, 0.9};
         style.without_fill = true;
         style.repeat = 3;
@@ -873,9 +875,11 @@ static void repeated(void)
                     seen[alone] += sketch_levels_off(sketch_pixel(&drawn, x, y),
                                                      alone ? style.repeat_inks[alone - 1] : style.ink) < 20;
             }
-            sketch_check_opaque("S09", &drawn, &style, 3, 0.995,
-                                c ? "three outlines, each farther than the one before" : "three outlines");
-            for (int i = 0; i < 3; i++)
+            sketch_check_opaque("S09", &drawn, &style, 3, 0.999,
+                                c == 2 ? "three outlines, each less far, by a hand that presses"
+                                : c    ? "three outlines, each farther than the one before"
+                                       : "three outlines");
+            for (int i = 0; i < 3 && c < 2; i++)
                 check_at_least("S09", seen[i], 15,
                                "  pixels where outline %d is alone, covers all of them and has its colour", i);
         }

@@ -1,12 +1,14 @@
 /* Perturbed layers against a CPU twin: one field moves all of them, so that they keep their order and their shared
  * edges. */
 #include <limner/draw.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
 #include "csg_scenes.h"
+#include "picture.h"
 #include "scenes.h"
 #include "sketch_twin.h"
 
@@ -167,6 +169,86 @@ static void whole_pictures(void)
             shot_release(&drawn);
             shot_release(&other);
         }
+}
+
+/* --- what compositions find ------------------------------------------------------------------------------- */
+
+typedef struct found_tally {
+    int    there, wrong_depth, before, edges, wrong_edges, moved_edges, fill, wrong_fill, moved_fill;
+    double worst_depth;
+} found_tally;
+
+/* The largest difference of a texel's channels. */
+static int texel_off(const uint8_t *a, const double b[4])
+{
+    double off = 0;
+    for (int k = 0; k < 4; k++)
+        off = fmax(off, fabs(a[k] - b[k]));
+    return (int)ceil(off - 0.5);
+}
+
+/* One pixel of a layer's maps against the exact maps and the field, straight from the formulas. */
+static void judge_found(found_tally *t, const shot *s, const stack_style *style, int k, int x, int y)
+{
+    const shot_layer *l = &s->layers[k];
+    sketch_maps       m = sketch_maps_of_layer(s, k);
+    size_t            i = (size_t)(s->height - 1 - y) * (size_t)s->width + (size_t)x;
+    sketch_position   e = sketch_moved(&m, x, y, style->amount, style->edges),
+                    f = sketch_moved(&m, x, y, style->amount, style->shades);
+    double       fill_depth = sketch_depth(&m, f), depth = fmin(sketch_depth(&m, e), fill_depth), edge[4];
+    sketch_paint fill = isfinite(fill_depth) ? sketch_shade(&m, f) : (sketch_paint){0, 0, 0, 0};
+    double       straight[4] = {0, 0, 0, fill.a * 255};
+    double       found = (double)l->found_depth[i], exact = (double)l->depth[i];
+    t->there += isfinite(depth);
+    t->wrong_depth += isfinite(depth) != isfinite(found) || (isfinite(depth) && fabs(found - depth) > 1e-3 * depth);
+    t->before += k > 0 && (double)s->layers[k - 1].found_depth[i] > found;
+    sketch_edge(&m, e, edge);
+    for (int c = 0; c < 4; c++)
+        edge[c] *= 255;
+    t->edges += edge[2] < 250;
+    t->wrong_edges += texel_off(&l->found_edge[4 * i], edge) > 3;
+    t->moved_edges += texel_off(&l->edge[4 * i], edge) > 64;
+    if (fill.a > 0.02) {
+        straight[0] = picture_level(fill.r / fill.a);
+        straight[1] = picture_level(fill.g / fill.a);
+        straight[2] = picture_level(fill.b / fill.a);
+    }
+    t->fill += fill.a > 0.5;
+    t->wrong_fill += (fill.a > 0.5 || l->found_shade[4 * i + 3] > 0) && texel_off(&l->found_shade[4 * i], straight) > 4;
+    t->moved_fill += fill.a > 0.5 && !isfinite(exact);
+}
+
+/* Figure 4, b to d: of each layer the depth, the edges and the fill are to be had as they are composed. */
+static void maps_of_layers(void)
+{
+    for (size_t c = 0; c < 3; c++) {
+        shape       s = {0};
+        shot        drawn;
+        found_tally t = {0};
+        scene_make(&s, SCENE_CLOSED, 90 + (uint32_t)c);
+        scene_colour(&s);
+        if (shot_of_shape(&drawn, &s, "found.glb", look_of(&cases[c], c % 2 ? "lists" : "peeling", NULL), NULL,
+                          &views[c])) {
+            bool all = drawn.layer_count > 0;
+            for (int k = 0; k < drawn.layer_count; k++)
+                all = all && drawn.layers[k].found_depth;
+            check_that("C20", all && drawn.layer_count == drawn.layers_drawn, "each of %d layers has perturbed maps",
+                       drawn.layers_drawn);
+            for (int k = 0; k < drawn.layer_count && all; k++)
+                for (int i = 0; i < drawn.width * drawn.height; i++)
+                    judge_found(&t, &drawn, &cases[c].style, k, i % drawn.width, i / drawn.width);
+            check_at_least("C20", t.moved_edges, 1000, "  pixels where edges are not where they were");
+            check_at_least("C20", t.moved_fill, 300, "  pixels where fill has left its surface");
+            check_at_most("C20", t.wrong_depth, t.there / 200, "  of %d depths, those that are not the nearer lookup's",
+                          t.there);
+            check_at_most("C20", t.wrong_edges, t.edges / 200, "  of %d edges, those that are not as looked up",
+                          t.edges);
+            check_at_most("C20", t.wrong_fill, t.fill / 200, "  of %d fills, those that are not as looked up", t.fill);
+            check_at_most("C21", t.before, 0, "  places where a layer lies before the one in front of it");
+        }
+        shot_release(&drawn);
+        shape_release(&s);
+    }
 }
 
 /* Solids, whose surfaces are in no mesh, are sketched as meshes are: a spanner, and trees made from seeds. */
@@ -520,9 +602,9 @@ static void field_of_front(void)
 int main(int argc, char **argv)
 {
     static const check_case all[] = {
-        {"whole", whole_pictures}, {"solids", sketched_solids}, {"far", far_away},    {"pieces", pieces},
-        {"opaque", opaque_amid},   {"shared", shared_edges},    {"once", inked_once}, {"hatched", hatched},
-        {"producers", producers},  {"field", field_of_front},
+        {"whole", whole_pictures}, {"maps", maps_of_layers}, {"solids", sketched_solids}, {"far", far_away},
+        {"pieces", pieces},        {"opaque", opaque_amid},  {"shared", shared_edges},    {"once", inked_once},
+        {"hatched", hatched},      {"producers", producers}, {"field", field_of_front},
     };
     int status = check_main(argc, argv, "sketch_layers", all, sizeof all / sizeof *all);
     shot_end();

@@ -139,8 +139,8 @@ static void bake_mesh(lmn_scene *s, const pose *p, size_t part_index)
     }
     if (n->skin != NONE) {
         n->skin = NONE;
-        n->has_matrix = true;
-        n->matrix = mat4_identity();
+        const mat4 identity = mat4_identity();
+        assert_true(node_set_matrix(n, &identity));
     }
 }
 
@@ -152,10 +152,8 @@ static lmn_scene *bake(const char *name, const moment *when)
     animated_state moved;
     DO(pose_create(&p, s, when, &error));
     DO(animate(&moved, s, when, &error));
-    for (size_t i = 0; i < s->node_count; i++) {
-        s->nodes[i].has_matrix = true;
-        s->nodes[i].matrix = moved.locals[i];
-    }
+    for (size_t i = 0; i < s->node_count; i++)
+        assert_true(node_set_matrix(&s->nodes[i], &moved.locals[i]));
     for (size_t i = 0; i < s->part_count; i++) {
         s->parts[i].bounds = p.part_boxes[i];
         bake_mesh(s, &p, i);
@@ -240,9 +238,9 @@ static void add_move(lmn_scene *s)
             below = below || n->parent == k->joints[other];
         if (below)
             continue;
-        const double *q = n->rotation, h = sqrt(0.5);
+        const double *q = node_place_of(n)->rotation, h = sqrt(0.5);
         double        at[3], rotation[4] = {h * (q[0] + q[2]), h * (q[1] + q[3]), h * (q[2] - q[0]), h * (q[3] - q[1])};
-        turned(n->translation, at);
+        turned(node_place_of(n)->translation, at);
         set_channel(&a->channels[a->channel_count++], k->joints[i], PATH_TRANSLATION, at, 3);
         set_channel(&a->channels[a->channel_count++], k->joints[i], PATH_ROTATION, rotation, 4);
     }

@@ -114,6 +114,49 @@ static void ink_of_strokes(void **state)
         }
 }
 
+/* How far a place on a line is from the end of its stroke, pixels, when the line comes nearer: strokes are cut in two
+ * where the cut grows out of nothing, so nothing jumps as they pass from one octave to the next. One line a row. */
+static void strokes_are_cut_smoothly(void **state)
+{
+    (void)state;
+    double worst = 0, mean = 0;
+    values_of(values, "cuts",
+              "#define u_length 8.0\n#define u_gap 2.0\n#define u_taper 100.0\n#include \"surface/stroke_cut.glsl\"",
+              "vec4(100.0 * stroke_fraction(0.37 + 0.0713 * y, exp2(6.0 + 2.0 * u), uint(y) * 2654435769u + 1u, 1.0), "
+              "x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        mean += (double)values[i][0] / (SIDE * SIDE);
+        if (i % SIDE)
+            worst = fmax(worst, fabs((double)(values[i][0] - values[i - 1][0])));
+    }
+    print_message("strokes that come nearer: in steps of half a percent their ends move by %.2g px at most, of %.2g in "
+                  "the mean\n",
+                  worst, mean);
+    assert_true(mean > 1);
+    assert_true(worst < 0.6);
+}
+
+/* What discs on the corners of a lattice of squares cover of a cell: those that overlap count what lies beyond the
+ * cell's sides once. */
+static double cover_of_discs(double area)
+{
+    double radius = sqrt(area / 3.14159265358979), half = fmin(acos(fmin(0.5 / radius, 1)), 3.14159265358979 / 4);
+    double beyond = radius * radius * (half - sin(half) * cos(half)); /* of a disc, over one side */
+    return radius >= sqrt(0.5) ? 1 : area - 4 * beyond;
+}
+
+static void discs_cover_what_is_wanted(void **state)
+{
+    (void)state;
+    double worst = 0;
+    values_of(values, "discs", "#include \"surface/dot_area.glsl\"",
+              "vec4(area_that_covers((x + 256.0 * y) / 65535.0), x, y, 0.0)");
+    for (int i = 0; i < SIDE * SIDE; i++)
+        worst = fmax(worst, fabs(cover_of_discs((double)values[i][0]) - i / 65535.0));
+    print_message("cover of discs: %.2g from the wanted\n", worst);
+    assert_true(worst < 0.011);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -121,6 +164,8 @@ int main(void)
         cmocka_unit_test(ink_of_dots),
         cmocka_unit_test(ink_of_covers),
         cmocka_unit_test(ink_of_strokes),
+        cmocka_unit_test(strokes_are_cut_smoothly),
+        cmocka_unit_test(discs_cover_what_is_wanted),
     };
     return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
 }

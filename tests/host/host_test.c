@@ -668,25 +668,28 @@ static double depth_in(const float *map, int x, int y)
 }
 
 /* A sketch is as deep as the nearer of what its lines and its fill show there, which both lie beside the pixel: what
- * the host's depth buffer holds, against the maps and the field of a drawing of its own. */
-static void sketches_have_the_nearer_depth(void **unused)
+ * the host's depth buffer holds, against the maps and the field of a drawing of its own. `rest` is of the rule;
+ * `mixed`: fill between pixels is as deep as the nearest of those it mixes. Rows csg C18, C20. */
+static void check_nearer_depth(const char *rest, bool mixed)
 {
-    (void)unused;
-    static const char json[] =
+    static const char format[] =
         "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":{\"technique\":\"flat\",\"colour\":\"#d03020\"},"
         "\"lines\":"
         "{\"operator\":\"discontinuity\",\"colour\":\"#000000\"},\"perturb\":{\"technique\":\"uncertainty\",\"amount\":"
         "9,"
         "\"scale\":40,\"fallback\":\"#ff00ff\",\"edges_xx\":0,\"edges_xy\":1,\"edges_yx\":-1,\"edges_yy\":0,\"shades_"
         "xx\":0.6,\"shades_xy\":0.4,"
-        "\"shades_yx\":0,\"shades_yy\":-1}}]}";
-    static float  depth[SIDE * SIDE], field[3 * SIDE * SIDE], read[SIDE * SIDE];
-    arguments     a;
-    plane         p;
-    lmn_renderer *own;
-    lmn_drawing  *drawing;
+        "\"shades_yx\":0,\"shades_yy\":-1}%s}]}";
+    char           json[1024];
+    static float   depth[SIDE * SIDE], field[3 * SIDE * SIDE], read[SIDE * SIDE];
+    static uint8_t pixels[SIDE * SIDE * 4];
+    arguments      a;
+    plane          p;
+    lmn_renderer  *own;
+    lmn_drawing   *drawing;
     open_arguments(&a);
     lmn_look_destroy(&a.look);
+    snprintf(json, sizeof json, format, rest);
     DO(lmn_look_parse(&a.look, json, "t", &error));
     plane_open(&p, PLANE_USUAL, false, 0);
     lmn_draw_desc desc = with_camera(&p);
@@ -700,6 +703,7 @@ static void sketches_have_the_nearer_depth(void **unused)
     DO(lmn_draw_into(a.renderer, a.scene, a.look, &desc, &target, &error));
     glBindFramebuffer(GL_FRAMEBUFFER, a.picture.framebuffer);
     glReadPixels(0, 0, SIDE, SIDE, GL_DEPTH_COMPONENT, GL_FLOAT, read);
+    read_picture(&a.picture, pixels);
     context_release();
     DO(lmn_renderer_create(&own, NULL, &error));
     DO(lmn_draw(&drawing, own, a.scene, a.look, &with_maps, &error));
@@ -712,10 +716,12 @@ static void sketches_have_the_nearer_depth(void **unused)
             double fx = x + 9 * (0.6 * (double)u[0] + 0.4 * (double)u[1]), fy = y - 9 * (double)u[1], fill = INFINITY;
             double line =
                 depth_in(depth, (int)floor(x + 9 * (double)u[1] + 0.5), (int)floor(y - 9 * (double)u[0] + 0.5));
-            for (int i = 0; i < 4; i++)
+            if (!mixed)
+                fill = depth_in(depth, (int)floor(fx + 0.5), (int)floor(fy + 0.5));
+            for (int i = 0; i < 4 && mixed; i++)
                 fill = fmin(fill, depth_in(depth, (int)floor(fx) + i % 2, (int)floor(fy) + i / 2));
             double ndc = 2 * (double)read[y * SIDE + x] - 1, got = p.projection[14] / (ndc + p.projection[10]);
-            if (isinf(fill) && isinf(line))
+            if (isinf(fill) && (isinf(line) || seen_at(&pixels[4 * (y * SIDE + x)]) == SEEN_NOTHING))
                 continue; /* empty, or ink beside an outline */
             both += isfinite(fill) && isfinite(line);
             fill_alone += isinf(line);
@@ -735,6 +741,24 @@ static void sketches_have_the_nearer_depth(void **unused)
     context_make_current(&a.context);
     plane_close(&p);
     close_arguments(&a);
+}
+
+static void sketches_have_the_nearer_depth(void **unused)
+{
+    (void)unused;
+    check_nearer_depth("", true);
+}
+
+/* What is seen through has the depth of its nearest surface, where the sketch has that. */
+static void sketched_layers_have_the_nearer_depth(void **unused)
+{
+    (void)unused;
+    static const char layers[] = ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":";
+    char              rest[256];
+    snprintf(rest, sizeof rest, "%s{\"technique\":\"blueprint\",\"tint_opacity\":0.3}", layers);
+    check_nearer_depth(rest, false);
+    snprintf(rest, sizeof rest, "%s{\"technique\":\"xray\",\"opacity\":0.5}", layers);
+    check_nearer_depth(rest, false);
 }
 
 static void what_is_not_opaque_mixes(void **unused)
@@ -873,6 +897,7 @@ int main(int count, char **arguments)
         cmocka_unit_test(depth_interleaves),
         cmocka_unit_test(see_through_has_depth),
         cmocka_unit_test(sketches_have_the_nearer_depth),
+        cmocka_unit_test(sketched_layers_have_the_nearer_depth),
         cmocka_unit_test(what_is_not_opaque_mixes),
         cmocka_unit_test(framebuffers_with_more),
         cmocka_unit_test(state_may_be_left),

@@ -103,6 +103,11 @@ void *check_alloc(size_t count, size_t size)
 int check_main(int argc, char **argv, const char *program, const check_case *cases, size_t count)
 {
     program_name = program;
+    const bool list = argc == 2 && strcmp(argv[1], "--cases") == 0;
+    for (size_t i = 0; list && i < count; i++)
+        printf("%s\n", cases[i].name);
+    if (list)
+        return 0;
     for (size_t i = 0; i < count; i++) {
         bool wanted = argc < 2;
         for (int k = 1; k < argc; k++)

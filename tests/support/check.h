@@ -11,7 +11,8 @@ typedef struct check_case {
     void (*run)(void);
 } check_case;
 
-/* Runs the cases named on the command line, or all. The exit status: 0 when every check held. */
+/* Runs the cases named on the command line, or all; with `--cases` alone it lists their names instead. The exit status:
+ * 0 when every check held. */
 int check_main(int argc, char **argv, const char *program, const check_case *cases, size_t count);
 
 bool check_at_most(const char *row, double got, double limit, const char *what, ...)

@@ -275,17 +275,22 @@ hatch_count hatch_count_lines(const shot *s)
     return out;
 }
 
-double hatch_edge_width(const shot *s, int x0, int y0, int x1, int y1)
+void hatch_add_edges(const shot *s, int x0, int y0, int x1, int y1, hatch_edges *sum)
 {
-    double area = 0, variation = 0;
     for (int y = y0; y + 1 < y1; y++)
         for (int x = x0; x + 1 < x1; x++) {
             double here = hatch_ink(s, x, y), right = hatch_ink(s, x + 1, y) - here,
                    down = hatch_ink(s, x, y + 1) - here;
-            area += here > 0.1 && here < 0.9;
-            variation += hypot(right, down);
+            sum->area += here > 0.1 && here < 0.9;
+            sum->variation += hypot(right, down);
         }
-    return variation > 0 ? area / variation : 0;
+}
+
+double hatch_edge_width(const shot *s, int x0, int y0, int x1, int y1)
+{
+    hatch_edges sum = {0, 0};
+    hatch_add_edges(s, x0, y0, x1, y1, &sum);
+    return sum.variation > 0 ? sum.area / sum.variation : 0;
 }
 
 /* --- from frame to frame -------------------------------------------------------------------------------- */

@@ -52,7 +52,12 @@ typedef struct hatch_count {
 
 hatch_count hatch_count_lines(const shot *s);
 
-/* Mean width of edges from a tenth to nine tenths of ink, px: the area between over the length (total variation). */
+/* Mean width of edges from a tenth to nine tenths of ink, px: the area between over the length (total variation). Of a
+ * few edges it says little: one that is upright is in the same place on the grid in all rows. */
+typedef struct hatch_edges {
+    double area, variation;
+} hatch_edges;
+void   hatch_add_edges(const shot *s, int x0, int y0, int x1, int y1, hatch_edges *sum);
 double hatch_edge_width(const shot *s, int x0, int y0, int x1, int y1);
 
 /* Where a pixel of `to` was in `from`: false where it was hidden or out of the picture. Nothing moved but the

@@ -128,6 +128,8 @@ bool shot_has_warning(const shot *s, const char *code)
 
 static const char *const layer_maps[5] = {"depth.pfm", "normal.pfm", "id.png", "edge.png", "shade.png"};
 
+static const char *const found_maps[3] = {"perturbed.depth.pfm", "perturbed.edge.png", "perturbed.shade.png"};
+
 static bool file_exists(const char *path)
 {
     FILE *file = fopen(path, "rb");
@@ -145,11 +147,30 @@ static void forget_maps(const char *folder)
     remove(path);
     for (int k = 0, found = 5; found > 0; k++) {
         found = 0;
-        for (int i = 0; i < 5; i++) {
-            snprintf(path, sizeof path, "%s/layer%d.%s", folder, k, layer_maps[i]);
+        for (int i = 0; i < 8; i++) {
+            snprintf(path, sizeof path, "%s/layer%d.%s", folder, k, i < 5 ? layer_maps[i] : found_maps[i - 5]);
             found += remove(path) == 0;
         }
     }
+}
+
+/* What compositions find, where something is perturbed. */
+static bool read_found(shot *out, shot_layer *layer, const char *folder, int index)
+{
+    char path[3][576];
+    int  w[3] = {0}, h[3] = {0};
+    for (int i = 0; i < 3; i++)
+        snprintf(path[i], sizeof path[i], "%s/layer%d.%s", folder, index, found_maps[i]);
+    if (!file_exists(path[0]))
+        return true;
+    layer->found_depth = picture_read_pfm(path[0], 1, &w[0], &h[0]);
+    layer->found_edge = picture_read_rgba(path[1], &w[1], &h[1]);
+    layer->found_shade = picture_read_rgba(path[2], &w[2], &h[2]);
+    for (int i = 0; i < 3; i++)
+        if (w[i] != out->width || h[i] != out->height)
+            return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path[i], w[i],
+                              h[i]);
+    return true;
 }
 
 static bool read_layer(shot *out, const char *folder, int index)
@@ -168,12 +189,13 @@ static bool read_layer(shot *out, const char *folder, int index)
     if (!grown)
         abort();
     out->layers = grown;
+    bool ok = read_found(out, &layer, folder, index);
     out->layers[out->layer_count++] = layer;
     for (int i = 0; i < 5; i++)
         if (w[i] != out->width || h[i] != out->height)
             return check_that("maps", false, "%s can be read and has the picture's size (%d x %d)", path[i], w[i],
                               h[i]);
-    return true;
+    return ok;
 }
 
 /* Not every drawing has it: only with something perturbed, or strokes that follow the form. */
@@ -329,6 +351,9 @@ void shot_release(shot *s)
         free(s->layers[k].id);
         free(s->layers[k].edge);
         free(s->layers[k].shade);
+        free(s->layers[k].found_depth);
+        free(s->layers[k].found_edge);
+        free(s->layers[k].found_shade);
     }
     free(s->layers);
     memset(s, 0, sizeof *s);

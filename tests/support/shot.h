@@ -31,6 +31,8 @@ typedef struct shot_layer {
     float (*normal)[3];
     uint16_t *id;
     uint8_t  *edge, *shade;
+    float    *found_depth; /* as compositions find them; NULL where nothing is perturbed */
+    uint8_t  *found_edge, *found_shade;
 } shot_layer;
 
 typedef struct shot {

@@ -152,12 +152,23 @@ sketch_degree sketch_copy(const sketch_style *style, int i)
     return (sketch_degree){d.xx * more, d.xy * more, d.yx * more, d.yy * more};
 }
 
+/* Pressed, the soft rims of a line fill; eased, they go first, and what is left is paler. Every other copy is pressed
+ * where the first one is eased. */
+static double pressed(double ink, double force)
+{
+    double more = fmax(force, 0), less = fmax(-force, 0), full = fmin(ink * (1 + 4 * more), 1);
+    return fmax(1 - (1 - full) * (1 + 1.5 * less), 0) * (1 - 0.6 * less);
+}
+
 sketch_paint sketch_copy_ink(const sketch_maps *m, const sketch_style *style, int i, int x, int y, double *depth)
 {
     sketch_position e = sketch_moved(m, x, y, style->amount, sketch_copy(style, i));
     double          edge[4];
     sketch_edge(m, e, edge);
     sketch_paint ink = sketch_ink(edge, i ? style->repeat_inks[i - 1] : style->ink);
+    if (style->pressure > 0 && ink.a > 0)
+        ink =
+            sketch_fraction(ink, pressed(ink.a, style->pressure * (i % 2 ? -1 : 1) * sketch_field(m, x, y, 2)) / ink.a);
     *depth = sketch_depth(m, e);
     if (!isfinite(*depth) && ink.a > 0)
         *depth = sketch_reach(m, e, 2); /* half the line's width, and one pixel for what filtering spreads */

@@ -29,6 +29,7 @@ typedef struct sketch_style {
     int           repeat; /* 0 is 1 */
     double        repeat_degree;
     sketch_paint  repeat_inks[8]; /* of the copies from the second on */
+    double        pressure;       /* of thin lines */
 } sketch_style;
 
 /* The maps of a figure or of one of its layers. */

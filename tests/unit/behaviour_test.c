@@ -406,7 +406,7 @@ static void test_follower_is_where_the_other_was(void **state)
     lmn_scene   *s = scene_of_nodes(3);
     const double line[] = {0, 0, 0, 4, 0, 0};
     scene_link_child(s, 2, 1);
-    s->nodes[2].translation[1] = 7;
+    node_own_place(&s->nodes[2])->translation[1] = 7;
     int32_t leader = add_constraint(s, 0, PATH_TRANSLATION, MAP_LINEAR, line, 2, 3, 4);
     int32_t follower = add_constraint(s, 1, PATH_TRANSLATION, MAP_FOLLOW, NULL, 0, 3, 4);
     at(s, follower)->map.other = 0;

@@ -85,7 +85,7 @@ static void pistons_follow_the_cranks(void **state)
             char name[16];
             snprintf(name, sizeof name, "Piston %d", k + 1);
             if (strcmp(crank->parts[i].name, name) == 0)
-                height[k] = crank->nodes[crank->parts[i].node].translation[1];
+                height[k] = node_place_of(&crank->nodes[crank->parts[i].node])->translation[1];
         }
     assert_float_equal(height[0], height[3], 1e-9);
     assert_float_equal(height[1], height[2], 1e-9);

@@ -357,9 +357,9 @@ static void matrices_of_animated_nodes_are_split(void **state)
             for (size_t k = 0; k < 3; k++) {
                 double r[3][3], half = step * 0.44 / 2;
                 turn_about(axes[i], 2 * half, r);
-                lmn_scene  *s = load_matrix(t, r, scales[k], 0, "translation");
-                const node *n = &s->nodes[1];
-                assert_false(n->has_matrix);
+                lmn_scene *s = load_matrix(t, r, scales[k], 0, "translation");
+                assert_false(s->nodes[1].has_matrix);
+                const node_place *n = node_place_of(&s->nodes[1]);
                 /* The quaternion is (axis · sin, cos) of the half angle, or its negative. */
                 double sign = n->rotation[3] * cos(half) < 0 ? -1 : 1;
                 for (int e = 0; e < 3; e++) {
@@ -383,7 +383,8 @@ static void shear_is_lost_and_said(void **state)
     lmn_scene *scene = load_matrix(t, r, s, 0.5, "scale");
     assert_int_equal(warnings_of(scene, "its shear is lost"), 1);
     /* The x axis keeps its direction; what is left of y is what lies across it. */
-    assert_true(fabs(scene->nodes[1].scale[1] - 1) < 1e-12 && fabs(fabs(scene->nodes[1].rotation[3]) - 1) < 1e-12);
+    assert_true(fabs(node_place_of(&scene->nodes[1])->scale[1] - 1) < 1e-12 &&
+                fabs(fabs(node_place_of(&scene->nodes[1])->rotation[3]) - 1) < 1e-12);
     lmn_scene_destroy(&scene);
 }
 
@@ -417,7 +418,7 @@ static void matrices_stay_where_only_weights_move(void **state)
         load("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}]}],"
              "\"nodes\":[{\"mesh\":0,\"matrix\":[1,0,0,0,0.5,1,0,0,0,0,1,0,0,0,0,1]}],\"animations\":[{\"samplers\":[{"
              "\"input\":1,\"output\":2}],\"channels\":[" MOVES("weights") "]}]");
-    assert_true(s->nodes[1].has_matrix && s->nodes[1].matrix.m[4] == 0.5);
+    assert_true(s->nodes[1].has_matrix && s->nodes[1].place->matrix.m[4] == 0.5);
     assert_int_equal(s->warnings.count, 0);
     lmn_scene_destroy(&s);
 }

@@ -88,7 +88,8 @@ static void joints_become_nodes_and_channels(void **state)
     int32_t    hips = node_called(s, "Hips"), arm = node_called(s, "my:Left Arm"), leg = node_called(s, "Leg");
     assert_true(hips != NONE && arm != NONE && leg != NONE);
     assert_true(s->nodes[arm].parent == hips && s->nodes[leg].parent == hips && s->nodes[hips].parent == 0);
-    assert_true(s->nodes[hips].translation[2] == 3 && s->nodes[leg].translation[2] == -5);
+    assert_true(node_place_of(&s->nodes[hips])->translation[2] == 3 &&
+                node_place_of(&s->nodes[leg])->translation[2] == -5);
     assert_true(s->up == 'y' && s->animation_count == 1 && s->warnings.count == 0);
     const animation *a = &s->animations[0];
     assert_string_equal(a->name, "motion");

@@ -160,6 +160,136 @@ static void sums_of_solids(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* --- what openscad computes ------------------------------------------------------------------------------ */
+
+static const char *real_path; /* all other tests run without openscad, whether it is installed or not */
+
+/* Two frames, one in the hole of the other: x and y run from −4 to 4, but for the places where the small one lies in
+ * the hole of the large one, |x|, |y| < 0.5; z from −2 to 2. */
+static const char two_frames[] =
+    "minkowski() {difference() {cube(size = [6,6,2], center = true); cube(size = [3,3,4], center = true);} "
+    "difference() {cube(size = 2, center = true); cube(size = [1,1,4], center = true);}}";
+static const char cut_hull[] =
+    "hull() {difference() {cube(size = [6,6,2], center = true); multmatrix([[1,0,0,3],[0,1,0,0],"
+    "[0,0,1,0],[0,0,0,1]]) {cube(size = [6,20,4], center = true);}}}";
+static const char bored_shadow[] =
+    "linear_extrude(height = 1) {projection(cut = false) {multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,"
+    "9],[0,0,0,1]]) {difference() {sphere(r = 5, $fn = 40); cylinder(h = 20, r = 2, center = "
+    "true, $fn = 40);}}}}";
+
+/* A folder with a program that is called openscad. */
+static const char *program_folder(const char *script)
+{
+    static char folder[300];
+    char        path[320];
+    snprintf(folder, sizeof folder, "%s", temp_file("openscad", script, strlen(script)));
+    snprintf(path, sizeof path, "%s", folder);
+    assert_int_equal(chmod(path, 0755), 0);
+    *strrchr(folder, '/') = '\0';
+    return folder;
+}
+
+static void openscad_computes_what_trees_cannot(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979323846, ring = 5 * sin(85.5 * pi / 180);
+    setenv("PATH", real_path, 1);
+    setenv("LIMNER_CACHE", "", 1);
+    if (system("command -v openscad > /dev/null 2>&1") == 0) {
+        expect_volume(two_frames, (64 - 1) * 4);
+        expect_box(two_frames, -4, -4, -2, 4, 4, 2);
+        expect_volume(cut_hull, 36);
+        expect_volume(bored_shadow, 20 * sin(9 * pi / 180) * (ring * ring - 4));
+    } else {
+        printf("skipped: no openscad on the PATH\n");
+    }
+    setenv("PATH", "/nowhere", 1);
+}
+
+static void expect_plain_words(const char *text, const char *words)
+{
+    lmn_scene *s = load_text(text);
+    assert_int_equal(warnings_of(s, WARNING_APPROXIMATE), 1);
+    if (!strstr(s->warnings.items[0].text, words))
+        print_error("%s\n", s->warnings.items[0].text);
+    assert_non_null(strstr(s->warnings.items[0].text, words));
+    lmn_scene_destroy(&s);
+}
+
+static const char not_there[] = "openscad, which is not on the PATH";
+
+static void without_openscad_that_is_said(void **state)
+{
+    (void)state;
+    expect_plain_words(two_frames, not_there);
+    expect_plain_words(cut_hull, not_there);
+    expect_plain_words(bored_shadow, not_there);
+    setenv("PATH", program_folder("#!/bin/sh\nexit 1\n"), 1);
+    expect_plain_words(two_frames, "openscad failed");
+    setenv("PATH", program_folder("#!/bin/sh\necho 'OFF 4 1 0 0 0 0 1 0 0 0 1 0 0 0 1 3 0 1 7' > $2\n"), 1);
+    expect_plain_words(two_frames, "openscad failed");
+    setenv("PATH", "/nowhere", 1);
+}
+
+/* It is asked once: what it answers is kept by what it was asked. A program that knows one solid stands for it. */
+static void answers_are_kept(void **state)
+{
+    (void)state;
+    static const char tetrahedron[] = "#!/bin/sh\nprintf 'OFF 4 4 0\\n\\n0 0 0\\n6 0 0\\n0 1 0\\n0 0 1\\n3 0 2 1\\n3 0 "
+                                      "1 3\\n3 0 3 2\\n3 1 2 3\\n' > $2\n";
+    char              folder[300];
+    snprintf(folder, sizeof folder, "%s", program_folder(tetrahedron));
+    setenv("LIMNER_CACHE", folder, 1);
+    setenv("PATH", folder, 1);
+    expect_volume(two_frames, 1);
+    setenv("PATH", "/nowhere", 1);
+    expect_volume(two_frames, 1);
+    expect_plain_words(cut_hull, not_there); /* another question */
+    setenv("LIMNER_CACHE", "", 1);
+    expect_plain_words(two_frames, not_there);
+}
+
+/* Where files are the caller's, no program is run. */
+static void safe_reading_runs_nothing(void **state)
+{
+    (void)state;
+    static const char cube[] =
+        "#!/bin/sh\nprintf 'OFF 4 4 0\\n0 0 0\\n6 0 0\\n0 1 0\\n0 0 1\\n3 0 2 1\\n3 0 1 3\\n3 0 3 2\\n3 1 2 "
+        "3\\n' > $2\n";
+    lmn_task_desc conditions = lmn_task_desc_standard();
+    lmn_task     *task;
+    lmn_error     error;
+    setenv("PATH", program_folder(cube), 1);
+    conditions.files = LMN_FILES_FOLDER;
+    assert_int_equal(lmn_task_begin(&task, &conditions, &error), LMN_OK);
+    expect_plain_words(two_frames, "--safe runs no programs");
+    lmn_task_end(&task);
+    setenv("PATH", "/nowhere", 1);
+}
+
+static bool stop_at_openscad(double fraction, const char *stage, void *user)
+{
+    (void)fraction;
+    (void)user;
+    return strcmp(stage, "openscad") != 0;
+}
+
+static void openscad_can_be_cancelled(void **state)
+{
+    (void)state;
+    lmn_scene    *s;
+    lmn_error     error;
+    lmn_load_desc desc = LMN_LOAD_DESC_INIT;
+    desc.progress = stop_at_openscad;
+    setenv("PATH", program_folder("#!/bin/sh\nexec /bin/sleep 30\n"), 1);
+    assert_int_equal(lmn_scene_create(&s, &error), LMN_OK);
+    const char *path = temp_file("frames.csg", two_frames, strlen(two_frames));
+    assert_int_equal(lmn_scene_add_file(s, path, &desc, &error), LMN_CANCELLED);
+    assert_int_equal(lmn_scene_info_of(s).parts, 0);
+    lmn_scene_destroy(&s);
+    setenv("PATH", "/nowhere", 1);
+}
+
 static void cuts_follow_the_tree(void **state)
 {
     (void)state;
@@ -522,14 +652,28 @@ static void results_agree_with_openscad(void **state)
     assert_true(checked >= 40 / every);
 }
 
+static int tidy(void **state)
+{
+    setenv("PATH", real_path, 1);
+    return remove_temp_folder(state);
+}
+
 int main(void)
 {
+    real_path = mem_copy_text(getenv("PATH"));
+    setenv("PATH", "/nowhere", 1);
+    setenv("LIMNER_CACHE", "", 1);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_have_their_areas),
         cmocka_unit_test(extrusions_take_their_parameters),
         cmocka_unit_test(figures_alone_are_plates),
         cmocka_unit_test(hulls_take_placed_points),
         cmocka_unit_test(sums_of_solids),
+        cmocka_unit_test(openscad_computes_what_trees_cannot),
+        cmocka_unit_test(without_openscad_that_is_said),
+        cmocka_unit_test(answers_are_kept),
+        cmocka_unit_test(safe_reading_runs_nothing),
+        cmocka_unit_test(openscad_can_be_cancelled),
         cmocka_unit_test(cuts_follow_the_tree),
         cmocka_unit_test(sizes_are_set),
         cmocka_unit_test(texts_may_hold_anything),
@@ -539,5 +683,5 @@ int main(void)
         cmocka_unit_test(all_real_files_load),
         cmocka_unit_test(results_agree_with_openscad),
     };
-    return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
+    return cmocka_run_group_tests(tests, NULL, tidy);
 }

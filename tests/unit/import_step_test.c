@@ -7,6 +7,7 @@
 #include "base/colour.h"
 #include "base/work.h"
 #include "import/step.h"
+#include "import/step_module.h"
 #include "plan/unit.h"
 
 /* A file that was written before anything could be read, small and without curves. */
@@ -40,11 +41,12 @@ typedef struct answer_numbers {
 /* One triangle, one line, one node. */
 static answer make_answer(answer_numbers n)
 {
-    answer       a = {.size = 0};
-    const float  one = 1, colour[4] = {1, 0, 0, 1}, at[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const float  up[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-    const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    add_u32(&a, 2), add(&a, "MM", 2), add(&a, &one, 4);
+    answer            a = {.size = 0};
+    const step_losses none = {0, 0, 0, 0, 0};
+    const float       one = 1, colour[4] = {1, 0, 0, 1}, at[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const float       up[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+    const double      identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    add_u32(&a, 2), add(&a, "MM", 2), add(&a, &one, 4), add(&a, &none, sizeof none);
     add_u32(&a, 1), add_u32(&a, 1), add(&a, "m", 1), add_u32(&a, 1);
     add_u32(&a, 1), add(&a, colour, sizeof colour), add_u32(&a, 3), add_u32(&a, 3);
     add(&a, at, sizeof at), add(&a, up, sizeof up);
@@ -560,6 +562,73 @@ static void missing_references_are_no_crash(void **state)
     file_data_release(&f);
 }
 
+/* What a warning of the scene says; "" when none has these words. */
+static const char *warning_with(const lmn_scene *s, const char *words)
+{
+    for (size_t i = 0; i < s->warnings.count; i++)
+        if (strstr(s->warnings.items[i].text, words))
+            return s->warnings.items[i].text;
+    return "";
+}
+
+/* The reference whose number begins at `at` leads to #9999 instead. */
+static void lead_nowhere(char *at)
+{
+    while (*at >= '0' && *at <= '9')
+        *at++ = '9';
+}
+
+static lmn_scene *load_changed(char *text, size_t size, const char *name)
+{
+    const char *path = temp_file(name, text, size);
+    return load_finely(path, 0.5);
+}
+
+/* OpenCASCADE draws what is left; what is not is told, by the file's own numbers. */
+static void losses_are_told(void **state)
+{
+    (void)state;
+    file_data f = read_whole(bracket_path);
+    char     *text = malloc(f.size + 1);
+    memcpy(text, f.data, f.size);
+    text[f.size] = '\0';
+    lmn_scene *scene = load_changed(text, f.size, "whole.step");
+    assert_string_equal(warning_with(scene, "#"), "");
+    size_t triangles = mesh_at(scene, 0)->primitives[0].index_count;
+    lmn_scene_destroy(&scene);
+
+    /* A shell that names a face too many: everything else is there. */
+    char *face = strstr(text, "CLOSED_SHELL('',(#");
+    assert_non_null(face);
+    char *shell = face;
+    while (shell[-1] != '\n')
+        shell--;
+    lead_nowhere(face + strlen("CLOSED_SHELL('',(#"));
+    char say[64];
+    snprintf(say, sizeof say, "the first: #%d", (int)strtol(shell + 1, NULL, 10));
+    scene = load_changed(text, f.size, "shell.step");
+    assert_non_null(strstr(warning_with(scene, "1 entities are damaged"), say));
+    assert_string_equal(warning_with(scene, "could not be made"), "");
+    assert_true(mesh_at(scene, 0)->primitives[0].index_count < triangles);
+    lmn_scene_destroy(&scene);
+
+    /* A face without a surface. */
+    memcpy(text, f.data, f.size);
+    char *surface = strstr(text, "= ADVANCED_FACE('',(#");
+    assert_non_null(surface);
+    char *entity = surface;
+    while (entity[-1] != '\n')
+        entity--;
+    snprintf(say, sizeof say, "the first: #%d", (int)strtol(entity + 1, NULL, 10));
+    lead_nowhere(strstr(surface, "),#") + 3);
+    scene = load_changed(text, f.size, "face.step");
+    assert_non_null(strstr(warning_with(scene, "1 of 10 faces could not be made"), say));
+    assert_non_null(strstr(warning_with(scene, "1 entities are damaged"), say));
+    lmn_scene_destroy(&scene);
+    free(text);
+    file_data_release(&f);
+}
+
 static bool stop(double fraction, const char *stage, void *user)
 {
     (void)fraction, (void)stage;
@@ -620,16 +689,24 @@ static void deflections_are_checked(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_are_not_believed),   cmocka_unit_test(answers_may_be_anything),
-        cmocka_unit_test(ifc_is_not_taken_for_step),  cmocka_unit_test(solids_are_as_large_as_they_are),
-        cmocka_unit_test(every_edge_is_a_line),       cmocka_unit_test(halves_are_one_surface),
-        cmocka_unit_test(triangles_know_their_edges), cmocka_unit_test(normals_are_those_of_surfaces),
-        cmocka_unit_test(faces_have_their_colours),   cmocka_unit_test(assemblies_keep_their_tree),
-        cmocka_unit_test(units_are_obeyed),           cmocka_unit_test(solids_and_wires_are_parts),
-        cmocka_unit_test(damaged_files_are_errors),   cmocka_unit_test(missing_references_are_no_crash),
-        cmocka_unit_test(reading_can_be_stopped),     cmocka_unit_test(limits_hold),
-        cmocka_unit_test(deflections_are_checked)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_not_believed),
+                                       cmocka_unit_test(answers_may_be_anything),
+                                       cmocka_unit_test(ifc_is_not_taken_for_step),
+                                       cmocka_unit_test(solids_are_as_large_as_they_are),
+                                       cmocka_unit_test(every_edge_is_a_line),
+                                       cmocka_unit_test(halves_are_one_surface),
+                                       cmocka_unit_test(triangles_know_their_edges),
+                                       cmocka_unit_test(normals_are_those_of_surfaces),
+                                       cmocka_unit_test(faces_have_their_colours),
+                                       cmocka_unit_test(assemblies_keep_their_tree),
+                                       cmocka_unit_test(units_are_obeyed),
+                                       cmocka_unit_test(solids_and_wires_are_parts),
+                                       cmocka_unit_test(damaged_files_are_errors),
+                                       cmocka_unit_test(missing_references_are_no_crash),
+                                       cmocka_unit_test(losses_are_told),
+                                       cmocka_unit_test(reading_can_be_stopped),
+                                       cmocka_unit_test(limits_hold),
+                                       cmocka_unit_test(deflections_are_checked)};
     return cmocka_run_group_tests(tests, write_files, remove_temp_folder);
 }
 

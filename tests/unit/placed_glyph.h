@@ -19,7 +19,7 @@ static inline const primitive *placed_glyph(const lmn_scene *s, const node *n)
     assert_true(p->vertex_count <= VERTICES);
     const size_t at = next++ % KEPT;
     for (uint32_t i = 0; i < p->vertex_count; i++)
-        positions[at][i] = mat4_transform_point(&n->matrix, p->positions[i]);
+        positions[at][i] = mat4_transform_point(&n->place->matrix, p->positions[i]);
     kept[at] = *p;
     kept[at].positions = positions[at];
     return &kept[at];

@@ -23,7 +23,7 @@ static void position_of(int32_t at, double offset[3])
 {
     for (; at != NONE; at = scene->nodes[at].parent)
         for (int k = 0; k < 3; k++)
-            offset[k] += scene->nodes[at].translation[k];
+            offset[k] += node_place_of(&scene->nodes[at])->translation[k];
 }
 
 static solid solid_of_part(const part *p)

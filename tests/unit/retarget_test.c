@@ -120,12 +120,12 @@ static turn world_turn(const lmn_scene *s, int32_t node_index, int frame)
     const animation_channel *c = channel_of(s, node_index, PATH_ROTATION);
     float                    q[4];
     for (int k = 0; k < 4; k++)
-        q[k] = frame >= 0 && c ? c->values[4 * frame + k] : (float)n->rotation[k];
+        q[k] = frame >= 0 && c ? c->values[4 * frame + k] : (float)node_place_of(n)->rotation[k];
     turn own = of_quaternion(q);
     if (n->has_matrix) /* the file's root, of which only a quarter turn can be */
         for (int row = 0; row < 3; row++)
             for (int column = 0; column < 3; column++)
-                own.m[row][column] = n->matrix.m[4 * column + row];
+                own.m[row][column] = n->place->matrix.m[4 * column + row];
     return n->parent == NONE ? own : times(world_turn(s, n->parent, frame), own);
 }
 

@@ -53,7 +53,7 @@ static void strangers_are_not_linked(void **state)
         lmn_scene *s = stroke_scene_begin();
         add_ridge(s, -0.11, -0.01);
         add_ridge(s, 0, 0.1);
-        node *second = &s->nodes[s->node_count - 1];
+        node_place *second = node_own_place(&s->nodes[s->node_count - 1]);
         if (k == 1)
             second->translation[2] = -0.5f; /* 50 px deeper */
         if (k == 2)
@@ -101,12 +101,12 @@ static stroke_shot shoot_comb(double apart, float detail)
     lmn_scene *s = stroke_scene_begin();
     for (int i = 0; i < 60; i++) {
         add_ridge(s, -1, 1);
-        node *n = &s->nodes[s->node_count - 1];
+        node_place *n = node_own_place(&s->nodes[s->node_count - 1]);
         n->translation[1] = (float)(apart * (i - 29.5));
         n->scale[1] = 1e-4f;
     }
     add_ridge(s, -3.5, 3.5);
-    node *across = &s->nodes[s->node_count - 1];
+    node_place *across = node_own_place(&s->nodes[s->node_count - 1]);
     across->rotation[2] = across->rotation[3] = (float)sqrt(0.5);
     across->scale[1] = 1e-4f;
     across->translation[2] = 0.5f;

@@ -391,7 +391,7 @@ static void crossings_look_outwards(void **state)
     add_box(s, -1, -1, -1, 1, 1, 1);
     add_box(s, 2.5, 0.2, -0.6, 0.5, 1.5, 1.4); /* inside out */
     add_box(s, -0.5, 0.3, 0.2, 0.6, 0.7, 2.5);
-    s->nodes[s->node_count - 1].scale[1] = -2; /* from −1.4 to −0.6 */
+    node_own_place(&s->nodes[s->node_count - 1])->scale[1] = -2; /* from −1.4 to −0.6 */
     add_plate(s, -2, -2, 2, 2, 0.1);
     stroke_shot shot = shoot(s, look_along(-1, -1, -1, origin, 20, 3, true, 900, 900), all_lines());
     assert_int_equal(stroke_scene_cross(shot.scene, NULL, 0, NULL, NULL, NULL), LMN_OK);

@@ -1,4 +1,7 @@
 """Where mutants are built and tested: a copy of the tree, a build folder of its own, and the tests that name the room."""
+import ctypes.util
+import hashlib
+import json
 import os
 import pathlib
 import re
@@ -7,18 +10,28 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import mutants
+import weave
 
 # How much longer than the right program a test may take before it counts as one that hangs: times, and seconds besides.
 TIMES_SLOWER, SECONDS_MORE = 6, 20
 MEMORY_MOST = 12 << 30
+# What writes beside its memory is red: the project's tests run with sanitizers, too, and glibc can see that much without them.
+MALLOC_CHECK = ctypes.util.find_library("c_malloc_debug")
+CHECKED_MEMORY = {"LD_PRELOAD": MALLOC_CHECK, "MALLOC_CHECK_": "3", "MALLOC_PERTURB_": "165"} if MALLOC_CHECK else {}
+# What a test is taken to cost before it ran for the first time.
+SECONDS_UNKNOWN = 1
 # A test that says so is red: what is left of it need not run.
 RED = re.compile(rb"^(FAIL |\[  FAILED  \])", re.MULTILINE)
 # GLSL that does not compile is no program.
 NO_PROGRAM = re.compile(rb"src/\S+\.(?:glsl|frag|vert|comp):\d+[(:].*error")
-CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=", "-DCMAKE_C_FLAGS=-O1", "-DLIMNER_VIEWER=OFF", "-DLIMNER_INSTALL=OFF", "-DLIMNER_STATIC=OFF"]
+# As the preset `dev` builds, so that ccache knows what has no mutants.
+CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DLIMNER_WERROR=ON", "-DLIMNER_VIEWER=OFF", "-DLIMNER_INSTALL=OFF", "-DLIMNER_STATIC=OFF"]
+# Row of the table that is no room: tests that take names of cases as arguments, and list them when they are called with `--cases`.
+CASES = "cases"
 
 
 def read_table(path):
@@ -42,10 +55,14 @@ def copy_tree(root, work):
     else:
         names = {p.relative_to(root).as_posix() for p in root.rglob("*") if p.is_file() and work not in p.parents}
     for old in [p for p in tree.rglob("*") if p.is_file() and p.relative_to(tree).as_posix() not in names]:
-        old.unlink()
+        # What is woven for this run is written when it is known; that of files that are gone goes.
+        if old.suffix != weave.WOVEN or old.with_suffix("").relative_to(tree).as_posix() not in names:
+            old.unlink()
     for name in names:
         source, copy = root / name, tree / name
         # Compared by content: a mutant that a killed run left behind has the right size and any time.
+        if copy.with_name(copy.name + weave.WOVEN).exists():
+            continue
         if not copy.exists() or source.stat().st_size != copy.stat().st_size or source.read_bytes() != copy.read_bytes():
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, copy)
@@ -61,37 +78,87 @@ def list_tests(build):
         text = path.read_text()
         for match in re.finditer(rf"^add_test\({quoted}\s+(?P<command>.*)\)$", text, re.MULTILINE):
             command = [re.sub(r"\\(.)", r"\1", word) for word in re.findall(r'"((?:\\.|[^"\\])*)"', match["command"])]
-            tests[match["name"]] = {"name": match["name"], "command": command, "folder": path.parent, "environment": {}, "skip": None}
+            tests[match["name"]] = {"name": match["name"], "command": command, "folder": path.parent, "environment": {}, "skip": None, "cost": SECONDS_UNKNOWN}
         for match in re.finditer(rf"^set_tests_properties\({quoted}\s+PROPERTIES\s+(?P<rows>.*)\)$", text, re.MULTILINE):
             test, rows = tests[match["name"]], dict(re.findall(r'(\w+) "((?:\\.|[^"\\])*)"', match["rows"]))
             test["folder"] = rows.get("WORKING_DIRECTORY", test["folder"])
             test["environment"] = dict(pair.split("=", 1) for pair in rows.get("ENVIRONMENT", "").split(";") if pair)
             test["skip"] = int(rows["SKIP_RETURN_CODE"]) if "SKIP_RETURN_CODE" in rows else None
+            test["cost"] = float(rows.get("COST", SECONDS_UNKNOWN))
     return list(tests.values())
 
 
 class Bench:
-    def __init__(self, work, table, seconds_more):
-        self.seconds_more = seconds_more
-        self.tree, self.build, self.table = work / "tree", work / "build", table
-        self.work, self.tests, self.baseline = work, [], {}
-        self.mutated = None  # (path, right text, its times)
+    """Tests are run in pieces where they have cases: a mutant meets only those cases that call its function or read its shader, the
+    quickest first and those first that have found others of its file."""
+
+    def __init__(self, root, work, table, seconds_more, budget):
+        self.root, self.seconds_more, self.budget = root, seconds_more, budget
+        self.tree, self.build = work / "tree", work / "build"
+        self.table, self.cases = table, table.get(CASES, [])
+        self.work, self.tests, self.probes = work, [], {}
+        self.known_path = work / "tests.json"  # what right programs did: seconds, functions, shaders
+        self.known = json.loads(self.known_path.read_text()) if self.known_path.exists() else {}
+        self.kills = {}
+        self.numbers, self.invalid, self.functions = {}, set(), {}
+        self.mutated = None  # (path, right text, its times) of a shader
         # Shaders are read from the copy, so that mutants of them need no build.
         self.environment = {**os.environ, "LIMNER_SHADER_DIR": str(self.tree / "src"), "LIMNER_CACHE": str(work / "cache"),
                             "CCACHE_BASEDIR": str(work), "CCACHE_NOHASHDIR": "1"}
         for name in ("DISPLAY", "WAYLAND_DISPLAY"):
             self.environment.pop(name, None)
 
-    def prepare(self):
+    # --- building ---
+
+    def prepare(self, todo):
+        """Builds one program with all mutants of C in it, and what their tests are. Those that do not compile are left out."""
         launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        self.numbers = {m.key: k + 1 for k, m in enumerate(m for m in todo if m.path.endswith(".c"))}
+        self.weave(todo)
         self.must("configure", ["cmake", "-S", self.tree, "-B", self.build, *CONFIGURE, *launcher])
         self.tests = list_tests(self.build)
+        rooms = list(dict.fromkeys(m.room for m in todo))
+        targets = sorted({target for room in rooms for test in self.tests_of(room) for target in self.targets(test)})
+        self.build_all(todo, targets)
+        self.digest = self.digest_of(self.root / "src")
+        for room in rooms:
+            self.probes[room] = [probe for test in self.tests_of(room) for probe in self.split(test)]
+
+    def weave(self, todo):
+        """The C of all rooms, so that the next run builds only what has other mutants."""
+        for room in self.table:
+            for path in sorted((self.root / "src" / room).rglob("*.c")) if room != CASES else []:
+                name = path.relative_to(self.root).as_posix()
+                numbered = [(self.numbers[m.key], m) for m in todo if m.path == name and m.key not in self.invalid]
+                copy = self.tree / name
+                write_if_other(copy.with_name(copy.name + weave.WOVEN), weave.weave(name, path.read_text(), numbered))
+                write_if_other(copy, f'#include "{copy.name}{weave.WOVEN}"\n')
+
+    def build_all(self, todo, targets):
+        while True:
+            done = subprocess.run(["ninja", "-C", str(self.build), "-k", "0", *targets], capture_output=True, env=self.environment, check=False)
+            if done.returncode == 0:
+                return
+            said = (done.stdout + done.stderr).decode(errors="replace")
+            wrong = {int(n) for n in re.findall(rf"{weave.NAME}(\d+):\d+(?::\d+)?: (?:fatal )?error", said)}
+            found = {m.key for m in todo if self.numbers.get(m.key) in wrong} - self.invalid
+            if not found:
+                sys.exit(f"mutate: the right program cannot be built:\n{said[-4000:]}")
+            self.invalid |= found
+            self.weave(todo)
 
     def must(self, what, command):
         done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=self.environment, check=False)
         if done.returncode:
             sys.exit(f"mutate: cannot {what}:\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
         return done.stdout
+
+    def targets(self, test):
+        """What ninja has to make for a test: those of its words that lie in the build folder, and the command that many of them run."""
+        words = [os.path.relpath(w, self.build) for w in test["command"] if w.startswith(f"{self.build}/")]
+        return words + (["limner_command"] if (self.tree / "apps/cli").exists() else [])
+
+    # --- tests ---
 
     def tests_of(self, room):
         found = []
@@ -102,58 +169,112 @@ class Bench:
             found += named
         return found
 
+    def split(self, test):
+        """A test's cases as tests of their own."""
+        if not any(re.search(expression, test["name"]) for expression in self.cases):
+            return [test]
+        names = self.must(f"list the cases of {test['name']}", [*test["command"], "--cases"]).splitlines()
+        return [{**test, "name": f"{test['name']}:{case}", "command": [*test["command"], case]} for case in names]
+
+    def digest_of(self, *places):
+        """Of all files below, by their content."""
+        digest = hashlib.sha1()
+        for place in places:
+            for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
+                if path.is_file():
+                    digest.update(path.relative_to(self.root).as_posix().encode() + b"\0" + path.read_bytes())
+        return digest.hexdigest()[:16]
+
+    def know(self, test):
+        """What a test does with the right program: is it green, in how many seconds, and which functions and shaders has it to do with?"""
+        stem = re.sub(r"^(analytic|table)_", "", pathlib.Path(test["command"][0]).name)
+        own = [p for p in self.root.glob("tests/*/*.c") if p.stem == stem] or [self.root / "tests"]
+        support = [p for p in (self.root / "tests/support", self.root / "looks") if p.exists()]
+        digest = self.digest + self.digest_of(*own, *support)
+        known = self.known.get(test["name"])
+        if known and known["digest"] == digest:
+            return known
+        self.restore()
+        shaders = self.shaders()
+        for path in shaders:
+            os.utime(path, ns=(0, path.stat().st_mtime_ns))  # the next one who reads leaves a later time
+        reached = self.work / "reached.txt"
+        reached.unlink(missing_ok=True)
+        with tempfile.TemporaryDirectory(dir=self.work) as cache:  # what is kept is made here, too
+            green, seconds, said = self.run(test, None, MUTANT_REACHED=str(reached), LIMNER_CACHE=cache)
+        read = [p.relative_to(self.tree).as_posix() for p in shaders if p.stat().st_atime_ns]
+        functions = sorted(set(reached.read_text().splitlines())) if reached.exists() else []
+        known = {"digest": digest, "green": green, "seconds": seconds, "reached": functions + read}
+        if not green:
+            print(f"          {test['name']} is red for the right program, and not asked:\n{said.decode(errors='replace')[-600:]}", flush=True)
+        self.known[test["name"]] = known
+        self.known_path.write_text(json.dumps(self.known))
+        return known
+
+    def shaders(self):
+        return [p for p in (self.tree / "src").rglob("*") if p.suffix in mutants.SHADERS]
+
+    def place_of(self, m):
+        """What `know` says that is reached, for a mutant."""
+        if m.path.endswith(".c"):
+            return f"{m.path}:{weave.function_of((self.root / m.path).read_text(), m)}"
+        return m.path
+
+    def in_turn(self, m):
+        """The tests that have to do with a mutant, and what is known of them, by what they cost and found; None where one is dearer than the budget."""
+        place = self.place_of(m)
+
+        def cost(test):
+            return self.known[test["name"]]["seconds"] if test["name"] in self.known else test["cost"]
+
+        def price(test):
+            return cost(test) / (1 + 3 * self.kills.get((test["name"], m.path), 0))
+
+        for test in sorted(self.probes[m.room], key=price):
+            if cost(test) > self.budget:
+                yield None, None
+            else:
+                known = self.know(test)
+                if known["green"] and place in known["reached"]:
+                    yield test, known
+
+    # --- mutants ---
+
     def judge(self, m):
-        """Does a test notice? `killed` by which, `survived`, or `invalid`: no program."""
-        begun, ran = time.monotonic(), []
-        outcome, by = "survived", None
-        for test in self.tests_of(m.room):
-            self.settle(test)
-            self.apply(m)
-            ran.append(test["name"])
-            outcome = self.verdict(m, test)
-            if outcome != "survived":
-                by = test["name"]
-                break
+        """Does a test notice? `killed` by which, `survived`, `unfinished` when the budget was spent before all tests ran, or `invalid`: no program."""
+        ran, spent, outcome, by = [], 0, "invalid" if m.key in self.invalid else "survived", None
+        if outcome == "survived":
+            for test, known in self.in_turn(m):
+                if test is None or spent > self.budget:
+                    outcome = "unfinished"
+                    break
+                ran.append(test["name"])
+                outcome, seconds = self.verdict(m, test, known)
+                spent += seconds
+                if outcome != "survived":
+                    by = test["name"]
+                    self.kills[by, m.path] = self.kills.get((by, m.path), 0) + (outcome == "killed")
+                    break
         self.restore()
-        return {"outcome": outcome, "by": by, "tests": ran, "seconds": round(time.monotonic() - begun, 1)}
+        return {"outcome": outcome, "by": by, "tests": ran, "seconds": round(spent, 1)}
 
-    def verdict(self, m, test):
+    def verdict(self, m, test, known):
         shader = pathlib.Path(m.path).suffix in mutants.SHADERS
-        if not shader and not self.make(test):
-            return "invalid"
-        passed, _, said = self.run(test, self.baseline[test["name"]])
+        if shader:
+            self.apply(m)
+            passed, seconds, said = self.run(test, known["seconds"])
+        else:
+            # What it makes and would keep is not what the right program keeps.
+            with tempfile.TemporaryDirectory(dir=self.work) as cache:
+                passed, seconds, said = self.run(test, known["seconds"], MUTANT_NUMBER=str(self.numbers[m.key]), LIMNER_CACHE=cache, **CHECKED_MEMORY)
         if passed:
-            return "survived"
-        return "invalid" if shader and NO_PROGRAM.search(said) else "killed"
+            return "survived", seconds
+        return ("invalid" if shader and NO_PROGRAM.search(said) else "killed"), seconds
 
-    def settle(self, test):
-        """A test says something only when it is green for the right program."""
-        if test["name"] in self.baseline:
-            return
-        self.restore()
-        if not self.make(test, aloud=True):
-            sys.exit(f"mutate: {test['name']} cannot be built")
-        passed, seconds, said = self.run(test, None)
-        if not passed:
-            sys.exit(f"mutate: {test['name']} is red for the right program:\n{said.decode(errors='replace')[-4000:]}")
-        self.baseline[test["name"]] = seconds
-        print(f"          {test['name']} is green in {seconds:.0f} s", flush=True)
-
-    def targets(self, test):
-        """What ninja has to make for a test: those of its words that lie in the build folder, and the command that many of them run."""
-        words = [os.path.relpath(w, self.build) for w in test["command"] if w.startswith(f"{self.build}/")]
-        return words + (["limner_command"] if (self.tree / "apps/cli").exists() else [])
-
-    def make(self, test, aloud=False):
-        done = subprocess.run(["ninja", "-C", str(self.build), *self.targets(test)], capture_output=True, env=self.environment, check=False)
-        if done.returncode and aloud:
-            print(done.stdout.decode(errors="replace")[-4000:], file=sys.stderr)
-        return done.returncode == 0
-
-    def run(self, test, baseline):
+    def run(self, test, baseline, **more):
         """Runs a test until it ends, says that it is red, or has had its time: (green, seconds of CPU, what it said)."""
         limit = TIMES_SLOWER * baseline + self.seconds_more if baseline is not None else 1200
-        environment = {**self.environment, **test["environment"]}
+        environment = {**self.environment, **test["environment"], **more}
         log = self.work / "test.log"
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(log, "wb") as out:
@@ -181,10 +302,13 @@ class Bench:
         if self.mutated:
             path, source, times = self.mutated
             path.write_text(source)
-            # C keeps its new time: ninja has to see that the object is of another text. No build ever saw the shader.
-            if path.suffix in mutants.SHADERS:
-                os.utime(path, ns=times)
+            os.utime(path, ns=times)  # no build ever saw it
             self.mutated = None
+
+
+def write_if_other(path, text):
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
 
 
 def bound(limit):
@@ -201,7 +325,7 @@ def wait(child, log, limit):
         text = b""
         while True:
             try:
-                return child.wait(timeout=0.1)
+                return child.wait(timeout=0.05)
             except subprocess.TimeoutExpired:
                 text += said.read()
             if RED.search(text) or time.monotonic() > until:

@@ -186,9 +186,9 @@ def mutant_of(room, path, line, kind, source, begin, end, after):
 class Described(Mutant):
     __slots__ = ()
 
-    def describe(self):
+    def describe(self, line=True):
         before, after = (" ".join(text.split()) or "nothing" for text in (self.before, self.after))
-        return f"{self.path}:{self.line}: {self.kind}: {before} -> {after}"
+        return f"{self.path}{f':{self.line}' if line else ''}: {self.kind}: {before} -> {after}"
 
 
 def of_room(tree, room):

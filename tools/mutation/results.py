@@ -1,4 +1,5 @@
 """What became of each mutant: one line of JSON each, the last one of a mutant holds."""
+import collections
 import json
 import os
 
@@ -46,11 +47,13 @@ class Results:
 
 def summary(store, rooms):
     """A Markdown table: how many mutants of each room were killed at first, and are now."""
-    text = "| room | mutants | no program | killed at first | killed now | survive |\n|---|---|---|---|---|---|\n"
+    text = "| room | mutants | no program | equivalent | killed at first | killed now | survive | not all tests met |\n|---|---|---|---|---|---|---|---|\n"
     for room in rooms:
-        rows = [(row, store.first[key]) for key, row in store.rows.items() if row["room"] == room]
-        valid = [(now, before) for now, before in rows if now["outcome"] != "invalid"]
-        now, before = (sum(pair[k]["outcome"] == "killed" for pair in valid) for k in (0, 1))
-        share = f" ({100 * now / len(valid):.0f} %)" if valid else ""
-        text += f"| `{room}` | {len(valid)} | {len(rows) - len(valid)} | {before} | {now}{share} | {len(valid) - now} |\n"
+        rows = [(row["outcome"], store.first[key]["outcome"]) for key, row in store.rows.items() if row["room"] == room]
+        count = collections.Counter(now for now, _ in rows)
+        valid = [(now, before) for now, before in rows if now not in ("invalid", "equivalent")]
+        before = sum(before == "killed" for _, before in valid)
+        share = f" ({100 * count['killed'] / len(valid):.0f} %)" if valid else ""
+        text += (f"| `{room}` | {len(valid)} | {count['invalid']} | {count['equivalent']} | {before} | {count['killed']}{share} | {count['survived']} | "
+                 f"{count['unfinished']} |\n")
     return text

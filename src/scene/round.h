@@ -1,0 +1,45 @@
+/* Coarse meshes as the curved surfaces that they stand for: where normals say that a surface bends, its edges are
+ * halved until they follow the bend, as curved PN triangles do (A. Vlachos, J. Peters, C. Boyd, J. L. Mitchell: Curved
+ * PN Triangles, I3D 2001, section 3.1). There triangles with different normals at a place part; here what is done to an
+ * edge is decided once, from both its sides, and creases bend along themselves, so that nothing parts. Normals go on as
+ * they did over the coarse triangle: what looked smooth looks the same. */
+#ifndef LIMNER_SCENE_ROUND_H
+#define LIMNER_SCENE_ROUND_H
+
+#include "scene/scene.h"
+
+typedef struct round_options {
+    double crease_angle;    /* radians; of primitives without normals */
+    double tolerance;       /* how far edges may lie off the surface, of the mesh's diagonal */
+    size_t most_vertices;   /* that are added; the last halving that would add more is left out */
+    const vec3 (*sharp)[2]; /* ends of edges that are creases, exactly where vertices of the mesh are */
+    size_t sharp_count;
+} round_options;
+
+/* `out` becomes the mesh that is drawn instead, with normals and triangles of its own, revision 0; vertices that were
+ * there keep their places and order. It says of its edges that they may be outlines, or are creases where edges were
+ * sharp, unless the mesh says more itself. Without primitives: the mesh is as round as it can be. Released with
+ * mesh_release. Errors: LMN_MEMORY, LMN_LIMIT. */
+lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lmn_error *error);
+
+/* --- one edge, for tests -------------------------------------------------------------------------------- */
+
+typedef struct round_point {
+    double x, y, z;
+} round_point;
+
+/* A side of an edge: the normals there at its two ends, and the face's own. How far, in lengths of the edge, the first
+ * face goes that it would go on over beyond either end; INFINITY where there is none. */
+typedef struct round_side {
+    round_point normals[2], face;
+    double      beyond[2];
+} round_side;
+
+typedef struct round_edge {
+    round_point middle;   /* where the curve is half-way */
+    double      distance; /* of the curve from the edge, about */
+} round_edge;
+
+/* `other` is NULL at borders. */
+round_edge round_edge_of(const round_point ends[2], const round_side *one, const round_side *other);
+#endif
