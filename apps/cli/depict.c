@@ -121,8 +121,8 @@ void depiction_release(depiction *d)
 /* Without a time: where most of the motion is past and some is to come. */
 static void settle_time(const lmn_scene *scene, lmn_draw_desc *desc, const lmn_depict_desc *d)
 {
-    const double end = clip_end(scene, desc->clip);
-    if (!desc->time_given && end > 0) {
+    const double end = desc->time_given ? 0 : clip_end(scene, desc->clip);
+    if (end > 0) {
         desc->time_s = d->interval_given ? d->from_s + 0.6 * (d->to_s - d->from_s) : 0.6 * end;
         desc->time_given = true;
     }

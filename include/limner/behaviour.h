@@ -248,7 +248,8 @@ typedef struct lmn_contact {
 /* Contacts of a node, with all below it, whose impulse is `least` or more, 0 or above, in order of time: whose surface
  * is met is looked for among all parts that are not its own, as they are then. Place and normal are those of the
  * features that meet first, a corner and a face or two edges, in the middle of all of them; meshes that stand for
- * spheres, all of one and drawn smooth, are met as spheres and ellipsoids. Who leaves a closed surface does not meet
+ * spheres, cylinders or cones (cut off or not, too), all of one and drawn smooth, are met as these, however they are
+ * scaled. Who leaves a closed surface does not meet
  * it. Where no surface is, there is a contact only where it is thrown back while one pull draws it on before and
  * behind, as by a floor that is not in the scene: corners of sampled curves are none. What has no surface has no
  * contacts. At most `capacity` are written, and *count gets how many there are; `contacts` may be NULL with 0. Errors

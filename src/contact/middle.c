@@ -43,7 +43,22 @@ static size_t hull_of(const corner *sorted, size_t count, corner *out)
     return kept;
 }
 
-/* Of a closed polygon, or of the line between the first corner and the last one where it has no area. */
+/* The corner that is farthest from one of them. */
+static corner farthest_from(const corner *all, size_t count, corner from)
+{
+    double most = -1;
+    corner best = from;
+    for (size_t i = 0; i < count; i++) {
+        const double far = (all[i].x - from.x) * (all[i].x - from.x) + (all[i].y - from.y) * (all[i].y - from.y);
+        if (far > most) {
+            most = far;
+            best = all[i];
+        }
+    }
+    return best;
+}
+
+/* Of a closed polygon, or of the line between two corners, as far apart as any, where it has no area. */
 static corner middle_of(const corner *hull, size_t count, corner first, corner last)
 {
     double area = 0, x = 0, y = 0;
@@ -84,7 +99,8 @@ lmn_status touch_middle(const touch_places *all, const double normal[3], double 
         corners[count++] = (corner){vector3_dot(p->own, x), vector3_dot(p->own, y)};
     }
     qsort(corners, count, sizeof *corners, compare_corners);
-    const corner at = middle_of(hull, hull_of(corners, count, hull), corners[0], corners[count - 1]);
+    const corner first = farthest_from(corners, count, corners[0]), last = farthest_from(corners, count, first),
+                 at = middle_of(hull, hull_of(corners, count, hull), first, last);
     for (int k = 0; k < 3; k++)
         out[k] = at.x * x[k] + at.y * y[k] + height / (double)count * normal[k];
     mem_free(corners);

@@ -7,6 +7,7 @@
 #include "base/vector3.h"
 #include "base/work.h"
 #include "contact/sphere.h"
+#include "contact/turned.h"
 
 static void to_world(double (*out)[3], const vec3 *positions, uint32_t count, const mat4 *world)
 {
@@ -70,25 +71,49 @@ static void take_outer(outer *o, const double at[3])
     o->count++;
 }
 
+static void take_placed(outer *o, const double local[3], const mat4 *world)
+{
+    double at[3];
+    for (int k = 0; k < 3; k++)
+        at[k] = world->m[k] * local[0] + world->m[4 + k] * local[1] + world->m[8 + k] * local[2] + world->m[12 + k];
+    take_outer(o, at);
+}
+
 /* Of the unit sphere that a matrix takes to the world, what the direction's image under the transposed one meets. */
 static void take_sphere(outer *o, const sphere *s, const mat4 *world)
 {
-    double at[3], local[3];
+    double local[3];
     for (int k = 0; k < 3; k++)
         local[k] = vector3_dot(&world->m[4 * k], o->direction);
     const bool directed = vector3_normalise(local);
     vector3_add(local, s->centre, directed ? -s->radius : 0, local);
+    take_placed(o, local, world);
+}
+
+/* Of both rims what lies outermost, or all around, evenly. */
+static void take_turned(outer *o, const turned *t, const mat4 *world)
+{
+    enum { EVENLY = 48 };
+    double across[3], at[3];
     for (int k = 0; k < 3; k++)
-        at[k] = world->m[k] * local[0] + world->m[4 + k] * local[1] + world->m[8 + k] * local[2] + world->m[12 + k];
-    take_outer(o, at);
+        across[k] = -vector3_dot(&world->m[4 * ((t->axis + 1 + k) % 3)], o->direction);
+    const bool faces = sqrt(across[0] * across[0] + across[1] * across[1]) > 1e-4 * vector3_length(across);
+    for (int i = 0; i < (faces ? 1 : EVENLY); i++)
+        for (int end = 0; end < 2; end++) {
+            turned_rim(t, faces ? atan2(across[1], across[0]) : 6.283185307179586 * i / EVENLY, end, at);
+            take_placed(o, at, world);
+        }
 }
 
 static void find_outer(const surface_piece *piece, void *user)
 {
     outer *o = user;
     sphere s;
+    turned t;
     if (!piece->deformed && sphere_of(&s, piece->from))
         take_sphere(o, &s, &piece->world);
+    else if (!piece->deformed && turned_of(&t, piece->from))
+        take_turned(o, &t, &piece->world);
     else
         for (uint32_t i = 0; i < piece->from->vertex_count; i++)
             take_outer(o, piece->vertices[i]);

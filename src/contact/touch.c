@@ -70,6 +70,8 @@ static void take_piece(const surface_piece *seen, void *user)
     if (!seen->deformed && sphere_of(&s, seen->from))
         take_sphere(&piece, &s, &seen->world);
     piece.outward = outward_of(&piece);
+    piece.world = seen->world;
+    piece.is_turned = !piece.is_sphere && !seen->deformed && piece.outward && turned_of(&piece.turned, seen->from);
     l->items[l->count++] = piece;
 }
 
@@ -145,13 +147,55 @@ static lmn_status list_own(touch_search *s, lmn_error *error)
     return status;
 }
 
-static lmn_status meet_pieces(touch_places *all, const touch_piece *own, const touch_piece *other,
-                              const touch_pair *how, lmn_error *error)
+static lmn_status meet_as_meshes(touch_places *all, const touch_piece *own, const touch_piece *other,
+                                 const touch_pair *how, lmn_error *error)
 {
     touch_pair pair = *how;
     pair.own = own->is_sphere || !other->is_sphere ? own : other;
     pair.other = pair.own == own ? other : own;
     return pair.own->is_sphere ? touch_round(all, &pair, pair.own != own, error) : touch_sweep(all, &pair, error);
+}
+
+/* Both as meshes in which what stands for a cylinder or a cone has vertices where they meet. */
+static lmn_status meet_turned(touch_places *all, const touch_piece *own, const touch_piece *other,
+                              const touch_pair *how, const touch_met *met, lmn_error *error)
+{
+    touch_piece finer[2] = {{0}};
+    lmn_status  status = LMN_OK;
+    if (own->is_turned)
+        status = touch_lathe(&finer[0], own, other, how->along, how->within, met, error);
+    if (status == LMN_OK && other->is_turned)
+        status = touch_lathe(&finer[1], other, own, how->along, how->within, met ? met + 1 : NULL, error);
+    if (status == LMN_OK)
+        status =
+            meet_as_meshes(all, finer[0].vertices ? &finer[0] : own, finer[1].vertices ? &finer[1] : other, how, error);
+    touch_lathe_release(&finer[0]);
+    touch_lathe_release(&finer[1]);
+    return status;
+}
+
+/* Of cylinders and cones first where they meet, exactly, and then along which line or area they do. */
+static lmn_status meet_pieces(touch_places *all, const touch_piece *own, const touch_piece *other,
+                              const touch_pair *how, lmn_error *error)
+{
+    touch_met    met[2]; /* of the own piece, of the other */
+    touch_pair   exact = *how;
+    touch_places first = {.first = INFINITY};
+    if (!own->is_turned && !other->is_turned)
+        return meet_as_meshes(all, own, other, how, error);
+    exact.tie *= 1e-4;
+    lmn_status status = meet_turned(&first, own, other, &exact, NULL, error);
+    if (status == LMN_OK && first.count > 0) {
+        const touch_place *best = best_of(&first, how->along);
+        for (int i = 0; i < 2; i++) {
+            vector3_copy(met[i].place, best->own);
+            vector3_set(met[i].facing, 0, 0, 0);
+            vector3_add(met[i].facing, met[i].facing, i ? 1 : -1, best->normal);
+        }
+        status = meet_turned(all, own, other, how, met, error);
+    }
+    mem_free(first.items);
+    return status;
 }
 
 /* The first places at which the own parts meet those of another one. */

@@ -120,8 +120,9 @@ typedef struct glyph_label {
     colour      tint;
     bool        sketchy; /* to be drawn loosely */
     bool        overlay; /* the picture is not fitted to it */
-    colour      own;     /* its colour there */
-    int         pale;    /* how much paler than other things looks draw it that do not speak of signs, eighths */
+    uint32_t image; /* which image of things it is a piece of, so that its pieces run through each other; 0: of none */
+    colour   own;   /* its colour there */
+    int      pale;  /* how much paler than other things looks draw it that do not speak of signs, eighths */
 } glyph_label;
 
 typedef struct glyph {

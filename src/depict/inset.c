@@ -73,7 +73,8 @@ static double back_of_panel(const depict_job *j)
 static lmn_status put(inset *i, glyph_mesh *m, const char *glyph, colour tint, lmn_error *error)
 {
     lmn_status status = glyph_put(
-        i->job, m, &(glyph_label){.glyph = glyph, .of = i->e->target, .when = i->when, .tint = tint, .overlay = true},
+        i->job, m,
+        &(glyph_label){.glyph = glyph, .of = i->e->target, .when = i->when, .tint = tint, .overlay = true, .image = 1},
         error);
     glyph_mesh_release(m);
     return status;

@@ -101,8 +101,9 @@ static lmn_status add_node(lmn_scene *s, int32_t root, int32_t mesh, const glyph
             status = scene_set_attribute(s, added, NODE_TINT, own, error);
     }
     /* The image of now stands in the scene. */
+    snprintf(name, sizeof name, "%u", label->image);
     if (status == LMN_OK && (strcmp(label->glyph, "still") != 0 || label->when != GLYPH_PRESENT))
-        status = scene_set_attribute(s, added, NODE_SHADOWLESS, "true", error);
+        status = scene_set_attribute(s, added, NODE_SHADOWLESS, name, error);
     if (status == LMN_OK && label->overlay)
         status = scene_set_attribute(s, added, NODE_OVERLAY, "true", error);
     return status == LMN_OK ? scene_set_attribute(s, added, "when", tenses[label->when], error) : status;

@@ -41,9 +41,15 @@ static void to_world(const page_way *w, const double on_page[3], double out[3])
         out[k] = m[4 * k] * eye[0] + m[4 * k + 1] * eye[1] + m[4 * k + 2] * eye[2];
 }
 
+/* Lengths of a page neither overflow nor vanish: hypot, which sees to that, takes most of the time of an arrow. */
+static double length_of(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
+
 static double apart(const double a[3], const double b[3])
 {
-    return hypot(a[0] - b[0], a[1] - b[1]);
+    return length_of(a[0] - b[0], a[1] - b[1]);
 }
 
 static course course_of(const page_way *w)
@@ -55,7 +61,7 @@ static course course_of(const page_way *w)
 static double turn_between(const double a[3], const double b[3], const double c[3])
 {
     const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - b[0], y2 = c[1] - b[1];
-    if (!(hypot(x1, y1) > 0) || !(hypot(x2, y2) > 0))
+    if (!(length_of(x1, y1) > 0) || !(length_of(x2, y2) > 0))
         return 0;
     return fabs(atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2));
 }
@@ -77,13 +83,22 @@ static double radius_at(const page_way *w, size_t i)
     return turned > 0.1 ? legs / 2 / turned : 10 * w->width;
 }
 
-/* Marks what is to be moved: a width around each sharp turn. False: there is none. */
-static bool mark_sharp(page_way *w, bool *active)
+/* Can a sample's radius have changed where those that have a flag have moved? */
+static bool may_have_turned(const page_way *w, const bool *moved, size_t i)
+{
+    const size_t reach = A_WIDTH / 2;
+    return moved[i] || moved[i > reach ? i - reach : 0] ||
+           moved[i + reach < w->sample_count ? i + reach : w->sample_count - 1];
+}
+
+/* Marks what is to be moved: a width around each sharp turn. False: there is none. Where nothing has moved since the
+ * last time (`moved`; NULL: all is new) it was broad, and is. */
+static bool mark_sharp(page_way *w, const bool *moved, bool *active)
 {
     bool any = false;
     memset(active, 0, w->sample_count * sizeof *active);
     for (size_t i = 1; i + 1 < w->sample_count; i++) {
-        if (radius_at(w, i) >= least_radius(w))
+        if ((moved && !may_have_turned(w, moved, i)) || radius_at(w, i) >= least_radius(w))
             continue;
         any = true;
         const size_t low = i > A_WIDTH + 1 ? i - A_WIDTH : 1;
@@ -93,23 +108,50 @@ static bool mark_sharp(page_way *w, bool *active)
     return any;
 }
 
+/* One step of a thread under tension, of the samples that are listed. */
+static void pull(page_way *w, double (*next)[3], const size_t *listed, size_t count)
+{
+    for (size_t n = 0; n < count; n++)
+        for (int k = 0; k < 3; k++) {
+            const double(*at)[3] = (const double(*)[3])w->samples + listed[n];
+            next[n][k] = (at[-1][k] + 2 * at[0][k] + at[1][k]) / 4;
+        }
+    for (size_t n = 0; n < count; n++)
+        memcpy(w->samples[listed[n]], next[n], sizeof *next);
+}
+
 /* Sharp turns give way, as a thread under tension does, until they are broad. */
 static void relax(page_way *w)
 {
     enum { ROUNDS = 60, STEPS = 12 };
-    bool *active = mem_calloc(w->sample_count + 1, sizeof *active);
-    double(*next)[3] = mem_alloc((w->sample_count + 1) * sizeof *next);
-    for (int round = 0; round < ROUNDS && active && next && mark_sharp(w, active); round++)
-        for (int step = 0; step < STEPS; step++) {
-            for (size_t i = 1; i + 1 < w->sample_count; i++)
-                for (int k = 0; k < 3 && active[i]; k++)
-                    next[i][k] = (w->samples[i - 1][k] + 2 * w->samples[i][k] + w->samples[i + 1][k]) / 4;
-            for (size_t i = 1; i + 1 < w->sample_count; i++)
-                if (active[i])
-                    memcpy(w->samples[i], next[i], sizeof *next);
-        }
+    const size_t room = w->sample_count + 1;
+    bool        *active = mem_calloc(2 * room, sizeof *active), *before = active ? active + room : NULL;
+    size_t      *listed = mem_alloc(room * sizeof *listed);
+    double(*next)[3] = mem_alloc(room * sizeof *next);
+    const bool good = active && listed && next;
+    for (int round = 0; round < ROUNDS && good && mark_sharp(w, round ? before : NULL, active); round++) {
+        size_t count = 0;
+        for (size_t i = 1; i + 1 < w->sample_count; i++)
+            if (active[i])
+                listed[count++] = i;
+        for (int step = 0; step < STEPS; step++)
+            pull(w, next, listed, count);
+        memcpy(before, active, room * sizeof *active);
+    }
     mem_free(active);
+    mem_free(listed);
     mem_free(next);
+}
+
+/* From a sample on, one way or the other, those that were moved go back to where the way is: the turn is left out that
+ * they had given way to. */
+static void put_back(page_way *w, size_t from, bool onward)
+{
+    const course way = course_of(w);
+    for (size_t i = from; i < w->sample_count && w->moved[i] && !w->gone[i]; i += onward ? 1 : SIZE_MAX) {
+        course_at(&way, w->places[i], w->samples[i]);
+        w->moved[i] = false;
+    }
 }
 
 /* What is still sharp turns back nearly where it came from: legs that would lie on each other are left out. */
@@ -125,6 +167,8 @@ static void break_reversals(page_way *w)
             gap++;
         for (size_t k = i - gap + 1; k < i + gap; k++)
             w->gone[k] = true;
+        put_back(w, i - gap, false);
+        put_back(w, i + gap, true);
     }
 }
 
@@ -252,7 +296,7 @@ void rounded_make(rounded_way *out, const depict_job *j, const double (*points)[
     } else {
         out->failed = out->failed || turns;
     }
-    if (!out->failed && turns && any_of(w.moved, w.sample_count))
+    if (!out->failed && turns && (any_of(w.moved, w.sample_count) || any_of(w.gone, w.sample_count)))
         put_runs(out, &w, points);
     else if (!out->failed)
         put_all(out, points, count);

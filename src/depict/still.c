@@ -23,8 +23,10 @@ static const param still_params[] = {
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
     PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
-                           "future: of a figure that sways, the limbs that swing are shown."),
+                    .doc =
+                        "Limbs that have gone less far than this part of what goes farthest have no image of past and "
+                        "future: of a figure that sways, those that swing are shown. A limb is what a joint leads, or "
+                        "what keeps its form."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -39,8 +41,10 @@ static const param plane_params[] = {
     PARAM_FLOAT_ROW(still_values, fade, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "How much paler than the target those farthest from now are."),
     PARAM_FLOAT_ROW(still_values, least, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .doc = "What has gone less far than this part of what goes farthest has no image of past and "
-                           "future: of a figure that sways, the limbs that swing are shown."),
+                    .doc =
+                        "Limbs that have gone less far than this part of what goes farthest have no image of past and "
+                        "future: of a figure that sways, those that swing are shown. A limb is what a joint leads, or "
+                        "what keeps its form."),
     PARAM_BOOL_ROW(still_values, sketchy, .def = 0, .doc = "Attribute [sketchy] for looks: drawn loosely."),
     PARAM_COLOUR_ROW(still_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of those of past and future; none: the target's own."),
@@ -195,7 +199,40 @@ typedef struct present {
     const pose  *posed; /* NULL: it is not seen */
     shape_change change;
     float        within; /* what is nearer to it is the same */
+    float        least;  /* what has gone less is not told */
 } present;
+
+static float away(const vec3 *a, const vec3 *b)
+{
+    return fmaxf(fmaxf(fabsf(a->x - b->x), fabsf(a->y - b->y)), fabsf(a->z - b->z));
+}
+
+/* The joint that leads a vertex most; 0: there are none, and all goes as one. */
+static uint16_t joint_of(const primitive *from, uint32_t vertex)
+{
+    const size_t first = (size_t)vertex * from->influences;
+    uint32_t     best = 0;
+    for (uint32_t i = 1; i < from->influences; i++)
+        best = from->weights[first + i] > from->weights[first + best] ? i : best;
+    return from->influences ? from->joints[first + best] : 0;
+}
+
+/* Vertices of limbs that have gone less far than is told are where they are now, then: they are not told. A limb is
+ * what one joint leads, or all that keeps its form: it has gone as far as its end, and none of it is torn off. False:
+ * out of memory. */
+static bool settle_limbs(const glyph_mesh *m, vec3 *there, const primitive *from, float least)
+{
+    float *gone = mem_calloc((size_t)UINT16_MAX + 1, sizeof *gone); /* the farthest of each joint */
+    for (uint32_t i = 0; i < from->vertex_count && gone; i++) {
+        float *of_joint = &gone[joint_of(from, i)];
+        *of_joint = fmaxf(*of_joint, away(&m->positions[i], &there[i]));
+    }
+    for (uint32_t i = 0; i < from->vertex_count && gone; i++)
+        if (gone[joint_of(from, i)] < least)
+            there[i] = m->positions[i];
+    mem_free(gone);
+    return gone != NULL;
+}
 
 /* Where a primitive is put that keeps its form, but for what is linear in the change; false: it does not. */
 static bool find_place(mat4 *out, const pose *p, size_t part, size_t instance, const shape_change *c)
@@ -255,6 +292,8 @@ static lmn_status put_primitive(depict_job *j, const pose *p, size_t part, size_
         place_vertices(m.positions, p, part, instance, from, change);
     if (!m.failed && there)
         place_vertices(there, now->posed, part, instance, from, &now->change);
+    if (!m.failed && there && now->least > now->within)
+        m.failed = !settle_limbs(&m, there, from, now->least);
     if (!m.failed && there && leave_moved(&m, there, now->within)) {
         step_back(j, &m); /* what is left may lie in faces that are seen now */
     } else if (!m.failed && find_place(&world, p, part, instance, change)) {
@@ -314,16 +353,17 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
                                  {0}};
     /* By looks in ink the nearest ones, too, are to be told from it. */
     const double pale = apart > 0 ? (double)v->fade * (0.55 + 0.6 * fabs(seconds - e->now) / apart) : 0;
+    label.image = 2 + (uint32_t)j->glyph_count;
     label.pale = is_now ? 0 : (int)fmin(fmax(round(pale * PALE_MOST), pale > 0), PALE_MOST);
     lmn_status status = depict_pose(&p, j, seconds, error);
     now->posed = NULL;
     if (status == LMN_OK && !is_now)
         status = depict_pose(&now->posed, j, e->now, error);
-    const float within = now->within;
+    now->least = 0;
     if (status == LMN_OK && now->posed && v->least > 0) {
         float farthest;
         status = find_farthest(&farthest, j, t, p, change, now, error);
-        now->within = fmaxf(within, v->least * farthest);
+        now->least = v->least * farthest;
     }
     for (size_t i = 0; i < t->part_count && status == LMN_OK; i++) {
         const node   *n = &j->scene->nodes[j->scene->parts[i].node];
@@ -338,7 +378,6 @@ static lmn_status put_still(depict_job *j, const expression *e, const depict_tar
             status = put_primitive(j, p, i, k % draws, k / draws, change, now, &label, error);
         }
     }
-    now->within = within;
     return status;
 }
 

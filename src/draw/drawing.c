@@ -199,6 +199,8 @@ static void warn_of_lines(const session *s, const lmn_scene *scene, warnings *wa
         for (size_t k = 0; k < scene->part_count && !has_strokes(fig->rule); k++) {
             if (!fig->designated[k] || !scene->parts[k].lines || (!lines && scene->parts[k].triangles))
                 continue;
+            if (scene->parts[k].edge_lines) /* pictures find these edges themselves */
+                continue;
             warnings_add(warnings, WARNING_UNUSED,
                          "lines that the file brings are drawn by looks with strokes (--set lines.operator=strokes)");
             return;
@@ -372,6 +374,7 @@ static lmn_status keep_frame(session *s, void *user, lmn_error *error)
     lmn_status status = gpu_check(s->renderer->g, error);
     memcpy(d->strokes, s->frame.strokes, sizeof d->strokes);
     d->search = s->frame.search;
+    d->marks = s->frame.marks;
     d->traces = s->frame.traces;
     for (size_t i = 0; i < s->plan.figure_count; i++)
         d->has_traces = d->has_traces || (traces_of_rule(s->plan.figures[i].rule) && !s->plan.figures[i].unmarked);

@@ -21,6 +21,7 @@ struct lmn_drawing {
     double         frame_ms;
     gpu_profile    profile;
     outline_search search;
+    mark_facts     marks;
     uint64_t       strokes[STROKE_CLASS_COUNT]; /* drawn, where they were chained */
     trace_facts    traces;
     bool           has_traces; /* some rule wants them */

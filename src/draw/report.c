@@ -46,6 +46,10 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "frame_ms", json_real(d->frame_ms));
     json_object_set_new(root, "strokes", report_strokes_json(d->strokes));
     report_search(root, d->search);
+    if (d->marks.there)
+        json_object_set_new(root, "surface_marks",
+                            json_pack("{s:I, s:I, s:I}", "there", (json_int_t)d->marks.there, "drawn",
+                                      (json_int_t)d->marks.drawn, "bytes", (json_int_t)d->marks.bytes));
     if (d->has_traces || d->traces.telling.count)
         json_object_set_new(root, "motion", trace_facts_json(&d->traces));
     json_object_set_new(root, "parts_visible", parts_json(d));

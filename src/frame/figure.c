@@ -105,10 +105,19 @@ static void widen_columns(double range[2], const double a[2], const double b[2],
 /* The tiles that a triangle on the page, and its lines, can reach: row after row of tiles. */
 static void mark_triangle(tile_grid *t, double corners[3][2], int reach)
 {
-    double lowest = INFINITY, highest = -INFINITY;
+    double lowest = INFINITY, highest = -INFINITY, left = INFINITY, right = -INFINITY;
     for (int k = 0; k < 3; k++) {
         lowest = fmin(lowest, corners[k][1] - reach);
         highest = fmax(highest, corners[k][1] + reach);
+        left = fmin(left, corners[k][0] - reach);
+        right = fmax(right, corners[k][0] + reach);
+    }
+    /* Of a small one its box is as good. */
+    if (highest - lowest <= t->size && right - left <= t->size && left > t->band[0] && lowest > t->band[1] &&
+        right < t->band[0] + t->band[2] && highest < t->band[1] + t->band[3]) {
+        tiles_mark(t, (int[]){(int)left, (int)lowest, (int)right + 2 - (int)left, (int)highest + 2 - (int)lowest},
+                   true);
+        return;
     }
     const int first = (int)fmin(fmax((lowest - t->band[1]) / t->size, 0), t->rows),
               end = (int)fmin(fmax((highest - t->band[1]) / t->size + 1, 0), t->rows);

@@ -186,6 +186,7 @@ static void draw_page(frame *f)
     f->page_depth = frame_acquire(f, TARGET_DEPTH);
     memset(f->strokes, 0, sizeof f->strokes);
     f->search = (outline_search){0, 0};
+    f->marks = (mark_facts){0, 0, 0};
     memset(&f->traces, 0, sizeof f->traces);
     facts_open(f);
     shadow_draw(f);

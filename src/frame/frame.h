@@ -15,6 +15,11 @@
 
 typedef struct frame_maps frame_maps;
 
+/* Dots and strokes on surfaces, of all figures: those there are, those that were drawn, what they take on the GPU. */
+typedef struct mark_facts {
+    uint64_t there, drawn, bytes;
+} mark_facts;
+
 typedef struct frame {
     gpu                 *g;
     upload              *up;
@@ -53,8 +58,9 @@ typedef struct frame {
     bool           lists_full;                  /* lists had no room, so that layers were peeled instead */
     const figure  *mirror;                      /* whose view is drawn; NULL: the scene itself */
     uint64_t       strokes[STROKE_CLASS_COUNT]; /* that were chained and drawn */
-    outline_search search;                      /* for them */
-    trace_facts    traces;                      /* of all figures */
+    mark_facts     marks;
+    outline_search search; /* for them */
+    trace_facts    traces; /* of all figures */
 } frame;
 
 /* The camera of strokes: what the frame sees, on its sheet, whatever pixels it has. All its bytes are set. */

@@ -85,7 +85,11 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         mark_style style = {.diameter = 1};
         surface_mark_style(&style, surface);
         gpu_settle(f->g);
-        gpu_draw_first_marks(f->g, set->marks, count_to_draw(f, s->figure, set, &style));
+        const size_t count = count_to_draw(f, s->figure, set, &style);
+        gpu_draw_first_marks(f->g, set->marks, count);
+        f->marks.there += set->count;
+        f->marks.drawn += count;
+        f->marks.bytes += gpu_marks_bytes(set->marks);
     }
     if (!p) {
         char *unused = text_take(&prelude);

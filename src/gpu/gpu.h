@@ -192,6 +192,7 @@ gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, si
 gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
+size_t     gpu_marks_bytes(const gpu_marks *m); /* that their buffers take */
 
 /* --- storage buffers (only where gpu_capabilities.lists) ------------------------------------------------ */
 

@@ -58,7 +58,7 @@ struct gpu_mesh {
 
 struct gpu_marks {
     GLuint array, buffers[2]; /* corners, indices; no indices of points */
-    size_t count;
+    size_t count, bytes;
     bool   points;
     int    strip; /* vertices of one; 0: no strips */
 };

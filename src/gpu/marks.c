@@ -50,6 +50,7 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
     uint32_t  *indices = m ? mem_alloc(count * INDICES * sizeof *indices) : NULL;
     if (corners && indices) {
         m->count = count;
+        m->bytes = count * (CORNERS * size + INDICES * sizeof *indices);
         glGenVertexArrays(1, &m->array);
         glBindVertexArray(m->array);
         glGenBuffers(2, m->buffers);
@@ -78,6 +79,7 @@ gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, si
         return NULL;
     }
     m->count = count;
+    m->bytes = count * 4 * sizeof(float) * (size_t)vectors;
     m->points = true;
     glGenVertexArrays(1, &m->array);
     glBindVertexArray(m->array);
@@ -118,6 +120,11 @@ void gpu_marks_destroy(gpu *g, gpu_marks **m)
 size_t gpu_marks_count(const gpu_marks *m)
 {
     return m ? m->count : 0;
+}
+
+size_t gpu_marks_bytes(const gpu_marks *m)
+{
+    return m ? m->bytes : 0;
 }
 
 void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count)

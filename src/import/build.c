@@ -37,7 +37,7 @@ lmn_status build_part(lmn_scene *scene, primitive *p, const char *name, lmn_erro
 
 bool build_attribute(node *n, const char *key, const char *value)
 {
-    attribute *grown = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown);
+    attribute *grown = node_own_facts(n) ? mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown) : NULL;
     if (!grown)
         return false;
     n->attributes = grown;

@@ -430,7 +430,7 @@ bool city_attribute_sized(lmn_scene *scene, int32_t node_index, const char *key,
                           size_t value_size)
 {
     node      *n = &scene->nodes[node_index];
-    attribute *grown = mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown);
+    attribute *grown = node_own_facts(n) ? mem_realloc(n->attributes, (n->attribute_count + 1) * sizeof *grown) : NULL;
     if (!grown)
         return false;
     n->attributes = grown;

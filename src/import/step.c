@@ -231,6 +231,7 @@ static void read_lines(step_reader *s, primitive *p)
 {
     p->vertex_count = fence_take_u32(&s->r);
     p->line_count = fence_take_u32(&s->r);
+    p->edge_lines = fence_take_u32(&s->r) == 0;
     p->material = NONE;
     if (p->line_count == 0)
         return;

@@ -117,6 +117,7 @@ struct Group {
 struct Lines {
     std::vector<float>    positions;
     std::vector<uint32_t> pairs;
+    bool                  free = false; // some are no edges of faces
 };
 
 struct Mesh {
@@ -178,6 +179,7 @@ void put_mesh(const Answer &a, const Mesh &m)
     }
     a.number(static_cast<uint32_t>(m.lines.positions.size() / 3));
     a.number(static_cast<uint32_t>(m.lines.pairs.size() / 2));
+    a.number(m.lines.free);
     a.array(m.lines.positions);
     a.array(m.lines.pairs);
 }
@@ -420,6 +422,7 @@ void add_free(const Mesher &m, Mesh &mesh, const TopoDS_Edge &edge)
     for (int i = 1; i <= steps.NbPoints(); i++)
         points.push_back(steps.Value(i));
     put_line(mesh.lines, points, mesh.origin);
+    mesh.lines.free = true;
 }
 
 void add_edges(Mesher &m, Mesh &mesh, const TopoDS_Shape &shape)

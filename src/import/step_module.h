@@ -6,7 +6,8 @@
  *   - step_losses
  *   - meshes: how many, and each: name; kinds of colours, how many, and each: flag and four floats (sRGB, straight
  *     alpha), vertices, indices (counts), positions, normals (floats), indices, a byte for each index, what the edge
- *     from this corner to the next is (step_edge); vertices, lines (counts), positions, two indices a line
+ *     from this corner to the next is (step_edge); vertices, lines (counts), whether some are
+ *     no edges of faces, positions, two indices a line
  *   - nodes, parents first: how many, and each: parent (STEP_NONE: a root), name, 16 doubles by columns, mesh or
  *     STEP_NONE */
 #ifndef LIMNER_IMPORT_STEP_MODULE_H
@@ -23,7 +24,7 @@ extern "C" {
 #define STEP_NONE 0xffffffffu
 
 /* Changes whenever what goes between the two does. */
-enum { STEP_INTERFACE = 2 };
+enum { STEP_INTERFACE = 3 };
 
 /* What an edge of a triangle is: inside of a face, or along an edge of the solid that turns, or that does not. */
 typedef enum step_edge { STEP_INSIDE = 1, STEP_SHARP = 2 } step_edge;

@@ -163,6 +163,11 @@ static bool fill_part(listing *l, size_t number)
         return false;
     p->triangles = node_triangle_count(l->scene, n);
     p->lines = n->solid == NONE && n->mesh != NONE ? mesh_line_count(&l->scene->meshes[n->mesh]) : 0;
+    p->edge_lines = p->lines > 0;
+    for (size_t i = 0; p->lines && i < l->scene->meshes[n->mesh].primitive_count; i++) {
+        const primitive *of = &l->scene->meshes[n->mesh].primitives[i];
+        p->edge_lines = p->edge_lines && (!of->line_count || of->edge_lines);
+    }
     if (l->worlds) {
         p->bounds = node_bounds(l->scene, l->worlds, p->node, NULL, NULL);
     } else {

@@ -99,6 +99,7 @@ static lmn_status copy_primitive(primitive *out, const primitive *p, double crea
                        .index_count = p->index_count,
                        .influences = p->influences,
                        .line_count = p->line_count,
+                       .edge_lines = p->edge_lines,
                        .material = p->material,
                        .bounds = p->bounds};
     bool good = copy_listed((void **)&out->positions, p->positions, sizeof(vec3), source, count) &&

@@ -3,6 +3,7 @@
 
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -418,6 +419,12 @@ box3 scene_fitted_box(const lmn_scene *scene, size_t part_index, box3 box)
 bool node_throws_shadow(const node *n)
 {
     return !has_attribute(n, NODE_SHADOWLESS);
+}
+
+uint32_t node_image(const node *n)
+{
+    const char *value = find_attribute(n, NODE_SHADOWLESS);
+    return value ? (uint32_t)strtoul(value, NULL, 10) : 0;
 }
 
 size_t node_draw_count(const node *n)

@@ -45,6 +45,7 @@ typedef struct primitive {
     uint32_t      vertex_count, index_count;
     uint32_t      influences; /* joints a vertex; 0 without joints */
     uint32_t      line_count; /* pairs */
+    bool          edge_lines; /* they all run along edges of the mesh's triangles */
     int32_t       material;   /* NONE: the default material */
     bool          welded;     /* no two vertices lie at one position */
     vec3         *positions;
@@ -215,6 +216,7 @@ typedef struct part {
     char    *name, *path; /* paths are unique */
     uint64_t triangles;   /* of one instance */
     uint64_t lines;       /* likewise, straight ones that the file brings */
+    bool     edge_lines;  /* these all run along edges of its own triangles */
     box3     bounds;      /* rest pose, all instances */
     bool     ghost;       /* its node is one */
 } part;
@@ -379,9 +381,11 @@ int node_paleness(const node *n);
 /* And the colour that it has where the look makes it paler. Attribute NODE_TINT. False: that of its material. */
 #define NODE_TINT "tint"
 bool node_tint(const node *n, colour *out);
-/* Signs throw no shadow. Attribute NODE_SHADOWLESS. */
+/* Signs throw no shadow. Attribute NODE_SHADOWLESS: the number of the image that it is a piece of, as a ghost is made
+ * of several; 0: of none. */
 #define NODE_SHADOWLESS "shadowless"
 bool     node_throws_shadow(const node *n);
+uint32_t node_image(const node *n);
 uint64_t mesh_triangle_count(const mesh *m);
 uint64_t mesh_line_count(const mesh *m);
 

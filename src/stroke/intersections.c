@@ -39,6 +39,7 @@ typedef struct crossing_search {
     uint8_t            *piece_meets; /* another one's box */
     const bool         *parts;       /* that have such lines, a flag each; NULL: all */
     uint8_t            *piece_asks;  /* is of such a part */
+    uint32_t           *piece_items;
     uint32_t            piece_count;
     box3                region; /* of all overlaps */
     uint64_t           *marks;  /* MARK_SIDE² words: cells where boxes overlap */
@@ -92,8 +93,9 @@ static lmn_status number_pieces(crossing_search *s, lmn_error *error)
     s->piece_boxes = mem_alloc((s->piece_count + 1) * sizeof *s->piece_boxes);
     s->piece_meets = mem_calloc(s->piece_count + 1, 1);
     s->piece_asks = mem_calloc(s->piece_count + 1, 1);
+    s->piece_items = mem_alloc((s->piece_count + 1) * sizeof *s->piece_items);
     s->marks = mem_calloc(MARK_SIDE * MARK_SIDE, sizeof *s->marks);
-    if (!s->piece_boxes || !s->piece_meets || !s->piece_asks || !s->marks)
+    if (!s->piece_boxes || !s->piece_meets || !s->piece_asks || !s->piece_items || !s->marks)
         return error_memory(error);
     for (size_t i = 0; i < scene->item_count; i++) {
         const edge_mesh *m = &scene->meshes[scene->items[i].mesh];
@@ -101,15 +103,23 @@ static lmn_status number_pieces(crossing_search *s, lmn_error *error)
         for (uint32_t k = 0; k < m->piece_count; k++) {
             s->piece_boxes[s->first_piece[i] + k] = box3_transform(m->boxes[k], &scene->items[i].world);
             s->piece_asks[s->first_piece[i] + k] = asks;
+            s->piece_items[s->first_piece[i] + k] = (uint32_t)i;
         }
     }
     return LMN_OK;
 }
 
+/* Bodies run through each other, and pieces of one image of some. Nothing runs through what was or will be there. */
+static bool may_cross(const stroke_item *a, const stroke_item *b)
+{
+    return a->is_sign ? b->is_sign && a->image > 0 && a->image == b->image : !b->is_sign;
+}
+
 /* Would anybody draw the line where two pieces cross? */
 static bool asks_for(const crossing_search *s, uint32_t a, uint32_t b)
 {
-    return s->piece_asks[a] || s->piece_asks[b];
+    return (s->piece_asks[a] || s->piece_asks[b]) &&
+           may_cross(&s->scene->items[s->piece_items[a]], &s->scene->items[s->piece_items[b]]);
 }
 
 static bool widen_region(void *user, uint32_t a, uint32_t b)
@@ -582,6 +592,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
     mem_free(s.piece_boxes);
     mem_free(s.piece_meets);
     mem_free(s.piece_asks);
+    mem_free(s.piece_items);
     mem_free(s.marks);
     mem_free(s.faces);
     mem_free(s.boxes);

@@ -156,7 +156,9 @@ static lmn_status put_item(scene_builder *b, size_t part_index, uint32_t mesh, c
     stroke_scene *s = b->out;
     if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + 1, sizeof *s->items))
         return error_memory(error);
-    s->items[s->item_count++] = (stroke_item){(uint32_t)part_index, mesh, *world};
+    const node *n = &b->pose->scene->nodes[b->pose->scene->parts[part_index].node];
+    s->items[s->item_count++] =
+        (stroke_item){(uint32_t)part_index, mesh, *world, !node_throws_shadow(n), node_image(n)};
     widen_box(b, &s->meshes[mesh], world);
     return LMN_OK;
 }

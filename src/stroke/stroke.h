@@ -101,6 +101,8 @@ typedef struct stroke_item {
     uint32_t part_index; /* id − 1 */
     uint32_t mesh;       /* in the scene's edge meshes */
     mat4     world;
+    bool     is_sign; /* no body of the scene: it runs through none, though it is where one is */
+    uint32_t image;   /* of a sign: whose pieces it runs through; 0: through none */
 } stroke_item;
 
 typedef struct crossing_list crossing_list;

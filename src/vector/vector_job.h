@@ -4,6 +4,7 @@
 
 #include "draft/centres.h"
 #include "draft/cylinder_fit.h"
+#include "plan/round_scene.h"
 #include "plan/deformation.h"
 #include "plan/round_scene.h"
 #include "plan/section.h"

@@ -422,6 +422,33 @@ static bool shoot_cast(shot *out, const shape *model, const char *more, bool ort
     return shot_of_shape(out, model, "cast.glb", look, NULL, &view);
 }
 
+/* How dark a soft shadow is, over all pixels of ground that some of the light's disc does not reach, against the
+ * fraction of it that does not, counted: the mean difference. */
+static double soft_shadow_off(const shot *soft, dvec light, double degrees)
+{
+    enum { RAYS = 64 };
+    const int pixels = CAST_SIDE * CAST_SIDE;
+    double   *dark = check_alloc((size_t)pixels, sizeof *dark), off = 0;
+    int       count = 0;
+    dvec      ahead = dvec_unit(light), right = dvec_unit(dvec_cross(ahead, dvec_of(0, 1, 0))),
+         up = dvec_cross(right, ahead);
+    for (int r = 0; r < RAYS; r++) {
+        double away = tan(degrees / 2 * 3.14159265358979 / 180) * sqrt((r + 0.5) / RAYS), turn = 2.39996323 * r;
+        dvec towards = dvec_add(ahead, dvec_add(dvec_scale(right, away * cos(turn)), dvec_scale(up, away * sin(turn))));
+        signed char *truth = cast_truth(soft, towards);
+        for (int i = 0; i < pixels; i++)
+            dark[i] += truth[i] == UNKNOWN ? -1e9 : (double)truth[i] / RAYS;
+        free(truth);
+    }
+    for (int i = 0; i < pixels; i++)
+        if (dark[i] > 0) {
+            off += fabs(dark[i] - (1 - picture_shown(soft->picture[4 * i])));
+            count++;
+        }
+    free(dark);
+    return off / fmax(count, 1);
+}
+
 /* By rays: where the light does not reach the ground it is dark, elsewhere it is as it was. */
 static void cast_shadows_are_where_rays_say(void)
 {
@@ -456,6 +483,8 @@ static void cast_shadows_are_where_rays_say(void)
                       "share that is drawn otherwise");
         check_at_least("ground", (double)greys[1] / fmax(greys[0], 1), 2,
                        "grey pixels of a soft shadow over a hard one's");
+        check_at_most("ground", all ? soft_shadow_off(&soft, light, 12) : INFINITY, 0.05,
+                      "a soft shadow against the fraction of the light that is kept off, mean");
         check_at_most("ground", far_ink, 0, "ink of the border's line away from it");
         check_at_least("ground", borders, 60, "places of the border");
         check_at_least("ground", (double)inked / fmax(borders, 1), 0.98, "share of them with the line");

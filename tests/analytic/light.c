@@ -108,6 +108,134 @@ static void penumbras_grow(void)
     shape_release(&l.s);
 }
 
+/* Between samples, light runs evenly from row to row as from column to column: how uneven its steps are across a broad
+ * penumbra, over their mean. */
+static double unevenness(const light_map *m, bool rightwards)
+{
+    enum { MOST = 480 };
+    double line[MOST] = {0}, steps = 0, bends = 0;
+    int    length = rightwards ? m->width : m->height, lines = rightwards ? m->height : m->width, first = lines * 2 / 5,
+        last = lines * 3 / 5;
+    for (int i = 0; i < length; i++)
+        for (int k = first; k < last; k++)
+            line[i] += (double)m->drawn[rightwards ? k * m->width + i : i * m->width + k] / (last - first);
+    for (int i = 2; i < length; i++)
+        if (line[i] > 0.2 && line[i] < 0.8 && line[i - 2] > 0.2 && line[i - 2] < 0.8) {
+            steps += fabs(line[i] - line[i - 2]) / 2;
+            bends += fabs(line[i] - 2 * line[i - 1] + line[i - 2]);
+        }
+    return steps > 0 ? bends / steps : INFINITY;
+}
+
+static void light_is_even_between_samples(void)
+{
+    for (int k = 0; k < 2; k++) {
+        light_scene l = {
+            .file = "even.glb",
+            .towards = k ? (dvec){-1, 1, 0} : (dvec){0, 1, -1},
+            .softness = 20,
+            .view = {.width = 320, .height = 320, .eye = {0, 8, 0}, .up = {0, 0, -1}, .orthographic = true}};
+        shot      with, without;
+        light_map m;
+        shape_box(&l.s, "floor", dvec_of(-4, -0.1, -4), dvec_of(4, 0, 4));
+        shape_box(&l.s, "plate", k ? dvec_of(-6, 1.198, -4) : dvec_of(-4, 1.198, -6),
+                  k ? dvec_of(-1.2, 1.2, 4) : dvec_of(4, 1.2, -1.2));
+        if (light_shot(&with, &l, true)) {
+            if (light_shot(&without, &l, false)) {
+                light_map_drawn(&m, &with, &without);
+                check_at_most("P30", unevenness(&m, k), 0.3,
+                              "steps of light across a penumbra that runs %s: how uneven they are",
+                              k ? "to the right" : "down");
+                light_map_release(&m);
+                shot_release(&without);
+            }
+            shot_release(&with);
+        }
+        shape_release(&l.s);
+    }
+}
+
+/* A floor below a roof that keeps all light off is dark, however flat it is looked at, up to where it ends. */
+static void floors_are_dark_at_a_grazing_view(void)
+{
+    for (int k = 0; k < 2; k++) {
+        light_scene l = {
+            .file = "roof.glb",
+            .towards = {0.1, 1, 0},
+            .softness = 10,
+            .view = {.width = 240, .height = 160, .eye = {0, 0.5, 7}, .up = {0, 1, 0}, .orthographic = k > 0}};
+        shot      with, without;
+        light_map m;
+        shape_box(&l.s, "floor", dvec_of(-2, -0.1, -2), dvec_of(2, 0, 2));
+        shape_box(&l.s, "roof", dvec_of(-9, 3, -9), dvec_of(9, 3.1, 9));
+        if (light_shot(&with, &l, true)) {
+            if (light_shot(&without, &l, false)) {
+                double sum = 0;
+                int    count = 0;
+                light_map_drawn(&m, &with, &without);
+                for (int i = 0; i < m.width * m.height; i++)
+                    if (m.drawn[i] >= 0) {
+                        sum += (double)m.drawn[i];
+                        count++;
+                    }
+                check_at_least("P30", count, 500, "pixels of a floor that is seen at 4 degrees, %s",
+                               k ? "parallel rays" : "perspective");
+                check_at_most("P30", sum / fmax(count, 1), 0.05, "  fraction of the light on it, below a roof");
+                light_map_release(&m);
+                shot_release(&without);
+            }
+            shot_release(&with);
+        }
+        shape_release(&l.s);
+    }
+}
+
+/* What lies the other way round has its hard shadows the other way round, as broad at their borders: how far both
+ * pictures are apart, over all pixels. */
+static void shadows_are_mirrored(void)
+{
+    light_map maps[2];
+    shot      with[2], without[2];
+    bool      good = true;
+    for (int k = 0; k < 2; k++) {
+        const double sign = k ? -1 : 1;
+        light_scene  l = {.file = "mirrored.glb",
+                          .towards = {sign * 0.7, 1, 0.4},
+                          .view = {.width = 240, .height = 200, .eye = {0, 5, 7}, .up = {0, 1, 0}}};
+        shape_box(&l.s, "floor", dvec_of(-2, -0.1, -2), dvec_of(2, 0, 2));
+        for (int i = 0; i < 5; i++)
+            shape_box(&l.s, "post", dvec_of(sign * (0.9 + 0.15 * i) - 0.05, 0, 0.5 * i - 1.05),
+                      dvec_of(sign * (0.9 + 0.15 * i) + 0.05, 0.6, 0.5 * i - 0.95));
+        good = light_shot(&with[k], &l, true) && good;
+        good = light_shot(&without[k], &l, false) && good;
+        shape_release(&l.s);
+    }
+    if (good) {
+        double apart = 0, between = 0;
+        for (int k = 0; k < 2; k++)
+            light_map_drawn(&maps[k], &with[k], &without[k]);
+        for (int i = 0; i < maps[0].width * maps[0].height; i++) {
+            double own = (double)maps[0].drawn[i],
+                   other =
+                       (double)maps[1].drawn[i / maps[0].width * maps[0].width + maps[0].width - 1 - i % maps[0].width];
+            if (own < 0 || other < 0)
+                continue;
+            apart += fabs(own - other);
+            between += own * (1 - own);
+        }
+        check_at_least("P15", between, 20,
+                       "what lies between light and shadow along borders that are as broad as pixels");
+        check_at_most("P15", apart / between, 0.5,
+                      "how far the mirrored scene's picture is from the picture's mirror image, over that");
+        for (int k = 0; k < 2; k++)
+            light_map_release(&maps[k]);
+    }
+    for (int k = 0; k < 2; k++) {
+        shot_release(&with[k]);
+        shot_release(&without[k]);
+    }
+}
+
 /* --- whole pictures ------------------------------------------------------------------------------------- */
 
 static void court(shape *s)
@@ -957,6 +1085,9 @@ int main(int argc, char **argv)
 {
     static const check_case cases[] = {
         {"penumbra", penumbras_grow},
+        {"even", light_is_even_between_samples},
+        {"grazing", floors_are_dark_at_a_grazing_view},
+        {"mirrored", shadows_are_mirrored},
         {"shadows", shadows_are_a_discs},
         {"hard", hard_is_hard},
         {"contact", contact_has_no_gap},

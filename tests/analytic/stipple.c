@@ -1,6 +1,7 @@
 /* Dots and strokes that lie on surfaces, as the GPU draws them: their tone, size and number, which of them there
  * are against the same decisions in doubles on the CPU, that they stay on the surface when the viewer moves, and
  * that nothing hides what is seen. Seed 001, chapter 5; rows EX-05, EX-07 to EX-10, EX-12, EX-14, EX-29, EX-32. */
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -584,6 +585,58 @@ static void uncut(void)
     free(blobs);
 }
 
+/* --- rows EX-29, EX-30: how many marks are drawn, and what they take ------------------------------------------- */
+
+typedef struct told {
+    double there, drawn, bytes;
+} told;
+
+static told told_of(const shot *s)
+{
+    json_t *root = json_loads(s->report, 0, NULL), *marks = json_object_get(root, "surface_marks");
+    told    out = {(double)json_integer_value(json_object_get(marks, "there")),
+                   (double)json_integer_value(json_object_get(marks, "drawn")),
+                   (double)json_integer_value(json_object_get(marks, "bytes"))};
+    json_decref(root);
+    return out;
+}
+
+/* A dot drawn as a point takes two vectors of four floats; a stroke five at each of four corners, and six indices. From
+ * afar few are looked at: those that the nearest place asks for. */
+static void marks_are_told(void)
+{
+    static const char *const surfaces[] = {"stipple\",\"texture\":0,\"count\":20000,\"diameter\":2",
+                                           "strokes\",\"texture\":0,\"count\":20000"};
+    static const double      bytes[] = {2 * 16, 5 * 16 * 4 + 6 * 4};
+    shape                    ball = {0};
+    shape_sphere(&ball, "ball", (dvec){0, 0, 0}, 1, 60, 90, true);
+    for (int kind = 0; kind < 2; kind++) {
+        told seen[3] = {{0, 0, 0}};
+        for (int k = 0; k < 3; k++) {
+            shot      s;
+            shot_view view = {.width = 256,
+                              .height = 256,
+                              .eye = {0, 0, (double[]){1.05, 20, 200}[k]},
+                              .up = {0, 1, 0},
+                              .fov_deg = 32,
+                              .without_maps = true};
+            if (shot_of_shape(&s, &ball, "told-ball.ply", halftone_look(surfaces[kind]), NULL, &view))
+                seen[k] = told_of(&s);
+            shot_release(&s);
+        }
+        check_at_least("EX-29", seen[0].there, 5000, "marks, %.7s", surfaces[kind]);
+        check_near("EX-29", seen[0].bytes / fmax(seen[0].there, 1), bytes[kind], 0, "  bytes each");
+        check_near("EX-30", seen[0].drawn / fmax(seen[0].there, 1), 1, 0, "  near by, the share that is drawn");
+        check_at_most("EX-30", seen[1].drawn / fmax(seen[1].there, 1), 0.6, "  farther away");
+        /* The nearest place is at 19, and at 199: dots go with the square of the distance, strokes with the distance.
+         */
+        double law = kind ? 19.0 / 199 : 19.0 / 199 * 19 / 199;
+        check_near("EX-30", seen[2].drawn / fmax(seen[1].drawn, 1), law, 0.1 * law,
+                   "  ten times as far, the share of those");
+    }
+    shape_release(&ball);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -591,6 +644,7 @@ int main(int argc, char **argv)
         {"tone_over_distance", tone_over_distance},
         {"strokes_over_distance", strokes_over_distance},
         {"same_set", same_set},
+        {"told", marks_are_told},
         {"stays_put", stays_put},
         {"sizes", sizes},
         {"widths", widths},

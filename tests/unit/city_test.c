@@ -4,6 +4,7 @@
 
 #include "import/city.h"
 #include "import_support.h"
+#include "limner/content.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -108,6 +109,28 @@ static void test_solid(void **state)
     assert_int_equal(city_counted(&s->city, CITY_OBJECTS, "Building"), 1);
     assert_int_equal(city_counted(&s->city, CITY_LODS, "2"), 1);
     assert_int_equal(city_counted(&s->city, CITY_REPAIRED, "guessed-surfaces"), 6);
+    lmn_scene_destroy(&s);
+}
+
+/* Names and attributes of surfaces are the same for all nodes of a kind, until one of them gets others. */
+static void test_facts_of_surfaces(void **state)
+{
+    (void)state;
+    lmn_scene *s = load_text(MODEL("\"a\":" BUILDING(SOLID) ",\"b\":" BUILDING(SOLID)));
+    lmn_error  error = {0};
+    assert_int_equal(s->part_count, 6);
+    const int32_t one = s->parts[0].node, other = s->parts[3].node;
+    assert_string_equal(s->parts[3].path, "city/b/roof");
+    assert_int_equal(lmn_scene_set_attribute(s, (uint32_t)one + 1, "colour", "red", &error), LMN_OK);
+    assert_int_equal(lmn_scene_set_attribute(s, (uint32_t)one + 1, "surface", "dome", &error), LMN_OK);
+    assert_string_equal(s->nodes[one].name, "roof");
+    assert_string_equal(attribute_of(s, one, "surface"), "dome");
+    assert_string_equal(attribute_of(s, one, "colour"), "red");
+    assert_string_equal(attribute_of(s, other, "surface"), "roof");
+    assert_string_equal(attribute_of(s, other, "colour"), "");
+    assert_int_equal(lmn_scene_set_attribute(s, (uint32_t)other + 1, "surface", NULL, &error), LMN_OK);
+    assert_string_equal(attribute_of(s, other, "surface"), "");
+    assert_string_equal(attribute_of(s, s->parts[1].node, "surface"), "wall");
     lmn_scene_destroy(&s);
 }
 
@@ -688,16 +711,27 @@ static void test_data(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_solid),         cmocka_unit_test(test_turned_faces),
-        cmocka_unit_test(test_open_surfaces), cmocka_unit_test(test_holes),
-        cmocka_unit_test(test_semantics),     cmocka_unit_test(test_levels_of_detail),
-        cmocka_unit_test(test_templates),     cmocka_unit_test(test_lines_and_points),
-        cmocka_unit_test(test_materials),     cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_origins),       cmocka_unit_test(test_degrees),
-        cmocka_unit_test(test_units),         cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_sequence),      cmocka_unit_test(test_packed),
-        cmocka_unit_test(test_counted),       cmocka_unit_test(test_crossing),
-        cmocka_unit_test(test_refused),       cmocka_unit_test(test_cut_off_and_memory),
+        cmocka_unit_test(test_solid),
+        cmocka_unit_test(test_facts_of_surfaces),
+        cmocka_unit_test(test_turned_faces),
+        cmocka_unit_test(test_open_surfaces),
+        cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_semantics),
+        cmocka_unit_test(test_levels_of_detail),
+        cmocka_unit_test(test_templates),
+        cmocka_unit_test(test_lines_and_points),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_origins),
+        cmocka_unit_test(test_degrees),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_sequence),
+        cmocka_unit_test(test_packed),
+        cmocka_unit_test(test_counted),
+        cmocka_unit_test(test_crossing),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_cut_off_and_memory),
         cmocka_unit_test(test_data),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);

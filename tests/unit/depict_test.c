@@ -309,19 +309,23 @@ static double off_way(const double at[2], double from, double to)
     return best;
 }
 
-/* Is a place of the page where the arrow turns, at the corner that its way has there? */
-static bool near_contact(const double at[2])
+/* How far a place of the page is from the corner that the way has where the ball hits the ground, in the arrow's
+ * breadths there. */
+static double from_contact(const double at[2])
 {
-    double way[3], there[2], beside[2];
+    double way[3], there[2], beside[2], right[3], to[3];
     ball_at(contact_time(), way);
     on_page(way, there);
-    way[0] += 3 * 0.25 * radius;
+    vector3_add(to, seen, -1, eye);
+    vector3_cross(right, to, (double[3]){0, 1, 0});
+    vector3_normalise(right);
+    vector3_add(way, way, 0.25 * radius, right);
     on_page(way, beside);
-    return hypot(at[0] - there[0], at[1] - there[1]) < hypot(beside[0] - there[0], beside[1] - there[1]);
+    return hypot(at[0] - there[0], at[1] - there[1]) / hypot(beside[0] - there[0], beside[1] - there[1]);
 }
 
-/* The middle of the ribbon that is seen lies within a pixel of the way that is seen, between its vertices, too; and so
- * does one that is lifted before all. */
+/* The middle of the ribbon that is seen lies within a pixel of the way that is seen, between its vertices, too, up to
+ * the impact; and so does one that is lifted before all. */
 static void arrows_lie_on_the_way_that_is_seen(void **state)
 {
     (void)state;
@@ -338,6 +342,7 @@ static void arrows_lie_on_the_way_that_is_seen(void **state)
     vector3_set(draw.up, 0, 1, 0);
     for (int before = 0; before < 2; before++) {
         size_t checked = 0;
+        double nearest = INFINITY;
         tell_as(scene, &draw,
                 before ? "[{\"target\": \"ball\", \"depict\": \"path\", \"before\": true}]"
                        : "[{\"target\": \"ball\", \"depict\": \"path\"}]",
@@ -353,17 +358,22 @@ static void arrows_lie_on_the_way_that_is_seen(void **state)
                 /* Heads are straight; pieces are near each other, and dashes are not. */
                 const bool is_head = tense && i + 2 >= p->vertex_count / 2,
                            joined = i > 0 && hypot(at[0] - last[0], at[1] - last[1]) < 12;
-                if (near_contact(at))
-                    continue;
+                const double corner = from_contact(at);
+                nearest = fmin(nearest, corner);
                 if (!is_head && off_way(at, 0, end) > 1)
-                    fail_msg("%s %u: %.3g pixels off", tense ? "future" : "past", i, off_way(at, 0, end));
+                    fail_msg("%s %u: %.3g pixels off, %.3g breadths from the impact", tense ? "future" : "past", i,
+                             off_way(at, 0, end), corner);
                 if (!is_head && joined && off_way(halfway, 0, end) > 1)
-                    fail_msg("%s behind %u: %.3g pixels off", tense ? "future" : "past", i, off_way(halfway, 0, end));
+                    fail_msg("%s behind %u: %.3g pixels off, %.3g breadths from the impact", tense ? "future" : "past",
+                             i, off_way(halfway, 0, end), corner);
                 memcpy(last, at, sizeof last);
                 checked++;
             }
         }
         assert_true(checked > 20);
+        /* It goes to within 3 breadths of the impact, where the ways there and back have room beside each other. */
+        if (nearest > 3)
+            fail_msg("it comes no nearer to the impact than %.3g breadths", nearest);
     }
     lmn_scene_destroy(&scene);
 }
@@ -539,6 +549,8 @@ static void every_option_changes_the_glyphs(void **state)
             continue; /* others have tests of their own */
         for (size_t k = 0; k < row->param_count; k++) {
             char plain[256], set[320], value[64];
+            if (strcmp(row->params[k].key, "least") == 0)
+                continue; /* of a thing without limbs all goes as far: depict_drawn_test has it */
             other_value(&row->params[k], value, sizeof value);
             const char *more = strcmp(row->characteristic, "still") == 0 ? ", \"stretch\": 0.3" : "";
             if (strcmp(row->params[k].key, "stretch") == 0 || strcmp(row->params[k].key, "count") == 0)

@@ -53,7 +53,7 @@ static answer make_answer(answer_numbers n)
     add_u32(&a, 0), add_u32(&a, 1), add_u32(&a, n.index);
     const unsigned char edges[3] = {1, 2, (unsigned char)n.edge};
     add(&a, edges, 3);
-    add_u32(&a, 2), add_u32(&a, 1), add(&a, at, 6 * sizeof(float)), add_u32(&a, 0), add_u32(&a, n.line);
+    add_u32(&a, 2), add_u32(&a, 1), add_u32(&a, 1), add(&a, at, 6 * sizeof(float)), add_u32(&a, 0), add_u32(&a, n.line);
     add_u32(&a, 1), add_u32(&a, n.parent), add_u32(&a, 1), add(&a, "n", 1), add(&a, identity, sizeof identity);
     add_u32(&a, n.mesh);
     return a;
@@ -470,8 +470,8 @@ static void solids_and_wires_are_parts(void **state)
     lmn_scene *s = load_or_fail(loose_path);
     size_t     solids = 0, wires = 0;
     for (size_t i = 0; i < s->part_count; i++) {
-        solids += s->parts[i].triangles == 12 && s->parts[i].lines == 12;
-        wires += s->parts[i].triangles == 0 && s->parts[i].lines >= 24;
+        solids += s->parts[i].triangles == 12 && s->parts[i].lines == 12 && s->parts[i].edge_lines;
+        wires += s->parts[i].triangles == 0 && s->parts[i].lines >= 24 && !s->parts[i].edge_lines;
     }
     assert_int_equal(s->part_count, 3);
     assert_int_equal(solids, 2);

@@ -351,6 +351,36 @@ static void leaves_others_alone(void **state)
     }
 }
 
+/* Ink beside an extension is in its way within a pixel of it and no farther, on whichever side of whichever line. */
+static void near_ink_is_in_the_way(void **state)
+{
+    (void)state;
+    static const double ways[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int k = 0; k < 4; k++)
+        for (int beside = -3; beside <= 3; beside++) {
+            const double ux = ways[k][0], uy = ways[k][1],
+                         corner[2] = {160 + 40 * ux - 40 * uy, 160 + 40 * uy + 40 * ux};
+            const double from[2] = {corner[0] - 80 * ux, corner[1] - 80 * uy};
+            const double others[2][2] = {{from[0] + 80 * uy, from[1] - 80 * ux},
+                                         {corner[0] + 80 * uy, corner[1] - 80 * ux}};
+            const double near[2] = {corner[0] + 12 * ux - beside * uy, corner[1] + 12 * uy + beside * ux},
+                         far[2] = {near[0] + 40 * ux, near[1] + 40 * uy};
+            clear();
+            draw_line(from, corner, 1, 0);
+            draw_line(corner, others[1], 1, 0);
+            draw_line(others[1], others[0], 1, 0);
+            draw_line(others[0], from, 1, 0);
+            draw_line(near, far, 1, 0);
+            extension_set set = find(1, 24, false);
+            bool          there = stroke_of(&set, from, corner) != NULL;
+            if (abs(beside) >= 2 && !there)
+                fail_msg("way %d: ink %d px beside it is in the way of an extension", k, beside);
+            if (abs(beside) <= 1 && there)
+                fail_msg("way %d: an extension lies on ink that is %d px beside it", k, beside);
+            overshoot_release(&set);
+        }
+}
+
 static uint32_t next_random(uint32_t *seed)
 {
     *seed = *seed * 1664525u + 1013904223u;
@@ -409,7 +439,8 @@ int main(void)
         cmocka_unit_test(curves_and_bends_do_not), cmocka_unit_test(tangents),
         cmocka_unit_test(short_lines_less),        cmocka_unit_test(paints_the_class),
         cmocka_unit_test(goes_on_in_space),        cmocka_unit_test(leaves_others_alone),
-        cmocka_unit_test(noise_is_harmless),       cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(near_ink_is_in_the_way),  cmocka_unit_test(noise_is_harmless),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

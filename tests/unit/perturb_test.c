@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "halftone/graphite.h"
 #include "perturb/perturb.h"
 
 static const char *const degrees[] = {"edges_xx",  "edges_xy",  "edges_yx",  "edges_yy",
@@ -181,6 +182,42 @@ static void test_pencil(void **state)
     mem_free(values);
 }
 
+/* How much a channel of the grain differs from texel to texel along an axis, where it repeats too, in the mean. */
+static double roughness(const mip_chain *grain, int channel, int right, int up)
+{
+    const int      side = mip_width(grain, 0), channels = (int)mip_texel_size(grain->format);
+    const uint8_t *texels = grain->data[0];
+    double         sum = 0;
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            int there = (y + up) % side * side + (x + right) % side;
+            sum += abs(texels[(y * side + x) * channels + channel] - texels[there * channels + channel]);
+        }
+    return sum / (side * side);
+}
+
+/* The clouds by which graphite is paler here and there are as smooth to the right as up, over the borders of the square
+ * as well, and not the same everywhere. */
+static void test_graphite_is_cloudy(void **state)
+{
+    (void)state;
+    mip_chain grain;
+    assert_int_equal(graphite_grain(&grain, 1, NULL), LMN_OK);
+    double right = roughness(&grain, 0, 1, 0), up = roughness(&grain, 0, 0, 1), far = roughness(&grain, 0, 37, 41);
+    print_message("clouds of graphite: neighbours differ by %.2f to the right, %.2f upwards; far ones by %.1f\n", right,
+                  up, far);
+    assert_true(fabs(right - up) < 0.2 * right);
+    assert_true(far > 4 * right);
+    const int side = mip_width(&grain, 0), channels = (int)mip_texel_size(grain.format);
+    double    over = 0;
+    for (int i = 0; i < side; i++)
+        over += fabs((double)((uint8_t *)grain.data[0])[i * channels] -
+                     ((uint8_t *)grain.data[0])[((side - 1) * side + i) * channels]) /
+                side;
+    assert_true(over < 2 * up);
+    mip_chain_release(&grain);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -190,6 +227,7 @@ int main(void)
         cmocka_unit_test(test_cells),
         cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_pencil),
+        cmocka_unit_test(test_graphite_is_cloudy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

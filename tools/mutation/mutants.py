@@ -191,6 +191,13 @@ class Described(Mutant):
         return f"{self.path}{f':{self.line}' if line else ''}: {self.kind}: {before} -> {after}"
 
 
+def marked_line(m, source):
+    """The line that a mutant begins in, with marks around what it changes there."""
+    first, last = source.rfind("\n", 0, m.begin) + 1, source.find("\n", m.begin)
+    end = min(m.end, last)
+    return f"{source[first:m.begin]}«{source[m.begin:end]}»{source[end:last]}".strip()
+
+
 def of_room(tree, room):
     """All mutants of a room, in the order of its files' names."""
     found = []

@@ -45,11 +45,11 @@ class Results:
             return f.read(1) == b"\n"
 
 
-def summary(store, rooms):
-    """A Markdown table: how many mutants of each room were killed at first, and are now."""
+def summary(store, rooms, there):
+    """A Markdown table: how many mutants of each room, of those that the sources still have (`there`, keys), were killed at first, and are now."""
     text = "| room | mutants | no program | equivalent | killed at first | killed now | survive | not all tests met |\n|---|---|---|---|---|---|---|---|\n"
     for room in rooms:
-        rows = [(row["outcome"], store.first[key]["outcome"]) for key, row in store.rows.items() if row["room"] == room]
+        rows = [(row["outcome"], store.first[key]["outcome"]) for key, row in store.rows.items() if row["room"] == room and key in there]
         count = collections.Counter(now for now, _ in rows)
         valid = [(now, before) for now, before in rows if now not in ("invalid", "equivalent")]
         before = sum(before == "killed" for _, before in valid)
