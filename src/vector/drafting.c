@@ -250,7 +250,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const draft_cylinder *c = &j->cylinders.items[i];
-        bool whole = j->spared && c->part > 0 && j->spared[c->part - 1];
+        bool                  whole = j->spared && c->part > 0 && j->spared[c->part - 1];
         shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && draws_hidden(j, c->part));
     }
     draft_view d =
