@@ -201,7 +201,8 @@ static bool read_answer(openscad_run *e, polyhedron *out, const char *descriptio
     lmn_error unused = {0};
     bool      empty = strstr(e->said, "top level object is empty") != NULL;
     *why = openscad_was_stopped(e) ? "openscad took too long" : "openscad failed";
-    if (openscad_was_stopped(e))
+    /* It goes on without a mesh that it cannot work with. */
+    if (openscad_was_stopped(e) || strstr(e->said, "ERROR:"))
         return false;
     if (empty)
         return true;

@@ -228,6 +228,11 @@ static void without_openscad_that_is_said(void **state)
     expect_plain_words(two_frames, "openscad failed");
     setenv("PATH", program_folder("#!/bin/sh\necho 'OFF 4 1 0 0 0 0 1 0 0 0 1 0 0 0 1 3 0 1 7' > $2\n"), 1);
     expect_plain_words(two_frames, "openscad failed");
+    /* It leaves out what it cannot work with, and ends as if all were well. */
+    setenv("PATH",
+           program_folder("#!/bin/sh\necho 'ERROR: CGAL error' >&2\necho 'Current top level object is empty.' >&2\n"),
+           1);
+    expect_plain_words(bored_shadow, "openscad failed");
     setenv("PATH", "/nowhere", 1);
 }
 
