@@ -217,7 +217,7 @@ static bool is_cut_away(const cut *c, const double p[3])
     return false;
 }
 
-/* Is some of it there, and seen, or drawn although it is hidden? */
+/* Is some of it there, and seen, or drawn although it is hidden? `cut`: NULL: the part is whole. */
 static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut *cut, bool hidden)
 {
     double   places[SAMPLES][3];
@@ -227,7 +227,7 @@ static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut
     if (!hidden)
         stroke_view_count(view, (const double(*)[3])places, SAMPLES, before);
     for (int i = 0; i < SAMPLES && !any; i++)
-        any = !is_cut_away(cut, places[i]) && (hidden || before[i] == 0);
+        any = !(cut && is_cut_away(cut, places[i])) && (hidden || before[i] == 0);
     return any;
 }
 
@@ -250,7 +250,8 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
         return error_memory(error);
     for (size_t i = 0; i < count; i++) {
         const draft_cylinder *c = &j->cylinders.items[i];
-        shown[i] = is_shown(c, view, cut, !j->cut_open && draws_hidden(j, c->part));
+        bool                  whole = j->spared && c->part > 0 && j->spared[c->part - 1];
+        shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && draws_hidden(j, c->part));
     }
     draft_view d =
         vector_drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));

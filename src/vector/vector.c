@@ -568,9 +568,11 @@ static lmn_status draw_section(vector_job *j, const vector_view *v, lmn_error *e
         vector_hide_turns(&scene, v->extra);
         j->shown = &scene;
         j->cut_open = v->extra;
+        j->spared = own.spared;
         status = draw_view(j, v, &own.cut, error);
         j->shown = &j->strokes;
         j->cut_open = NULL;
+        j->spared = j->section.spared;
     }
     stroke_scene_release(&scene);
     section_release(&own);
@@ -642,6 +644,7 @@ static lmn_status draw_sheet(vector_job *j, lmn_error *error)
     if (status == LMN_OK)
         status = make_scene(j, error);
     j->shown = &j->strokes;
+    j->spared = j->section.spared;
     if (status == LMN_OK)
         status = vector_find_axes(j, error);
     for (size_t i = 0; i < s->view_count && status == LMN_OK; i++) {

@@ -6,6 +6,7 @@
 #include "draft/cylinder_fit.h"
 #include "plan/round_scene.h"
 #include "plan/deformation.h"
+#include "plan/round_scene.h"
 #include "plan/section.h"
 #include "plan/time.h"
 #include "vector/vector_private.h"
@@ -33,6 +34,7 @@ typedef struct vector_job {
     stroke_scene          strokes;
     const stroke_scene   *shown;     /* the one of the view at hand: a section has its own */
     const draft_extra    *cut_open;  /* the section at hand; NULL: none */
+    const bool           *spared;    /* per part: what the section at hand leaves whole; NULL: none */
     draft_cylinders       cylinders; /* of all that is drawn, uncut; with centre lines */
     draft_pitches         pitches;
     stroke_scene          as_is; /* the same where `strokes` is refined and marks lie on what is not; else empty */
