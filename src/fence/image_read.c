@@ -254,8 +254,15 @@ lmn_status image_load(image_pixels *out, const char *path, lmn_error *error)
     lmn_status status = file_load(&file, path, error);
     if (status != LMN_OK)
         return status;
-    lmn_error problem;
+    lmn_error problem = {0};
     status = image_read(out, file.data, file.size, 0, &problem);
     file_data_release(&file);
-    return status == LMN_OK ? LMN_OK : error_in_file(error, status, path, 0, "%s", problem.message);
+    if (status == LMN_OK)
+        return LMN_OK;
+    error_in_file(error, status, path, 0, "%s", problem.message);
+    if (problem.hint[0])
+        error_hint(error, "%s", problem.hint);
+    else if (status == LMN_FORMAT)
+        error_hint(error, "save the picture again, as PNG for example");
+    return status;
 }

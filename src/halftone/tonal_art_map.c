@@ -35,8 +35,10 @@ double tam_missing(const tam *t)
 double tam_expected(const tam *t, int level, double length)
 {
     const tam_level *l = &t->levels[level];
-    double texels = length * l->side, area = (texels - 2 * CAP_LOSS * fmin(t->brush.cap, texels / 4)) * t->brush.width *
-                                             stroke_grain_mean(t->brush.grain, texels);
+    double           texels = length * l->side, covering = texels - 2 * CAP_LOSS * fmin(t->brush.cap, texels / 4);
+    if (t->brush.image)
+        covering = texels * stroke_image_mean(t->brush.image, &(stroke_extent){texels, t->brush.width});
+    double area = covering * t->brush.width * stroke_grain_mean(t->brush.grain, texels);
     double full = mean_ink(l) / (double)t->limit,
            open = (double)t->limit * (1 - full * full); /* in gaps there is more left than in the mean */
     return area * (double)t->opacity * open / ((double)l->side * l->side);
@@ -199,7 +201,10 @@ static void tam_end(tam *t)
 
 stroke_brush tonal_art_map_brush(const tam_options *w)
 {
-    stroke_brush out = {.width = w->width, .cap = w->drawn ? 0 : CAP_WIDTHS * w->width, .grain = w->grain};
+    stroke_brush out = {.width = w->width,
+                        .cap = w->drawn || w->image ? 0 : CAP_WIDTHS * w->width,
+                        .grain = w->grain,
+                        .image = w->image};
     if (w->drawn && w->drawn->width > 0)
         out.width *= (double)w->drawn->width;
     return out;

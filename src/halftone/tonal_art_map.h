@@ -5,6 +5,7 @@
 #define LIMNER_HALFTONE_TONAL_ART_MAP_H
 
 #include "base/mip_chain.h"
+#include "stroke_texture/stroke_image.h"
 #include "stroke_texture/strokes.h"
 
 typedef enum tam_placement { TAM_BEST_FIT, TAM_STRIPS, TAM_PLACEMENT_COUNT } tam_placement;
@@ -28,6 +29,8 @@ typedef struct tam_options {
     const strokes *drawn; /* not NULL: these are placed instead, in the order of their light priorities and down to the
                            * level of the others, with round ends, until a tone is reached or there are none left (P39:
                            * dots and other shapes) */
+    const stroke_image
+            *image; /* not NULL: what strokes look like, ends included; of its ink a stroke takes `opacity` */
     uint32_t seed;
 } tam_options;
 

@@ -3,17 +3,20 @@
 
 #include <string.h>
 
+#include "stroke_texture/stroke_image.h"
+
 /* Curves of more chords each way run out as if they were shorter: looking along them must not take long. */
 enum { CURVE_CHORDS = 512 };
 
 /* A stroke in texels; texel centres lie at half numbers. */
 typedef struct capsule {
-    double   x0, y0, dx, dy; /* start and way to the end */
-    double   length_square;
-    double   width, taper, reach; /* reach: no ink farther from the axis */
-    double   from, to;            /* the stroke's position on the line that it is part of */
-    double   grain, length;
-    uint32_t key; /* of its streaks */
+    double              x0, y0, dx, dy; /* start and way to the end */
+    double              length_square;
+    double              width, taper, reach; /* reach: no ink farther from the axis */
+    double              from, to;            /* the stroke's position on the line that it is part of */
+    double              grain, length;
+    uint32_t            key;   /* of its streaks */
+    const stroke_image *image; /* or NULL */
 } capsule;
 
 typedef struct span {
@@ -91,6 +94,9 @@ static capsule capsule_of(const texture_stroke *s, int side, const stroke_brush 
         c.taper = brush->cap > 0 ? fmin(brush->cap * (c.to - c.from) / c.length, 0.25) : fmin(brush->taper, 0.5);
     c.grain = grain_of(brush->grain, c.length / (c.to - c.from));
     c.key = c.grain > 0 ? key_of(s) : 0;
+    c.image = c.length > 0 ? brush->image : NULL;
+    if (c.image)
+        c.reach += 0.5; /* its corners */
     return c;
 }
 
@@ -101,9 +107,32 @@ static double width_at(const capsule *c, double t)
     return fraction >= 1 ? c->width : c->width * fraction * (2 - fraction);
 }
 
+/* How much of the texel lies between both ends of a line. */
+static double covered_of(double along, double length)
+{
+    return fmax(0, fmin(along + 0.5, length) - fmax(along - 0.5, 0));
+}
+
+/* What the image has there. A chord shows its part of it, of a texel that it shares with the next as much as it
+ * covers. */
+static double image_at(const capsule *c, double px, double py)
+{
+    double        along = (px * c->dx + py * c->dy) / c->length, left = (py * c->dx - px * c->dy) / c->length;
+    stroke_extent whole = {c->length / (c->to - c->from), c->width};
+    double        before = c->from * whole.length, covered = covered_of(along, c->length);
+    if (covered <= 0)
+        return 0;
+    double ink = stroke_image_at(c->image, &whole, before + along, left);
+    if (whole.length > c->length)
+        ink *= fmin(covered / covered_of(before + along, whole.length), 1);
+    return c->grain > 0 ? ink * grain_at(c, fmax(0, fmin(along / c->length, 1)), left) : ink;
+}
+
 static double coverage_at(const capsule *c, double x, double y)
 {
     double px = x - c->x0, py = y - c->y0, t = 0, width = c->width;
+    if (c->image)
+        return image_at(c, px, py);
     if (c->length_square > 0)
         t = fmax(0, fmin(1, (px * c->dx + py * c->dy) / c->length_square));
     if (c->taper > 0)
@@ -212,7 +241,7 @@ stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush
     double       before = 0, all = 0;
     if (s->width > 0)
         out.width *= (double)s->width;
-    if (brush->taper <= 0 && brush->cap <= 0 && brush->grain <= 0)
+    if (brush->taper <= 0 && brush->cap <= 0 && brush->grain <= 0 && !brush->image)
         return out;
     while (first > 0 && index - first < CURVE_CHORDS && stroke_goes_on(&s->items[first - 1], &s->items[first]))
         first--;

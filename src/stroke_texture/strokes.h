@@ -123,6 +123,8 @@ lmn_status strokes_set_perspective(strokes *s, perspective_order order, uint32_t
 
 /* --- drawing --- */
 
+struct stroke_image;
+
 /* What is drawn and how wide. */
 typedef struct stroke_brush {
     double width; /* texels */
@@ -133,6 +135,8 @@ typedef struct stroke_brush {
                      its end */
     double from, to; /* a chord's position on its line of length 1, so that a curve runs out at its ends only; both 0:
                         it is the whole line */
+    const struct stroke_image *image; /* NULL, or what strokes look like (dots do not): then `taper` and `cap` do not
+                                         count. Lent */
 } stroke_brush;
 
 /* The brush for one stroke of a list: with the list's width, and its position on its curve. */
@@ -140,7 +144,8 @@ stroke_brush strokes_brush_at(const strokes *s, size_t index, const stroke_brush
 
 /* Combines one stroke into a square picture of `side` texels that repeats: calls `texel` for each texel that it
  * touches, row 0 at the bottom, with the fraction of the texel that it covers: min(1, width, width / 2 + 1/2 −
- * distance to the axis), above 0. Copies around the border are included; a texel is called once at most. */
+ * distance to the axis), above 0, or the image's mean ink there. Copies around the border are included; a texel is
+ * called once at most. */
 typedef void (*stroke_texel_fn)(void *user, size_t index, float coverage);
 void stroke_draw(const texture_stroke *s, int side, const stroke_brush *brush, stroke_texel_fn texel, void *user);
 

@@ -4,6 +4,8 @@
 #include "halftone/graphite.h"
 #include "halftone/tonal_art_map.h"
 
+#include <string.h>
+
 #include "surface/halftone/halftone.h"
 #include "surface/on_ground.h"
 #include "surface/surface.h"
@@ -11,6 +13,7 @@
 typedef struct pencil_values {
     halftone_values common;
     int32_t         shading, overlays, lead, map_seed;
+    param_words     strokes;
     float           vary, scale, width, length, opacity, ragged, gloss;
     palette         pencils;
     bool            cross;
@@ -19,6 +22,15 @@ typedef struct pencil_values {
 enum { SIDE = 256, TONES = 6, SHADING_GRADATION = 1 };
 
 static const char *const shading_names[] = {"hatching", "gradation", NULL};
+
+static lmn_status check_strokes(const char *name, lmn_error *error)
+{
+    if (stroke_image_is_named(name))
+        return LMN_OK;
+    return error_set(error, LMN_USAGE,
+                     "strokes is '%.200s'; allowed are pictures of a stroke (.png, .jpg, .webp) and the word split",
+                     name);
+}
 
 static const param params[] = {
     HALFTONE_ROWS(COORDINATES_FORM),
@@ -51,6 +63,12 @@ static const param params[] = {
                     .doc = "Length of the longest strokes, fraction of 256 texels."),
     PARAM_FLOAT_ROW(pencil_values, opacity, .def = 0.7, .min = 0.2, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "How much of what is left of the paper a stroke covers; with gradation half as much."),
+    PARAM_TEXT_ROW(pencil_values, strokes, .example = "split", .is_file = true, .check = check_strokes,
+                   .doc = "A picture that all strokes are drawn with (.png, .jpg, .webp): one stroke from left to "
+                          "right, dark on white or on nothing, cropped, 512 x 32 pixels for example, as high as width "
+                          "says. Its first and last quarters keep their proportions at any length of a stroke, what "
+                          "lies between is stretched. split shows how: two lines beside each other. Empty: strokes "
+                          "that run out at their ends."),
     PARAM_FLOAT_ROW(pencil_values, ragged, .toggles = true, .def = 0, .min = 0, .max = 2, .soft_max = 1,
                     .unit = UNIT_FRACTION, .only_if = "shading=hatching",
                     .doc = "How far strokes begin and end before and behind the border between two tones, in tones; 0 "
@@ -71,6 +89,8 @@ static void describe(text *out, const void *values)
     const pencil_values *v = values;
     text_append(out, "2 shading=%d width=%.6g length=%.6g opacity=%.6g cross=%d seed=%d", v->shading, (double)v->width,
                 (double)v->length, (double)v->opacity, v->cross, v->map_seed);
+    if (v->strokes.text[0])
+        stroke_image_describe(out, v->strokes.text);
 }
 
 /* What a stroke leaves of the paper. Its darkness is the shader's. */
@@ -78,6 +98,8 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 {
     const pencil_values *v = values;
     const double         darkest = is_gradation(v) ? 0.9 : 0.82;
+    const bool           shown = v->strokes.text[0] != '\0';
+    stroke_image         image = {.sums = NULL};
     const tam_options    options = {.side = SIDE,
                                     .tones = TONES,
                                     .darkest = darkest,
@@ -87,8 +109,13 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
                                     .cross = v->cross,
                                     .uneven = is_gradation(v) ? 0.6f : 0.3f,
                                     .placement = TAM_BEST_FIT,
+                                    .image = shown ? &image : NULL,
                                     .seed = (uint32_t)v->map_seed};
-    lmn_status           status = tonal_art_map(out, NULL, &options, error);
+    lmn_status           status = shown ? stroke_image_load(&image, v->strokes.text, error) : LMN_OK;
+    memset(out, 0, sizeof *out);
+    if (status == LMN_OK)
+        status = tonal_art_map(out, NULL, &options, error);
+    stroke_image_release(&image);
     out->fact = (float)darkest; /* which the shader tells tones by */
     return status;
 }

@@ -44,10 +44,13 @@ static const param params[] = {
                     .doc = "1: hatching; below, strokes cover each other and darken by it, as a pencil shades."),
     PARAM_FLOAT_ROW(tonal_art_map_values, grain, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Streaks within strokes, as graphite leaves them, and less pressure towards their ends."),
-    PARAM_TEXT_ROW(tonal_art_map_values, strokes, .example = "stipple", .is_file = true, .check = check_strokes,
-                   .doc = "Other shapes instead of strokes: stipple (dots), or a file (.stx, .svg), whose strokes are "
-                          "placed in the order of their light priorities "
-                          "and only as far away as their perspective priorities say. Tones end where they do."),
+    PARAM_TEXT_ROW(
+        tonal_art_map_values, strokes, .example = "stipple", .is_file = true, .check = check_strokes,
+        .doc = "Other shapes instead of strokes: stipple (dots), or a file (.stx, .svg), whose strokes are "
+               "placed in the order of their light priorities "
+               "and only as far away as their perspective priorities say, until there are none left; or the picture "
+               "of a stroke (.png, .jpg, .webp, or the word split), which all are drawn with, as pencil's "
+               "are."),
     PARAM_FLOAT_ROW(tonal_art_map_values, repeat, .toggles = true, .def = 0, .min = 0, .max = 1000, .soft_max = 16,
                     .only_if = "coordinates=uv",
                     .doc = "How often the map is laid into a unit of texture coordinates, at any distance; 0: as often "
@@ -72,10 +75,13 @@ static lmn_status check_strokes(const char *name, lmn_error *error)
 {
     char ending[8];
     file_ending(name, ending, sizeof ending);
-    if (strcmp(name, dots_name) == 0 || strcmp(ending, ".stx") == 0 || strcmp(ending, ".svg") == 0)
+    if (strcmp(name, dots_name) == 0 || strcmp(ending, ".stx") == 0 || strcmp(ending, ".svg") == 0 ||
+        stroke_image_is_named(name))
         return LMN_OK;
     return error_set(error, LMN_USAGE,
-                     "strokes is '%.200s'; allowed are the word stipple and files of strokes (.stx, .svg)", name);
+                     "strokes is '%.200s'; allowed are the words stipple and split, files of strokes (.stx, .svg) and "
+                     "pictures of a stroke (.png, .jpg, .webp)",
+                     name);
 }
 
 /* As many dots as cover what the darkest tone needs, and some more since they overlap. */
@@ -99,8 +105,10 @@ static void describe(text *out, const void *values)
                 "placement=%d seed=%d %s",
                 v->tones, (double)v->width, (double)v->length, (double)v->opacity, (double)v->grain, (double)v->darkest,
                 v->cross, (double)v->uneven, v->placement, v->map_seed, v->strokes.text);
-    if (v->strokes.text[0] && strcmp(v->strokes.text, dots_name) != 0 &&
-        file_load(&file, v->strokes.text, NULL) == LMN_OK) {
+    if (stroke_image_is_named(v->strokes.text))
+        stroke_image_describe(out, v->strokes.text);
+    else if (v->strokes.text[0] && strcmp(v->strokes.text, dots_name) != 0 &&
+             file_load(&file, v->strokes.text, NULL) == LMN_OK) {
         text_append(out, " content=%016llx", (unsigned long long)store_hash(file.data, file.size));
         file_data_release(&file);
     }
@@ -110,6 +118,8 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
 {
     const tonal_art_map_values *v = values;
     const char                 *name = v->strokes.text;
+    const bool                  shown = stroke_image_is_named(name);
+    stroke_image                image = {.sums = NULL};
     strokes                     drawn = {.width = 1};
     tam_options                 options = {.side = SIDE,
                                            .tones = v->tones,
@@ -121,16 +131,19 @@ static lmn_status make(mip_chain *out, const void *values, lmn_error *error)
                                            .grain = (double)v->grain,
                                            .uneven = v->uneven,
                                            .placement = (tam_placement)v->placement,
-                                           .drawn = name[0] ? &drawn : NULL,
+                                           .drawn = name[0] && !shown ? &drawn : NULL,
+                                           .image = shown ? &image : NULL,
                                            .seed = (uint32_t)v->map_seed};
     memset(out, 0, sizeof *out);
     lmn_status status = !name[0]                       ? LMN_OK
+                        : shown                        ? stroke_image_load(&image, name, error)
                         : strcmp(name, dots_name) == 0 ? make_dots(&drawn, v, error)
                                                        : strokes_load(&drawn, name, error);
     if (status == LMN_OK)
         status = tonal_art_map(out, NULL, &options, error);
     out->fact = (float)v->darkest; /* which the shader tells tones by */
     strokes_release(&drawn);
+    stroke_image_release(&image);
     return status;
 }
 

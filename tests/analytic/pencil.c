@@ -1,5 +1,5 @@
 /* Pencil shading: strokes along quantised directions, tones, leads, colours, and what depth focus leaves. Notes:
- * seed-pencil-city P20 to P24, P32 to P34, P36, P37. */
+ * seed-pencil-city P16, P20 to P24, P32 to P34, P36, P37. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -198,6 +198,72 @@ static void coloured_leads(void)
             darkest = fmax(darkest, 1 - s.picture[4 * i] / 255.0);
         check_near("P33", darkest, (double)lead_darkest((lead_grade)k), 0.008,
                    "%s, two colours: darkest pixel of four times over", lead_grade_names[k]);
+        shot_release(&s);
+    }
+}
+
+/* --- strokes of a picture ------------------------------------------------------------------------------- */
+
+/* Ink runs of columns that lie as far apart as a gap is wide, by the gap; and runs, by their length. */
+typedef struct runs {
+    double gaps[WALL], inks[WALL], all_gaps, all_inks; /* those of up to 16 pixels */
+} runs;
+
+static runs runs_of(const shot *s)
+{
+    runs out = {.all_gaps = 0};
+    for (int x = 0; x < WALL; x++)
+        for (int y = 0, begin = 0; y < WALL - 1; y++) {
+            bool here = halftone_ink(s, x, y) > 0.45, next = halftone_ink(s, x, y + 1) > 0.45;
+            if (here == next)
+                continue;
+            int length = y + 1 - begin;
+            if (begin && length <= 16)
+                (here ? out.inks : out.gaps)[length] += 1;
+            if (begin && length <= 16)
+                *(here ? &out.all_inks : &out.all_gaps) += 1;
+            begin = y + 1;
+        }
+    return out;
+}
+
+static double fraction_of(const double *counts, double all, int from, int to)
+{
+    double sum = 0;
+    for (int i = from; i <= to; i++)
+        sum += counts[i];
+    return sum / fmax(all, 1);
+}
+
+/* Row P16: a hard double line, a quarter of the stroke each and half of it between them, on a wall of so little tone
+ * that strokes lie apart: what is seen are lines of 3 pixels with 6 between, where strokes without a picture are 12
+ * wide. Slanting and antialiasing take a pixel. */
+static void strokes_of_a_picture(void)
+{
+    static uint8_t rgba[512 * 32 * 4];
+    char           path[512], surface[900];
+    for (int i = 0; i < 512 * 32; i++)
+        rgba[4 * i + 3] = i / 512 < 8 || i / 512 >= 24 ? 255 : 0;
+    snprintf(path, sizeof path, "%s", check_path("double.png"));
+    if (!check_that("files", picture_write_rgba(path, rgba, 512, 32), "%s written", path))
+        return;
+    for (int k = 0; k < 2; k++) {
+        shot s;
+        snprintf(surface, sizeof surface,
+                 "pencil\",\"coordinates\":\"screen\",\"overlays\":1,\"width\":12,\"opacity\":1,\"lead\":\"8B\","
+                 "\"shadow\":0.85,\"light\":0.85,\"ink\":\"#000000\"%s%s%s",
+                 k ? ",\"strokes\":\"" : "", k ? path : "", k ? "\"" : "");
+        if (!halftone_far(&s, surface, 0, WALL, 1))
+            return;
+        runs   r = runs_of(&s);
+        double thin = fraction_of(r.inks, r.all_inks, 2, 4), gaps = fraction_of(r.gaps, r.all_gaps, 5, 7);
+        check_near("P16", halftone_mean(&s, 0, 0, WALL, WALL), 0.95 * 0.82 / 6, 0.01, "ink of the wall");
+        if (k) {
+            check_at_least("P16", thin, 0.85, "of %.0f runs of ink as wide as one of both lines", r.all_inks);
+            check_at_least("P16", gaps, 0.75, "of %.0f gaps as wide as between them", r.all_gaps);
+        } else {
+            check_at_most("P16", thin, 0.2, "without a picture: of %.0f runs of ink as wide as that", r.all_inks);
+        }
         shot_release(&s);
     }
 }
@@ -663,6 +729,7 @@ static const check_case cases[] = {
     {"leads", leads},
     {"repetitions_differ", repetitions_differ},
     {"coloured_leads", coloured_leads},
+    {"strokes_of_a_picture", strokes_of_a_picture},
     {"directions_of_strokes", directions_of_strokes},
     {"strokes_move_along", strokes_move_along},
     {"seams_vanish", seams_vanish},
