@@ -201,9 +201,9 @@ static void move_elements(lmn_scene *into, lmn_scene *from)
 {
 #define MOVE(array, count, capacity)                                                                                   \
     do {                                                                                                               \
-        if (into->count)                                                                                               \
+        if (into->count && from->count)                                                                                \
             memcpy(into->array + into->count, from->array, from->count * sizeof *from->array);                         \
-        else                                                                                                           \
+        else if (!into->count)                                                                                         \
             swap_arrays((void **)&into->array, &into->capacity, (void **)&from->array, &from->capacity);               \
         into->count += from->count;                                                                                    \
         from->count = 0;                                                                                               \
