@@ -147,7 +147,7 @@ static lmn_status read_features(const import_job *job, lmn_error *error)
     import_job as_text = *job;
     as_text.file = &text;
     status = import_geojson.read(&as_text, error);
-    mem_free(answer.bytes);
+    file_data_release(&text);
     return status;
 }
 

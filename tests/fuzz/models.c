@@ -28,14 +28,18 @@ static lmn_scene *read_at(const char *path, fuzz_reader read, char up, const lmn
 {
     lmn_scene *scene = scene_new(), *into = scene_new();
     bool       done = false;
-    if (scene && into) {
-        file_data  file = {.data = bytes, .size = size};
+    uint8_t   *own = mem_alloc(size + 1); /* a reader may cut it */
+    file_data  file = {.data = own, .size = size};
+    if (scene && into && own) {
+        memcpy(own, bytes, size);
+        own[size] = '\0';
         import_job job = {.path = path, .file = &file, .scene = scene, .desc = desc};
         lmn_error  error;
         scene->up = into->up = up;
         done = read(&job, &error) == LMN_OK && scene_finish(scene, job.path, &error) == LMN_OK &&
                scene_merge(into, scene, job.path, &error) == LMN_OK;
     }
+    file_data_release(&file);
     scene_free(scene);
     if (done)
         return into;
