@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/smooth_step.h"
 #include "field/connection.h"
 #include "field/direction_field.h"
 
@@ -175,14 +176,6 @@ static inline void tensor_traceless(const tensor *t, point3 u, point3 v, double 
 {
     *a = (tensor_apply(t, u, u) - tensor_apply(t, v, v)) / 2;
     *b = tensor_apply(t, u, v);
-}
-
-/* 0 up to `low`, 1 from `high` on, smooth between. */
-static inline double smooth_step(double low, double high, double x)
-{
-    double t = (x - low) / (high - low);
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return t * t * (3 - 2 * t);
 }
 
 #endif

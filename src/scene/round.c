@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector3.h"
 #include "scene/mesh.h"
 
 enum { ROUNDS = 4, WHOLE = -1 };
@@ -38,14 +39,14 @@ typedef struct rounding {
     half_edge *corners;
 } rounding;
 
-static round_point point_of(vec3 v)
+static void point_of(double out[3], vec3 v)
 {
-    return (round_point){(double)v.x, (double)v.y, (double)v.z};
+    vector3_set(out, (double)v.x, (double)v.y, (double)v.z);
 }
 
-static vec3 vec_of(round_point p)
+static vec3 vec_of(const double p[3])
 {
-    return (vec3){(float)p.x, (float)p.y, (float)p.z};
+    return (vec3){(float)p[0], (float)p[1], (float)p[2]};
 }
 
 static uint32_t next_corner(uint32_t corner)
@@ -259,17 +260,14 @@ static void vertices_of(const rounding *r, const half_edge *h, uint32_t out[2])
     out[1] = turned ? a : b;
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* From `from` to `to`, without what lies along the normal. */
 static void flat_between(double out[3], vec3 from, vec3 to, const double normal[3])
 {
-    const double d[3] = {(double)to.x - from.x, (double)to.y - from.y, (double)to.z - from.z}, high = dot(d, normal);
-    for (int k = 0; k < 3; k++)
-        out[k] = d[k] - high * normal[k];
+    double begin[3];
+    point_of(begin, from);
+    point_of(out, to);
+    vector3_add(out, out, -1, begin);
+    vector3_add(out, out, -vector3_dot(out, normal), normal);
 }
 
 /* In how many lengths of the edge from vertex `end` to `far` the triangle at this corner ends on the other side of
@@ -277,13 +275,14 @@ static void flat_between(double out[3], vec3 from, vec3 to, const double normal[
 static double reach_over(const primitive *p, uint32_t end, uint32_t far, const primitive *other, uint32_t corner)
 {
     const uint32_t *t = &other->indices[corner - corner % 3];
-    const double    n[3] = {(double)p->normals[end].x, (double)p->normals[end].y, (double)p->normals[end].z};
-    double          back[3], one[3], two[3];
+    double          n[3], back[3], one[3], two[3];
+    point_of(n, p->normals[end]);
     flat_between(back, p->positions[far], p->positions[end], n);
     flat_between(one, p->positions[end], other->positions[t[(corner + 1) % 3]], n);
     flat_between(two, p->positions[end], other->positions[t[(corner + 2) % 3]], n);
     /* back = s · one + u · two, by least squares: all three lie in one plane. */
-    double aa = dot(one, one), ab = dot(one, two), bb = dot(two, two), ac = dot(one, back), bc = dot(two, back);
+    double aa = vector3_dot(one, one), ab = vector3_dot(one, two), bb = vector3_dot(two, two);
+    double ac = vector3_dot(one, back), bc = vector3_dot(two, back);
     double area = aa * bb - ab * ab;
     double s = ac * bb - bc * ab, u = bc * aa - ac * ab;
     return area > 0 && s >= 0 && u >= 0 && s + u > 0 ? area / (s + u) : INFINITY;
@@ -308,16 +307,18 @@ static round_side side_of(const rounding *r, const half_edge *h)
 {
     const primitive *p = &r->parts[h->primitive].made;
     const uint32_t  *t = &p->indices[h->corner - h->corner % 3];
-    round_point  a = point_of(p->positions[t[0]]), b = point_of(p->positions[t[1]]), c = point_of(p->positions[t[2]]);
-    const double u[3] = {b.x - a.x, b.y - a.y, b.z - a.z}, w[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
-    round_side   side = {.face = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]}};
-    double       size = sqrt(side.face.x * side.face.x + side.face.y * side.face.y + side.face.z * side.face.z);
-    if (size > 0)
-        side.face = (round_point){side.face.x / size, side.face.y / size, side.face.z / size};
-    uint32_t v[2];
+    round_side       side;
+    double           at[3][3], one[3], two[3];
+    uint32_t         v[2];
+    for (int k = 0; k < 3; k++)
+        point_of(at[k], p->positions[t[k]]);
+    vector3_add(one, at[1], -1, at[0]);
+    vector3_add(two, at[2], -1, at[0]);
+    vector3_cross(side.face, one, two);
+    vector3_normalise(side.face);
     vertices_of(r, h, v);
     for (int k = 0; k < 2; k++) {
-        side.normals[k] = point_of(p->normals[v[k]]);
+        point_of(side.normals[k], p->normals[v[k]]);
         side.beyond[k] = beyond_of(r, p, r->parts[h->primitive].positions[v[k]], v[k], v[1 - k]);
     }
     return side;
@@ -325,15 +326,16 @@ static round_side side_of(const rounding *r, const half_edge *h)
 
 /* The edge of which halves[0] … halves[count − 1] are the sides; more than two are none that one surface has, and the
  * first two say what becomes of it. */
-static round_edge edge_of(const rounding *r, const half_edge *halves, size_t count, round_point ends[2])
+static round_edge edge_of(const rounding *r, const half_edge *halves, size_t count)
 {
-    uint32_t         v[2];
     const primitive *p = &r->parts[halves[0].primitive].made;
+    uint32_t         v[2];
+    double           ends[2][3];
     vertices_of(r, &halves[0], v);
-    ends[0] = point_of(p->positions[v[0]]);
-    ends[1] = point_of(p->positions[v[1]]);
+    for (int k = 0; k < 2; k++)
+        point_of(ends[k], p->positions[v[k]]);
     round_side one = side_of(r, &halves[0]), other = side_of(r, &halves[count > 1]);
-    return round_edge_of(ends, &one, count > 1 ? &other : NULL);
+    return round_edge_of((const double(*)[3])ends, &one, count > 1 ? &other : NULL);
 }
 
 static size_t sides_at(const rounding *r, size_t first)
@@ -445,8 +447,11 @@ static bool make_room(growing *g, size_t more)
 
 static vec3 mean_normal(vec3 a, vec3 b)
 {
-    const double sum[3] = {(double)a.x + b.x, (double)a.y + b.y, (double)a.z + b.z}, length = sqrt(dot(sum, sum));
-    return length > 0 ? (vec3){(float)(sum[0] / length), (float)(sum[1] / length), (float)(sum[2] / length)} : a;
+    double sum[3], own[3];
+    point_of(own, a);
+    point_of(sum, b);
+    vector3_add(sum, sum, 1, own);
+    return vector3_normalise(sum) ? vec_of(sum) : a;
 }
 
 /* The vertex half-way on this side; another side with the same two vertices has it already. */
@@ -476,9 +481,8 @@ static size_t count_middles(const rounding *r, size_t *more)
     size_t total = 0;
     memset(more, 0, r->part_count * sizeof *more);
     for (size_t i = 0, sides; i < r->half_count; i += sides) {
-        round_point ends[2];
         sides = sides_at(r, i);
-        if (!(edge_of(r, &r->halves[i], sides, ends).distance > r->tolerance))
+        if (!(edge_of(r, &r->halves[i], sides).distance > r->tolerance))
             continue;
         for (size_t k = 0; k < sides; k++)
             more[r->halves[i + k].primitive]++;
@@ -498,9 +502,8 @@ static lmn_status put_middles(rounding *r, const size_t *more, lmn_error *error)
             g->middles[c] = WHOLE;
     }
     for (size_t i = 0, sides; i < r->half_count; i += sides) {
-        round_point ends[2];
         sides = sides_at(r, i);
-        round_edge edge = edge_of(r, &r->halves[i], sides, ends);
+        round_edge edge = edge_of(r, &r->halves[i], sides);
         if (!(edge.distance > r->tolerance))
             continue;
         for (size_t k = 0; k < sides; k++)

@@ -24,22 +24,17 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
 
 /* --- one edge, for tests -------------------------------------------------------------------------------- */
 
-typedef struct round_point {
-    double x, y, z;
-} round_point;
-
 /* A side of an edge: the normals there at its two ends, and the face's own. How far, in lengths of the edge, the first
  * face goes that it would go on over beyond either end; INFINITY where there is none. */
 typedef struct round_side {
-    round_point normals[2], face;
-    double      beyond[2];
+    double normals[2][3], face[3], beyond[2];
 } round_side;
 
 typedef struct round_edge {
-    round_point middle;   /* where the curve is half-way */
-    double      distance; /* of the curve from the edge, about */
+    double middle[3]; /* where the curve is half-way */
+    double distance;  /* of the curve from the edge, about */
 } round_edge;
 
 /* `other` is NULL at borders. */
-round_edge round_edge_of(const round_point ends[2], const round_side *one, const round_side *other);
+round_edge round_edge_of(const double ends[2][3], const round_side *one, const round_side *other);
 #endif

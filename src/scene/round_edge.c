@@ -1,61 +1,15 @@
 /* One edge of a coarse mesh as a curve: a cubic through its ends with the tangents that the surface has there. */
 #include <math.h>
 
+#include "base/smooth_step.h"
+#include "base/vector3.h"
 #include "scene/round.h"
-
-static round_point add(round_point a, round_point b)
-{
-    return (round_point){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-static round_point scaled(round_point a, double by)
-{
-    return (round_point){a.x * by, a.y * by, a.z * by};
-}
-
-static round_point from_to(round_point a, round_point b)
-{
-    return (round_point){b.x - a.x, b.y - a.y, b.z - a.z};
-}
-
-static double dot(round_point a, round_point b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static double length(round_point a)
-{
-    return sqrt(dot(a, a));
-}
-
-static round_point unit_or(round_point a, round_point otherwise)
-{
-    double l = length(a);
-    return l > 0 ? scaled(a, 1 / l) : otherwise;
-}
-
-static round_point cross(round_point a, round_point b)
-{
-    return (round_point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static round_point mixed(round_point a, round_point b, double share)
-{
-    return add(scaled(a, 1 - share), scaled(b, share));
-}
-
-static double smooth_step(double from, double to, double at)
-{
-    double t = (at - from) / (to - from);
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return t * t * (3 - 2 * t);
-}
 
 /* Normals far from the face's own were not made for a surface that bends: boxes that are shaded smooth would become
  * balls. Between 40 and 52 degrees the surface turns flat. */
-static double trust_of(round_point normal, round_point face)
+static double trust_of(const round_side *side, int end)
 {
-    return smooth_step(0.616, 0.766, dot(normal, face));
+    return smooth_step(0.616, 0.766, vector3_dot(side->normals[end], side->face));
 }
 
 /* Nor were those of a wide face beside a narrow bevel, at which they lean all the same. */
@@ -66,35 +20,42 @@ static double reach_of(const round_side *side, int end)
 
 /* The edge as it leaves an end: in the surface there, or along the crease if its two sides have normals of their own.
  */
-static round_point tangent_at(int end, round_point edge, const round_side *one, const round_side *other)
+static void tangent_at(double out[3], int end, const double edge[3], const round_side *one, const round_side *other)
 {
     /* Sines of the angle between two normals: below the first they are one, above the second there is a crease. */
     const double SAME = 0.05, CREASE = 0.2;
-    round_point  n = one->normals[end];
-    double       trust = fmin(trust_of(n, one->face), reach_of(one, end));
+    double       n[3], line[3] = {0, 0, 0}, trust = fmin(trust_of(one, end), reach_of(one, end));
+    vector3_copy(n, one->normals[end]);
     if (other) {
-        trust = fmin(trust, fmin(trust_of(other->normals[end], other->face), reach_of(other, end)));
-        n = unit_or(add(n, other->normals[end]), n);
+        trust = fmin(trust, fmin(trust_of(other, end), reach_of(other, end)));
+        vector3_cross(line, n, other->normals[end]);
+        vector3_add(n, n, 1, other->normals[end]);
+        if (!vector3_normalise(n))
+            vector3_copy(n, one->normals[end]);
     }
-    round_point tangent = add(edge, scaled(n, -dot(edge, n)));
-    round_point line = other ? cross(one->normals[end], other->normals[end]) : (round_point){0, 0, 0};
-    double      turn = length(line), sharp = smooth_step(SAME, CREASE, turn);
-    if (sharp > 0) {
-        line = scaled(line, 1 / turn);
-        tangent = mixed(tangent, scaled(line, dot(edge, line)), sharp);
+    vector3_add(out, edge, -vector3_dot(edge, n), n);
+    double sharp = smooth_step(SAME, CREASE, vector3_length(line)), square = vector3_dot(edge, edge);
+    if (sharp > 0 && vector3_normalise(line)) {
+        double along = vector3_dot(edge, line);
+        vector3_set(line, along * line[0], along * line[1], along * line[2]);
+        vector3_mix(out, out, line, sharp);
     }
     /* An edge that would leave nearly across itself is not what the normals were made for. */
-    double straight = dot(edge, edge) > 0 ? dot(tangent, edge) / dot(edge, edge) : 0;
-    trust *= smooth_step(0.3, 0.55, straight);
-    return mixed(edge, tangent, trust);
+    trust *= smooth_step(0.3, 0.55, square > 0 ? vector3_dot(out, edge) / square : 0);
+    vector3_mix(out, edge, out, trust);
 }
 
-round_edge round_edge_of(const round_point ends[2], const round_side *one, const round_side *other)
+round_edge round_edge_of(const double ends[2][3], const round_side *one, const round_side *other)
 {
-    round_point edge = from_to(ends[0], ends[1]);
-    round_point begin = tangent_at(0, edge, one, other), end = tangent_at(1, edge, one, other);
-    round_point bend = scaled(from_to(end, begin), 1.0 / 8);
-    double      off = fmax(length(from_to(edge, begin)), length(from_to(edge, end)));
-    return (round_edge){.middle = add(scaled(add(ends[0], ends[1]), 0.5), bend),
-                        .distance = off / 4}; /* of an arc of a circle: its height */
+    double     edge[3], begin[3], end[3], bend[3];
+    round_edge out;
+    vector3_add(edge, ends[1], -1, ends[0]);
+    tangent_at(begin, 0, edge, one, other);
+    tangent_at(end, 1, edge, one, other);
+    vector3_add(bend, begin, -1, end);
+    vector3_mix(out.middle, ends[0], ends[1], 0.5);
+    vector3_add(out.middle, out.middle, 1.0 / 8, bend);
+    /* Of an arc of a circle: its height. */
+    out.distance = fmax(vector3_distance(edge, begin), vector3_distance(edge, end)) / 4;
+    return out;
 }

@@ -424,20 +424,21 @@ static void arcs_are_arcs(void **state)
 {
     (void)state;
     for (int degrees = 10; degrees <= 60; degrees += 10) {
-        double            a = degrees * PI / 360;
-        const round_point ends[2] = {{-sin(a), cos(a), 0}, {sin(a), cos(a), 0}};
-        round_side        side = {.normals = {ends[0], ends[1]}, .face = {0, 1, 0}, .beyond = {1, INFINITY}};
-        round_edge        alone = round_edge_of(ends, &side, NULL), both = round_edge_of(ends, &side, &side);
+        double       a = degrees * PI / 360;
+        const double ends[2][3] = {{-sin(a), cos(a), 0}, {sin(a), cos(a), 0}};
+        round_side   side = {
+              .normals = {{-sin(a), cos(a), 0}, {sin(a), cos(a), 0}}, .face = {0, 1, 0}, .beyond = {1, INFINITY}};
+        round_edge alone = round_edge_of(ends, &side, NULL), both = round_edge_of(ends, &side, &side);
         /* Of a cubic with these tangents; that of the circle is 1. */
-        assert_true(fabs(alone.middle.y - (cos(a) + sin(a) * sin(a) * cos(a) / 2)) < 1e-12);
-        assert_true(fabs(alone.middle.y - 1) < 0.4 * pow(a, 4));
-        assert_true(fabs(both.middle.y - alone.middle.y) < 1e-12 && fabs(alone.middle.x) < 1e-12);
+        assert_true(fabs(alone.middle[1] - (cos(a) + sin(a) * sin(a) * cos(a) / 2)) < 1e-12);
+        assert_true(fabs(alone.middle[1] - 1) < 0.4 * pow(a, 4));
+        assert_true(fabs(both.middle[1] - alone.middle[1]) < 1e-12 && fabs(alone.middle[0]) < 1e-12);
         assert_true(fabs(alone.distance - sin(a) * sin(a) / 2 / sin(a) * 1) < 0.2);
         round_side cap = {.normals = {{0, 0, 1}, {0, 0, 1}}, .face = {0, 0, 1}, .beyond = {INFINITY, INFINITY}};
         round_edge rim = round_edge_of(ends, &side, &cap);
-        assert_true(fabs(rim.middle.y - alone.middle.y) < 1e-12 && fabs(rim.middle.z) < 1e-12);
+        assert_true(fabs(rim.middle[1] - alone.middle[1]) < 1e-12 && fabs(rim.middle[2]) < 1e-12);
         side.beyond[0] = 0.1; /* a narrow bevel: that end stays straight */
-        assert_true(round_edge_of(ends, &side, NULL).middle.y < alone.middle.y - 0.2 * (alone.middle.y - cos(a)));
+        assert_true(round_edge_of(ends, &side, NULL).middle[1] < alone.middle[1] - 0.2 * (alone.middle[1] - cos(a)));
     }
 }
 
