@@ -190,6 +190,16 @@ static lmn_status triangulate_fenced(const contour *contours, size_t count, size
     return status;
 }
 
+/* GLU follows its own lists astray among numbers that are in no order. */
+static bool is_finite(const contour *contours, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < contours[i].count; k++)
+            if (!isfinite(contours[i].points[k].x) || !isfinite(contours[i].points[k].y))
+                return false;
+    return true;
+}
+
 lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t **corners, size_t *corner_count,
                                 bool *exact, lmn_error *error)
 {
@@ -199,6 +209,8 @@ lmn_status contours_triangulate(const contour *contours, size_t count, uint32_t 
     *corners = NULL;
     *corner_count = 0;
     *exact = false;
+    if (!is_finite(contours, count))
+        return LMN_OK;
     return points > FENCED_PLANE_POINTS
                ? triangulate_fenced(contours, count, points, corners, corner_count, exact, error)
                : triangulate_here(contours, count, corners, corner_count, exact, error);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "draft/extras.h"
 #include "plan/unit.h"
 #include "vector/vector_private.h"
 #include "fuzz.h"
@@ -91,19 +92,20 @@ void fuzz_cut(const uint8_t *bytes, size_t size)
     cut_result_release(&result);
 }
 
-/* Five lines: page, scale, unit, views, title. */
+/* Lines: page, scale, unit, views, title, and the lists of sections, details and auxiliary views. */
 void fuzz_sheet(const uint8_t *bytes, size_t size)
 {
     (void)size;
-    char       *lines = mem_copy_text((const char *)bytes), *at = lines;
-    const char *words[5] = {"", "", "", "", ""};
+    char *lines = mem_copy_text((const char *)bytes), *at = lines;
+    enum { LINES = 8 };
+    const char *words[LINES] = {"", "", "", "", ""};
     double      paper[2], scale, mm;
     const char *unit;
     bool        stated;
     vector_view views[VIEWS_MOST];
     size_t      count;
     lmn_error   error;
-    for (int i = 0; i < 5 && at; i++)
+    for (int i = 0; i < LINES && at; i++)
         words[i] = strsep(&at, "\n");
     if (lines) {
         lmn_scene *scene = scene_new();
@@ -112,6 +114,8 @@ void fuzz_sheet(const uint8_t *bytes, size_t size)
         if (scene)
             unit_find(words[2], scene, &mm, &unit, &stated, &error);
         vector_parse_views(words[3], views, &count, &error);
+        draft_extras extras;
+        draft_extras_parse(&extras, words[5], words[6], words[7], 'y', (box3){{-1, -2, -3}, {4, 5, 6}}, &error);
         scene_free(scene);
     }
     mem_free(lines);

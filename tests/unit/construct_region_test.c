@@ -1,5 +1,6 @@
 /* Regions from numbers, set operations, offsets, extrusions. The counts, areas and coordinates are OpenSCAD
  * 2021.01's. */
+#include "construct/triangulate.h"
 #include "construct_shapes.h"
 
 /* --- plain regions -------------------------------------------------------------------------------------- */
@@ -548,9 +549,25 @@ static void random_outlines_make_closed_solids(void **state)
     }
 }
 
+/* GLU follows a hole at infinity astray; there is no triangle then, and no harm. */
+static void outlines_at_infinity_have_no_triangles(void **state)
+{
+    (void)state;
+    point2        around[] = {{0, 0}, {0, 1}, {-1, 1}, {-1, 0}}, hole[] = {{-NAN, INFINITY}, {0, 1}, {0, 0}};
+    const contour contours[] = {{.points = around, .count = 4}, {.points = hole, .count = 3}};
+    uint32_t     *corners = NULL;
+    size_t        count = 1;
+    bool          exact = true;
+    assert_int_equal(contours_triangulate(contours, 2, &corners, &count, &exact, NULL), LMN_OK);
+    assert_int_equal(count, 0);
+    assert_false(exact);
+    mem_free(corners);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(outlines_at_infinity_have_no_triangles),
         cmocka_unit_test(squares_and_circles),
         cmocka_unit_test(polygons_are_even_odd),
         cmocka_unit_test(polygons_of_several_paths),
