@@ -31,6 +31,14 @@ static json_t *gpu_json(const char *vendor, const char *renderer, const char *ve
     return json_pack("{s:s, s:s, s:s}", "vendor", vendor, "renderer", renderer, "version", version);
 }
 
+static json_t *marks_json(const mark_facts *m)
+{
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:{s:I, s:I, s:I}}", "there", (json_int_t)m->there, "drawn",
+                     (json_int_t)m->drawn, "bytes", (json_int_t)m->bytes, "clusters", (json_int_t)m->clusters,
+                     "clusters_drawn", (json_int_t)m->clusters_drawn, "left_out", "off_page", (json_int_t)m->beside,
+                     "turned_away", (json_int_t)m->turned_away, "too_dense", (json_int_t)m->too_dense);
+}
+
 char *drawing_report_json(const lmn_drawing *d)
 {
     json_t *root = facts_begin_json(&d->facts, d->width, d->height);
@@ -47,9 +55,7 @@ char *drawing_report_json(const lmn_drawing *d)
     json_object_set_new(root, "strokes", report_strokes_json(d->strokes));
     report_search(root, d->search);
     if (d->marks.there)
-        json_object_set_new(root, "surface_marks",
-                            json_pack("{s:I, s:I, s:I}", "there", (json_int_t)d->marks.there, "drawn",
-                                      (json_int_t)d->marks.drawn, "bytes", (json_int_t)d->marks.bytes));
+        json_object_set_new(root, "surface_marks", marks_json(&d->marks));
     if (d->has_traces || d->traces.telling.count)
         json_object_set_new(root, "motion", trace_facts_json(&d->traces));
     json_object_set_new(root, "parts_visible", parts_json(d));

@@ -15,9 +15,11 @@
 
 typedef struct frame_maps frame_maps;
 
-/* Dots and strokes on surfaces, of all figures: those there are, those that were drawn, what they take on the GPU. */
+/* Dots and strokes on surfaces, of all figures: those there are, those that were drawn, what they take on the GPU. Of
+ * clusters the same, and how many marks were left out with or in them: outside of the page, on faces that turn away, or
+ * more than the most that can be needed there. */
 typedef struct mark_facts {
-    uint64_t there, drawn, bytes;
+    uint64_t there, drawn, bytes, clusters, clusters_drawn, beside, turned_away, too_dense;
 } mark_facts;
 
 typedef struct frame {

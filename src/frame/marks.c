@@ -7,37 +7,94 @@
 #include "stage/mark_sets.h"
 #include "surface/marks.h"
 
-/* How many of the set, in its order, can be drawn at all: what a position of the figure that is as near and as much
+/* The least rank of marks that are not drawn anywhere in a cluster: what its position that is as near and as much
  * towards the eye as can be asks for. */
-static size_t count_to_draw(const frame *f, const figure *fig, const mark_set *set, const mark_style *style)
+static double rank_needed(const mark_set *set, const mark_cluster *c, const mark_style *style, const cluster_view *view)
 {
-    const double *p = f->camera.projection.m, SPARE = 1.01;
-    double        nearest = INFINITY, farthest = -INFINITY, focal = p[5] * f->height / 2;
-    camera_depth_range(&f->camera, fig->box, &nearest, &farthest);
-    /* Pixels to a unit there; beside the middle of the picture things are seen larger. */
-    double scale = focal;
-    if (!f->camera.orthographic)
-        scale = focal * sqrt(1 + 1 / (p[0] * p[0]) + 1 / (p[5] * p[5])) / fmax(nearest, f->camera.near);
-    double fraction, size = (double)style->diameter;
-    if (set->lines)
-        fraction = scale / (set->density * (double)style->scale);
-    else
-        fraction = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) *
-                   scale * scale / set->density;
-    double most = fraction * (1 + (double)style->fade) * SPARE;
-    if (!(most < 1))
-        return set->count;
+    const double SPARE = 1.01, size = (double)style->diameter, scale = mark_cluster_scale(c, view, !set->lines);
+    double       fraction = scale / (c->density * (double)style->scale);
     if (!set->lines)
-        return (size_t)ceil(most * (double)set->count);
-    size_t low = 0, high = set->count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if ((double)set->ranks[middle] <= most)
-            low = middle + 1;
-        else
-            high = middle;
+        fraction = (double)mark_ink_of_cover(1, 1 / (style->diameter * style->diameter)) / (0.78539816 * size * size) *
+                   scale / c->density;
+    return fraction * (1 + (double)style->fade) * SPARE;
+}
+
+/* Is all of the figure's surface there, and before the eye? */
+static bool is_whole(const frame *f, const figure *fig)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    camera_depth_range(&f->camera, fig->box, &nearest, &farthest);
+    return !fig->layered && !f->mirror && f->up->section.cut.cell_count == 0 && nearest > f->camera.near;
+}
+
+/* How far marks reach beyond where they are, pixels; lines that flow fill the way to their neighbours, which is wide
+ * where even the closest lines are far apart. */
+static double reach_of(const frame *f, const mark_set *set, const mark_style *style)
+{
+    const double WIDEST = 2.56, SPARE = 4; /* distances that strips have at most (stage/mark_sets.c); pixels */
+    if (!set->levels || !set->apart)
+        return (double)style->diameter * sqrt((double)style->most) + SPARE;
+    double focal = f->camera.projection.m[5] * f->height / 2, near = f->camera.orthographic ? 1 : f->camera.near;
+    double closest = ldexp(set->apart, 1 - set->levels) * focal / near, distance = fmax(2 * (double)style->scale, closest);
+    double widest = style->widest < FLOW_ANY_WIDTH ? (double)style->widest * (double)style->scale : WIDEST * distance;
+    return widest + 2 * (double)style->stray * (double)style->scale + SPARE;
+}
+
+static cluster_view view_of(const frame *f, const figure *fig, const mark_set *set, const mark_style *style)
+{
+    cluster_view v = {.projection = f->camera.projection,
+                      .orthographic = f->camera.orthographic,
+                      .near = f->camera.near,
+                      .focal = f->camera.projection.m[5] * f->height / 2,
+                      .width = f->width,
+                      .height = f->height,
+                      .reach = reach_of(f, set, style),
+                      .outside = is_whole(f, fig)};
+    mat4         world = mat4_identity();
+    memcpy(&world.m[12], set->origin, sizeof set->origin);
+    v.model_view = mat4_multiply(&f->camera.view, &world);
+    return v;
+}
+
+/* The marks that are looked at, cluster by cluster: runs of them. What is left out is told. Returns how many runs. */
+static size_t choose_runs(frame *f, const figure *fig, const mark_set *set, const technique_use *surface,
+                          uint32_t (*runs)[2])
+{
+    const mark_clusters *c = &set->clusters;
+    mark_style           style = {.diameter = 1};
+    surface_mark_style(&style, surface);
+    const cluster_view view = view_of(f, fig, set, &style);
+    const bool         culls = ((const mark_values *)surface->values)->cull;
+    size_t             count = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const mark_cluster *one = &c->clusters[i];
+        const cluster_fate  fate = culls ? mark_cluster_fate(c, one, &view) : CLUSTER_SEEN;
+        size_t              drawn = fate == CLUSTER_SEEN ? one->count : 0;
+        if (fate == CLUSTER_SEEN && culls)
+            drawn = mark_cluster_prefix(c, one, rank_needed(set, one, &style, &view));
+        if (drawn)
+            memcpy(runs[count++], (uint32_t[]){one->first, (uint32_t)drawn}, sizeof *runs);
+        f->marks.drawn += drawn;
+        f->marks.clusters_drawn += drawn > 0;
+        *(fate == CLUSTER_BESIDE        ? &f->marks.beside
+          : fate == CLUSTER_TURNED_AWAY ? &f->marks.turned_away
+                                        : &f->marks.too_dense) += one->count - drawn;
     }
-    return low;
+    f->marks.clusters += c->count;
+    f->marks.there += set->count;
+    f->marks.bytes += gpu_marks_bytes(set->marks);
+    return count;
+}
+
+/* Of the set, with the program and state that are in use. */
+static void draw_chosen(frame *f, const figure *fig, const mark_set *set, const technique_use *surface)
+{
+    uint32_t(*runs)[2] = mem_alloc((set->clusters.count + 1) * sizeof *runs);
+    if (runs)
+        gpu_draw_mark_runs(f->g, set->marks, runs, choose_runs(f, fig, set, surface, runs));
+    else
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    mem_free(runs);
 }
 
 bool figure_has_marks(const figure *fig)
@@ -81,15 +138,10 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
         gpu_set_float(f->g, "u_levels", (float)set->levels);
         gpu_set_float(f->g, "u_apart", (float)set->apart);
         gpu_set_float(f->g, "u_sag", (float)set->sag);
+        gpu_set_float(f->g, "u_solid", set->clusters.solid && is_whole(f, s->figure) ? 1 : 0);
         gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
-        mark_style style = {.diameter = 1};
-        surface_mark_style(&style, surface);
         gpu_settle(f->g);
-        const size_t count = count_to_draw(f, s->figure, set, &style);
-        gpu_draw_first_marks(f->g, set->marks, count);
-        f->marks.there += set->count;
-        f->marks.drawn += count;
-        f->marks.bytes += gpu_marks_bytes(set->marks);
+        draw_chosen(f, s->figure, set, surface);
     }
     if (!p) {
         char *unused = text_take(&prelude);

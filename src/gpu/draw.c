@@ -472,10 +472,9 @@ static void draw_range(gpu *g, uint32_t first, uint32_t end, uint32_t before)
     }
 }
 
-void gpu_draw_indices(gpu *g, uint32_t count)
+void gpu_draw_indices(gpu *g, uint32_t first, uint32_t count)
 {
-    draw_range(g, 0, count, 0);
-    g->draws++;
+    draw_range(g, first, first + count, first / 3);
 }
 
 void gpu_draw_mesh_runs(gpu *g, gpu_mesh *m, uint32_t (*runs)[2], size_t count)

@@ -190,6 +190,26 @@ gpu_marks *gpu_marks_create(gpu *g, int vectors, const float *records, size_t co
 gpu_marks *gpu_marks_create_points(gpu *g, int vectors, const float *records, size_t count);
 /* The same drawn as strips of so many vertices, instance by instance: gl_VertexID counts within one. */
 gpu_marks *gpu_marks_create_strips(gpu *g, int vectors, const float *records, size_t count, int vertices);
+/* How records are laid out in memory, and what is drawn of them (row EX-29). */
+typedef enum gpu_mark_number { MARK_FLOAT, MARK_SNORM16, MARK_UNORM16 } gpu_mark_number;
+typedef struct gpu_mark_field {
+    gpu_mark_number number;
+    int             components; /* 1 … 4; of numbers of 16 bits 2 or 4 */
+} gpu_mark_field;
+typedef enum gpu_mark_form {
+    MARK_QUADS,    /* as above */
+    MARK_POINTS,   /* as above */
+    MARK_SEGMENTS, /* native lines, a pixel wide: gl_VertexID & 1 says which end a vertex is */
+    MARK_STRIPS    /* only of gpu_marks_create_strips */
+} gpu_mark_form;
+typedef struct gpu_mark_layout {
+    gpu_mark_field fields[MARK_VECTORS_MAX]; /* attributes 0 and up, one behind the other */
+    int            count;
+    gpu_mark_form  form;
+    bool           once; /* each record is there once and drawn as an instance, instead of once a vertex */
+} gpu_mark_layout;
+size_t     gpu_mark_record_size(const gpu_mark_layout *layout);
+gpu_marks *gpu_marks_create_as(gpu *g, const gpu_mark_layout *layout, const void *records, size_t count);
 void       gpu_marks_destroy(gpu *g, gpu_marks **m);
 size_t     gpu_marks_count(const gpu_marks *m);
 size_t     gpu_marks_bytes(const gpu_marks *m); /* that their buffers take */
@@ -308,9 +328,9 @@ bool gpu_query_any(gpu *g, int query);
 /* Rectangles of pixels (x, y, width, height) that do not overlap, with a program of the vertex shader
  * gpu/boxes.vert. */
 void gpu_draw_boxes(gpu *g, int (*boxes)[4], size_t count);
-/* All of the marks, in their order; or the first ones alone. */
+/* All of the marks, in their order; or runs of them: the first one, how many. */
 void gpu_draw_marks(gpu *g, gpu_marks *m);
-void gpu_draw_first_marks(gpu *g, gpu_marks *m, size_t count);
+void gpu_draw_mark_runs(gpu *g, gpu_marks *m, uint32_t (*runs)[2], size_t count);
 /* Draw calls since the context was made. */
 uint64_t gpu_draw_count(const gpu *g);
 

@@ -57,10 +57,10 @@ struct gpu_mesh {
 };
 
 struct gpu_marks {
-    GLuint array, buffers[2]; /* corners, indices; no indices of points */
-    size_t count, bytes;
-    bool   points;
-    int    strip; /* vertices of one; 0: no strips */
+    GLuint          array, buffers[2]; /* records, indices; the latter of quads that are there once a corner */
+    size_t          count, bytes;
+    gpu_mark_layout layout;
+    int             strip; /* vertices of one */
 };
 
 /* A framebuffer object for one set of attachments. */
@@ -129,7 +129,7 @@ void       adopt_release(gpu *g);
 
 /* Triangles of the vertex array that is bound, from the first index on; at most as many at once as the driver holds
  * well. */
-void gpu_draw_indices(gpu *g, uint32_t count);
+void gpu_draw_indices(gpu *g, uint32_t first, uint32_t count);
 void gpu_forget_framebuffers(gpu *g, const gpu_texture *t);
 
 #endif

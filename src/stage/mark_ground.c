@@ -126,6 +126,7 @@ static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays
     }
     g->surface.triangle_count = triangle;
     j->laid_out = j->laid_out || data->uvs[0];
+    g->holed = g->holed || (p->material >= 0 && j->scene->materials[p->material].alpha != ALPHA_OPAQUE);
     return true;
 }
 

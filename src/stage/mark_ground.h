@@ -18,6 +18,7 @@ typedef struct mark_ground {
     vec2        *uvs; /* v upwards; 0 in parts that have none */
     uint32_t    *indices;
     uint32_t    *parts;      /* per triangle: index of its part */
+    bool         holed;      /* some material has transparent places */
     float       *brightness; /* per corner of each triangle: of its material, linear, 0 … 1 */
 } mark_ground;
 

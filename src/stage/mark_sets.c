@@ -1,9 +1,9 @@
 #include "stage/mark_sets.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/store.h"
 #include "stage/mark_ground.h"
@@ -19,7 +19,7 @@ struct mark_sets {
 static void set_release(mark_set *s, gpu *g)
 {
     gpu_marks_destroy(g, &s->marks);
-    mem_free(s->ranks);
+    mark_clusters_release(&s->clusters);
     if (s->made)
         surface_marks_release(s->made);
     if (s->ground)
@@ -53,15 +53,23 @@ static uint64_t key_of(gpu *g, const mark_set_options *w)
     return key;
 }
 
-static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
+/* A normal that is longer than 1 by how far it may lean off its face's (surface/marks.glsl). */
+static void put_normal(float *out, vec3 normal, float lean)
+{
+    float length = sqrtf(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z),
+          longer = length > 0 ? (1 + lean) / length : 0;
+    memcpy(out, (float[]){longer * normal.x, longer * normal.y, longer * normal.z}, 3 * sizeof *out);
+}
+
+static gpu_marks *upload_dots(gpu *g, const marks *m, const mark_clusters *c, bool points)
 {
     float(*records)[4] = mem_alloc(m->dot_count * DOT_VECTORS * sizeof *records);
     for (size_t i = 0; records && i < m->dot_count; i++) {
-        const mark_dot *d = &m->dots[i];
+        const mark_dot *d = &m->dots[c->order[i]];
         memcpy(records[DOT_VECTORS * i], (float[]){d->position.x, d->position.y, d->position.z, d->priority},
                sizeof *records);
-        memcpy(records[DOT_VECTORS * i + 1], (float[]){d->normal.x, d->normal.y, d->normal.z, d->bright},
-               sizeof *records);
+        put_normal(records[DOT_VECTORS * i + 1], d->normal, c->leans[i]);
+        records[DOT_VECTORS * i + 1][3] = d->bright;
     }
     gpu_marks *(*create)(gpu *, int, const float *, size_t) = points ? gpu_marks_create_points : gpu_marks_create;
     gpu_marks *out = records ? create(g, DOT_VECTORS, records[0], m->dot_count) : NULL;
@@ -69,14 +77,6 @@ static gpu_marks *upload_dots(gpu *g, const marks *m, bool points)
         gpu_fail(g, LMN_MEMORY, "out of memory");
     mem_free(records);
     return out;
-}
-
-static int by_perspective(const void *left, const void *right)
-{
-    const mark_line *a = *(const mark_line *const *)left, *b = *(const mark_line *const *)right;
-    if (a->perspective != b->perspective)
-        return a->perspective > b->perspective ? -1 : 1;
-    return a < b ? -1 : a > b;
 }
 
 /* A unit vector as one number that floats have exactly: a face and its place on the octahedron, twelve bits each way.
@@ -93,13 +93,14 @@ static float packed_direction(vec3 d)
     return roundf(most * x) + most + 4096 * (roundf(most * y) + most);
 }
 
-static void write_line(float (*r)[4], const mark_line *l)
+static void write_line(float (*r)[4], const mark_line *l, float lean)
 {
     float length = fmaxf(l->length, 1e-30f);
     memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->light}, sizeof *r);
     memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, l->perspective}, sizeof *r);
     memcpy(r[2], (float[]){l->middle.x, l->middle.y, l->middle.z, l->bright}, sizeof *r);
-    memcpy(r[3], (float[]){l->middle_normal.x, l->middle_normal.y, l->middle_normal.z, l->density}, sizeof *r);
+    put_normal(r[3], l->middle_normal, lean);
+    r[3][3] = l->density;
     memcpy(r[4], (float[]){l->from / length, l->to / length, packed_direction(l->middle_direction), l->span},
            sizeof *r);
 }
@@ -119,47 +120,34 @@ static float packed_group(const mark_line *l)
     return roundf(31 * fminf(fmaxf(l->group, -1), 1)) + 31;
 }
 
-static void write_flow(float (*r)[4], const mark_line *l)
+static void write_flow(float (*r)[4], const mark_line *l, float lean)
 {
     const flow_end *a = &l->ends[0], *b = &l->ends[1];
     memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->rank}, sizeof *r);
     memcpy(r[1], (float[]){l->b.x, l->b.y, l->b.z, (float)(l->level + 32 * l->set) + 128 * packed_group(l)}, sizeof *r);
-    memcpy(r[2], (float[]){a->normal.x, a->normal.y, a->normal.z, packed_spaces(a)}, sizeof *r);
+    put_normal(r[2], a->normal, lean);
+    r[2][3] = packed_spaces(a);
     memcpy(r[3], (float[]){b->normal.x, b->normal.y, b->normal.z, packed_spaces(b)}, sizeof *r);
     memcpy(r[4], (float[]){a->to_end, b->to_end, l->bright, l->room}, sizeof *r);
     memcpy(r[5], (float[]){a->drawn, b->drawn, a->shift, b->shift}, sizeof *r);
 }
 
-/* Those that stay longest with distance come first, so that from far away only the first need to be looked at. */
 static void upload_lines(gpu *g, const marks *m, mark_set *out)
 {
     int vectors = m->flow ? FLOW_VECTORS : LINE_VECTORS;
     float(*records)[4] = mem_alloc(m->line_count * (size_t)vectors * sizeof *records);
-    const mark_line **order = mem_alloc(m->line_count * sizeof *order);
-    out->ranks = mem_alloc(m->line_count * sizeof *out->ranks);
     out->lines = true;
     out->levels = m->levels;
     out->apart = m->apart;
     out->sag = m->sag;
-    out->density = INFINITY;
-    if (records && order && out->ranks) {
-        for (size_t i = 0; i < m->line_count; i++)
-            order[i] = &m->lines[i];
-        qsort(order, m->line_count, sizeof *order, by_perspective);
-        for (size_t i = 0; i < m->line_count; i++) {
-            if (m->flow)
-                write_flow(&records[(size_t)vectors * i], order[i]);
-            else
-                write_line(&records[(size_t)vectors * i], order[i]);
-            out->ranks[i] = 1 - order[i]->perspective;
-            out->density = fmin(out->density, (double)order[i]->density);
-        }
+    for (size_t i = 0; records && i < m->line_count; i++)
+        (m->flow ? write_flow : write_line)(&records[(size_t)vectors * i], &m->lines[out->clusters.order[i]],
+                                            out->clusters.leans[i]);
+    if (records)
         out->marks = gpu_marks_create(g, vectors, records[0], m->line_count);
-    } else {
+    else
         gpu_fail(g, LMN_MEMORY, "out of memory");
-    }
     mem_free(records);
-    mem_free(order);
 }
 
 static mark_ground_options ground_options(const mark_set_options *w, const pose *pose)
@@ -171,14 +159,12 @@ static mark_ground_options ground_options(const mark_set_options *w, const pose 
 static void upload_set(gpu *g, const mark_set_options *w, mark_set *out, const mark_ground *ground, const marks *m)
 {
     gpu_marks_destroy(g, &out->marks);
-    mem_free(out->ranks);
-    out->ranks = NULL;
     memcpy(out->origin, ground->origin, sizeof out->origin);
     out->when = w->pose->when;
     out->count = m->dot_count ? m->dot_count : m->line_count;
     if (m->dot_count) {
         out->density = (double)m->dot_count / m->area;
-        out->marks = upload_dots(g, m, w->points);
+        out->marks = upload_dots(g, m, &out->clusters, w->points);
     } else if (m->line_count) {
         upload_lines(g, m, out);
     }
@@ -192,10 +178,12 @@ static void move_set(gpu *g, const mark_set_options *w, mark_set *s)
     lmn_error           error;
     mark_ground_options options = ground_options(w, w->pose);
     lmn_status          status = mark_ground_move(&now, &moved, s->ground, s->made, &options, &error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
+        mark_clusters_measure(&s->clusters, &moved, &now.surface);
         upload_set(g, w, s, &now, &moved);
-    else
+    } else {
         gpu_fail(g, status, "%s", error.message);
+    }
     mark_ground_release(&now);
     surface_marks_release(&moved);
 }
@@ -222,6 +210,10 @@ static void make_set(gpu *g, const mark_set_options *w, mark_set *out)
         return;
     }
     lmn_status status = mark_ground_posed(out->ground, out->made, &options, &error);
+    if (status == LMN_OK && !mark_clusters_make(&out->clusters, out->made, &out->ground->surface))
+        status = error_memory(&error);
+    if (status == LMN_OK)
+        out->clusters.solid = !out->ground->holed && mark_surface_is_solid(&out->ground->surface, out->ground->parts);
     if (status != LMN_OK) {
         gpu_fail(g, status, "%s", error.message);
     } else if (w->pose->at_rest) {

@@ -4,6 +4,7 @@
 #define LIMNER_STAGE_MARK_SETS_H
 
 #include "gpu/gpu.h"
+#include "marks/clusters.h"
 #include "marks/marks.h"
 #include "pose/pose.h"
 #include "technique/technique.h"
@@ -13,8 +14,8 @@ typedef struct mark_set {
     uint64_t            key, used; /* of what they are made from; when they were drawn last */
     gpu_marks          *marks;     /* NULL: there are none */
     double              origin[3];
-    double              density; /* dots to a unit of area; strokes: the least length of them to one */
-    float              *ranks;   /* of strokes, in their order on the GPU; NULL: dots, in that of their priorities */
+    double              density; /* dots to a unit of area */
+    mark_clusters       clusters; /* in whose order they are */
     size_t              count;
     bool                lines;
     int                 levels; /* of lines that flow */

@@ -5,20 +5,25 @@
 
 uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
 
+uniform float u_solid;  /* 1: the surface is closed, all of it is there, and the viewer is outside */
+
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 
 /* Where a mark's tone is decided. */
 struct mark_position {
     vec3  eye, normal; /* normal: unit, as the surface has it */
     float facing;      /* cosine between normal and view */
+    bool  far;         /* its face turns away, and something else hides it */
 };
 
+/* `normal` is longer than 1 by the least cosine with which a normal that leans off its face's can turn away while the face does not (EX-30). */
 mark_position position_of_mark(vec3 position, vec3 normal)
 {
     mark_position m;
     m.eye = (u_model_view * vec4(position, 1.0)).xyz;
     m.normal = normalize(u_normal_matrix * normal);
     m.facing = dot(m.normal, towards_viewer(m.eye));
+    m.far = u_solid > 0.5 && m.facing < 1.0 - length(normal);
     return m;
 }
 

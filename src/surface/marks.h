@@ -11,6 +11,7 @@ typedef struct mark_values {
     float   shadow, light, contrast, texture, fade;
     colour  ink, paper;
     float   paper_tint, paper_light;
+    bool    cull;
 } mark_values;
 
 #define MARK_ROWS(COUNT, WHAT)                                                                                         \
@@ -40,7 +41,10 @@ typedef struct mark_values {
         PARAM_FLOAT_ROW(mark_values, paper_tint, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, \
                         .doc = "Fraction of the model's own colour in the paper."),                                    \
         PARAM_FLOAT_ROW(mark_values, paper_light, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,                 \
-                        .only_if = "paper_tint", .doc = "How far light shades that colour; 0 leaves it flat.")
+                        .only_if = "paper_tint", .doc = "How far light shades that colour; 0 leaves it flat."),        \
+        PARAM_BOOL_ROW(mark_values, cull, .def = 1, .cpu_only = true,                                                  \
+                       .doc = "Leaves out, cluster by cluster, marks that cannot be seen from here. The picture is "   \
+                              "the same without; it takes longer.")
 
 typedef struct stipple_values {
     mark_values common;

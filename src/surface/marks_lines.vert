@@ -123,7 +123,7 @@ bool clip_near(inout vec3 a, inout vec3 b)
 bool is_back(mark_position m)
 {
     vec2 at = page_of(u_projection * vec4(m.eye, 1.0));
-    return m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
+    return m.far || m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
 }
 
 void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)

@@ -77,7 +77,7 @@ float ink_of_stroke(mark_position m, float fraction)
 bool is_back(mark_position m)
 {
     vec2 at = page_of(u_projection * vec4(m.eye, 1.0));
-    return m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
+    return m.far || m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
 }
 
 /* The corner of a piece that is drawn. */

@@ -63,7 +63,7 @@ void main()
     bool near = clip.w > 0.0 && all(greaterThan(d.at, vec2(-margin))) && all(lessThan(d.at, u_size + margin));
     /* Those of high rank are too many even where it is darkest. Software drivers skip loops that nobody enters, but not branches. */
     float most = ink_of_cover(1.0, u_diameter) / (0.78539816 * u_diameter * u_diameter) * (1.0 + u_fade);
-    int wanted = near && (1.0 - a_position.w) * d.there <= most ? 1 : 0;
+    int wanted = near && !d.mark.far && (1.0 - a_position.w) * d.there <= most ? 1 : 0;
     for (int once = 0; once < wanted; once++)
         put_dot(d);
 }
