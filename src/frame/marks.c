@@ -32,7 +32,7 @@ static bool is_whole(const frame *f, const figure *fig)
 static double reach_of(const frame *f, const mark_set *set, const mark_style *style)
 {
     const double WIDEST = 2.56, SPARE = 4; /* distances that strips have at most (stage/mark_sets.c); pixels */
-    if (!set->levels || !set->apart)
+    if (!set->levels)
         return (double)style->diameter * sqrt((double)style->most) + SPARE;
     double focal = f->camera.projection.m[5] * f->height / 2, near = f->camera.orthographic ? 1 : f->camera.near;
     double closest = ldexp(set->apart, 1 - set->levels) * focal / near, distance = fmax(2 * (double)style->scale, closest);
@@ -103,6 +103,58 @@ bool figure_has_marks(const figure *fig)
     return surface && surface->technique->surface->marks && !fig->unmarked;
 }
 
+static gpu_program *program_of_marks(frame *f, const technique_use *surface, bool points)
+{
+    const mark_source *source = surface->technique->surface->marks;
+    text               prelude = {0};
+    lights_declare(&prelude, f);
+    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
+    if (points)
+        text_append(&prelude, "#define AS_POINTS\n");
+    target_declare(&prelude, &target_rows[TARGET_NORMAL_DEPTH]);
+    return program_of(f, GPU_FLOOR, source->vertex, source->fragment, &prelude);
+}
+
+static void set_uniforms(frame *f, figure_state *s, const mark_set *set, const technique_use *surface)
+{
+    frame_set_common(f, s);
+    uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
+    mat4 world = mat4_identity();
+    memcpy(&world.m[12], set->origin, sizeof set->origin);
+    view_set_transform(f->g, &f->camera, &world);
+    view_set_projection(f->g, &f->camera);
+    gpu_set_float(f->g, "u_focal", (float)(f->camera.projection.m[5] * f->height / 2));
+    gpu_set_float(f->g, "u_density", (float)set->density);
+    gpu_set_float(f->g, "u_near_plane", (float)f->camera.near);
+    gpu_set_float(f->g, "u_levels", (float)set->levels);
+    gpu_set_float(f->g, "u_apart", (float)set->apart);
+    gpu_set_float(f->g, "u_sag", (float)set->sag);
+    gpu_set_float(f->g, "u_solid", set->clusters.solid && is_whole(f, s->figure) ? 1 : 0);
+    gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
+}
+
+/* Draws over the picture; strokes that are left out by depth or winding need that to be tested. */
+static void draw_set(frame *f, figure_state *s, gpu_texture *onto, const mark_set *set, gpu_program *p)
+{
+    const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
+    mark_style           style = {.diameter = 1};
+    surface_mark_style(&style, surface);
+    gpu_texture *empty = style.hiding == HIDE_DEPTH ? frame_acquire(f, TARGET_DEPTH) : NULL;
+    gpu_pass     pass = {.colours = {onto}, .colour_count = 1, .depth = empty};
+    memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
+    if (empty)
+        gpu_pass_begin(f->g, &(gpu_pass){.depth = empty, .clear = true});
+    gpu_pass_begin(f->g, &pass);
+    gpu_use(f->g, p,
+            (gpu_state){.blend = GPU_BLEND_OVER, .depth_test = empty != NULL, .depth_compare = GPU_LESS});
+    gpu_cull_faces(f->g, style.hiding == HIDE_WINDING ? GPU_CULL_BACK : GPU_CULL_NONE);
+    set_uniforms(f, s, set, surface);
+    gpu_settle(f->g);
+    draw_chosen(f, s->figure, set, surface);
+    gpu_cull_faces(f->g, GPU_CULL_NONE);
+    gpu_target_release(f->g, empty);
+}
+
 void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
@@ -114,38 +166,8 @@ void marks_draw(frame *f, figure_state *s, gpu_texture *onto)
     mark_set_options   options = {f->up->pose, s->figure->designated, f->plan->part_count, f->up->crease_angle, surface,
                                   points};
     const mark_set    *set = mark_sets_find(&f->up->marks, f->g, &options);
-    text               prelude = {0};
-    lights_declare(&prelude, f);
-    uniforms_declare(&prelude, use_own_set(KIND_SURFACE, surface));
-    if (points)
-        text_append(&prelude, "#define AS_POINTS\n");
-    target_declare(&prelude, &target_rows[TARGET_NORMAL_DEPTH]);
-    gpu_program *p = set && set->marks ? program_of(f, GPU_FLOOR, source->vertex, source->fragment, &prelude) : NULL;
-    if (p && !gpu_failed(f->g)) {
-        gpu_pass pass = {.colours = {onto}, .colour_count = 1};
-        memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
-        gpu_pass_begin(f->g, &pass);
-        gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
-        frame_set_common(f, s);
-        uniforms_set(f->g, use_own_set(KIND_SURFACE, surface));
-        mat4 world = mat4_identity();
-        memcpy(&world.m[12], set->origin, sizeof set->origin);
-        view_set_transform(f->g, &f->camera, &world);
-        view_set_projection(f->g, &f->camera);
-        gpu_set_float(f->g, "u_focal", (float)(f->camera.projection.m[5] * f->height / 2));
-        gpu_set_float(f->g, "u_density", (float)set->density);
-        gpu_set_float(f->g, "u_near_plane", (float)f->camera.near);
-        gpu_set_float(f->g, "u_levels", (float)set->levels);
-        gpu_set_float(f->g, "u_apart", (float)set->apart);
-        gpu_set_float(f->g, "u_sag", (float)set->sag);
-        gpu_set_float(f->g, "u_solid", set->clusters.solid && is_whole(f, s->figure) ? 1 : 0);
-        gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
-        gpu_settle(f->g);
-        draw_chosen(f, s->figure, set, surface);
-    }
-    if (!p) {
-        char *unused = text_take(&prelude);
-        mem_free(unused);
-    }
+    gpu_program       *p = set && set->marks ? program_of_marks(f, surface, points) : NULL;
+    if (p && !gpu_failed(f->g))
+        draw_set(f, s, onto, set, p);
     watch_stop(&f->profile, w, "surface", "marks");
 }

@@ -284,6 +284,19 @@ double mark_flow_width(const mark_line *line, const float spaces[FLOW_SPACES], d
 
 enum { MARK_LIGHTS_MAX = 8, FLOW_ANY_WIDTH = 2 /* of mark_style.widest: no limit */ };
 
+/* How records of strokes lie in the GPU's memory (EX-29): whole floats at each corner; packed at each corner; packed,
+ * once. */
+typedef enum mark_layout { LAID_CORNERS, LAID_PACKED, LAID_ONCE } mark_layout;
+/* How strokes are left out (EX-13). */
+typedef enum mark_hiding {
+    HIDE_OUTSIDE, /* outside of what is drawn */
+    HIDE_WINDING, /* wound the other way round */
+    HIDE_WIDTH,   /* without width */
+    HIDE_DEPTH,   /* by the depth test */
+    HIDE_DISCARD, /* pixel by pixel */
+    HIDE_ALPHA    /* drawn without opacity */
+} mark_hiding;
+
 /* How marks look and what decides. */
 typedef struct mark_style {
     float   diameter;                                 /* of dots, or width of strokes, pixels */
@@ -306,7 +319,10 @@ typedef struct mark_style {
     bool by_priority; /* a stroke is there where its light priority reaches the tone, whatever ink that makes */
     bool pixels; /* dots are blended into pixels: the same ones are drawn as on the GPU; else true discs of the same
                     tone */
-    colour ink;
+    colour      ink;
+    mark_layout layout; /* on the GPU, of strokes */
+    mark_hiding hiding;
+    bool        thin; /* strokes are native lines there, a pixel wide */
 } mark_style;
 
 /* A camera, and light in its eye space as shaders have it: w 0: a direction, w 1: a position. */

@@ -79,18 +79,21 @@ static gpu_marks *upload_dots(gpu *g, const marks *m, const mark_clusters *c, bo
     return out;
 }
 
-/* A unit vector as one number that floats have exactly: a face and its place on the octahedron, twelve bits each way.
- */
+/* A unit vector's place on the octahedron, −1 … 1. */
+static void fold_direction(vec3 d, float out[2])
+{
+    float sum = fmaxf(fabsf(d.x) + fabsf(d.y) + fabsf(d.z), 1e-20f), x = d.x / sum, y = d.y / sum;
+    out[0] = d.z < 0 ? (1 - fabsf(y)) * (x < 0 ? -1.0f : 1.0f) : x;
+    out[1] = d.z < 0 ? (1 - fabsf(x)) * (y < 0 ? -1.0f : 1.0f) : y;
+}
+
+/* The same as one number that floats have exactly, twelve bits each way. */
 static float packed_direction(vec3 d)
 {
     const float most = 2047;
-    float       sum = fmaxf(fabsf(d.x) + fabsf(d.y) + fabsf(d.z), 1e-20f), x = d.x / sum, y = d.y / sum;
-    if (d.z < 0) {
-        float folded = (1 - fabsf(y)) * (x < 0 ? -1.0f : 1.0f);
-        y = (1 - fabsf(x)) * (y < 0 ? -1.0f : 1.0f);
-        x = folded;
-    }
-    return roundf(most * x) + most + 4096 * (roundf(most * y) + most);
+    float       at[2];
+    fold_direction(d, at);
+    return roundf(most * at[0]) + most + 4096 * (roundf(most * at[1]) + most);
 }
 
 static void write_line(float (*r)[4], const mark_line *l, float lean)
@@ -103,6 +106,53 @@ static void write_line(float (*r)[4], const mark_line *l, float lean)
     r[3][3] = l->density;
     memcpy(r[4], (float[]){l->from / length, l->to / length, packed_direction(l->middle_direction), l->span},
            sizeof *r);
+}
+
+static uint16_t unsigned_fraction(float x)
+{
+    return (uint16_t)roundf(fminf(fmaxf(x, 0), 1) * 65535);
+}
+
+static int16_t signed_fraction(float x)
+{
+    return (int16_t)roundf(fminf(fmaxf(x, -1), 1) * 32767);
+}
+
+/* The same record as that of write_line in 64 bytes: places whole, fractions and directions in 16 bits each. */
+typedef struct packed_line {
+    float    a[3], b[3], middle[3], light, density;
+    uint16_t perspective, from, to, bright;
+    int16_t  turns[4];
+    uint16_t span, lean;
+} packed_line;
+
+static const gpu_mark_layout packed_layout = {.fields = {{MARK_FLOAT, 3},
+                                                         {MARK_FLOAT, 3},
+                                                         {MARK_FLOAT, 3},
+                                                         {MARK_FLOAT, 2},
+                                                         {MARK_UNORM16, 4},
+                                                         {MARK_SNORM16, 4},
+                                                         {MARK_UNORM16, 2}},
+                                              .count = 7};
+
+static void pack_line(packed_line *r, const mark_line *l, float lean)
+{
+    float length = fmaxf(l->length, 1e-30f), folded[4];
+    fold_direction(l->middle_normal, folded);
+    fold_direction(l->middle_direction, folded + 2);
+    *r = (packed_line){.a = {l->a.x, l->a.y, l->a.z},
+                       .b = {l->b.x, l->b.y, l->b.z},
+                       .middle = {l->middle.x, l->middle.y, l->middle.z},
+                       .light = l->light,
+                       .density = l->density,
+                       .perspective = unsigned_fraction(l->perspective),
+                       .from = unsigned_fraction(l->from / length),
+                       .to = unsigned_fraction(l->to / length),
+                       .bright = unsigned_fraction(l->bright),
+                       .span = unsigned_fraction(l->span),
+                       .lean = unsigned_fraction(lean / 4)};
+    for (int k = 0; k < 4; k++)
+        r->turns[k] = signed_fraction(folded[k]);
 }
 
 /* How wide strips are, six bits each, as one number that floats have exactly. */
@@ -132,21 +182,45 @@ static void write_flow(float (*r)[4], const mark_line *l, float lean)
     memcpy(r[5], (float[]){a->drawn, b->drawn, a->shift, b->shift}, sizeof *r);
 }
 
-static void upload_lines(gpu *g, const marks *m, mark_set *out)
+static void write_records(char *out, size_t size, const marks *m, const mark_clusters *c, bool packed)
 {
-    int vectors = m->flow ? FLOW_VECTORS : LINE_VECTORS;
-    float(*records)[4] = mem_alloc(m->line_count * (size_t)vectors * sizeof *records);
+    for (size_t i = 0; i < m->line_count; i++) {
+        const mark_line *l = &m->lines[c->order[i]];
+        void            *record = out + i * size;
+        if (packed)
+            pack_line(record, l, c->leans[i]);
+        else if (m->flow)
+            write_flow(record, l, c->leans[i]);
+        else
+            write_line(record, l, c->leans[i]);
+    }
+}
+
+/* Of strokes, in the layout that the technique asks for; lines that flow have one. */
+static void upload_lines(gpu *g, const marks *m, const technique_use *surface, mark_set *out)
+{
+    mark_style      style = {.diameter = 1};
+    gpu_mark_layout layout = {.count = m->flow ? FLOW_VECTORS : LINE_VECTORS};
+    for (int i = 0; i < layout.count; i++)
+        layout.fields[i] = (gpu_mark_field){MARK_FLOAT, 4};
+    surface_mark_style(&style, surface);
+    bool packed = !m->flow && style.layout != LAID_CORNERS;
+    if (packed)
+        layout = packed_layout;
+    layout.once = packed && style.layout == LAID_ONCE;
+    layout.form = style.thin ? MARK_SEGMENTS : MARK_QUADS;
+    size_t size = gpu_mark_record_size(&layout);
+    char  *records = mem_alloc(m->line_count * size);
     out->lines = true;
-    out->levels = m->levels;
+    out->levels = m->flow ? m->levels : 0;
     out->apart = m->apart;
     out->sag = m->sag;
-    for (size_t i = 0; records && i < m->line_count; i++)
-        (m->flow ? write_flow : write_line)(&records[(size_t)vectors * i], &m->lines[out->clusters.order[i]],
-                                            out->clusters.leans[i]);
-    if (records)
-        out->marks = gpu_marks_create(g, vectors, records[0], m->line_count);
-    else
+    if (records) {
+        write_records(records, size, m, &out->clusters, packed);
+        out->marks = gpu_marks_create_as(g, &layout, records, m->line_count);
+    } else {
         gpu_fail(g, LMN_MEMORY, "out of memory");
+    }
     mem_free(records);
 }
 
@@ -166,7 +240,7 @@ static void upload_set(gpu *g, const mark_set_options *w, mark_set *out, const m
         out->density = (double)m->dot_count / m->area;
         out->marks = upload_dots(g, m, &out->clusters, w->points);
     } else if (m->line_count) {
-        upload_lines(g, m, out);
+        upload_lines(g, m, w->surface, out);
     }
 }
 

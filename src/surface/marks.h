@@ -53,7 +53,7 @@ typedef struct stipple_values {
 
 typedef struct surface_strokes_values {
     mark_values common;
-    int32_t     placed, law, series;
+    int32_t     placed, law, series, primitive, layout, hiding;
     float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength;
     bool        equalised;
     param_words strokes, indication;

@@ -14,6 +14,9 @@
 
 static const char *const placed_names[] = {"form", "planes", "uv", NULL};
 static const char *const law_names[] = {"thesis", "line", NULL};
+static const char *const primitive_names[] = {"quads", "lines", NULL};
+static const char *const layout_names[] = {"corners", "packed", "instances", NULL};
+static const char *const hiding_names[] = {"outside", "winding", "width", "depth", "discard", "alpha", NULL};
 
 /* The pattern of this name; PATTERN_COUNT: none has it. */
 static stroke_pattern pattern_of(const char *name)
@@ -88,13 +91,25 @@ static const param params[] = {
         surface_strokes_values, jitter, .def = 0.01, .min = 0, .max = 0.5, .soft_max = 0.1, .unit = UNIT_FRACTION,
         .cpu_only = true, .only_if = "placed=uv",
         .doc = "How far each copy of a stroke is moved, fraction of the texture, so that it is not seen to repeat."),
+    PARAM_ENUM_ROW(
+        surface_strokes_values, primitive, .names = primitive_names, .variant = true,
+        .doc = "What strokes are drawn with: quads have any width and soft borders; lines are those of the graphics "
+               "hardware, a pixel wide and hard, paler where a stroke is thinner. In files of vectors no wider than a "
+               "pixel."),
+    PARAM_ENUM_ROW(
+        surface_strokes_values, layout, .names = layout_names, .variant = true,
+        .doc = "How strokes lie in the graphics memory: corners holds all numbers whole at each corner, packed holds "
+               "them in 64 bytes, instances holds those once for all corners. The picture is the same."),
+    PARAM_ENUM_ROW(surface_strokes_values, hiding, .names = hiding_names, .variant = true, .only_if = "primitive=quads",
+                   .doc = "How strokes that are not drawn are left out, by the ways that Freudenberg (2003) compares. "
+                          "The picture is the same; outside takes least."),
 };
 
 static void describe(text *out, const void *values)
 {
     const surface_strokes_values *v = values;
-    text_append(out, "strokes %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count, v->common.pattern_seed,
-                v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
+    text_append(out, "strokes %d %d %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count,
+                v->common.pattern_seed, v->primitive, v->layout, v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
                 (double)v->jitter, v->strokes.text);
     if (v->indication.text[0]) {
         text_append(out, "%.9g ", (double)v->indication_strength);
@@ -340,7 +355,10 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->steady = l->steady;
     } else {
         const surface_strokes_values *s = use->values;
-        out->diameter = s->width;
+        out->thin = s->primitive == 1;
+        out->diameter = out->thin ? fminf(s->width, 1) : s->width;
+        out->layout = (mark_layout)s->layout;
+        out->hiding = out->thin ? HIDE_OUTSIDE : (mark_hiding)s->hiding;
         out->scale = s->scale;
         out->taper = s->taper;
         out->law = s->law;

@@ -14,6 +14,10 @@ const float TIP = 1e-4;
 
 void main()
 {
+#if HIDING == 4
+    if (v_ink <= 0.0)
+        discard;
+#endif
     vec2 chord = v_ends.zw - v_ends.xy, from = gl_FragCoord.xy - v_ends.xy;
     float square = dot(chord, chord), foot = dot(from, chord) / max(square, 1e-6), along = clamp(foot, 0.0, 1.0);
     vec2 axis = v_ends.xy + along * chord;
@@ -25,13 +29,19 @@ void main()
     vec4 seen = texelFetch(t_normal_depth, ivec2(clamp(axis, vec2(0.0), u_size - 1.0)), 0);
     float arc = mix(v_run.x, v_run.y, along);
     float half_width = v_depths.w * (v_run.z > 0.0 ? clamp(min(arc, 1.0 - arc) * v_run.z, 0.0, 1.0) : 1.0);
+#if PRIMITIVE == 1
+    float cover = min(2.0 * half_width, 1.0) * v_ink; /* in the pixels that the hardware chose */
+#else
     float cover = clamp(half_width + 0.5 - length(from - along * chord), 0.0, min(2.0 * half_width, 1.0)) * v_ink;
+#endif
     /* Far from its own depth only what is turned as it is can be its surface. */
     float like = dot(seen.xyz, v_normal);
     cover *= step(abs(seen.w - depth), tolerance * clamp(2.0 * like, 0.15, 1.0));
+#if PRIMITIVE == 0
     /* Where pieces meet, a pixel is of one of them, so that no ink is there twice (EX-26). Ends that do not run out are cut off, too. */
     float slack = JOINT_SLACK * inversesqrt(max(square, 1e-6));
     if (((v_run.x > TIP || v_run.z <= 0.0) && foot < -slack) || ((v_run.y < 1.0 - TIP || v_run.z <= 0.0) && foot > 1.0 + slack))
         cover = 0.0;
+#endif
     out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
 }

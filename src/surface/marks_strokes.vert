@@ -1,11 +1,24 @@
 /* Strokes: each piece is a record four times, a corner each, drawn as a quad of the same width wherever it is (EX-12). A stroke's tone is decided at its middle, so that it is drawn whole. */
 #include "surface/marks.glsl"
 
+#if LAYOUT == 0
 layout(location = 0) in vec4 a_from;   /* light priority */
 layout(location = 1) in vec4 a_to;     /* perspective priority */
 layout(location = 2) in vec4 a_middle; /* brightness of the model there */
 layout(location = 3) in vec4 a_normal; /* at the middle; density: length of strokes to a unit of area */
 layout(location = 4) in vec4 a_along;  /* where the piece begins and ends, fractions of the stroke; its direction at its middle, packed (stage/mark_sets.c); of layers of priorities, 0: none */
+#else
+/* The same in 64 bytes (EX-29). */
+layout(location = 0) in vec3 a_begins;
+layout(location = 1) in vec3 a_ends;
+layout(location = 2) in vec3 a_centre;
+layout(location = 3) in vec2 a_numbers;  /* light priority, density */
+layout(location = 4) in vec4 a_shares;   /* perspective priority, where the piece begins and ends, brightness */
+layout(location = 5) in vec4 a_turns;    /* normal and direction, as octahedra */
+layout(location = 6) in vec2 a_fractions; /* of layers; a quarter of how much longer than 1 the normal is */
+
+vec4 a_from, a_to, a_middle, a_normal, a_along;
+#endif
 
 uniform float u_near_plane;
 
@@ -39,13 +52,44 @@ bool clip_near(inout vec3 a, inout vec3 b, inout vec2 arcs)
     return true;
 }
 
-vec3 unpacked_direction(float number)
+/* From its place on an octahedron, −1 … 1. */
+vec3 unfolded(vec2 at)
 {
-    const float MOST = 2047.0;
-    float y = floor(number / 4096.0);
-    vec2 at = (vec2(number - 4096.0 * y, y) - MOST) / MOST;
     float z = 1.0 - abs(at.x) - abs(at.y), under = max(-z, 0.0);
     return normalize(vec3(at.x + (at.x < 0.0 ? under : -under), at.y + (at.y < 0.0 ? under : -under), z));
+}
+
+#if LAYOUT == 0
+vec3 direction_in_middle()
+{
+    const float MOST = 2047.0;
+    float y = floor(a_along.z / 4096.0);
+    return unfolded((vec2(a_along.z - 4096.0 * y, y) - MOST) / MOST);
+}
+#else
+vec3 direction_in_middle()
+{
+    return unfolded(a_turns.zw);
+}
+
+void unpack()
+{
+    a_from = vec4(a_begins, a_numbers.x);
+    a_to = vec4(a_ends, a_shares.x);
+    a_middle = vec4(a_centre, a_shares.w);
+    a_normal = vec4(unfolded(a_turns.xy) * (1.0 + 4.0 * a_fractions.y), a_numbers.y);
+    a_along = vec4(a_shares.yz, 0.0, a_fractions.x);
+}
+#endif
+
+/* Native lines are no wider than a pixel (EX-11). */
+float full_width()
+{
+#if PRIMITIVE == 1
+    return min(u_width, 1.0);
+#else
+    return u_width;
+#endif
 }
 
 /* Fraction of the strokes that shall be there for where they are: marks/marks_law.c. */
@@ -64,7 +108,7 @@ float fraction_there(mark_position m, vec3 direction, float d)
 /* Fraction of its width that the stroke has; `fraction`: of strokes that shall be there for where they are. */
 float ink_of_stroke(mark_position m, float fraction)
 {
-    float darkest = u_width * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
+    float darkest = full_width() * (1.0 - u_taper) / u_scale, darkness = darkness_at(m, a_middle.w);
     bool equalised = u_equalised || a_along.w > 0.0;
     float light_fraction = clamp(equalised ? ink_of_strokes(darkness, darkest, a_along.w, CROWDED) / darkest : darkness, 0.0, 1.0);
     if (a_along.w > 0.0)
@@ -80,36 +124,55 @@ bool is_back(mark_position m)
     return m.far || m.facing < 0.0 && dot(texelFetch(t_normal_depth, ivec2(clamp(at, vec2(0.0), u_size - 1.0)), 0).xyz, towards_viewer(m.eye)) > 0.0;
 }
 
-/* The corner of a piece that is drawn. */
-void put_corner(mark_position m, vec3 from, vec3 to, float fraction)
+/* A corner of a piece that has so much ink. What has none is left out in one of the ways that hardware without a way to say so offers (EX-13): by default its corners lie outside of all that is drawn. */
+void put_corner(mark_position m, vec3 from, vec3 to, float ink)
 {
-    float ink = ink_of_stroke(m, fraction);
     vec2 arcs = a_along.xy;
-    if (ink <= 0.0 || (u_perspective > 0.5 && !clip_near(from, to, arcs)))
+    bool gone = ink <= 0.0;
+    if ((HIDING == 0 && gone) || (u_perspective > 0.5 && !clip_near(from, to, arcs)))
         return;
     vec2 a = page_of(u_projection * vec4(from, 1.0)), b = page_of(u_projection * vec4(to, 1.0));
-    float size = length(b - a), width = u_width * ink, half_width = 0.5 * max(width, 1.0);
+    float size = length(b - a), width = full_width() * (gone ? 1.0 : ink), half_width = 0.5 * max(width, 1.0);
     vec2 direction = size > 1e-4 ? (b - a) / size : vec2(1.0, 0.0), aside = vec2(-direction.y, direction.x);
     float tolerance = 1.5 + 1.5 * steepness(m);
     v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
     v_depths = u_perspective > 0.5 ? vec4(-1.0 / from.z, -1.0 / to.z, tolerance / u_focal, half_width) : vec4(-from.z, -to.z, tolerance / u_focal, half_width);
     v_run = vec3(arcs, u_taper > 0.0 ? 1.0 / u_taper : 0.0);
-    v_ink = min(width, 1.0);
+    v_ink = gone ? 0.0 : min(width, 1.0);
     vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
-    vec2 at = mix(a, b, 0.5 + 0.5 * corner.x) + (direction * corner.x + aside * corner.y) * (half_width + 0.5);
-    gl_Position = vec4(at / u_size * 2.0 - 1.0, 0.0, 1.0);
+    float around = half_width + 0.5, depth = 0.0;
+#if HIDING == 1
+    corner.y = gone ? -corner.y : corner.y;
+#elif HIDING == 2
+    around = gone ? 0.0 : around;
+#elif HIDING == 3
+    depth = gone ? 1.0 : 0.0;
+#endif
+#if PRIMITIVE == 1
+    vec2 at = corner.x > 0.0 ? b : a;
+#else
+    vec2 at = mix(a, b, 0.5 + 0.5 * corner.x) + (direction * corner.x + aside * corner.y) * around;
+#endif
+    gl_Position = vec4(at / u_size * 2.0 - 1.0, depth, 1.0);
 }
 
 void main()
 {
     gl_Position = NOWHERE;
+#if LAYOUT > 0
+    unpack();
+#endif
     mark_position m = position_of_mark(a_middle.xyz, a_normal.xyz);
     vec3 from = (u_model_view * vec4(a_from.xyz, 1.0)).xyz, to = (u_model_view * vec4(a_to.xyz, 1.0)).xyz;
-    vec3 direction = normalize(mat3(u_model_view) * unpacked_direction(a_along.z));
+    vec3 direction = normalize(mat3(u_model_view) * direction_in_middle());
     float fraction = fraction_there(m, direction, u_focal / max(a_normal.w * u_scale, 1e-20));
     /* Most are too many wherever they are, whatever the light. Software drivers skip loops that nobody enters, but not branches. */
     int wanted = 1.0 - a_to.w <= fraction * (1.0 + u_fade) && !is_back(m) ? 1 : 0;
+    float ink = 0.0;
     for (int once = 0; once < wanted; once++)
-        put_corner(m, from, to, fraction);
+        ink = ink_of_stroke(m, fraction);
+    int placed = HIDING > 0 || ink > 0.0 ? 1 : 0;
+    for (int once = 0; once < placed; once++)
+        put_corner(m, from, to, ink);
 }
