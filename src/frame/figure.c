@@ -51,22 +51,35 @@ static void keep_box(const frame_maps *m, figure_state *s)
     }
 }
 
+/* Around the figure and what stands on it. */
+static box3 box_of(const figure *fig)
+{
+    box3        box = fig->box;
+    const float by = (float)figure_marks_stand(fig);
+    if (by > 0 && !box3_is_empty(box)) {
+        box.min = (vec3){box.min.x - by, box.min.y - by, box.min.z - by};
+        box.max = (vec3){box.max.x + by, box.max.y + by, box.max.z + by};
+    }
+    return box;
+}
+
 bool figure_open(frame *f, figure_state *s, const figure *fig)
 {
     *s = (figure_state){.figure = fig, .near = f->camera.near, .far = f->camera.far};
     double nearest = INFINITY, farthest = -INFINITY;
-    box3   box = fig->complement ? f->plan->box : fig->box;
+    const box3 own = box_of(fig);
+    box3       box = fig->complement ? f->plan->box : own;
     camera_depth_range(&f->camera, box, &nearest, &farthest);
     double margin = fmax((farthest - nearest) * 1e-3, farthest * 1e-6);
     s->near = fmax(nearest - margin, f->camera.near);
     s->far = fmin(farthest + margin, f->camera.far);
     if (!(s->far > s->near))
         s->far = s->near + 1;
-    camera_pixels(&f->camera, fig->box, f->width, f->height, figure_reach(fig), s->pixels);
+    camera_pixels(&f->camera, own, f->width, f->height, figure_reach(fig), s->pixels);
     if (f->maps && f->maps->part)
         keep_box(f->maps, s);
     else if (!f->maps) /* maps are read back whole */
-        camera_pixels(&f->camera, fig->box, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
+        camera_pixels(&f->camera, own, f->width, f->height, 2 * figure_reach(fig) + 2, s->around);
     memcpy(s->drawn[0], s->pixels, sizeof s->drawn[0]);
     memcpy(s->drawn[1], s->around, sizeof s->drawn[1]);
     if (!f->maps)
@@ -239,7 +252,7 @@ static bool mark_parts(const frame *f, tile_grid *t, const figure *fig, int reac
 /* Passes over a figure of things that lie apart are drawn where these are. */
 void figure_find_boxes(frame *f, figure_state *s)
 {
-    if (f->maps)
+    if (f->maps || figure_marks_stand(s->figure) > 0)
         return;
     tile_grid *t = mem_alloc(sizeof *t);
     s->boxes = mem_alloc(TILE_BOXES_MAX * sizeof *s->boxes);

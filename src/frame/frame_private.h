@@ -196,6 +196,8 @@ void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 
 /* --- marks.c: marks on surfaces --- */
 bool figure_has_marks(const figure *fig);
+/* How far they stand out of its surfaces, units of the world. */
+double figure_marks_stand(const figure *fig);
 /* Those of the figure's surface technique, where its surface is what is seen, over a picture. */
 void marks_draw(frame *f, figure_state *s, gpu_texture *onto);
 

@@ -29,13 +29,18 @@ static bool is_whole(const frame *f, const figure *fig)
 
 /* How far marks reach beyond where they are, pixels; lines that flow fill the way to their neighbours, which is wide
  * where even the closest lines are far apart. */
-static double reach_of(const frame *f, const mark_set *set, const mark_style *style)
+static double reach_of(const frame *f, const figure *fig, const mark_set *set, const mark_style *style)
 {
     const double WIDEST = 2.56, SPARE = 4; /* distances that strips have at most (stage/mark_sets.c); pixels */
     if (!set->levels)
         return (double)style->diameter * sqrt((double)style->most) + SPARE;
-    double focal = f->camera.projection.m[5] * f->height / 2, near = f->camera.orthographic ? 1 : f->camera.near;
-    double closest = ldexp(set->apart, 1 - set->levels) * focal / near, distance = fmax(2 * (double)style->scale, closest);
+    const double *p = f->camera.projection.m;
+    double        nearest = INFINITY, farthest = -INFINITY, focal = p[5] * f->height / 2;
+    camera_depth_range(&f->camera, fig->box, &nearest, &farthest);
+    /* Beside the middle of the picture things are seen larger. */
+    if (!f->camera.orthographic)
+        focal *= (1 + 1 / (p[0] * p[0]) + 1 / (p[5] * p[5])) / fmax(nearest, f->camera.near);
+    double closest = ldexp(set->apart, 1 - set->levels) * focal, distance = fmax(2 * (double)style->scale, closest);
     double widest = style->widest < FLOW_ANY_WIDTH ? (double)style->widest * (double)style->scale : WIDEST * distance;
     return widest + 2 * (double)style->stray * (double)style->scale + SPARE;
 }
@@ -48,7 +53,7 @@ static cluster_view view_of(const frame *f, const figure *fig, const mark_set *s
                       .focal = f->camera.projection.m[5] * f->height / 2,
                       .width = f->width,
                       .height = f->height,
-                      .reach = reach_of(f, set, style),
+                      .reach = reach_of(f, fig, set, style),
                       .outside = is_whole(f, fig)};
     mat4         world = mat4_identity();
     memcpy(&world.m[12], set->origin, sizeof set->origin);
@@ -57,8 +62,8 @@ static cluster_view view_of(const frame *f, const figure *fig, const mark_set *s
 }
 
 /* The marks that are looked at, cluster by cluster: runs of them. What is left out is told. Returns how many runs. */
-static size_t choose_runs(frame *f, const figure *fig, const mark_set *set, const technique_use *surface,
-                          uint32_t (*runs)[2])
+static size_t choose_runs(const frame *f, const figure *fig, const mark_set *set, const technique_use *surface,
+                          uint32_t (*runs)[2], mark_facts *facts)
 {
     const mark_clusters *c = &set->clusters;
     mark_style           style = {.diameter = 1};
@@ -74,24 +79,26 @@ static size_t choose_runs(frame *f, const figure *fig, const mark_set *set, cons
             drawn = mark_cluster_prefix(c, one, rank_needed(set, one, &style, &view));
         if (drawn)
             memcpy(runs[count++], (uint32_t[]){one->first, (uint32_t)drawn}, sizeof *runs);
-        f->marks.drawn += drawn;
-        f->marks.clusters_drawn += drawn > 0;
-        *(fate == CLUSTER_BESIDE        ? &f->marks.beside
-          : fate == CLUSTER_TURNED_AWAY ? &f->marks.turned_away
-                                        : &f->marks.too_dense) += one->count - drawn;
+        facts->drawn += drawn;
+        facts->clusters_drawn += drawn > 0;
+        *(fate == CLUSTER_BESIDE        ? &facts->beside
+          : fate == CLUSTER_TURNED_AWAY ? &facts->turned_away
+                                        : &facts->too_dense) += one->count - drawn;
     }
-    f->marks.clusters += c->count;
-    f->marks.there += set->count;
-    f->marks.bytes += gpu_marks_bytes(set->marks);
+    facts->clusters += c->count;
+    facts->there += set->count;
+    facts->bytes += gpu_marks_bytes(set->marks);
     return count;
 }
 
 /* Of the set, with the program and state that are in use. */
-static void draw_chosen(frame *f, const figure *fig, const mark_set *set, const technique_use *surface)
+static void draw_chosen(frame *f, const figure *fig, const mark_set *set, const technique_use *surface, bool told)
 {
     uint32_t(*runs)[2] = mem_alloc((set->clusters.count + 1) * sizeof *runs);
+    mark_facts unused = {0};
     if (runs)
-        gpu_draw_mark_runs(f->g, set->marks, runs, choose_runs(f, fig, set, surface, runs));
+        gpu_draw_mark_runs(f->g, set->marks, runs,
+                           choose_runs(f, fig, set, surface, runs, told ? &f->marks : &unused));
     else
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(runs);
@@ -133,24 +140,40 @@ static void set_uniforms(frame *f, figure_state *s, const mark_set *set, const t
     gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
 }
 
-/* Draws over the picture; strokes that are left out by depth or winding need that to be tested. */
+double figure_marks_stand(const figure *fig)
+{
+    mark_style style = {.diameter = 1};
+    return figure_has_marks(fig) && surface_mark_style(&style, rule_use(fig->rule, KIND_SURFACE))
+               ? (double)style.stands * box3_diagonal(fig->box)
+               : 0;
+}
+
+/* Draws over the picture; what is left out by depth or winding needs that to be tested. What stands on the surface is
+ * hidden by what lies before it, pixel by pixel, and where nothing lies behind it its depth is that of the figure. */
 static void draw_set(frame *f, figure_state *s, gpu_texture *onto, const mark_set *set, gpu_program *p)
 {
     const technique_use *surface = rule_use(s->figure->rule, KIND_SURFACE);
     mark_style           style = {.diameter = 1};
     surface_mark_style(&style, surface);
-    gpu_texture *empty = style.hiding == HIDE_DEPTH ? frame_acquire(f, TARGET_DEPTH) : NULL;
-    gpu_pass     pass = {.colours = {onto}, .colour_count = 1, .depth = empty};
+    gpu_texture *empty = style.hiding == HIDE_DEPTH ? frame_acquire(f, TARGET_DEPTH) : NULL,
+                *depth = style.stands > 0 ? s->targets[TARGET_DEPTH] : empty;
+    gpu_pass  pass = {.colours = {onto}, .colour_count = 1, .depth = depth};
+    gpu_state state = {.blend = GPU_BLEND_OVER, .depth_test = depth != NULL, .depth_compare = GPU_LESS};
     memcpy(pass.scissor, s->pixels, sizeof pass.scissor);
     if (empty)
         gpu_pass_begin(f->g, &(gpu_pass){.depth = empty, .clear = true});
-    gpu_pass_begin(f->g, &pass);
-    gpu_use(f->g, p,
-            (gpu_state){.blend = GPU_BLEND_OVER, .depth_test = empty != NULL, .depth_compare = GPU_LESS});
-    gpu_cull_faces(f->g, style.hiding == HIDE_WINDING ? GPU_CULL_BACK : GPU_CULL_NONE);
-    set_uniforms(f, s, set, surface);
-    gpu_settle(f->g);
-    draw_chosen(f, s->figure, set, surface);
+    for (int alone = 0; alone < (style.stands > 0 && depth ? 2 : 1); alone++) {
+        pass.colour_count = alone ? 0 : 1;
+        pass.colours[0] = alone ? NULL : onto;
+        state.depth_write = alone;
+        gpu_pass_begin(f->g, &pass);
+        gpu_use(f->g, p, state);
+        gpu_cull_faces(f->g, style.hiding == HIDE_WINDING ? GPU_CULL_BACK : GPU_CULL_NONE);
+        set_uniforms(f, s, set, surface);
+        gpu_set_float(f->g, "u_depth_alone", (float)alone);
+        gpu_settle(f->g);
+        draw_chosen(f, s->figure, set, surface, !alone);
+    }
     gpu_cull_faces(f->g, GPU_CULL_NONE);
     gpu_target_release(f->g, empty);
 }

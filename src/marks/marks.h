@@ -18,6 +18,7 @@ typedef struct mark_surface {
     const vec2     *uvs;                 /* NULL: none */
     const uint32_t *indices;             /* three a triangle */
     uint32_t        vertex_count, triangle_count;
+    vec3            up; /* of the scene, unit; 0: nobody knows */
 } mark_surface;
 
 /* A dot. It has one priority for light and distance together (EX-31). */
@@ -157,6 +158,24 @@ typedef struct trace_options {
 /* Strokes begin at evenly spread positions and walk both ways over the surface, each in a plane of its own, until they
  * are long enough or come to a border or a sharp edge. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status marks_trace(marks *out, const mark_surface *s, const trace_options *options, lmn_error *error);
+
+/* --- grass (marks_grass.c) ------------------------------------------------------------------------------ */
+
+typedef struct grass_options {
+    size_t   count;   /* of blades */
+    int      tuft;    /* how many grow from one place */
+    double   length;  /* mean, model units */
+    double   upright; /* 0: along the surface's normal; 1: upwards */
+    double   lean;    /* mean angle to that, radians */
+    double   combed;  /* how much they lean to the same side, down the slope: 0 … 1 */
+    double   uneven;  /* how much lengths and angles differ, 0 … 1 */
+    vec3     up;
+    uint32_t seed;
+} grass_options;
+
+/* Blades that stand on the surface; tufts are strewn evenly, those of any share of the ranks, too, and have one rank.
+ * Their tone is that of their root. Errors: LMN_MEMORY, LMN_LIMIT. */
+lmn_status marks_grass(marks *out, const mark_surface *s, const grass_options *options, lmn_error *error);
 
 /* --- strokes along the form (streamlines_*.c) ----------------------------------------------------------- */
 
@@ -322,7 +341,9 @@ typedef struct mark_style {
     colour      ink;
     mark_layout layout; /* on the GPU, of strokes */
     mark_hiding hiding;
-    bool        thin; /* strokes are native lines there, a pixel wide */
+    float       stands; /* how far marks may stand out of the surface, fraction of the diagonal of all of it: what hides
+                           them is what lies before them, and they end in a tip; 0: they lie in it */
+    bool        thin;   /* strokes are native lines there, a pixel wide */
 } mark_style;
 
 /* A camera, and light in its eye space as shaders have it: w 0: a direction, w 1: a position. */

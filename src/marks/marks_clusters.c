@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "marks/d3.h"
 
-enum { CLUSTER_MARKS = 384, CLUSTERS_MOST = 1024, KEYS = 6 };
+enum { CLUSTER_MARKS = 256, CLUSTERS_MOST = 1024, KEYS = 6 };
 
 /* What marks are grouped by: place as a fraction of the surface's extent, weighed against the normal. */
 static const double PLACE_WEIGHT = 3;

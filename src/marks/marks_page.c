@@ -302,6 +302,8 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
 static float taper_at(const pager *g, const mark_line *l, float along)
 {
     float run = g->style->taper * l->length, to_end = fminf(along, l->length - along);
+    if (g->style->stands > 0)
+        to_end = 0.5f * (l->length - along);
     return run > 0 ? fminf(fmaxf(to_end / run, 0), 1) : 1;
 }
 
@@ -472,7 +474,7 @@ static lmn_status lines_visible(marks_page *out, const pager *g, const marks *m,
             close_line(&w);
         float widths[2];
         find_widths(g, m, l, widths);
-        if (fmaxf(widths[0], widths[1]) > 0 && (m->flow || !is_far_side(&w, l)))
+        if (fmaxf(widths[0], widths[1]) > 0 && (m->flow || g->style->stands > 0 || !is_far_side(&w, l)))
             done = add_piece(&w, l, widths);
         else
             close_line(&w);

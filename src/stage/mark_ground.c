@@ -173,6 +173,7 @@ lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *pa
     out->surface.normals = out->normals;
     out->surface.uvs = j.laid_out ? out->uvs : NULL;
     out->surface.indices = out->indices;
+    out->surface.up = pose->scene->up == 'z' ? (vec3){0, 0, 1} : (vec3){0, 1, 0};
     if (status != LMN_OK)
         mark_ground_release(out);
     return status;

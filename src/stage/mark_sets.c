@@ -286,7 +286,9 @@ static void make_set(gpu *g, const mark_set_options *w, mark_set *out)
     lmn_status status = mark_ground_posed(out->ground, out->made, &options, &error);
     if (status == LMN_OK && !mark_clusters_make(&out->clusters, out->made, &out->ground->surface))
         status = error_memory(&error);
-    if (status == LMN_OK)
+    mark_style style = {.diameter = 1};
+    surface_mark_style(&style, w->surface);
+    if (status == LMN_OK && !(style.stands > 0)) /* what stands on the far side may look over it */
         out->clusters.solid = !out->ground->holed && mark_surface_is_solid(&out->ground->surface, out->ground->parts);
     if (status != LMN_OK) {
         gpu_fail(g, status, "%s", error.message);

@@ -53,8 +53,9 @@ typedef struct stipple_values {
 
 typedef struct surface_strokes_values {
     mark_values common;
-    int32_t     placed, law, series, primitive, layout, hiding;
-    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength;
+    int32_t     placed, law, series, tuft, primitive, layout, hiding;
+    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength, upright, lean,
+        combed;
     bool        equalised;
     param_words strokes, indication;
 } surface_strokes_values;
@@ -67,7 +68,7 @@ typedef struct surface_lines_values {
         taper, tip, join, swell;
 } surface_lines_values;
 
-typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV } stroke_placing;
+typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV, PLACED_GRASS } stroke_placing;
 
 /* How marks of a technique look, for who draws them without a GPU; lengths as the values have them. False: the
  * technique has no marks. */

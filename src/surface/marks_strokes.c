@@ -12,7 +12,7 @@
 #include "surface/marks.h"
 #include "surface/surface.h"
 
-static const char *const placed_names[] = {"form", "planes", "uv", NULL};
+static const char *const placed_names[] = {"form", "planes", "uv", "grass", NULL};
 static const char *const law_names[] = {"thesis", "line", NULL};
 static const char *const primitive_names[] = {"quads", "lines", NULL};
 static const char *const layout_names[] = {"corners", "packed", "instances", NULL};
@@ -43,7 +43,8 @@ static const param params[] = {
         surface_strokes_values, placed, .names = placed_names, .variant = true,
         .doc = "form: strokes lie side by side along the directions in which the surface bends; planes: where planes "
                "through the model "
-               "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form)."),
+               "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form); grass: they stand "
+               "on it, as grass, hair or fur."),
     PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 0.975, .min = 0.075, .max = 48, .soft_min = 0.375,
                     .soft_max = 4.5, .unit = UNIT_PT, .doc = "Width of strokes, wherever they are."),
     PARAM_FLOAT_ROW(surface_strokes_values, scale, .def = 0.75, .min = 0.15, .max = 150, .soft_min = 0.375,
@@ -51,7 +52,7 @@ static const param params[] = {
                     .doc = "Mean distance of strokes where it is darkest, all sets together: they come no closer, "
                            "however dark it should be."),
     PARAM_FLOAT_ROW(surface_strokes_values, length, .def = 0.035, .min = 0.0005, .max = 1, .soft_max = 0.2,
-                    .unit = UNIT_FRACTION, .cpu_only = true, .only_if = "placed=form,planes",
+                    .unit = UNIT_FRACTION, .cpu_only = true, .only_if = "placed=form,planes,grass",
                     .doc = "Mean length of strokes, fraction of the model's diagonal."),
     PARAM_INT_ROW(surface_strokes_values, series, .def = 2, .min = 1, .max = 4, .unit = UNIT_COUNT, .cpu_only = true,
                   .only_if = "placed=form,planes",
@@ -59,10 +60,22 @@ static const param params[] = {
     PARAM_FLOAT_ROW(surface_strokes_values, turn, .def = 62, .min = -180, .max = 180, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "series>1", .doc = "Angle between one set of strokes and the next."),
     PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
-                    .cpu_only = true, .only_if = "placed=form,planes",
+                    .cpu_only = true, .only_if = "placed=form,planes,grass",
                     .doc = "How much strokes differ in length and way."),
     PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
-                    .doc = "Fraction of its length over which each end of a stroke runs out."),
+                    .doc = "Fraction of its length over which each end of a stroke runs out; of grass, which has a root, half of the "
+                           "fraction over which its tip does."),
+    PARAM_INT_ROW(surface_strokes_values, tuft, .def = 3, .min = 1, .max = 12, .unit = UNIT_COUNT, .cpu_only = true,
+                  .only_if = "placed=grass", .doc = "Blades that grow from one place."),
+    PARAM_FLOAT_ROW(surface_strokes_values, upright, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .cpu_only = true, .only_if = "placed=grass",
+                    .doc = "What blades grow towards: 0, away from the surface, as hair does; 1, upwards, as grass does."),
+    PARAM_FLOAT_ROW(surface_strokes_values, lean, .def = 28, .min = 0, .max = 85, .unit = UNIT_DEGREES,
+                    .cpu_only = true, .only_if = "placed=grass",
+                    .doc = "How far blades lean over, in the mean; they bend more and more towards their tips."),
+    PARAM_FLOAT_ROW(surface_strokes_values, combed, .def = 0.4, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .cpu_only = true, .only_if = "placed=grass",
+                    .doc = "How much all lean to the same side, down the surface; 0: each anywhere."),
     PARAM_ENUM_ROW(
         surface_strokes_values, law, .names = law_names, .def = 1, .variant = true,
         .doc = "How strokes are thinned out with distance and tilt: line keeps the ink on the page the same; thesis is "
@@ -111,6 +124,8 @@ static void describe(text *out, const void *values)
     text_append(out, "strokes %d %d %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count,
                 v->common.pattern_seed, v->primitive, v->layout, v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
                 (double)v->jitter, v->strokes.text);
+    if (v->placed == PLACED_GRASS)
+        text_append(out, "%d %.9g %.9g %.9g ", v->tuft, (double)v->upright, (double)v->lean, (double)v->combed);
     if (v->indication.text[0]) {
         text_append(out, "%.9g ", (double)v->indication_strength);
         indication_describe(out, v->indication.text);
@@ -289,11 +304,30 @@ static lmn_status make_both(marks *out, const mark_surface *surface, double exte
     return status;
 }
 
+static lmn_status make_grass(marks *out, const mark_surface *surface, double extent, const surface_strokes_values *v,
+                             lmn_error *error)
+{
+    const double RADIANS = 3.14159265358979 / 180;
+    return marks_grass(out, surface,
+                       &(grass_options){.count = (size_t)v->common.count,
+                                        .tuft = v->tuft,
+                                        .length = extent * (double)v->length,
+                                        .upright = (double)v->upright,
+                                        .lean = (double)v->lean * RADIANS,
+                                        .combed = (double)v->combed,
+                                        .uneven = (double)v->uneven,
+                                        .up = surface->up,
+                                        .seed = (uint32_t)v->common.pattern_seed},
+                       error);
+}
+
 static lmn_status make(marks *out, const mark_surface *surface, double extent, const void *values, lmn_error *error)
 {
     const surface_strokes_values *v = values;
     if (v->placed == PLACED_UV && surface->uvs)
         return make_both(out, surface, extent, v, error);
+    if (v->placed == PLACED_GRASS)
+        return make_grass(out, surface, extent, v, error);
     return make_traced(out, surface, extent, (size_t)v->common.count, v, error);
 }
 
@@ -363,7 +397,9 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->taper = s->taper;
         out->law = s->law;
         out->by_priority = !s->equalised;
-        out->crowded = s->placed == PLACED_FORM ? 0 : MARK_CROWDED_IN_PLANES;
+        out->crowded = s->placed == PLACED_FORM ? 0 : s->placed == PLACED_GRASS ? 1 : MARK_CROWDED_IN_PLANES;
+        if (s->placed == PLACED_GRASS)
+            out->stands = s->length * (1 + 0.6f * s->uneven) + 0.12f * 3 * s->length;
     }
     return true;
 }

@@ -25,6 +25,8 @@ uniform float u_near_plane;
 /* How far strokes of one set are from being side by side, to being strewn at random. */
 #if PLACED == 0
 const float CROWDED = 0.0;
+#elif PLACED == 3
+const float CROWDED = 1.0;
 #else
 const float CROWDED = 0.24;
 #endif
@@ -117,6 +119,13 @@ float ink_of_stroke(mark_position m, float fraction)
     return clamp(1.0 - lack / u_fade, 0.0, 1.0);
 }
 
+/* Where it is in depth, −1 … 1: before its own surface. */
+float depth_before(vec3 eye, float tolerance)
+{
+    vec4 clip = u_projection * vec4(u_perspective > 0.5 ? eye * (1.0 - tolerance / u_focal) : eye + vec3(0.0, 0.0, tolerance / u_focal), 1.0);
+    return clamp(clip.z / clip.w, -1.0, 1.0);
+}
+
 /* Does the stroke turn away where what is seen at its middle does not? Then it is on the far side. */
 bool is_back(mark_position m)
 {
@@ -139,15 +148,18 @@ void put_corner(mark_position m, vec3 from, vec3 to, float ink)
     v_ends = vec4(a, b);
     v_depths = u_perspective > 0.5 ? vec4(-1.0 / from.z, -1.0 / to.z, tolerance / u_focal, half_width) : vec4(-from.z, -to.z, tolerance / u_focal, half_width);
     v_run = vec3(arcs, u_taper > 0.0 ? 1.0 / u_taper : 0.0);
-    v_ink = gone ? 0.0 : min(width, 1.0);
+    v_ink = !gone || HIDING < 4 ? min(width, 1.0) : HIDING == 4 ? -1.0 : 0.0;
     vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
     float around = half_width + 0.5, depth = 0.0;
+#if PLACED == 3
+    depth = depth_before(corner.x > 0.0 ? to : from, tolerance);
+#endif
 #if HIDING == 1
     corner.y = gone ? -corner.y : corner.y;
 #elif HIDING == 2
     around = gone ? 0.0 : around;
 #elif HIDING == 3
-    depth = gone ? 1.0 : 0.0;
+    depth = gone ? 1.0 : depth;
 #endif
 #if PRIMITIVE == 1
     vec2 at = corner.x > 0.0 ? b : a;
@@ -168,7 +180,11 @@ void main()
     vec3 direction = normalize(mat3(u_model_view) * direction_in_middle());
     float fraction = fraction_there(m, direction, u_focal / max(a_normal.w * u_scale, 1e-20));
     /* Most are too many wherever they are, whatever the light. Software drivers skip loops that nobody enters, but not branches. */
+#if PLACED == 3
+    int wanted = 1.0 - a_to.w <= fraction * (1.0 + u_fade) ? 1 : 0; /* what grows on the far side may look over it */
+#else
     int wanted = 1.0 - a_to.w <= fraction * (1.0 + u_fade) && !is_back(m) ? 1 : 0;
+#endif
     float ink = 0.0;
     for (int once = 0; once < wanted; once++)
         ink = ink_of_stroke(m, fraction);

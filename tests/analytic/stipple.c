@@ -1,6 +1,6 @@
 /* Dots and strokes that lie on surfaces, as the GPU draws them: their tone, size and number, which of them there
  * are against the same decisions in doubles on the CPU, that they stay on the surface when the viewer moves, and
- * that nothing hides what is seen. Seed 001, chapter 5; rows EX-05, EX-07 to EX-10, EX-12, EX-14, EX-29, EX-32. */
+ * that nothing hides what is seen. Seed 001, chapter 5; rows EX-05, EX-07 to EX-14, EX-29, EX-30, EX-32. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -588,15 +588,21 @@ static void uncut(void)
 /* --- rows EX-29, EX-30: how many marks are drawn, and what they take ------------------------------------------- */
 
 typedef struct told {
-    double there, drawn, bytes;
+    double there, drawn, bytes, clusters, clusters_drawn, off_page, turned_away, too_dense;
 } told;
+
+static double number_in(json_t *object, const char *key)
+{
+    return (double)json_integer_value(json_object_get(object, key));
+}
 
 static told told_of(const shot *s)
 {
-    json_t *root = json_loads(s->report, 0, NULL), *marks = json_object_get(root, "surface_marks");
-    told    out = {(double)json_integer_value(json_object_get(marks, "there")),
-                   (double)json_integer_value(json_object_get(marks, "drawn")),
-                   (double)json_integer_value(json_object_get(marks, "bytes"))};
+    json_t *root = json_loads(s->report, 0, NULL), *marks = json_object_get(root, "surface_marks"),
+           *left = json_object_get(marks, "left_out");
+    told    out = {number_in(marks, "there"),    number_in(marks, "drawn"),          number_in(marks, "bytes"),
+                   number_in(marks, "clusters"), number_in(marks, "clusters_drawn"), number_in(left, "off_page"),
+                   number_in(left, "turned_away"), number_in(left, "too_dense")};
     json_decref(root);
     return out;
 }
@@ -606,17 +612,17 @@ static told told_of(const shot *s)
 static void marks_are_told(void)
 {
     static const char *const surfaces[] = {"stipple\",\"texture\":0,\"count\":20000,\"diameter\":2",
-                                           "strokes\",\"texture\":0,\"count\":20000"};
+                                           "strokes\",\"placed\":\"planes\",\"texture\":0,\"count\":6000"};
     static const double      bytes[] = {2 * 16, 5 * 16 * 4 + 6 * 4};
     shape                    ball = {0};
-    shape_sphere(&ball, "ball", (dvec){0, 0, 0}, 1, 60, 90, true);
+    shape_sphere(&ball, "ball", (dvec){0, 0, 0}, 1, 30, 45, true);
     for (int kind = 0; kind < 2; kind++) {
-        told seen[3] = {{0, 0, 0}};
+        told seen[3] = {{0}};
         for (int k = 0; k < 3; k++) {
             shot      s;
             shot_view view = {.width = 256,
                               .height = 256,
-                              .eye = {0, 0, (double[]){1.05, 20, 200}[k]},
+                              .eye = {0, 0, (double[]){4, 40, 400}[k]},
                               .up = {0, 1, 0},
                               .fov_deg = 32,
                               .without_maps = true};
@@ -626,15 +632,272 @@ static void marks_are_told(void)
         }
         check_at_least("EX-29", seen[0].there, 5000, "marks, %.7s", surfaces[kind]);
         check_near("EX-29", seen[0].bytes / fmax(seen[0].there, 1), bytes[kind], 0, "  bytes each");
-        check_near("EX-30", seen[0].drawn / fmax(seen[0].there, 1), 1, 0, "  near by, the share that is drawn");
-        check_at_most("EX-30", seen[1].drawn / fmax(seen[1].there, 1), 0.6, "  farther away");
-        /* The nearest place is at 19, and at 199: dots go with the square of the distance, strokes with the distance.
-         */
-        double law = kind ? 19.0 / 199 : 19.0 / 199 * 19 / 199;
-        check_near("EX-30", seen[2].drawn / fmax(seen[1].drawn, 1), law, 0.1 * law,
+        check_near("EX-30", seen[0].drawn + seen[0].off_page + seen[0].turned_away + seen[0].too_dense, seen[0].there,
+                   0, "  those drawn and those left out are all");
+        check_at_least("EX-30", seen[1].too_dense / fmax(seen[1].there, 1), kind ? 0.05 : 0.3, "  farther away, too dense");
+        /* Dots go with the square of the distance, strokes with the distance. */
+        double law = kind ? 1.0 / 10 : 1.0 / 100;
+        check_near("EX-30", seen[2].drawn / fmax(seen[1].drawn, 1), law, 0.15 * law,
                    "  ten times as far, the share of those");
     }
     shape_release(&ball);
+}
+
+/* --- row EX-30: what clusters leave out is not seen ------------------------------------------------------------- */
+
+typedef struct cull_case {
+    const char *name;
+    int         shape; /* 0: ball; 1: torus; 2: an open terrain; 3: the ball's shell without its top */
+    shot_view   view;
+    bool        turned, beside, dense; /* some must be left out for this, and else none */
+} cull_case;
+
+static void make_case_shape(shape *s, int which)
+{
+    if (which == 1)
+        shape_torus(s, "torus", 1, 0.35, 40, 20);
+    else if (which == 2)
+        shape_terrain(s, "terrain", 1.2, 0.3, 16, 3);
+    else
+        shape_sphere(s, "ball", (dvec){0, 0, 0}, 1, 20, 30, true);
+    if (which == 3) { /* without half of its triangles */
+        shape_part *p = &s->parts[0];
+        p->index_count = p->index_count / 2 / 3 * 3;
+    }
+    if (which == 1 || which == 2)
+        shape_make_normals(s, 60);
+}
+
+/* The picture is the same, value by value, whether clusters are left out or not; and each reason leaves some out where
+ * it holds, and none where it does not: what turns away is seen of surfaces that are open, or from within. */
+static void culled(void)
+{
+    static const char *const techniques[] = {
+        "stipple\",\"texture\":0,\"shadow\":0.3,\"light\":0.8,\"count\":12000,\"diameter\":2",
+        "strokes\",\"texture\":0,\"light\":0.8,\"placed\":\"planes\",\"count\":6000,\"width\":1.5",
+        "lines\",\"texture\":0,\"light\":0.8,\"count\":60,\"scale\":5"};
+    const dvec      up = {0, 1, 0}, none = {0, 0, 0};
+    const cull_case cases[] = {
+        {"whole", 0, {SIDE, SIDE, {0.5, 1, 4}, none, up, .fov_deg = 32, .without_maps = true}, true, false, false},
+        {"near", 0, {SIDE, SIDE, {0, 0.4, 1.5}, {0, 0.3, 0}, up, .fov_deg = 25, .without_maps = true}, true, true, false},
+        {"far", 1, {SIDE, SIDE, {1, 30, 60}, none, up, .fov_deg = 15, .without_maps = true}, true, false, true},
+        {"parallel", 1, {SIDE, SIDE, {1, 3, 2}, none, up, .orthographic = true, .without_maps = true}, true, false, false},
+        {"inside", 0, {SIDE, SIDE, {0.2, 0.1, 0.3}, {1, 0, 0}, up, .fov_deg = 60, .without_maps = true}, false, true, false},
+        {"open", 2, {SIDE, SIDE, {0.3, -2, -1}, none, up, .fov_deg = 75, .without_maps = true}, false, false, false},
+        {"shell", 3, {SIDE, SIDE, {0.5, -4, -2}, none, up, .fov_deg = 32, .without_maps = true}, false, false, false},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        shape s = {0};
+        make_case_shape(&s, cases[c].shape);
+        for (int t = 0; t < 3; t++) {
+            char keys[200];
+            shot with, without;
+            snprintf(keys, sizeof keys, "%s,\"cull\":false", techniques[t]);
+            if (!shot_of_shape(&with, &s, "culled.ply", halftone_look(techniques[t]), NULL, &cases[c].view))
+                return;
+            if (shot_of_shape(&without, &s, "culled.ply", halftone_look(keys), NULL, &cases[c].view)) {
+                told now = told_of(&with), all = told_of(&without);
+                check_at_most("EX-30", shot_differing(&with, &without, 0), 0, "%s, %.7s: values that differ",
+                              cases[c].name, techniques[t]);
+                check_at_least("EX-30", halftone_mean(&with, 0, 0, SIDE, SIDE), 0.0005, "  ink");
+                check_near("EX-30", all.drawn, all.there, 0, "  all are drawn without");
+                check_that("EX-30",
+                           (now.turned_away > 0 || (t == 2 && cases[c].turned)) >= cases[c].turned &&
+                               (now.turned_away == 0 || cases[c].turned),
+                           "  %.0f of %.0f turn away", now.turned_away, now.there);
+                check_that("EX-30", (now.off_page > 0) == cases[c].beside, "  %.0f are off the page", now.off_page);
+                check_that("EX-30", now.too_dense > 0 || !cases[c].dense || t == 2, "  %.0f are too dense", now.too_dense);
+                check_that("EX-30", now.clusters > 3 && now.clusters_drawn <= now.clusters, "  %.0f of %.0f clusters",
+                           now.clusters_drawn, now.clusters);
+                shot_release(&without);
+            }
+            shot_release(&with);
+        }
+        shape_release(&s);
+    }
+}
+
+/* --- rows EX-11, EX-13, EX-29: layouts, native lines, ways to leave strokes out ---------------------------------- */
+
+static bool draw_strokes(shot *out, const char *more)
+{
+    static char keys[400];
+    shot_view   view = view_of(1.2, 0.8, 3, 36);
+    snprintf(keys, sizeof keys,
+             "strokes\",\"texture\":0,\"placed\":\"planes\",\"count\":3000,\"length\":0.08,\"series\":2,\"shadow\":0.2%s%s",
+             *more ? "," : "", more);
+    shape ball = {0};
+    shape_sphere(&ball, "ball", (dvec){0, 0, 0}, 1, 20, 30, true);
+    bool ok = shot_of_shape(out, &ball, "laid-ball.ply", halftone_look(keys), NULL, &view);
+    shape_release(&ball);
+    return ok;
+}
+
+/* Numbers packed into 64 bytes, and records that are there once, give the picture of whole ones at each corner. */
+static void layouts(void)
+{
+    static const char *const primitives[] = {"quads", "lines"}, *const names[] = {"corners", "packed", "instances"};
+    static const double      bytes[2][3] = {{4 * 80 + 24, 4 * 64 + 24, 64}, {2 * 80, 2 * 64, 64}};
+    for (int p = 0; p < 2; p++) {
+        shot whole = {0};
+        for (int k = 0; k < 3; k++) {
+            char keys[120];
+            shot s;
+            snprintf(keys, sizeof keys, "\"primitive\":\"%s\",\"layout\":\"%s\",\"width\":1.4", primitives[p], names[k]);
+            if (!draw_strokes(&s, keys))
+                break;
+            told t = told_of(&s);
+            check_near("EX-29", t.bytes / fmax(t.there, 1), bytes[p][k], 0, "%s, %s: bytes a stroke's piece",
+                       primitives[p], names[k]);
+            if (k > 0) {
+                check_at_most("EX-29", shot_differing(&whole, &s, 2), 0, "  values that differ by more than 2 of 255");
+                shot_release(&s);
+            } else {
+                whole = s;
+                check_at_least("EX-29", halftone_mean(&s, 0, 0, SIDE, SIDE), 0.02, "  ink");
+            }
+        }
+        shot_release(&whole);
+    }
+}
+
+/* Native lines are the strokes of quads a pixel wide: as much ink, and none elsewhere. A line one end of which is left
+ * out and the other not would lead out of the picture. */
+static void thin_lines(void)
+{
+    shot quads, lines;
+    if (!draw_strokes(&quads, "\"width\":1,\"taper\":0.1"))
+        return;
+    if (draw_strokes(&lines, "\"width\":1,\"taper\":0.1,\"primitive\":\"lines\"")) {
+        double a = halftone_mean(&quads, 0, 0, SIDE, SIDE), b = halftone_mean(&lines, 0, 0, SIDE, SIDE);
+        int    stray = 0, missing = 0, inked = 0;
+        for (int y = 2; y < SIDE - 2; y++)
+            for (int x = 2; x < SIDE - 2; x++) {
+                double near[2] = {0, 0};
+                for (int k = 0; k < 9; k++) {
+                    near[0] = fmax(near[0], halftone_ink(&quads, x + k % 3 - 1, y + k / 3 - 1));
+                    near[1] = fmax(near[1], halftone_ink(&lines, x + k % 3 - 1, y + k / 3 - 1));
+                }
+                inked += halftone_ink(&lines, x, y) > 0.1;
+                stray += halftone_ink(&lines, x, y) > 0.1 && near[0] < 0.02;
+                missing += halftone_ink(&quads, x, y) > 0.6 && near[1] < 0.1;
+            }
+        check_at_least("EX-11", inked, 2000, "pixels of native lines");
+        check_near("EX-11", b, a, 0.12 * a, "their ink, against quads a pixel wide");
+        check_at_most("EX-11", stray, 0, "pixels of them beside all quads");
+        check_at_most("EX-11", missing, inked / 500, "pixels of quads without one");
+        shot_release(&lines);
+    }
+    shot_release(&quads);
+}
+
+/* Whichever way strokes are left out, the same ones are seen. */
+static void hidings(void)
+{
+    static const char *const ways[] = {"outside", "winding", "width", "depth", "discard", "alpha"};
+    shot                     first = {0};
+    for (int k = 0; k < 6; k++) {
+        char keys[80];
+        shot s;
+        snprintf(keys, sizeof keys, "\"width\":2,\"hiding\":\"%s\",\"cull\":false", ways[k]);
+        if (!draw_strokes(&s, keys))
+            break;
+        double ink = halftone_mean(&s, 0, 0, SIDE, SIDE);
+        check_that("EX-13", ink > 0.02 && ink < 0.6, "%s: ink %.4f", ways[k], ink);
+        if (k > 0) {
+            check_at_most("EX-13", shot_differing(&first, &s, 0), 0, "  values that differ from outside");
+            shot_release(&s);
+        } else {
+            first = s;
+        }
+    }
+    shot_release(&first);
+}
+
+/* --- row IM-34: grass ------------------------------------------------------------------------------------------- */
+
+static const shot_view meadow_view = {
+    .width = SIDE, .height = SIDE, .eye = {0, -4, 4}, .up = {0, 1, 0}, .fov_deg = 24, .without_maps = true};
+
+/* Where a position is in that view: pixels from the left and from the top. */
+static void meadow_pixel(double x, double y, double z, double out[2])
+{
+    const double half = sqrt(0.5), size = 2 * tan(12 * 3.14159265358979 / 180);
+    double       depth = half * (y + 4) - half * (z - 4), up = half * (y + 4) + half * (z - 4);
+    out[0] = SIDE * (0.5 + x / (depth * size));
+    out[1] = SIDE * (0.5 - up / (depth * size));
+}
+
+/* A meadow of side 2 in the plane z = 0, and a lid over it, whose shadow falls to the right and up: light
+ * comes from the left of the viewer. */
+static bool draw_meadow(shot *out, const char *more, bool shadows)
+{
+    char           keys[400], scene[120];
+    halftone_scene s = {0};
+    halftone_add_wall(&s, "meadow", (halftone_wall){-1, -1, 0, 2, 2, 1});
+    halftone_add_wall(&s, "lid", (halftone_wall){-1, -0.4, 0.6, 0.8, 0.8, 1});
+    snprintf(keys, sizeof keys,
+             "strokes\",\"placed\":\"grass\",\"upright\":0,\"texture\":0,\"count\":24000,\"length\":0.02,\"width\":1.5,"
+             "\"scale\":1.2,\"shadow\":0.1,\"light\":1.4,\"fade\":0.02%s",
+             more);
+    snprintf(scene, sizeof scene, "\"fill\":0,\"light_direction\":\"-1,0,1\"%s", shadows ? ",\"shadows\":true" : "");
+    bool ok = halftone_shot(out, &s, "meadow.gltf", halftone_look_with(keys, scene, ""), NULL, &meadow_view);
+    halftone_release(&s);
+    return ok;
+}
+
+/* What is inked in a part of the meadow: mean; `grey`: the share of inked pixels that are not nearly black, `paper`: of
+ * all that have no ink. */
+static double meadow_ink(const shot *s, const double box[4], double *grey, double *paper)
+{
+    double ink = 0, inked = 0, greys = 0, all = 0;
+    for (double y = box[1]; y < box[3]; y += 0.004)
+        for (double x = box[0]; x < box[2]; x += 0.004) {
+            double at[2];
+            meadow_pixel(x, y, 0, at);
+            double own = halftone_ink(s, (int)at[0], (int)at[1]);
+            ink += own;
+            inked += own > 0.02;
+            greys += own > 0.02 && own < 0.5;
+            all++;
+        }
+    *grey = greys / fmax(inked, 1);
+    *paper = 1 - inked / all;
+    return ink / all;
+}
+
+/* In the shadow there are more blades, each as black as in the light, and paper is left between them; no blade of the
+ * light is lost. Blades stand: seen from aside they look over the border. */
+static void grass(void)
+{
+    static const double shade[4] = {-0.05, 0.4, 0.5, 0.9}, aside[4] = {0.4, -0.9, 0.95, 0};
+    shot                lit, shadowed;
+    double              grey[2], paper[2];
+    if (!draw_meadow(&lit, "", false))
+        return;
+    if (draw_meadow(&shadowed, "", true)) {
+        double before = meadow_ink(&lit, shade, &grey[0], &paper[0]),
+               after = meadow_ink(&shadowed, shade, &grey[1], &paper[1]);
+        int lost = 0, over = 0;
+        for (int i = 0; i < SIDE * SIDE; i++)
+            lost += halftone_ink(&lit, i % SIDE, i / SIDE) > 0.9 && halftone_ink(&shadowed, i % SIDE, i / SIDE) < 0.5;
+        check_at_least("IM-34", before, 0.02, "ink of grass in the light");
+        check_at_least("IM-34", after - before, 0.2, "more of it in the shadow");
+        check_at_least("IM-34", paper[1], 0.03, "paper between blades there");
+        check_at_most("IM-34", grey[1], grey[0] + 0.05, "share of inked pixels that are grey, no more than in the light");
+        check_at_most("IM-34", lost, 0, "blades that the shadow takes away");
+        before = meadow_ink(&lit, aside, &grey[0], &paper[0]);
+        after = meadow_ink(&shadowed, aside, &grey[1], &paper[1]);
+        check_near("IM-34", after, before, 0.004, "ink elsewhere stays");
+        double corner[2];
+        meadow_pixel(0, 1, 0, corner);
+        for (int y = 0; y < (int)corner[1] - 1; y++)
+            for (int x = 0; x < SIDE; x++)
+                over += halftone_ink(&shadowed, x, y) > 0.3;
+        check_that("IM-34", over > 60, "%d pixels of blades look over the far border", over);
+        shot_release(&shadowed);
+    }
+    shot_release(&lit);
 }
 
 int main(int argc, char **argv)
@@ -645,6 +908,11 @@ int main(int argc, char **argv)
         {"strokes_over_distance", strokes_over_distance},
         {"same_set", same_set},
         {"told", marks_are_told},
+        {"culled", culled},
+        {"layouts", layouts},
+        {"thin_lines", thin_lines},
+        {"hidings", hidings},
+        {"grass", grass},
         {"stays_put", stays_put},
         {"sizes", sizes},
         {"widths", widths},
