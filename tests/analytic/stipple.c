@@ -889,10 +889,12 @@ static void grass(void)
         before = meadow_ink(&lit, aside, &grey[0], &paper[0]);
         after = meadow_ink(&shadowed, aside, &grey[1], &paper[1]);
         check_near("IM-34", after, before, 0.004, "ink elsewhere stays");
-        double corner[2];
+        check_at_most("IM-34", grey[0], 0.45, "share of inked pixels that are grey in the light");
+        double corner[2], lid[2];
         meadow_pixel(0, 1, 0, corner);
+        meadow_pixel(-0.2, 0.4, 0.6, lid);
         for (int y = 0; y < (int)corner[1] - 1; y++)
-            for (int x = 0; x < SIDE; x++)
+            for (int x = (int)lid[0] + 10; x < SIDE; x++) /* right of the lid and its blades */
                 over += halftone_ink(&shadowed, x, y) > 0.3;
         check_that("IM-34", over > 60, "%d pixels of blades look over the far border", over);
         shot_release(&shadowed);
