@@ -66,7 +66,7 @@ static box3 box_of(const figure *fig)
 bool figure_open(frame *f, figure_state *s, const figure *fig)
 {
     *s = (figure_state){.figure = fig, .near = f->camera.near, .far = f->camera.far};
-    double nearest = INFINITY, farthest = -INFINITY;
+    double     nearest = INFINITY, farthest = -INFINITY;
     const box3 own = box_of(fig);
     box3       box = fig->complement ? f->plan->box : own;
     camera_depth_range(&f->camera, box, &nearest, &farthest);

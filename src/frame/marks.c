@@ -97,8 +97,7 @@ static void draw_chosen(frame *f, const figure *fig, const mark_set *set, const 
     uint32_t(*runs)[2] = mem_alloc((set->clusters.count + 1) * sizeof *runs);
     mark_facts unused = {0};
     if (runs)
-        gpu_draw_mark_runs(f->g, set->marks, runs,
-                           choose_runs(f, fig, set, surface, runs, told ? &f->marks : &unused));
+        gpu_draw_mark_runs(f->g, set->marks, runs, choose_runs(f, fig, set, surface, runs, told ? &f->marks : &unused));
     else
         gpu_fail(f->g, LMN_MEMORY, "out of memory");
     mem_free(runs);

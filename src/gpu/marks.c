@@ -84,8 +84,8 @@ static bool is_indexed(const gpu_marks *m)
 
 gpu_marks *gpu_marks_create_as(gpu *g, const gpu_mark_layout *layout, const void *records, size_t count)
 {
-    static const size_t vertices[] = {[MARK_QUADS] = CORNERS, [MARK_POINTS] = 1, [MARK_SEGMENTS] = ENDS,
-                                      [MARK_STRIPS] = 1};
+    static const size_t vertices[] = {
+        [MARK_QUADS] = CORNERS, [MARK_POINTS] = 1, [MARK_SEGMENTS] = ENDS, [MARK_STRIPS] = 1};
     if (g->failed)
         return NULL;
     gpu_marks *m = count <= MARKS_MAX ? mem_calloc(1, sizeof *m) : NULL;

@@ -7,13 +7,13 @@
 
 /* All lengths and positions are those of the marks. */
 typedef struct mark_cluster {
-    uint32_t first, count;         /* of the order */
-    double   low[3], high[3];      /* around all that its marks cover */
-    double   decided[2][3];        /* the same, lowest and highest, of the positions at which marks are decided */
-    double   axis[3], spread;      /* marks' normals are within this angle of the axis, radians */
-    double   lean;                 /* most of its marks' */
-    double   steepest;             /* most cosine between a mark's normal and its own direction; 0: exactly across */
-    double   density;              /* least length of strokes to a unit of area; of dots their number */
+    uint32_t first, count;    /* of the order */
+    double   low[3], high[3]; /* around all that its marks cover */
+    double   decided[2][3];   /* the same, lowest and highest, of the positions at which marks are decided */
+    double   axis[3], spread; /* marks' normals are within this angle of the axis, radians */
+    double   lean;            /* most of its marks' */
+    double   steepest;        /* most cosine between a mark's normal and its own direction; 0: exactly across */
+    double   density;         /* least length of strokes to a unit of area; of dots their number */
 } mark_cluster;
 
 typedef struct mark_clusters {
@@ -23,8 +23,8 @@ typedef struct mark_clusters {
     float        *ranks; /* in that order: 1 − priority for distance */
     float        *leans; /* in that order: a mark whose normal turns away from the viewer by a larger cosine lies on a
                             face that turns away, too, though its normal leans off the face's */
-    size_t        mark_count;
-    bool          solid; /* the surface is closed and looks outwards: what turns away is hidden */
+    size_t mark_count;
+    bool   solid; /* the surface is closed and looks outwards: what turns away is hidden */
 } mark_clusters;
 
 /* Groups dots, or lines. `s`: what the marks were made on. False when memory is gone: nothing is left to release. */

@@ -343,7 +343,7 @@ typedef struct mark_style {
     mark_hiding hiding;
     float       stands; /* how far marks may stand out of the surface, fraction of the diagonal of all of it: what hides
                            them is what lies before them, and they end in a tip; 0: they lie in it */
-    bool        thin;   /* strokes are native lines there, a pixel wide */
+    bool thin;          /* strokes are native lines there, a pixel wide */
 } mark_style;
 
 /* A camera, and light in its eye space as shaders have it: w 0: a direction, w 1: a position. */

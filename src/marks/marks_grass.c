@@ -61,9 +61,10 @@ static d3 way_up(const growth *g, d3 normal)
 }
 
 /* What grows upwards does not grow on what looks down, and hair everywhere. */
-static bool grows_there(const growth *g, d3 normal)
+static bool grows_there(growth *g, d3 normal)
 {
-    return dot(normal, of(g->options->up)) > 1.2 * g->options->upright - 1.05;
+    const double SCATTER = 0.12; /* so that it ends at no line */
+    return dot(normal, of(g->options->up)) > 1.25 * g->options->upright - 1.2 + SCATTER * random_signed(&g->random);
 }
 
 /* Where a blade leans: down the slope, and on level ground the same way everywhere, or anywhere. */

@@ -78,8 +78,8 @@ static d3 point_of(const mark_surface *s, size_t i)
  * normals say. */
 static double volume_of(const mark_surface *s, uint32_t t, bool *turned)
 {
-    d3 a = point_of(s, 3 * (size_t)t), b = point_of(s, 3 * (size_t)t + 1), c = point_of(s, 3 * (size_t)t + 2);
-    d3 n = cross(minus(b, a), minus(c, a));
+    d3     a = point_of(s, 3 * (size_t)t), b = point_of(s, 3 * (size_t)t + 1), c = point_of(s, 3 * (size_t)t + 2);
+    d3     n = cross(minus(b, a), minus(c, a));
     double look = 0;
     for (int k = 0; k < 3; k++) {
         look += dot(n, of(s->normals[s->indices[3 * (size_t)t + (size_t)k]]));

@@ -14,7 +14,7 @@ typedef struct mark_set {
     uint64_t            key, used; /* of what they are made from; when they were drawn last */
     gpu_marks          *marks;     /* NULL: there are none */
     double              origin[3];
-    double              density; /* dots to a unit of area */
+    double              density;  /* dots to a unit of area */
     mark_clusters       clusters; /* in whose order they are */
     size_t              count;
     bool                lines;

@@ -54,8 +54,7 @@ typedef struct stipple_values {
 typedef struct surface_strokes_values {
     mark_values common;
     int32_t     placed, law, series, tuft, primitive, layout, hiding;
-    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength, upright, lean,
-        combed;
+    float       width, scale, length, turn, uneven, taper, repeat, jitter, indication_strength, upright, lean, combed;
     bool        equalised;
     param_words strokes, indication;
 } surface_strokes_values;

@@ -43,7 +43,8 @@ static const param params[] = {
         surface_strokes_values, placed, .names = placed_names, .variant = true,
         .doc = "form: strokes lie side by side along the directions in which the surface bends; planes: where planes "
                "through the model "
-               "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form); grass: they stand "
+               "cut it; uv: a texture of strokes laid out by texture coordinates (models without any: form); grass: "
+               "they stand "
                "on it, as grass, hair or fur."),
     PARAM_FLOAT_ROW(surface_strokes_values, width, .def = 0.975, .min = 0.075, .max = 48, .soft_min = 0.375,
                     .soft_max = 4.5, .unit = UNIT_PT, .doc = "Width of strokes, wherever they are."),
@@ -62,14 +63,17 @@ static const param params[] = {
     PARAM_FLOAT_ROW(surface_strokes_values, uneven, .def = 0.35, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "placed=form,planes,grass",
                     .doc = "How much strokes differ in length and way."),
-    PARAM_FLOAT_ROW(surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
-                    .doc = "Fraction of its length over which each end of a stroke runs out; of grass, which has a root, half of the "
-                           "fraction over which its tip does."),
+    PARAM_FLOAT_ROW(
+        surface_strokes_values, taper, .def = 0.25, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
+        .doc =
+            "Fraction of its length over which each end of a stroke runs out; of grass, which has a root, half of the "
+            "fraction over which its tip does."),
     PARAM_INT_ROW(surface_strokes_values, tuft, .def = 3, .min = 1, .max = 12, .unit = UNIT_COUNT, .cpu_only = true,
                   .only_if = "placed=grass", .doc = "Blades that grow from one place."),
     PARAM_FLOAT_ROW(surface_strokes_values, upright, .def = 0.6, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .cpu_only = true, .only_if = "placed=grass",
-                    .doc = "What blades grow towards: 0, away from the surface, as hair does; 1, upwards, as grass does."),
+                    .doc =
+                        "What blades grow towards: 0, away from the surface, as hair does; 1, upwards, as grass does."),
     PARAM_FLOAT_ROW(surface_strokes_values, lean, .def = 28, .min = 0, .max = 85, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "placed=grass",
                     .doc = "How far blades lean over, in the mean; they bend more and more towards their tips."),
@@ -121,9 +125,9 @@ static const param params[] = {
 static void describe(text *out, const void *values)
 {
     const surface_strokes_values *v = values;
-    text_append(out, "strokes %d %d %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count,
-                v->common.pattern_seed, v->primitive, v->layout, v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven, (double)v->repeat,
-                (double)v->jitter, v->strokes.text);
+    text_append(out, "strokes %d %d %d %d %d %.9g %d %.9g %.9g %.9g %.9g %s ", v->common.count, v->common.pattern_seed,
+                v->primitive, v->layout, v->placed, (double)v->length, v->series, (double)v->turn, (double)v->uneven,
+                (double)v->repeat, (double)v->jitter, v->strokes.text);
     if (v->placed == PLACED_GRASS)
         text_append(out, "%d %.9g %.9g %.9g ", v->tuft, (double)v->upright, (double)v->lean, (double)v->combed);
     if (v->indication.text[0]) {

@@ -600,9 +600,9 @@ static told told_of(const shot *s)
 {
     json_t *root = json_loads(s->report, 0, NULL), *marks = json_object_get(root, "surface_marks"),
            *left = json_object_get(marks, "left_out");
-    told    out = {number_in(marks, "there"),    number_in(marks, "drawn"),          number_in(marks, "bytes"),
-                   number_in(marks, "clusters"), number_in(marks, "clusters_drawn"), number_in(left, "off_page"),
-                   number_in(left, "turned_away"), number_in(left, "too_dense")};
+    told out = {number_in(marks, "there"),      number_in(marks, "drawn"),          number_in(marks, "bytes"),
+                number_in(marks, "clusters"),   number_in(marks, "clusters_drawn"), number_in(left, "off_page"),
+                number_in(left, "turned_away"), number_in(left, "too_dense")};
     json_decref(root);
     return out;
 }
@@ -634,7 +634,8 @@ static void marks_are_told(void)
         check_near("EX-29", seen[0].bytes / fmax(seen[0].there, 1), bytes[kind], 0, "  bytes each");
         check_near("EX-30", seen[0].drawn + seen[0].off_page + seen[0].turned_away + seen[0].too_dense, seen[0].there,
                    0, "  those drawn and those left out are all");
-        check_at_least("EX-30", seen[1].too_dense / fmax(seen[1].there, 1), kind ? 0.05 : 0.3, "  farther away, too dense");
+        check_at_least("EX-30", seen[1].too_dense / fmax(seen[1].there, 1), kind ? 0.05 : 0.3,
+                       "  farther away, too dense");
         /* Dots go with the square of the distance, strokes with the distance. */
         double law = kind ? 1.0 / 10 : 1.0 / 100;
         check_near("EX-30", seen[2].drawn / fmax(seen[1].drawn, 1), law, 0.15 * law,
@@ -679,10 +680,25 @@ static void culled(void)
     const dvec      up = {0, 1, 0}, none = {0, 0, 0};
     const cull_case cases[] = {
         {"whole", 0, {SIDE, SIDE, {0.5, 1, 4}, none, up, .fov_deg = 32, .without_maps = true}, true, false, false},
-        {"near", 0, {SIDE, SIDE, {0, 0.4, 1.5}, {0, 0.3, 0}, up, .fov_deg = 25, .without_maps = true}, true, true, false},
+        {"near",
+         0,
+         {SIDE, SIDE, {0, 0.4, 1.5}, {0, 0.3, 0}, up, .fov_deg = 25, .without_maps = true},
+         true,
+         true,
+         false},
         {"far", 1, {SIDE, SIDE, {1, 30, 60}, none, up, .fov_deg = 15, .without_maps = true}, true, false, true},
-        {"parallel", 1, {SIDE, SIDE, {1, 3, 2}, none, up, .orthographic = true, .without_maps = true}, true, false, false},
-        {"inside", 0, {SIDE, SIDE, {0.2, 0.1, 0.3}, {1, 0, 0}, up, .fov_deg = 60, .without_maps = true}, false, true, false},
+        {"parallel",
+         1,
+         {SIDE, SIDE, {1, 3, 2}, none, up, .orthographic = true, .without_maps = true},
+         true,
+         false,
+         false},
+        {"inside",
+         0,
+         {SIDE, SIDE, {0.2, 0.1, 0.3}, {1, 0, 0}, up, .fov_deg = 60, .without_maps = true},
+         false,
+         true,
+         false},
         {"open", 2, {SIDE, SIDE, {0.3, -2, -1}, none, up, .fov_deg = 75, .without_maps = true}, false, false, false},
         {"shell", 3, {SIDE, SIDE, {0.5, -4, -2}, none, up, .fov_deg = 32, .without_maps = true}, false, false, false},
     };
@@ -706,7 +722,8 @@ static void culled(void)
                                (now.turned_away == 0 || cases[c].turned),
                            "  %.0f of %.0f turn away", now.turned_away, now.there);
                 check_that("EX-30", (now.off_page > 0) == cases[c].beside, "  %.0f are off the page", now.off_page);
-                check_that("EX-30", now.too_dense > 0 || !cases[c].dense || t == 2, "  %.0f are too dense", now.too_dense);
+                check_that("EX-30", now.too_dense > 0 || !cases[c].dense || t == 2, "  %.0f are too dense",
+                           now.too_dense);
                 check_that("EX-30", now.clusters > 3 && now.clusters_drawn <= now.clusters, "  %.0f of %.0f clusters",
                            now.clusters_drawn, now.clusters);
                 shot_release(&without);
@@ -723,9 +740,10 @@ static bool draw_strokes(shot *out, const char *more)
 {
     static char keys[400];
     shot_view   view = view_of(1.2, 0.8, 3, 36);
-    snprintf(keys, sizeof keys,
-             "strokes\",\"texture\":0,\"placed\":\"planes\",\"count\":3000,\"length\":0.08,\"series\":2,\"shadow\":0.2%s%s",
-             *more ? "," : "", more);
+    snprintf(
+        keys, sizeof keys,
+        "strokes\",\"texture\":0,\"placed\":\"planes\",\"count\":3000,\"length\":0.08,\"series\":2,\"shadow\":0.2%s%s",
+        *more ? "," : "", more);
     shape ball = {0};
     shape_sphere(&ball, "ball", (dvec){0, 0, 0}, 1, 20, 30, true);
     bool ok = shot_of_shape(out, &ball, "laid-ball.ply", halftone_look(keys), NULL, &view);
@@ -737,13 +755,14 @@ static bool draw_strokes(shot *out, const char *more)
 static void layouts(void)
 {
     static const char *const primitives[] = {"quads", "lines"}, *const names[] = {"corners", "packed", "instances"};
-    static const double      bytes[2][3] = {{4 * 80 + 24, 4 * 64 + 24, 64}, {2 * 80, 2 * 64, 64}};
+    static const double bytes[2][3] = {{4 * 80 + 24, 4 * 64 + 24, 64}, {2 * 80, 2 * 64, 64}};
     for (int p = 0; p < 2; p++) {
         shot whole = {0};
         for (int k = 0; k < 3; k++) {
             char keys[120];
             shot s;
-            snprintf(keys, sizeof keys, "\"primitive\":\"%s\",\"layout\":\"%s\",\"width\":1.4", primitives[p], names[k]);
+            snprintf(keys, sizeof keys, "\"primitive\":\"%s\",\"layout\":\"%s\",\"width\":1.4", primitives[p],
+                     names[k]);
             if (!draw_strokes(&s, keys))
                 break;
             told t = told_of(&s);
@@ -884,7 +903,8 @@ static void grass(void)
         check_at_least("IM-34", before, 0.02, "ink of grass in the light");
         check_at_least("IM-34", after - before, 0.2, "more of it in the shadow");
         check_at_least("IM-34", paper[1], 0.03, "paper between blades there");
-        check_at_most("IM-34", grey[1], grey[0] + 0.05, "share of inked pixels that are grey, no more than in the light");
+        check_at_most("IM-34", grey[1], grey[0] + 0.05,
+                      "share of inked pixels that are grey, no more than in the light");
         check_at_most("IM-34", lost, 0, "blades that the shadow takes away");
         before = meadow_ink(&lit, aside, &grey[0], &paper[0]);
         after = meadow_ink(&shadowed, aside, &grey[1], &paper[1]);

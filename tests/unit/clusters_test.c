@@ -28,7 +28,7 @@ static void make_ball(ball *b, bool inwards)
             double polar = 3.14159265358979 * i / STACKS, around = 2 * 3.14159265358979 * k / SLICES;
             bool   pole = i == 0 || i == STACKS;
             vec3   n = {pole ? 0 : (float)(sin(polar) * cos(around)), (float)cos(polar),
-                        pole ? 0 : (float)(sin(polar) * sin(around))};
+                      pole ? 0 : (float)(sin(polar) * sin(around))};
             b->positions[i * SLICES + k] = n;
             b->normals[i * SLICES + k] = inwards ? (vec3){-n.x, -n.y, -n.z} : n;
             uint32_t a = (uint32_t)(i * SLICES + k), next = (uint32_t)(i * SLICES + (k + 1) % SLICES);
@@ -71,8 +71,13 @@ static void test_solid(void **state)
 /* Looking along −z from z = `distance`, a little beside. */
 static cluster_view view_from(double distance, double beside)
 {
-    cluster_view v = {
-        .model_view = mat4_identity(), .near = 0.01, .focal = 300, .width = 200, .height = 200, .reach = 3, .outside = true};
+    cluster_view v = {.model_view = mat4_identity(),
+                      .near = 0.01,
+                      .focal = 300,
+                      .width = 200,
+                      .height = 200,
+                      .reach = 3,
+                      .outside = true};
     v.model_view.m[12] = beside;
     v.model_view.m[14] = -distance;
     v.projection = (mat4){.m = {3, 0, 0, 0, 0, 3, 0, 0, 0, 0, -1, -1, 0, 0, -0.02, 0}};
@@ -90,10 +95,11 @@ static void check_view(const mark_clusters *c, const marks *m, const cluster_vie
             const mark_dot *d = &m->dots[c->order[i]];
             double          eye[3] = {(double)d->position.x + v->model_view.m[12], (double)d->position.y,
                                       (double)d->position.z + v->model_view.m[14]};
-            double length = sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]), depth = -eye[2];
-            double facing = -((double)d->normal.x * eye[0] + (double)d->normal.y * eye[1] + (double)d->normal.z * eye[2]) /
-                            length;
-            double x = 100 + 300 * eye[0] / depth, y = 100 + 300 * eye[1] / depth, page = 300 * 300 * length / pow(depth, 3);
+            double          length = sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]), depth = -eye[2];
+            double          facing =
+                -((double)d->normal.x * eye[0] + (double)d->normal.y * eye[1] + (double)d->normal.z * eye[2]) / length;
+            double x = 100 + 300 * eye[0] / depth, y = 100 + 300 * eye[1] / depth,
+                   page = 300 * 300 * length / pow(depth, 3);
             assert_true(i == one->first || c->ranks[i] >= c->ranks[i - 1]);
             if (depth > v->near)
                 assert_true(page <= scale * 1.000001);
