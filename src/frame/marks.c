@@ -135,7 +135,7 @@ static void set_uniforms(frame *f, figure_state *s, const mark_set *set, const t
     gpu_set_float(f->g, "u_levels", (float)set->levels);
     gpu_set_float(f->g, "u_apart", (float)set->apart);
     gpu_set_float(f->g, "u_sag", (float)set->sag);
-    gpu_set_float(f->g, "u_solid", set->clusters.solid && is_whole(f, s->figure) ? 1 : 0);
+    gpu_set_float(f->g, "u_closed", set->clusters.solid && is_whole(f, s->figure) ? 1 : 0);
     gpu_set_texture(f->g, target_rows[TARGET_NORMAL_DEPTH].name, s->targets[TARGET_NORMAL_DEPTH], false);
 }
 

@@ -5,7 +5,7 @@
 
 uniform float u_focal;  /* of the projection, pixels at depth 1, or to a unit */
 
-uniform float u_solid;  /* 1: the surface is closed, all of it is there, and the viewer is outside */
+uniform float u_closed;  /* 1: the surface is closed, all of it is there, and the viewer is outside */
 
 const vec4 NOWHERE = vec4(0.0, 0.0, 2.0, 1.0); /* outside of what is drawn: the cheapest way to leave a mark out (EX-13) */
 
@@ -23,7 +23,7 @@ mark_position position_of_mark(vec3 position, vec3 normal)
     m.eye = (u_model_view * vec4(position, 1.0)).xyz;
     m.normal = normalize(u_normal_matrix * normal);
     m.facing = dot(m.normal, towards_viewer(m.eye));
-    m.far = u_solid > 0.5 && m.facing < 1.0 - length(normal);
+    m.far = u_closed > 0.5 && m.facing < 1.0 - length(normal);
     return m;
 }
 
