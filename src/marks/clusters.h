@@ -23,8 +23,9 @@ typedef struct mark_clusters {
     float        *ranks; /* in that order: 1 − priority for distance */
     float        *leans; /* in that order: a mark whose normal turns away from the viewer by a larger cosine lies on a
                             face that turns away, too, though its normal leans off the face's */
-    size_t mark_count;
-    bool   solid; /* the surface is closed and looks outwards: what turns away is hidden */
+    uint32_t *triangles; /* by the number of a mark: that it is decided on */
+    size_t    mark_count;
+    bool      solid; /* the surface is closed and looks outwards: what turns away is hidden */
 } mark_clusters;
 
 /* Groups dots, or lines. `s`: what the marks were made on. False when memory is gone: nothing is left to release. */

@@ -18,8 +18,8 @@ typedef struct grouping {
     const marks        *marks;
     const mark_surface *surface;
     float (*keys)[KEYS];
-    uint32_t     *order;
-    float        *ranks; /* by the number of the mark */
+    uint32_t     *order, *triangles; /* the latter by the number of the mark */
+    float        *ranks;             /* by the number of the mark */
     mark_cluster *clusters;
     size_t        count, capacity, most; /* most: marks of a cluster */
 } grouping;
@@ -50,17 +50,20 @@ static size_t count_of(const marks *m)
     return m->dot_count ? m->dot_count : m->line_count;
 }
 
-/* That a mark is decided on: of a stroke that is drawn whole, in its middle. */
-static uint32_t triangle_of(const marks *m, size_t i)
+/* The triangle that each mark is decided on: of a stroke that is drawn whole, in its middle. */
+static void find_triangles(const marks *m, uint32_t *out)
 {
-    if (m->dot_count)
-        return m->dots[i].triangle;
-    const mark_line *l = &m->lines[i];
-    while (!m->flow && i > 0 && m->lines[i - 1].stroke == l->stroke && m->lines[i].from >= l->length / 2)
-        i--;
-    while (!m->flow && i + 1 < m->line_count && m->lines[i + 1].stroke == l->stroke && m->lines[i].to < l->length / 2)
-        i++;
-    return m->lines[i].triangle;
+    for (size_t i = 0; i < m->dot_count; i++)
+        out[i] = m->dots[i].triangle;
+    for (size_t i = 0, next; m->dot_count == 0 && i < m->line_count; i = next) {
+        const mark_line *first = &m->lines[i];
+        uint32_t         triangle = first->triangle;
+        for (next = i + 1; !m->flow && next < m->line_count && m->lines[next].stroke == first->stroke; next++)
+            if (m->lines[next].from < first->length / 2)
+                triangle = m->lines[next].triangle;
+        for (size_t k = i; k < next; k++)
+            out[k] = triangle;
+    }
 }
 
 /* Positions at which a mark is decided, with the normals there; returns how many. */
@@ -126,7 +129,7 @@ static double measure_mark(const grouping *g, mark_cluster *c, size_t i)
     const marks *m = g->marks;
     d3           at[2], normals[2], axis = {c->axis[0], c->axis[1], c->axis[2]};
     int          count = decided_at(m, i, at, normals);
-    double       lean = lean_of(normals[0], face_of(g->surface, triangle_of(m, i)));
+    double       lean = lean_of(normals[0], face_of(g->surface, g->triangles[i]));
     c->lean = fmax(c->lean, lean);
     for (int k = 0; k < count; k++) {
         widen(c->decided[0], c->decided[1], at[k]);
@@ -311,8 +314,10 @@ bool mark_clusters_make(mark_clusters *out, const marks *m, const mark_surface *
     g.clusters = out->clusters = mem_alloc(g.capacity * sizeof *g.clusters);
     out->ranks = mem_alloc(count * sizeof *out->ranks);
     out->leans = mem_alloc(count * sizeof *out->leans);
-    bool done = g.keys && g.ranks && g.order && g.clusters && out->ranks && out->leans;
+    g.triangles = out->triangles = mem_alloc(count * sizeof *g.triangles);
+    bool done = g.keys && g.ranks && g.order && g.clusters && out->ranks && out->leans && g.triangles;
     if (done) {
+        find_triangles(m, g.triangles);
         fill_keys(&g, count);
         split(&g, 0, count);
         out->count = g.count;
@@ -333,12 +338,13 @@ void mark_clusters_release(mark_clusters *c)
     mem_free(c->order);
     mem_free(c->ranks);
     mem_free(c->leans);
+    mem_free(c->triangles);
     *c = (mark_clusters){.count = 0};
 }
 
 void mark_clusters_measure(mark_clusters *c, const marks *m, const mark_surface *s)
 {
-    const grouping g = {.marks = m, .surface = s, .order = c->order};
+    const grouping g = {.marks = m, .surface = s, .order = c->order, .triangles = c->triangles};
     for (size_t i = 0; i < c->count; i++)
         measure(&g, &c->clusters[i], c->leans);
 }
