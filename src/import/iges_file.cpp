@@ -39,7 +39,6 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <TransferBRep.hxx>
-#include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -188,7 +187,7 @@ void Reading::listen()
 void Reading::find_losses()
 {
     step_losses &losses = out_.losses;
-    Interface_CheckIterator checks = reader_.WS()->ModelCheckList(Standard_False);
+    Interface_CheckIterator checks = transfer_->CheckList(Standard_False);
     for (checks.Start(); checks.More(); checks.Next())
         if (checks.Value()->HasFailed() && losses.damaged++ == 0 && checks.Number() > 0)
             losses.first_damaged = static_cast<uint32_t>(2 * checks.Number() - 1);
@@ -197,8 +196,7 @@ void Reading::find_losses()
         if (!is_face(entity))
             continue;
         losses.faces++;
-        const Handle(Transfer_Binder) binder = transfer_->Find(entity);
-        if (!binder.IsNull() && !binder->HasResult() && losses.lost++ == 0)
+        if (TransferBRep::ShapeResult(transfer_, entity).IsNull() && losses.lost++ == 0)
             losses.first_lost = number_of(model_, entity);
     }
 }

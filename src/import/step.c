@@ -313,6 +313,17 @@ static void tell_unit(step_reader *s, const char *unit_name)
             out_of_memory(s);
 }
 
+/* What writers put when they have not been told, which is nothing. */
+static bool is_made_up(const char *fact)
+{
+    static const char *const words[] = {"Author",      "Unknown",       "Organization", "Organisation", "Company",
+                                        "UNSPECIFIED", "Not specified", "None",         "*",            "-"};
+    bool                     found = strncasecmp(fact, "Open CASCADE", 12) == 0 || !*fact;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        found = found || strcasecmp(fact, words[i]) == 0;
+    return found;
+}
+
 /* What the header says, of all that the file brings: as attributes of its uppermost nodes. */
 static void tell_header(step_reader *s, char *const *facts)
 {
@@ -320,7 +331,8 @@ static void tell_header(step_reader *s, char *const *facts)
     lmn_scene               *scene = s->job->scene;
     for (size_t i = 0; i < scene->node_count; i++)
         for (int k = 0; k < FACTS && s->status == LMN_OK; k++)
-            if (scene->nodes[i].parent == NONE && facts[k] && !build_attribute(&scene->nodes[i], keys[k], facts[k]))
+            if (scene->nodes[i].parent == NONE && facts[k] && !is_made_up(facts[k]) &&
+                !build_attribute(&scene->nodes[i], keys[k], facts[k]))
                 out_of_memory(s);
 }
 
