@@ -15,7 +15,7 @@
 /* Asked in this order; the last takes every other ending. */
 static const import_format *const formats[] = {
     &import_cityjson, &import_geojson, &import_citygml, &import_geodata, &import_step, &import_iges,
-    &import_gltf,     &import_ply,     &import_stl,      &import_obj,     &import_bvh,     &import_csg,     &import_scad, &import_script, &import_assimp};
+    &import_ifc,      &import_gltf,     &import_ply,     &import_stl,      &import_obj,     &import_bvh,     &import_csg,     &import_scad, &import_script, &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
