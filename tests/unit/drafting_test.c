@@ -1,5 +1,6 @@
 /* Sheets as draughtsmen make them: widths of lines, centre lines, sections, details and auxiliary views, against what
  * is known of the models. */
+#define _GNU_SOURCE /* memmem */
 #include <math.h>
 
 #include "csg_support.h"
@@ -517,6 +518,63 @@ static void test_title_block(void **state)
     lmn_sheet_destroy(&s);
 }
 
+static size_t count_texts(const lmn_sheet *s, const char *words)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < s->page.item_count; k++)
+        count += s->page.items[k].text && strcmp(s->page.items[k].text, words) == 0;
+    return count;
+}
+
+/* A STEP file whose header says who made it: that stands in the block where the caller says nothing. */
+static void test_header(void **state)
+{
+    (void)state;
+#ifndef LIMNER_HAVE_STEP
+    print_message("skipped: built without OpenCASCADE\n");
+    skip();
+#else
+    char       path[256];
+    file_data  file = {0};
+    lmn_scene *kept = f.scene;
+    assert_int_equal(file_load(&file, LIMNER_SOURCE_DIR "/examples/bracket.step", NULL), LMN_OK);
+    const char *old = memmem(file.data, file.size, "FILE_NAME(", 10), *behind = memmem(file.data, file.size, "FILE_SCHEMA", 11);
+    snprintf(path, sizeof path, "%s/header.step", temp_folder());
+    FILE *out = fopen(path, "wb");
+    fwrite(file.data, 1, (size_t)((const unsigned char *)old - file.data), out);
+    fputs("FILE_NAME('C:\\\\parts\\\\Angle 7.stp','2026-03-04T05:06:07',('Zo\\X2\\00EB\\X0\\ M; N.'),('Works'),'','','');\n", out);
+    fwrite(behind, 1, file.size - (size_t)((const unsigned char *)behind - file.data), out);
+    fclose(out);
+    f.scene = load_or_fail(path);
+    lmn_sheet_desc d = usual();
+    d.frame = true;
+    lmn_sheet *s = draw(&d);
+    assert_int_equal(count_texts(s, "Angle 7"), 1);
+    assert_int_equal(count_texts(s, "Zo\xC3\xAB M, N."), 1);
+    assert_int_equal(count_texts(s, "Works"), 1);
+    assert_int_equal(count_texts(s, "2026-03-04"), 1);
+    lmn_sheet_destroy(&s);
+    d.fields = "creator=A. Writer;date=today";
+    d.title = "Plate";
+    s = draw(&d);
+    assert_int_equal(count_texts(s, "Plate") + count_texts(s, "A. Writer") + count_texts(s, "today"), 3);
+    assert_int_equal(count_texts(s, "Works"), 1);
+    assert_int_equal(count_texts(s, "Angle 7") + count_texts(s, "Zo\xC3\xAB M, N.") + count_texts(s, "2026-03-04"), 0);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    /* What a writer puts when nobody has told it anything says nothing. */
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/bracket.step");
+    d = usual();
+    d.frame = true;
+    s = draw(&d);
+    assert_int_equal(count_texts(s, "Author") + count_texts(s, "Open CASCADE Shape Model"), 0);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    file_data_release(&file);
+    f.scene = kept;
+#endif
+}
+
 static void refuse(const lmn_sheet_desc *d, lmn_status status, const char *words)
 {
     lmn_draw_desc how = LMN_DRAW_DESC_INIT;
@@ -606,6 +664,7 @@ int main(void)
                                        cmocka_unit_test(test_half_section),  cmocka_unit_test(test_revolved),
                                        cmocka_unit_test(test_apart),         cmocka_unit_test(test_detail),
                                        cmocka_unit_test(test_auxiliary),     cmocka_unit_test(test_title_block),
+                                       cmocka_unit_test(test_header),
                                        cmocka_unit_test(test_refused),       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
