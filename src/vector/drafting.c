@@ -188,7 +188,7 @@ lmn_status vector_find_axes(vector_job *j, lmn_error *error)
 
 enum { AROUND = 12, ALONG = 3, SAMPLES = AROUND * ALONG };
 
-/* Places on the surface of a cylinder, from one end to the other. */
+/* Places on the surface of a cylinder or cone, from one end to the other. */
 static void sample(const draft_cylinder *c, double (*out)[3])
 {
     cylinder_fit f = {.radius = c->radius};
@@ -197,8 +197,9 @@ static void sample(const draft_cylinder *c, double (*out)[3])
     for (int i = 0; i < SAMPLES; i++) {
         double angle = 2 * 3.14159265358979323846 * (i % AROUND) / AROUND, share = 0.02 + 0.48 * (i / AROUND);
         vector3_mix(out[i], c->ends[0], c->ends[1], share);
-        vector3_add(out[i], out[i], c->radius * cos(angle), f.across[0]);
-        vector3_add(out[i], out[i], c->radius * sin(angle), f.across[1]);
+        double radius = c->radii[0] + share * (c->radii[1] - c->radii[0]);
+        vector3_add(out[i], out[i], radius * cos(angle), f.across[0]);
+        vector3_add(out[i], out[i], radius * sin(angle), f.across[1]);
     }
 }
 
