@@ -249,17 +249,32 @@ static void reach(region *r, double along)
     r->high = fmax(r->high, along);
 }
 
-/* A line along the axis through the middle of a face, cut at its edges; `at`, `t`: its corners around and along. */
-static bool line_across(const double at[3], const double t[3], double out[2])
+/* The line through the middle of a face that runs along the axis, of a cone to its tip, from edge to edge of it; `ends`:
+ * where that is along the axis. */
+static bool line_across(const finder *f, const cylinder_fit *c, uint32_t face, double lines[2][3], double ends[2])
 {
-    double middle = 0;
-    int    count = 0;
-    for (int k = 0; k < 3; k++)
-        middle += angle_between(at[0], at[k]) / 3;
+    double        p[3][3], middle[3] = {0}, radius[3], way[3], across[3];
+    const double *normal = f->faces.normals[face];
+    int           count = 0;
     for (int k = 0; k < 3; k++) {
-        double a = angle_between(at[0], at[k]) - middle, b = angle_between(at[0], at[(k + 1) % 3]) - middle;
-        if ((a < 0) != (b < 0) && count < 2)
-            out[count++] = t[k] + a / (a - b) * (t[(k + 1) % 3] - t[k]);
+        corner_of(f, face, k, p[k]);
+        vector3_add(middle, middle, 1.0 / 3, p[k]);
+    }
+    radius_at(c, middle, radius);
+    double lean = c->slope == 0 ? 0 : -vector3_dot(normal, c->axis) / vector3_dot(normal, radius);
+    vector3_add(way, c->axis, lean, radius);
+    vector3_cross(across, normal, way);
+    for (int k = 0; k < 3 && count < 2; k++) {
+        double to[2][3], sides[2];
+        for (int n = 0; n < 2; n++) {
+            vector3_add(to[n], p[(k + n) % 3], -1, middle);
+            sides[n] = vector3_dot(to[n], across);
+        }
+        if ((sides[0] < 0) == (sides[1] < 0))
+            continue;
+        vector3_mix(lines[count], p[k], p[(k + 1) % 3], sides[0] / (sides[0] - sides[1]));
+        cylinder_distance(c, lines[count], NULL, &ends[count]);
+        count++;
     }
     return count == 2;
 }
@@ -279,24 +294,13 @@ static void around_and_along(const finder *f, const cylinder_fit *c, uint32_t fa
 }
 
 /* Of a face of a solid: as much of it as bounds that. */
-static void take_bounding(finder *f, region *r, uint32_t face, const double angles[3], const double along[3])
+static void take_bounding(finder *f, region *r, uint32_t face, const double angles[3])
 {
-    double             ends[2], lines[2][3], middle[3] = {0}, p[3];
+    double             ends[2], lines[2][3];
     const solid_share *shares;
     size_t             count;
-    if (!line_across(angles, along, ends))
+    if (!line_across(f, &r->fit, face, lines, ends))
         return;
-    for (int k = 0; k < 3; k++) {
-        corner_of(f, face, k, p);
-        vector3_add(middle, middle, 1.0 / 3, p);
-    }
-    double at, radius[3];
-    cylinder_distance(&r->fit, middle, NULL, &at);
-    radius_at(&r->fit, middle, radius);
-    for (int k = 0; k < 2; k++) {
-        vector3_add(lines[k], middle, ends[k] - at, r->fit.axis);
-        vector3_add(lines[k], lines[k], r->fit.slope * (ends[k] - at), radius);
-    }
     if (!solid_trim(f->trimmer, face, lines[0], lines[1], &shares, &count)) {
         f->failed = true;
         return;
@@ -316,7 +320,7 @@ static void measure(finder *f, region *r)
         double angles[3], along[3];
         around_and_along(f, &r->fit, f->region[i], angles, along);
         if (f->trimmer) {
-            take_bounding(f, r, f->region[i], angles, along);
+            take_bounding(f, r, f->region[i], angles);
             continue;
         }
         take_angles(r, angles);
