@@ -1,7 +1,7 @@
 // The exact hidden-line removal of OpenCASCADE, to be compared with (bench/hlr/run): hidden_lines VIEW MODEL OUT
-// MODEL is STEP, IGES, or STL, whose triangles become faces. VIEW is front, right or top, z up. OUT gets a line for each
-// polyline: its class (sharp, smooth, outline), then x and y of its points, mm. Prints seconds of the processor: reading,
-// hiding.
+// MODEL is STEP, IGES, or STL, whose triangles become faces. VIEW is front, right or top, z up. OUT gets a line for
+// each polyline: its class (sharp, smooth, outline), then x and y of its points, mm. Prints seconds of the processor:
+// reading, hiding.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -49,11 +49,11 @@ double seconds()
 TopoDS_Shape shape_of_mesh(const char *path)
 {
     Handle(Poly_Triangulation) mesh = RWStl::ReadFile(path);
-    BRep_Builder                               builder;
-    TopoDS_Shell                               shell;
+    BRep_Builder                                      builder;
+    TopoDS_Shell                                      shell;
     std::map<std::tuple<double, double, double>, int> places;
-    std::vector<TopoDS_Vertex>                 vertices;
-    std::unordered_map<uint64_t, TopoDS_Edge>  edges;
+    std::vector<TopoDS_Vertex>                        vertices;
+    std::unordered_map<uint64_t, TopoDS_Edge>         edges;
     builder.MakeShell(shell);
     for (int i = 1; !mesh.IsNull() && i <= mesh->NbTriangles(); i++) {
         int    n[3], at[3];
@@ -143,7 +143,7 @@ int main(int count, char **words)
     const double       read_at = seconds();
     if (shape.IsNull())
         return 1;
-    const gp_Dir eye = !std::strcmp(words[1], "front") ? gp_Dir(0, -1, 0)
+    const gp_Dir eye = !std::strcmp(words[1], "front")   ? gp_Dir(0, -1, 0)
                        : !std::strcmp(words[1], "right") ? gp_Dir(1, 0, 0)
                                                          : gp_Dir(0, 0, 1),
                  right = !std::strcmp(words[1], "right") ? gp_Dir(0, 1, 0) : gp_Dir(1, 0, 0);

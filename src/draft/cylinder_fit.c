@@ -8,8 +8,8 @@
 enum { ROUNDS = 6, UNKNOWNS = 6, JACOBI_ROUNDS = 12 };
 
 static const double slope_least = 5e-3, slope_most = 5; /* flatter and steeper ones are cylinders and planes */
-static const double tip = 1e-3; /* of the radius: what is nearer to the axis is a cone's tip */
-static const double enough = 1e-9; /* of the radius: nothing comes nearer any more */
+static const double tip = 1e-3;                         /* of the radius: what is nearer to the axis is a cone's tip */
+static const double enough = 1e-9;                      /* of the radius: nothing comes nearer any more */
 
 void cylinder_frame(cylinder_fit *c)
 {
@@ -241,8 +241,7 @@ bool cone_start(cylinder_fit *c, const double (*normals)[3], size_t normal_count
     for (size_t i = 0; i < count; i++) {
         double d[3];
         vector3_add(d, points[i], -1, middle);
-        double t = vector3_dot(d, c->axis),
-               row[4] = {vector3_dot(d, c->across[0]), vector3_dot(d, c->across[1]), t, 1};
+        double t = vector3_dot(d, c->axis), row[4] = {vector3_dot(d, c->across[0]), vector3_dot(d, c->across[1]), t, 1};
         double sum = row[0] * row[0] + row[1] * row[1] - slope * slope * t * t;
         for (int a = 0; a < 4; a++) {
             for (int b = 0; b < 4; b++)

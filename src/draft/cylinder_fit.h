@@ -19,8 +19,8 @@ double cylinder_distance(const cylinder_fit *c, const double p[3], double *angle
 bool cylinder_start(cylinder_fit *c, const double (*points)[3], size_t count);
 /* Comes nearer: axis, centre, radius, and of cones (slope not 0) slope, in a few rounds of Gauss and Newton. */
 bool cylinder_refine(cylinder_fit *c, const double (*points)[3], size_t count);
-/* Axis, slope, centre and radius of a cone from unit normals of its faces, and points of it. False: they are of no cone,
- * or of one that is nearly a cylinder or a plane. */
+/* Axis, slope, centre and radius of a cone from unit normals of its faces, and points of it. False: they are of no
+ * cone, or of one that is nearly a cylinder or a plane. */
 bool cone_start(cylinder_fit *c, const double (*normals)[3], size_t normal_count, const double (*points)[3],
                 size_t count);
 /* What its radius is at a place along the axis. */

@@ -249,8 +249,8 @@ static void reach(region *r, double along)
     r->high = fmax(r->high, along);
 }
 
-/* The line through the middle of a face that runs along the axis, of a cone to its tip, from edge to edge of it; `ends`:
- * where that is along the axis. */
+/* The line through the middle of a face that runs along the axis, of a cone to its tip, from edge to edge of it;
+ * `ends`: where that is along the axis. */
 static bool line_across(const finder *f, const cylinder_fit *c, uint32_t face, double lines[2][3], double ends[2])
 {
     double        p[3][3], middle[3] = {0}, radius[3], way[3], across[3];

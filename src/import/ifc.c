@@ -88,9 +88,10 @@ static void tell_missing(const import_job *job, const ifc_text *text, const bool
         first = !first || thing->number < first->number ? thing : first;
     }
     if (first)
-        warnings_add(&job->scene->warnings, WARNING_BAD_GEOMETRY,
-                     "%zu of %zu things have shapes that cannot be read and are missing, the first: #%llu, %.40s '%.60s'",
-                     missing, shaped, (unsigned long long)first->number, first->type, first->name ? first->name : "");
+        warnings_add(
+            &job->scene->warnings, WARNING_BAD_GEOMETRY,
+            "%zu of %zu things have shapes that cannot be read and are missing, the first: #%llu, %.40s '%.60s'",
+            missing, shaped, (unsigned long long)first->number, first->type, first->name ? first->name : "");
 }
 
 /* --- shapes --------------------------------------------------------------------------------------------- */

@@ -18,7 +18,7 @@ typedef struct span {
 typedef struct scanner {
     const char *at, *end;
     ifc_text   *out;
-    uint64_t   *shapes; /* numbers of what products are drawn by */
+    uint64_t   *shapes;   /* numbers of what products are drawn by */
     uint64_t   *shape_of; /* per thing, as the products refer to them; 0: nothing */
     size_t      shape_count, shape_capacity, of_capacity;
     bool        failed;
@@ -180,8 +180,14 @@ static bool is(span s, const char *word)
 /* What has a shape and is none of the building's. */
 static bool is_empty_kind(span type)
 {
-    static const char *const kinds[] = {"IFCSPACE", "IFCOPENINGELEMENT", "IFCOPENINGSTANDARDCASE", "IFCVIRTUALELEMENT",
-                                        "IFCSPATIALZONE", "IFCANNOTATION", "IFCGRID", "IFCSITE"};
+    static const char *const kinds[] = {"IFCSPACE",
+                                        "IFCOPENINGELEMENT",
+                                        "IFCOPENINGSTANDARDCASE",
+                                        "IFCVIRTUALELEMENT",
+                                        "IFCSPATIALZONE",
+                                        "IFCANNOTATION",
+                                        "IFCGRID",
+                                        "IFCSITE"};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (is(type, kinds[i]))
             return true;

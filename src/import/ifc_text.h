@@ -10,9 +10,9 @@ enum { IFC_GUID = 22, IFC_FACTS = 4 };
 /* What has an identity: products, storeys, the project. */
 typedef struct ifc_thing {
     char     guid[IFC_GUID];
-    uint64_t number;     /* #12 */
+    uint64_t number;      /* #12 */
     char    *type, *name; /* "IFCWALL"; NULL: it has none */
-    bool     shaped;     /* it should be drawn: no space, no opening */
+    bool     shaped;      /* it should be drawn: no space, no opening */
 } ifc_thing;
 
 typedef struct ifc_text {

@@ -145,9 +145,9 @@ class Reading
     Handle(Transfer_TransientProcess) transfer_;
     Handle(XCAFDoc_ShapeTool) shapes_;
     Handle(XCAFDoc_ColorTool) colours_;
-    Sayings                                                              sayings_;
+    Sayings                                                               sayings_;
     NCollection_DataMap<TopoDS_Shape, TDF_Label, TopTools_ShapeMapHasher> made_; // of groups, where they lie unmoved
-    double                                                               exact_ = 0; // mm; of the file
+    double                                                                exact_ = 0; // mm; of the file
 };
 
 void Reading::take_globals()
@@ -186,7 +186,7 @@ void Reading::listen()
 
 void Reading::find_losses()
 {
-    step_losses &losses = out_.losses;
+    step_losses            &losses = out_.losses;
     Interface_CheckIterator checks = transfer_->CheckList(Standard_False);
     for (checks.Start(); checks.More(); checks.Next())
         if (checks.Value()->HasFailed() && losses.damaged++ == 0 && checks.Number() > 0)

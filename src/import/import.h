@@ -25,8 +25,8 @@ typedef struct import_format {
 } import_format;
 
 extern const import_format import_gltf, import_stl, import_ply, import_obj, import_bvh, import_csg, import_scad,
-    import_script, import_cityjson, import_citygml, import_geojson, import_geodata, import_step, import_iges, import_ifc,
-    import_assimp;
+    import_script, import_cityjson, import_citygml, import_geojson, import_geodata, import_step, import_iges,
+    import_ifc, import_assimp;
 
 /* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the
  * format's convention. Content decides the format first, the ending second; a mismatch is an error that says so. */

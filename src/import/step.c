@@ -1,5 +1,5 @@
-/* STEP and IGES: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the faces, with
- * their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
+/* STEP and IGES: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the
+ * faces, with their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
 #define _GNU_SOURCE /* memmem */
 #include "import/step.h"
 
@@ -50,8 +50,7 @@ static lmn_status answer_step(const unsigned char *request, size_t size, fence_b
     if (!from)
         return error_set(error, LMN_INTERNAL, "the request is cut off");
     memcpy(&head, from, sizeof head);
-    const step_request what = {r.at, (size_t)(r.end - r.at), head.kind, head.deflection,
-                               head.most_triangles};
+    const step_request what = {r.at, (size_t)(r.end - r.at), head.kind, head.deflection, head.most_triangles};
     switch (module->read(&what, put, answer, message, sizeof message)) {
     case STEP_DONE: return LMN_OK;
     case STEP_TOO_MUCH_MEMORY:
@@ -84,7 +83,8 @@ char *step_version(void)
 {
     fence_bytes request = {0}, answer = {0};
     char       *text = NULL;
-    if (fence_call_prepared(&answer, answer_version, step_prepare, "the reader of CAD files", &request, NULL) == LMN_OK) {
+    if (fence_call_prepared(&answer, answer_version, step_prepare, "the reader of CAD files", &request, NULL) ==
+        LMN_OK) {
         fence_reader r = fence_read(answer.bytes, answer.size);
         text = fence_take_text(&r);
     }
@@ -316,9 +316,10 @@ static void tell_unit(step_reader *s, const char *unit_name)
 /* What writers put when they have not been told, which is nothing. */
 static bool is_made_up(const char *fact)
 {
-    static const char *const words[] = {"Author",      "Unknown",       "Organization", "Organisation", "Company",
-                                        "UNSPECIFIED", "Not specified", "None",         "*",            "-"};
-    bool                     found = strncasecmp(fact, "Open CASCADE", 12) == 0 || !*fact;
+    static const char *const words[] = {
+        "Author", "Unknown", "Organization", "Organisation", "Company", "UNSPECIFIED", "Not specified", "None",
+        "*",      "-"};
+    bool found = strncasecmp(fact, "Open CASCADE", 12) == 0 || !*fact;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         found = found || strcasecmp(fact, words[i]) == 0;
     return found;

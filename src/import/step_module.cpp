@@ -1,5 +1,5 @@
-// OpenCASCADE for C: STEP and IGES to meshes, edges and a tree. No exception leaves this file, and nothing of it is linked with
-// the library: it is a module that the fenced child loads (step_library.c).
+// OpenCASCADE for C: STEP and IGES to meshes, edges and a tree. No exception leaves this file, and nothing of it is
+// linked with the library: it is a module that the fenced child loads (step_library.c).
 #include "import/step_module.h"
 
 #include <algorithm>
@@ -677,8 +677,8 @@ void prepare()
 
 void read_all(const step_request &request, const Answer &answer)
 {
-    const cad::File file = request.kind == STEP_KIND_IGES ? cad::read_iges(request.bytes, request.size)
-                                                          : cad::read_step(request.bytes, request.size);
+    const cad::File   file = request.kind == STEP_KIND_IGES ? cad::read_iges(request.bytes, request.size)
+                                                            : cad::read_step(request.bytes, request.size);
     TDF_LabelSequence roots;
     Tree              tree;
     tree.shapes = XCAFDoc_DocumentTool::ShapeTool(file.document->Main());

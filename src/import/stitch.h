@@ -10,7 +10,8 @@
 bool stitch(primitive *p, double near);
 
 /* Fills what is missing of flat faces of bodies: holes that lie in one plane with a face beside them, and that another
- * face bounds, too, which does not. So holes of sheets and the rims of open boxes stay. After `stitch`; false: as there. */
+ * face bounds, too, which does not. So holes of sheets and the rims of open boxes stay. After `stitch`; false: as
+ * there. */
 bool stitch_holes(primitive *p, double near);
 
 #endif

@@ -98,7 +98,7 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
             /* Where a cut face and what it cuts have other corners, each has a border. */
             bool border = e->face[0] == EDGE_NO_FACE || e->face[1] == EDGE_NO_FACE;
             if (!turns && !((caps[0] || caps[1] || border) && lies_in_turn(m, &scene->items[i].world, e, extra,
-                                                                 1e-6 * fmax(scene->reach, scene->extent))))
+                                                                           1e-6 * fmax(scene->reach, scene->extent))))
                 continue;
             e->flags = EDGE_QUIET;
             /* Nor an outline: whether what is seen edge-on faces the eye, is a matter of rounding. */

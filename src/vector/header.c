@@ -55,9 +55,10 @@ static int length_of_date(const char *value)
 
 static lmn_status take_fields(vector_job *j, lmn_error *error)
 {
-    static const char *const rows[][2] = {{"file-author", "creator"}, {"file-organisation", "owner"}, {"file-date", "date"}};
-    const char              *own = j->wanted->fields ? j->wanted->fields : "", *values[3];
-    size_t                   size = strlen(own) + 1;
+    static const char *const rows[][2] = {
+        {"file-author", "creator"}, {"file-organisation", "owner"}, {"file-date", "date"}};
+    const char *own = j->wanted->fields ? j->wanted->fields : "", *values[3];
+    size_t      size = strlen(own) + 1;
     for (int i = 0; i < 3; i++) {
         values[i] = is_said(own, rows[i][1]) ? NULL : fact_of(j->scene, rows[i][0]);
         size += values[i] ? strlen(values[i]) + strlen(rows[i][1]) + 2 : 0;

@@ -25,7 +25,7 @@ typedef struct vector_job {
     const lmn_look       *look;
     const lmn_draw_desc  *desc;
     const lmn_sheet_desc *wanted;
-    lmn_sheet_desc        filled;     /* that, with what the files' headers say, of which the next two are */
+    lmn_sheet_desc        filled; /* that, with what the files' headers say, of which the next two are */
     char                 *fields;
     char                  title[128];
     bool                  lines_only, pixels, usual_scale;

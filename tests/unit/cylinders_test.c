@@ -286,8 +286,8 @@ static void add_turned(lmn_scene *s, const double (*profile)[2], int count, int 
         sizes[i] = profile[i][0] > 0 ? sides : 1;
         rings[i] = p->position_count;
         for (int k = 0; k < sizes[i]; k++)
-            put(p, profile[i][0] * cos(2 * stroke_pi * k / sides), oval * profile[i][0] * sin(2 * stroke_pi * k / sides),
-                profile[i][1]);
+            put(p, profile[i][0] * cos(2 * stroke_pi * k / sides),
+                oval * profile[i][0] * sin(2 * stroke_pi * k / sides), profile[i][1]);
     }
     for (int i = 0; i + 1 < count; i++)
         for (int k = 0; k < sides; k++) {
@@ -320,7 +320,8 @@ static void assert_cone(const draft_cylinder *c, double low_radius, double low, 
                   c->radii[1 - first], error, ends[first], ends[1 - first], c->sweep);
     double size = fmax(low_radius, high_radius);
     assert_true(c->cone && error < 1e-3 && fabs(c->radius - size) < 1e-3 * size);
-    assert_true(fabs(c->radii[first] - low_radius) < 2e-3 * size && fabs(c->radii[1 - first] - high_radius) < 2e-3 * size);
+    assert_true(fabs(c->radii[first] - low_radius) < 2e-3 * size &&
+                fabs(c->radii[1 - first] - high_radius) < 2e-3 * size);
     assert_true(fabs(ends[first] - low) < 2e-3 * size && fabs(ends[1 - first] - high) < 2e-3 * size);
     assert_true(c->sweep > 6.27);
 }
@@ -330,8 +331,8 @@ static void test_cones(void **state)
     static const struct {
         double low, high, height;
         int    sides;
-    } cones[] = {{6, 5.5, 10, 40}, {6, 0, 9, 24}, {10, 4, 3, 64}, {2, 9, 20, 16}, {8, 2, 2, 200}, {0.03, 0.01, 0.05, 32},
-                 {20, 18, 60, 360}, {6, 0, 30, 12}};
+    } cones[] = {{6, 5.5, 10, 40}, {6, 0, 9, 24},          {10, 4, 3, 64},    {2, 9, 20, 16},
+                 {8, 2, 2, 200},   {0.03, 0.01, 0.05, 32}, {20, 18, 60, 360}, {6, 0, 30, 12}};
     (void)state;
     for (size_t i = 0; i < sizeof cones / sizeof *cones; i++) {
         const double profile[2][2] = {{cones[i].low, 0}, {cones[i].high, cones[i].height}};
@@ -673,8 +674,8 @@ static void test_pump(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_drums), cmocka_unit_test(test_sleeve), cmocka_unit_test(test_none),
-        cmocka_unit_test(test_torus), cmocka_unit_test(test_cones), cmocka_unit_test(test_spindle),
+        cmocka_unit_test(test_drums),    cmocka_unit_test(test_sleeve), cmocka_unit_test(test_none),
+        cmocka_unit_test(test_torus),    cmocka_unit_test(test_cones),  cmocka_unit_test(test_spindle),
         cmocka_unit_test(test_no_cones), cmocka_unit_test(test_solid),  cmocka_unit_test(test_pitch),
         cmocka_unit_test(test_pump),
 #ifdef LIMNER_HAVE_STEP

@@ -597,11 +597,14 @@ static void test_header(void **state)
     file_data  file = {0};
     lmn_scene *kept = f.scene;
     assert_int_equal(file_load(&file, LIMNER_SOURCE_DIR "/examples/bracket.step", NULL), LMN_OK);
-    const char *old = memmem(file.data, file.size, "FILE_NAME(", 10), *behind = memmem(file.data, file.size, "FILE_SCHEMA", 11);
+    const char *old = memmem(file.data, file.size, "FILE_NAME(", 10),
+               *behind = memmem(file.data, file.size, "FILE_SCHEMA", 11);
     snprintf(path, sizeof path, "%s/header.step", temp_folder());
     FILE *out = fopen(path, "wb");
     fwrite(file.data, 1, (size_t)((const unsigned char *)old - file.data), out);
-    fputs("FILE_NAME('C:\\\\parts\\\\Angle 7.stp','2026-03-04T05:06:07',('Zo\\X2\\00EB\\X0\\ M; N.'),('Works'),'','','');\n", out);
+    fputs("FILE_NAME('C:\\\\parts\\\\Angle 7.stp','2026-03-04T05:06:07',('Zo\\X2\\00EB\\X0\\ M; "
+          "N.'),('Works'),'','','');\n",
+          out);
     fwrite(behind, 1, file.size - (size_t)((const unsigned char *)behind - file.data), out);
     fclose(out);
     f.scene = load_or_fail(path);
@@ -719,13 +722,18 @@ int main(void)
 #ifdef LIMNER_HAVE_STEP
                                        cmocka_unit_test(test_tangent_edges),
 #endif
-                                       cmocka_unit_test(test_centre_lines),  cmocka_unit_test(test_section_in_steps),
-                                       cmocka_unit_test(test_half_section),  cmocka_unit_test(test_revolved),
-                                       cmocka_unit_test(test_apart),         cmocka_unit_test(test_detail),
-                                       cmocka_unit_test(test_auxiliary),     cmocka_unit_test(test_half_assembly),
+                                       cmocka_unit_test(test_centre_lines),
+                                       cmocka_unit_test(test_section_in_steps),
+                                       cmocka_unit_test(test_half_section),
+                                       cmocka_unit_test(test_revolved),
+                                       cmocka_unit_test(test_apart),
+                                       cmocka_unit_test(test_detail),
+                                       cmocka_unit_test(test_auxiliary),
+                                       cmocka_unit_test(test_half_assembly),
                                        cmocka_unit_test(test_axis_in_cutting_plane),
                                        cmocka_unit_test(test_title_block),
                                        cmocka_unit_test(test_header),
-                                       cmocka_unit_test(test_refused),       cmocka_unit_test(test_out_of_memory)};
+                                       cmocka_unit_test(test_refused),
+                                       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

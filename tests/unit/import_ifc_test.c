@@ -108,9 +108,9 @@ static void lengths_are_metres_and_z_is_up(void **state)
 static void walls_are_bodies_without_their_openings(void **state)
 {
     (void)state;
-    lmn_scene    *s = load_or_fail(HOUSE);
-    const mesh   *wall = mesh_at(s, find_part(s, "house/Building/Ground floor/South wall"));
-    const double  mm3 = 1e9;
+    lmn_scene   *s = load_or_fail(HOUSE);
+    const mesh  *wall = mesh_at(s, find_part(s, "house/Building/Ground floor/South wall"));
+    const double mm3 = 1e9;
     assert_true(fabs(volume_of(wall) - (6 * 0.3 * 2.8 - 1.5 * 0.3 * 1.2) * mm3) < 1e-5 * mm3);
     assert_int_equal(borders_of(wall), 0);
     const mesh *plain = mesh_at(s, find_part(s, "house/Building/Ground floor/Floor slab"));
@@ -123,10 +123,11 @@ static void products_have_their_colours(void **state)
 {
     (void)state;
     lmn_scene *s = load_or_fail(HOUSE);
-    const vec4 wall = s->materials[mesh_at(s, find_part(s, "house/Building/Ground floor/South wall"))
-                                       ->primitives[0].material].base_colour,
-               column = s->materials[mesh_at(s, find_part(s, "house/Building/First floor/Column"))
-                                         ->primitives[0].material].base_colour;
+    const vec4
+        wall = s->materials[mesh_at(s, find_part(s, "house/Building/Ground floor/South wall"))->primitives[0].material]
+                   .base_colour,
+        column = s->materials[mesh_at(s, find_part(s, "house/Building/First floor/Column"))->primitives[0].material]
+                     .base_colour;
     assert_true(fabsf(wall.x - colour_to_linear(0.8f)) < 2e-3f && fabsf(wall.z - colour_to_linear(0.2f)) < 2e-3f);
     assert_true(fabsf(column.x - colour_to_linear(0.2f)) < 2e-3f && fabsf(column.z - colour_to_linear(0.8f)) < 2e-3f);
     lmn_scene_destroy(&s);
@@ -139,8 +140,9 @@ static void what_cannot_be_read_is_told(void **state)
     lmn_scene *s = load_or_fail(HOUSE);
     bool       told = false;
     for (size_t i = 0; i < s->warnings.count; i++)
-        told = told || strstr(s->warnings.items[i].text, "1 of 5 things have shapes that cannot be read and are missing, "
-                                                         "the first: #136, IFCBUILDINGELEMENTPROXY 'Ball'");
+        told =
+            told || strstr(s->warnings.items[i].text, "1 of 5 things have shapes that cannot be read and are missing, "
+                                                      "the first: #136, IFCBUILDINGELEMENTPROXY 'Ball'");
     assert_true(told);
     lmn_scene_destroy(&s);
 }
@@ -167,7 +169,8 @@ static void words_are_those_of_the_file(void **state)
     const char *text =
         "ISO-10303-21;HEADER;FILE_NAME('it''s (a) \\X\\E4\\S\\d','t',('w','x'),('o'),'','','');/* #9=IFCWALL('"
         "0123456789012345678901',$,'no',$,$,$,#1,$); */ENDSEC;DATA;\n"
-        "#1=IFCPRODUCTDEFINITIONSHAPE($,$,(#7));\n#22= IFCWALL ( '0123456789012345678901' , #2 , 'a;b(c)' ,$,$,#3,#1,$);"
+        "#1=IFCPRODUCTDEFINITIONSHAPE($,$,(#7));\n#22= IFCWALL ( '0123456789012345678901' , #2 , 'a;b(c)' "
+        ",$,$,#3,#1,$);"
         "#3=IFCSPACE('1123456789012345678901',#2,$,$,$,#3,#1,$);\n#4=IFCSLAB('2123456789012345678901',#2,"
         "'\\X2\\03B103B2\\X0\\\\X4\\0001F600\\X0\\',$,$,#3,$,$);\n#5=IFCWALL('cut off";
     ifc_text t;
@@ -178,7 +181,8 @@ static void words_are_those_of_the_file(void **state)
     assert_string_equal(t.facts[2], "o");
     assert_string_equal(t.facts[3], "t");
     const ifc_thing *wall = ifc_text_find(&t, "IfcWall_x_0123456789012345678901"),
-                    *room = ifc_text_find(&t, "1123456789012345678901"), *slab = ifc_text_find(&t, "2123456789012345678901");
+                    *room = ifc_text_find(&t, "1123456789012345678901"),
+                    *slab = ifc_text_find(&t, "2123456789012345678901");
     assert_string_equal(wall->name, "a;b(c)");
     assert_int_equal(wall->number, 22);
     assert_true(wall->shaped && !room->shaped && !slab->shaped && !room->name);
@@ -207,8 +211,8 @@ static primitive sheet_of(const vec3 *positions, uint32_t vertices, const uint32
 static void corners_in_edges_are_joined(void **state)
 {
     (void)state;
-    const vec3     at[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 1, 0}, {1, 1.0000001f, 0},
-                           {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
+    const vec3     at[] = {{0, 0, 0},          {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 1, 0},
+                           {1, 1.0000001f, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
     const uint32_t faces[] = {0, 1, 2, 0, 2, 3, 4, 5, 8, 4, 8, 7, 5, 6, 9, 5, 9, 8};
     primitive      p = sheet_of(at, 10, faces, 18);
     mesh           m = {.primitives = &p, .primitive_count = 1};
@@ -225,9 +229,50 @@ static void corners_in_edges_are_joined(void **state)
 static void missing_pieces_of_faces_are_filled(void **state)
 {
     (void)state;
-    const vec3     at[] = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {0, 1, 1}};
-    const uint32_t open[] = {0, 2, 1, 0, 3, 2, 0, 1, 6, 0, 6, 5, 0, 5, 4, 1, 2, 7, 1, 7, 6,
-                             2, 3, 9, 2, 9, 8, 2, 8, 7, 3, 0, 4, 3, 4, 9, /* of the lid: */ 4, 5, 8, 4, 8, 9};
+    const vec3     at[] = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                           {1, 0, 1}, {3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {0, 1, 1}};
+    const uint32_t open[] = {0,
+                             2,
+                             1,
+                             0,
+                             3,
+                             2,
+                             0,
+                             1,
+                             6,
+                             0,
+                             6,
+                             5,
+                             0,
+                             5,
+                             4,
+                             1,
+                             2,
+                             7,
+                             1,
+                             7,
+                             6,
+                             2,
+                             3,
+                             9,
+                             2,
+                             9,
+                             8,
+                             2,
+                             8,
+                             7,
+                             3,
+                             0,
+                             4,
+                             3,
+                             4,
+                             9,
+                             /* of the lid: */ 4,
+                             5,
+                             8,
+                             4,
+                             8,
+                             9};
     primitive      p = sheet_of(at, 10, open, 42);
     mesh           m = {.primitives = &p, .primitive_count = 1};
     assert_int_equal(borders_of(&m), 4);

@@ -1,5 +1,5 @@
-/* IGES files against what OpenCASCADE knows of the same shapes before it writes them: sizes, edges, colours, units; that
- * loose faces become bodies; and what becomes of files that are damaged. */
+/* IGES files against what OpenCASCADE knows of the same shapes before it writes them: sizes, edges, colours, units;
+ * that loose faces become bodies; and what becomes of files that are damaged. */
 #include "import_support.h"
 
 #include <math.h>
@@ -23,7 +23,8 @@ static void it_is_known_by_its_lines(void **state)
                                                              "                S0000001\r\n" START);
     file_data step = as_file("ISO-10303-21;\n" START), other = as_file("Made by hand                                   "
                                                                        "                         T      1\n" START);
-    file_data late = as_file("made by hand                                                            S      2\n" START);
+    file_data late =
+        as_file("made by hand                                                            S      2\n" START);
     file_data short_one = as_file("S      1\n");
     assert_true(import_iges.recognises(&good));
     assert_true(import_iges.recognises(&windows));
@@ -317,7 +318,8 @@ static void broken_faces_are_told(void **state)
     assert_true(has_warning(s, WARNING_BAD_GEOMETRY));
     bool missing = false, damaged = false;
     for (size_t i = 0; i < s->warnings.count; i++) {
-        missing = missing || strstr(s->warnings.items[i].text, "1 of 10 faces could not be made and are missing, the first: D3");
+        missing = missing ||
+                  strstr(s->warnings.items[i].text, "1 of 10 faces could not be made and are missing, the first: D3");
         damaged = damaged || strstr(s->warnings.items[i].text, "1 entities are damaged");
     }
     assert_true(missing && damaged);
@@ -328,11 +330,14 @@ static void broken_faces_are_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_known_by_its_lines), cmocka_unit_test(solids_are_as_large_as_they_are),
-        cmocka_unit_test(edges_are_sewn),           cmocka_unit_test(faces_have_their_colours),
-        cmocka_unit_test(loose_faces_become_bodies), cmocka_unit_test(headers_are_attributes),
-        cmocka_unit_test(damaged_files_are_errors), cmocka_unit_test(broken_faces_are_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_known_by_its_lines),
+                                       cmocka_unit_test(solids_are_as_large_as_they_are),
+                                       cmocka_unit_test(edges_are_sewn),
+                                       cmocka_unit_test(faces_have_their_colours),
+                                       cmocka_unit_test(loose_faces_become_bodies),
+                                       cmocka_unit_test(headers_are_attributes),
+                                       cmocka_unit_test(damaged_files_are_errors),
+                                       cmocka_unit_test(broken_faces_are_told)};
     return cmocka_run_group_tests(tests, write_files, remove_temp_folder);
 }
 
