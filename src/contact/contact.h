@@ -8,6 +8,10 @@
 #include "behaviour/inspect.h"
 #include "pose/moment.h"
 
+enum { BOX_SIDES = 6 };
+/* The middles of a box's sides; its places are 0 where it is empty. */
+void box_sides(box3 box, double out[BOX_SIDES][3]);
+
 typedef struct contact {
     impact hit;       /* its place is where it touches, its normal that of what is met; where nothing is, its outermost
                          place against the change of its velocity, and the way of this */
@@ -24,6 +28,7 @@ typedef struct contact {
 typedef struct contact_sides {
     bool  *own, *others;
     double reach, radius;
+    double outermost[BOX_SIDES][3]; /* of the own ones at rest, in the world: in the middles of their box's sides */
 } contact_sides;
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *scene, int32_t node_index, lmn_error *error);
 void       contact_sides_release(contact_sides *s);

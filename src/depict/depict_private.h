@@ -3,6 +3,7 @@
 #define LIMNER_DEPICT_DEPICT_PRIVATE_H
 
 #include "base/vector3.h"
+#include "contact/contact.h"
 #include "depict/depict.h"
 #include "depict/way.h"
 #include "plan/camera.h"
@@ -67,6 +68,7 @@ typedef struct depict_target {
     double  centre[3]; /* in the way's axes */
     double  radius;    /* of its box, world, at rest */
     double  reach;     /* half of that box's longest side */
+    double  outermost[BOX_SIDES][3]; /* in the middles of that box's sides; in the way's axes */
     bool   *parts;     /* per part of the scene */
     size_t  part_count;
 } depict_target;
@@ -89,10 +91,14 @@ typedef struct depict_impact {
     double before[3];    /* its velocity before it */
     double speed;        /* of that */
     double since, until; /* how long it has gone straight before, and does behind */
+    bool   turns;        /* all that is of another place than the centre, since it turns on the spot */
 } depict_impact;
 /* Those of a target, in order, at most `most`. *count gets how many. Errors: LMN_MEMORY. */
 lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
                           double to, lmn_error *error);
+/* The same where it may hit something: of what turns on the spot they are those of the place that goes farthest. */
+lmn_status target_hits(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
+                       lmn_error *error);
 /* Where it touches what it meets: the vertex that is farthest against the change of velocity. */
 lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *i,
                           lmn_error *error);

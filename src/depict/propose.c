@@ -289,7 +289,7 @@ static lmn_status tell(const proposal *p, const mover_list *all, mover *m, lmn_e
         tell_way(p, m, ways);
     else if (m->figure)
         status = tell_figure(p, m, ways, error);
-    if (m->hits && !m->figure && !turns)
+    if (m->hits && !m->figure)
         tell_hits(p, all, m);
     if (turns)
         propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
