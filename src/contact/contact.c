@@ -65,6 +65,11 @@ bool contact_is_hit(const double before[3], const double after[3], const double 
     return in > 0 && in >= 0.1 * vector3_length(change) && out >= -0.1 * in;
 }
 
+bool contact_is_off_hinge(const double place_velocity[3], const double farthest_velocity[3])
+{
+    return vector3_length(place_velocity) > 0.25 * vector3_length(farthest_velocity);
+}
+
 double contact_reach(double reach, const double before[3], double since, double until)
 {
     const bool sampled = since > 0 && until > 0 && since <= 0.05 && until <= 0.05;
@@ -187,7 +192,7 @@ static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *
     *out = status == LMN_OK && contact_is_hit(before, after, found->normal);
     if (!*out || !(q->turns || are_kin(q, other)))
         return status;
-    *out = fabs(found->gap) <= q->sides.reach;
+    *out = fabs(found->gap) <= q->sides.reach && (!q->turns || contact_is_off_hinge(before, q->hit->before));
     return *out ? were_apart(out, q, found, other, vector3_length(before), error) : LMN_OK;
 }
 

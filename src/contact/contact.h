@@ -37,6 +37,10 @@ void       contact_sides_release(contact_sides *s);
  * surface which is met: it comes on, which is a good part of what changes, and does not go on through the surface. */
 bool contact_is_hit(const double before[3], const double after[3], const double normal[3]);
 
+/* Of what turns on the spot: is a place fast enough to hit something, against the farthest one? Near its hinge it only
+ * comes close to what it hangs on. */
+bool contact_is_off_hinge(const double place_velocity[3], const double farthest_velocity[3]);
+
 /* How near a surface has to be to be met, where `reach` is for what is exact: corners of a curve that is sampled, 20 or
  * more times a second, lie up to a sample away from where it turns round. */
 double contact_reach(double reach, const double before[3], double since, double until);

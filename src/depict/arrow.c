@@ -215,8 +215,7 @@ static bool shift_aside(const depict_job *j, double (*points)[3], size_t count, 
     return moved != NULL;
 }
 
-/* How much smaller things have to be where the way is lifted to, to be seen as large; its points go there. */
-static double lift_before(const depict_job *j, double (*points)[3], size_t count)
+double glyph_lift_before(const depict_job *j, double (*points)[3], size_t count)
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
@@ -245,7 +244,7 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
         vector3_add(points[i], way.samples[i].position, (double)v->offset * t->radius, j->camera.up);
     if (status == LMN_OK && v->aside != 0 && !shift_aside(j, points, way.count, (double)v->aside * t->radius))
         status = error_memory(error);
-    const double scale = v->before && status == LMN_OK ? lift_before(j, points, way.count) : 1;
+    const double scale = v->before && status == LMN_OK ? glyph_lift_before(j, points, way.count) : 1;
     const double width = (double)v->width * t->radius * scale;
     if (status == LMN_OK) {
         const arrow_style style = {width,

@@ -174,6 +174,10 @@ typedef struct arrow_style {
 void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[3], size_t count,
                      const arrow_style *style);
 
+/* Moves a way before all that the scene has, on its lines of sight. Returns how much smaller things have to be there to
+ * be seen as large. */
+double glyph_lift_before(const depict_job *j, double (*points)[3], size_t count);
+
 /* The colours of tenses where nobody says another. */
 colour depict_tint(glyph_tense when, colour wanted);
 

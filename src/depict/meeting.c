@@ -109,7 +109,8 @@ static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *
     own_velocities(own, behind, m, found->place);
     vector3_add(after, behind, -1, after);
     vector3_add(before, own, -1, before);
-    *out = contact_is_hit(before, after, found->normal);
+    *out = contact_is_hit(before, after, found->normal) &&
+           (!m->impact->turns || contact_is_off_hinge(own, m->impact->before));
     return *out && m->impact->turns ? were_apart(out, m, found, vector3_length(before), error) : LMN_OK;
 }
 

@@ -999,6 +999,7 @@ static void proposals_tell_patterns_apart(void **state)
     check_proposal(door_scene(true), "collision", true, "door falls to");
     check_proposal(door_scene(true), "turnaround", true, "door falls to");
     check_proposal(door_scene(false), "collision", false, "door opens");
+    check_proposal(load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/door.json"), "collision", false, "door in a wall");
     check_proposal(growth_scene(1, 2, 0), "expand", true, "growing");
     check_proposal(growth_scene(1, 2, 0), "collapse", false, "growing");
     check_proposal(growth_scene(2, 1, 0), "collapse", true, "shrinking");
