@@ -317,7 +317,7 @@ static void stars_of_several_leave_each_other_room(void **state)
         json_t       *told = told_of(s, NULL, 1.5);
         const json_t *e = expression_of(told, "collision", "a"), *size = json_object_get(e, "size");
         assert_non_null(e);
-        assert_true(i ? json_number_value(size) < 1.7 && expression_of(told, "collision", "b") : !size);
+        assert_true(i ? size && json_number_value(size) < 1.7 && expression_of(told, "collision", "b") : !size);
         json_decref(told);
         lmn_scene_destroy(&s);
     }

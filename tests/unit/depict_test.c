@@ -503,6 +503,72 @@ static void lines_trail_behind(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* The vertex behind those of the piece that begins at one: pieces lie one behind the other. */
+static uint32_t piece_end(const primitive *p, uint32_t first)
+{
+    uint32_t end = first + 1;
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        bool     own = false;
+        uint32_t high = 0;
+        for (uint32_t k = i; k < i + 3; k++) {
+            own = own || (p->indices[k] >= first && p->indices[k] < end);
+            high = p->indices[k] > high ? p->indices[k] : high;
+        }
+        end = own && high + 1 > end ? high + 1 : end;
+    }
+    return end;
+}
+
+/* Lines begin at the outermost places: of a ball that is looked at from the side, on its circle, at the rear, spread over
+ * all of its breadth; more strokes lie beside them, each time elsewhere. */
+static void lines_begin_at_the_rear_of_the_outline(void **state)
+{
+    (void)state;
+    enum { LINES = 7 };
+    lmn_scene   *scene = ball_scene("rear.glb", true);
+    const double now = 0.5;
+    double       at[3], way[3] = {forward, -gravity * now, 0}, low = INFINITY, high = -INFINITY;
+    vector3_normalise(way);
+    ball_at(now, at);
+    tell_or_fail(scene,
+                 "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 0, \"jitter\": "
+                 "0}]",
+                 now, NULL);
+    const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
+    assert_non_null(lines);
+    assert_int_equal(pieces_of(lines), LINES);
+    for (uint32_t i = 0, next = 0; i < lines->vertex_count; i++) {
+        double p[3], q[3];
+        if (i != next)
+            continue;
+        next = piece_end(lines, i);
+        position(lines, i, p);
+        position(lines, i + 1, q);
+        vector3_mix(p, p, q, 0.5);
+        vector3_add(p, p, -1, at);
+        const double along = vector3_dot(p, way), aside = p[1] * way[0] - p[0] * way[1];
+        assert_near(vector3_length(p), radius, 0.03 * radius);
+        assert_near(along, -sqrt(fmax(radius * radius - aside * aside, 0)), 0.2 * radius);
+        low = fmin(low, aside);
+        high = fmax(high, aside);
+    }
+    assert_true(low < -0.6 * radius && high > 0.6 * radius);
+    tell_or_fail(scene,
+                 "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 2, \"jitter\": "
+                 "0.5}]",
+                 now, NULL);
+    lines = glyph_at(scene, "motion-lines", NULL, 0);
+    assert_int_equal(pieces_of(lines), 3 * LINES);
+    for (uint32_t i = 0; i < lines->vertex_count; i = piece_end(lines, i)) {
+        double p[3], q[3];
+        position(lines, i, p);
+        position(lines, i + 1, q);
+        vector3_mix(p, p, q, 0.5);
+        assert_true(vector3_distance(p, at) < radius * (1 + 0.5 * 0.4 * sqrt(3)));
+    }
+    lmn_scene_destroy(&scene);
+}
+
 static void targets_are_hidden_for_their_ghosts(void **state)
 {
     (void)state;
@@ -742,6 +808,7 @@ int main(void)
         cmocka_unit_test(split_ways_grow_with_speed),
         cmocka_unit_test(lines_end_at_the_impact_that_is_told),
         cmocka_unit_test(lines_trail_behind),
+        cmocka_unit_test(lines_begin_at_the_rear_of_the_outline),
         cmocka_unit_test(targets_are_hidden_for_their_ghosts),
         cmocka_unit_test(every_option_changes_the_glyphs),
         cmocka_unit_test(expressions_come_back_as_they_were),
