@@ -26,6 +26,7 @@ typedef struct depict_job {
     moment                 when;
     view_camera            camera;
     bool                   fixed_view; /* it does not step back for signs */
+    bool                   drafts;     /* signs are made to find the view alone: turns need not be rounded */
     double                 size;       /* of the scene: the diagonal of its box */
     box3                   box;        /* of all that it has, wherever it goes */
     uint32_t               seed;
