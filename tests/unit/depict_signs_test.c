@@ -138,8 +138,8 @@ static lmn_scene *growth_scene(double from, double to, double way)
     return finish(&m, "growth");
 }
 
-/* A foot comes to a ball after a second, which flies off then, and rises. */
-static lmn_scene *kick_scene(void)
+/* A foot comes to a ball after a second, or rests beside it, which flies off then, and rises. */
+static lmn_scene *kick_scene(bool comes)
 {
     moving_scene m;
     moving_scene_begin(&m);
@@ -147,7 +147,8 @@ static lmn_scene *kick_scene(void)
         ball = moving_scene_sphere(&m, 0, 0, 0, 0.3, red);
     moving_scene_name(&m, foot, "foot");
     moving_scene_name(&m, ball, "ball");
-    moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
+    if (comes)
+        moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
     moving_scene_keys(&m, ball, "translation", 3, (double[]){0, 1, 2}, (double[]){0, 0, 0, 0, 0, 0, 5, 2, 0});
     return finish(&m, "kick");
 }
@@ -977,7 +978,7 @@ static void wings_bend_as_they_are_pushed(void **state)
 static void causes_are_shown(void **state)
 {
     (void)state;
-    lmn_scene *scene = kick_scene();
+    lmn_scene *scene = kick_scene(true);
     double     tip[3], tail[3], low = INFINITY, high = -INFINITY;
     tell_at(scene, 1.6, "[{\"target\": \"ball\", \"depict\": \"cause\", \"partner\": \"foot\"}]");
     const primitive *arrow = sign_at(scene, "cause-arrow", 0), *ghost = sign_at(scene, "still", 0);
@@ -1002,6 +1003,16 @@ static void causes_are_shown(void **state)
     desc.expressions = "[{\"target\": \"ball\", \"depict\": \"cause\"}]";
     assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "partner"));
+    lmn_scene_destroy(&scene);
+    scene = kick_scene(false); /* from the surface of what rests to that of what sets off */
+    tell_at(scene, 1.6, "[{\"target\": \"ball\", \"depict\": \"cause\", \"partner\": \"foot\"}]");
+    arrow = sign_at(scene, "cause-arrow", 0);
+    assert_non_null(arrow);
+    ribbon_point(arrow, 0, tail);
+    position(arrow, arrow->vertex_count - 1, tip);
+    assert_near(tail[0], -0.7, 0.01);
+    assert_near(tip[0], -0.15, 0.01);
+    assert_near(tip[1], 0, 0.01);
     lmn_scene_destroy(&scene);
 }
 
@@ -1144,7 +1155,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
     if (strcmp(row, "collision") == 0)
         scene = bounce_scene(0);
     else if (strcmp(row, "cause") == 0) {
-        scene = kick_scene();
+        scene = kick_scene(true);
         more = ", \"partner\": \"foot\"";
     } else if (strcmp(row, "turnaround") == 0 || strcmp(row, "tailspin") == 0) {
         scene = spin_scene((double[]){1, 0, 0}, 0.7);
