@@ -30,8 +30,8 @@ lmn_status schedule_point_at(trajectory_sample *out, const schedule *s, int32_t 
                              double seconds, time_side side, lmn_error *error);
 
 /* An impact: an instant at which a node's velocity jumps while its place does not. The normal is the way that it is
- * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place that of the point. Read from the
- * motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
+ * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place that of the point. Read from
+ * the motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
 typedef struct impact {
     double seconds, place[3], normal[3], speed;
     double before[3], after[3]; /* its velocity */

@@ -348,8 +348,8 @@ static lmn_status put_beside(region *out, region *glyphs, size_t count, lmn_erro
     return LMN_OK;
 }
 
-/* `beside`: where no union is needed there is none, which takes a quarter of the time; contours are then in the order of
- * the letters. */
+/* `beside`: where no union is needed there is none, which takes a quarter of the time; contours are then in the order
+ * of the letters. */
 static lmn_status join_glyphs(region *out, const fence_bytes *answer, bool beside, lmn_error *error)
 {
     fence_reader r = fence_read(answer->bytes, answer->size);

@@ -29,8 +29,8 @@ void box_sides(box3 box, double out[BOX_SIDES][3])
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *s, int32_t node_index, lmn_error *error)
 {
     box3 box = box3_empty();
-    *out =
-        (contact_sides){.own = mem_calloc(s->part_count + 1, sizeof(bool)), .others = mem_calloc(s->part_count + 1, sizeof(bool))};
+    *out = (contact_sides){.own = mem_calloc(s->part_count + 1, sizeof(bool)),
+                           .others = mem_calloc(s->part_count + 1, sizeof(bool))};
     mat4 *worlds = scene_world_matrices(s, NULL);
     if (!out->own || !out->others || !worlds) {
         mem_free(worlds);
@@ -84,8 +84,8 @@ typedef struct search {
     contact_sides   sides;
     pose            posed, earlier;
     bool            is_posed, is_earlier;
-    const impact   *hit;    /* that is looked at */
-    double          before; /* when the motion changed before it */
+    const impact   *hit;      /* that is looked at */
+    double          before;   /* when the motion changed before it */
     double          point[3]; /* of the node, in its axes: whose motion tells when it hits something */
     bool            turns;    /* on the spot: it is not the origin */
 } search;
@@ -141,11 +141,12 @@ static lmn_status were_apart(bool *out, search *q, const touch *t, int32_t other
 {
     const lmn_scene *scene = q->s->scene;
     const double     since = (q->hit->seconds - q->before) / 2,
-                 then = q->hit->seconds - (q->turns ? fmax(since, fmin(3 * q->sides.reach / speed, q->hit->seconds)) : since);
-    mat4             world = schedule_world(q->s, q->node_index, q->hit->seconds, SIDE_AT), back = mat4_inverse(&world);
-    bool             near = false, *theirs = mem_calloc(scene->part_count + 1, sizeof *theirs);
-    double           local[3], at[3];
-    surface_place    there;
+                 then = q->hit->seconds -
+                        (q->turns ? fmax(since, fmin(3 * q->sides.reach / speed, q->hit->seconds)) : since);
+    mat4          world = schedule_world(q->s, q->node_index, q->hit->seconds, SIDE_AT), back = mat4_inverse(&world);
+    bool          near = false, *theirs = mem_calloc(scene->part_count + 1, sizeof *theirs);
+    double        local[3], at[3];
+    surface_place there;
     if (!theirs)
         return error_memory(error);
     for (size_t i = 0; i < scene->part_count; i++)
@@ -179,8 +180,8 @@ static lmn_status approach(double out[3], void *user, size_t part, const double 
     return relative_velocity(out, user, part, place, SIDE_BEFORE, error);
 }
 
-/* Do both come together where the surface is, and go on together or apart? What is one body, and what turns on the spot,
- * have been apart, too. */
+/* Do both come together where the surface is, and go on together or apart? What is one body, and what turns on the
+ * spot, have been apart, too. */
 static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *error)
 {
     search       *q = user;
@@ -208,8 +209,7 @@ static lmn_status take_outermost(contact *c, const search *q, lmn_error *error)
 static lmn_status take_velocities(contact *c, const search *q, lmn_error *error)
 {
     double     change[3];
-    lmn_status status =
-        velocity_of(c->hit.before, q, q->node_index, c->hit.place, q->hit->seconds, SIDE_BEFORE, error);
+    lmn_status status = velocity_of(c->hit.before, q, q->node_index, c->hit.place, q->hit->seconds, SIDE_BEFORE, error);
     if (status == LMN_OK)
         status = velocity_of(c->hit.after, q, q->node_index, c->hit.place, q->hit->seconds, SIDE_BEHIND, error);
     vector3_add(change, c->hit.after, -1, c->hit.before);

@@ -64,13 +64,13 @@ void        depict_poses_release(depict_poses *kept);
 
 /* Its parts are those at its node and below. */
 typedef struct depict_target {
-    int32_t node;      /* that was named */
-    way     way;       /* of the node, or of what carries a skin: its hip */
-    double  centre[3]; /* in the way's axes */
-    double  radius;    /* of its box, world, at rest */
-    double  reach;     /* half of that box's longest side */
+    int32_t node;                    /* that was named */
+    way     way;                     /* of the node, or of what carries a skin: its hip */
+    double  centre[3];               /* in the way's axes */
+    double  radius;                  /* of its box, world, at rest */
+    double  reach;                   /* half of that box's longest side */
     double  outermost[BOX_SIDES][3]; /* in the middles of that box's sides; in the way's axes */
-    bool   *parts;     /* per part of the scene */
+    bool   *parts;                   /* per part of the scene */
     size_t  part_count;
 } depict_target;
 lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error);

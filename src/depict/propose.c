@@ -281,7 +281,7 @@ static double share_in(const box3 *own, const box3 *other)
                             (double)(fminf(own->max.z, other->max.z) - fmaxf(own->min.z, other->min.z))},
                  whole[3] = {(double)(own->max.x - own->min.x), (double)(own->max.y - own->min.y),
                              (double)(own->max.z - own->min.z)};
-    double       share = 1;
+    double share = 1;
     for (int k = 0; k < 3; k++)
         share *= whole[k] > 0 ? fmax(both[k], 0) / whole[k] : both[k] >= 0;
     return share;

@@ -116,8 +116,8 @@ static bool mark_sharp(page_way *w, const bool *moved, bool *active)
     return any;
 }
 
-/* One step of a thread under tension, of the samples that are listed, in order: each goes half way to the middle between
- * its neighbours, all at once. */
+/* One step of a thread under tension, of the samples that are listed, in order: each goes half way to the middle
+ * between its neighbours, all at once. */
 static void pull(page_way *w, const size_t *listed, size_t count)
 {
     double before[3] = {0, 0, 0}; /* where the last one was */

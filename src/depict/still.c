@@ -105,8 +105,8 @@ static lmn_status change_find(shape_change *c, const expression *e, const depict
     return status;
 }
 
-/* What pushes something at a time, units a second and second; where its way begins or ends, just inside: nothing is known
- * of what was before, and it has not been stopped by the end of a clip. */
+/* What pushes something at a time, units a second and second; where its way begins or ends, just inside: nothing is
+ * known of what was before, and it has not been stopped by the end of a clip. */
 static void push_at(const depict_target *t, double seconds, double out[3])
 {
     const double span = fmin(1.0 / 15, t->way.end / 4), inside = fmin(fmax(seconds, span), t->way.end - span);

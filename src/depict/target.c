@@ -262,7 +262,7 @@ static bool is_turned(const depict_target *t)
 lmn_status target_hits(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
                        lmn_error *error)
 {
-    const double  on_the_spot = 0.3, /* of the farthest way */
+    const double on_the_spot = 0.3, /* of the farthest way */
         origin[3] = {0, 0, 0};
     const double *farthest = t->centre;
     double        longest = 0;

@@ -34,8 +34,8 @@ typedef struct bend {
 } bend;
 
 /* Around the axis, at the end of the target that the viewer sees, or, where the axis lies across the line of sight, as
- * far up as it leaves the middle to be seen, such as a face; outside all of it. It begins where the middle does, if that goes
- * around, else so that its own middle faces the viewer. */
+ * far up as it leaves the middle to be seen, such as a face; outside all of it. It begins where the middle does, if
+ * that goes around, else so that its own middle faces the viewer. */
 static void bend_place(bend *b, const depict_job *j, const expression *e, const depict_target *t, const turning *turn,
                        const vec3 *vertices, size_t count)
 {

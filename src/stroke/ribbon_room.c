@@ -91,10 +91,10 @@ static void blur_line(float *items, size_t apart, int count, const float *weight
 
 static bool blur(line_room *room)
 {
-    float  weights[2 * REACH + 1], sum = 0;
+    float     weights[2 * REACH + 1], sum = 0;
     const int longest = room->columns > room->rows ? room->columns : room->rows;
     float    *with_rims = mem_calloc((size_t)longest + 2 * REACH, sizeof *with_rims),
-             *line = with_rims ? with_rims + REACH : NULL;
+          *line = with_rims ? with_rims + REACH : NULL;
     for (int k = -REACH; k <= REACH; k++)
         sum += weights[k + REACH] = expf(-0.5f * (float)(k * k) / (deviation_cells * deviation_cells));
     for (int k = 0; k <= 2 * REACH; k++)

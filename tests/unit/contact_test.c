@@ -383,9 +383,9 @@ static void test_what_glides_meets_nothing(void **state)
     lmn_scene_destroy(&s);
 }
 
-/* A crate of 1 on the face of a plate whose triangles meet along its diagonals, below the crate's front corners where it
- * stops; `turn`: of all of it about y, degrees, `sunk`: so deep does it glide in the plate, `wall`: there is something
- * to be met, at its face 0.5 before the crate's middle. */
+/* A crate of 1 on the face of a plate whose triangles meet along its diagonals, below the crate's front corners where
+ * it stops; `turn`: of all of it about y, degrees, `sunk`: so deep does it glide in the plate, `wall`: there is
+ * something to be met, at its face 0.5 before the crate's middle. */
 static void expect_of_glide(double turn, double sunk, bool wall)
 {
     const double half = turn * acos(-1) / 360, way[3] = {cos(2 * half), 0, -sin(2 * half)};
@@ -394,16 +394,17 @@ static void expect_of_glide(double turn, double sunk, bool wall)
     snprintf(rotation, sizeof rotation, "\"rotation\": [0, %.17g, 0, %.17g]", sin(half), cos(half));
     if (wall)
         snprintf(walls, sizeof walls,
-                 "{\"name\": \"wall\", \"box\": {\"size\": [1, 4, 4]}, \"translation\": [%.17g, 1, %.17g], %s},", way[0],
-                 way[2], rotation);
+                 "{\"name\": \"wall\", \"box\": {\"size\": [1, 4, 4]}, \"translation\": [%.17g, 1, %.17g], %s},",
+                 way[0], way[2], rotation);
     snprintf(nodes, sizeof nodes,
              "%s{\"name\": \"plate\", \"box\": {\"size\": [8, 1, 8]}, \"translation\": [0, -0.5, 0], %s}, "
              "{\"name\": \"crate\", \"box\": {\"size\": [1, 1, 1]}, %s}",
              walls, rotation, rotation);
-    snprintf(behaviour, sizeof behaviour,
-             "{\"target\": \"crate\", \"linear\": [[%.17g, %.17g, %.17g], [0, %.17g, 0], [0, %.17g, 0]], \"times\": [0, 1, "
-             "2]}",
-             -2 * way[0], 0.5 - sunk, -2 * way[2], 0.5 - sunk, 0.5 - sunk);
+    snprintf(
+        behaviour, sizeof behaviour,
+        "{\"target\": \"crate\", \"linear\": [[%.17g, %.17g, %.17g], [0, %.17g, 0], [0, %.17g, 0]], \"times\": [0, 1, "
+        "2]}",
+        -2 * way[0], 0.5 - sunk, -2 * way[2], 0.5 - sunk, 0.5 - sunk);
     lmn_scene *s = scene_of(nodes, behaviour);
     contact   *found = contacts_of(s, "crate", 0, &count);
     if (count != (wall ? 1 : 0))
@@ -432,8 +433,7 @@ static void test_what_glides_along_a_face_meets_no_diagonal(void **state)
 static void test_what_turns_on_the_spot_hits_with_its_end(void **state)
 {
     (void)state;
-    const double a = 20 * acos(-1) / 180,
-                 place[3] = {-2 * cos(a) + 0.1 * sin(a), 1 - 2 * sin(a) - 0.1 * cos(a), 0};
+    const double a = 20 * acos(-1) / 180, place[3] = {-2 * cos(a) + 0.1 * sin(a), 1 - 2 * sin(a) - 0.1 * cos(a), 0};
     for (int i = 0; i < 2; i++) {
         char   nodes[1024];
         size_t count;

@@ -286,13 +286,14 @@ static void what_turns_inside_is_told_before_all(void **state)
     static const char *const places[] = {"0", "5"};
     for (int i = 0; i < 2; i++) {
         char nodes[512];
-        snprintf(nodes, sizeof nodes,
-                 "{\"name\": \"housing\", \"box\": {\"size\": [4, 4, 4]}}, {\"name\": \"gear\", \"translation\": [%s, 0, "
-                 "0], \"box\": {\"size\": [2, 2, 1]}}",
-                 places[i]);
-        lmn_scene *s = scene_of(nodes, "{\"target\": \"gear\", \"property\": \"rotation\", \"axis\": [0, 0, 1], "
-                                       "\"linear\": [0, 90], \"duration\": 2}");
-        json_t    *told = told_of(s, NULL, 1);
+        snprintf(
+            nodes, sizeof nodes,
+            "{\"name\": \"housing\", \"box\": {\"size\": [4, 4, 4]}}, {\"name\": \"gear\", \"translation\": [%s, 0, "
+            "0], \"box\": {\"size\": [2, 2, 1]}}",
+            places[i]);
+        lmn_scene    *s = scene_of(nodes, "{\"target\": \"gear\", \"property\": \"rotation\", \"axis\": [0, 0, 1], "
+                                             "\"linear\": [0, 90], \"duration\": 2}");
+        json_t       *told = told_of(s, NULL, 1);
         const json_t *e = expression_of(told, "turnaround", "gear");
         assert_non_null(e);
         assert_int_equal(json_is_true(json_object_get(e, "before")), i == 0);
@@ -306,14 +307,14 @@ static void stars_of_several_leave_each_other_room(void **state)
 {
     (void)state;
     static const char one[] = "{\"target\": \"a\", \"linear\": [[0, 3, 0], [0, 0.5, 0], [0, 3, 0]], \"duration\": 2}",
-                      other[] =
-                          "{\"target\": \"b\", \"linear\": [[3, 3, 0], [3, 0.5, 0], [3, 3, 0]], \"duration\": 2}";
+                      other[] = "{\"target\": \"b\", \"linear\": [[3, 3, 0], [3, 0.5, 0], [3, 3, 0]], \"duration\": 2}";
     for (int i = 0; i < 2; i++) {
         char behaviour[512];
         snprintf(behaviour, sizeof behaviour, i ? "[%s, %s]" : "[%s]", one, other);
-        lmn_scene *s = scene_of("{\"name\": \"ground\", \"box\": {\"size\": [20, 1, 9]}, \"translation\": [0, -0.5, 0]}, " CRATE(
-                                    "a") ", " CRATE("b"),
-                                behaviour);
+        lmn_scene *s =
+            scene_of("{\"name\": \"ground\", \"box\": {\"size\": [20, 1, 9]}, \"translation\": [0, -0.5, 0]}, " CRATE(
+                         "a") ", " CRATE("b"),
+                     behaviour);
         json_t       *told = told_of(s, NULL, 1.5);
         const json_t *e = expression_of(told, "collision", "a"), *size = json_object_get(e, "size");
         assert_non_null(e);

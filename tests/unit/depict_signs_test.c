@@ -907,7 +907,8 @@ static void all_ways_are_dashed_from_now_on(void **state)
     lmn_scene_destroy(&scene);
 }
 
-/* A flat wing of 2 across goes along z, 10 a second, and rises by t³/2: it is pushed up by 3 t, across its way by less. */
+/* A flat wing of 2 across goes along z, 10 a second, and rises by t³/2: it is pushed up by 3 t, across its way by less.
+ */
 static lmn_scene *glider_scene(const char *semantics)
 {
     static char text[16384];
@@ -1063,8 +1064,8 @@ static void laps_are_told_once(void **state)
         lmn_scene_destroy(&scene);
     }
     assert_int_equal(vertices[0], vertices[1]);
-    lmn_scene  *spiral = laps_scene(4, 0.5);
-    double      at[3], far = 0;
+    lmn_scene *spiral = laps_scene(4, 0.5);
+    double     at[3], far = 0;
     tell_at(spiral, 2.3, text);
     const primitive *past = sign_at(spiral, "arrow", 0);
     for (uint32_t v = 0; v < past->vertex_count; v++) {

@@ -454,7 +454,8 @@ static void split_ways_grow_with_speed(void **state)
     lmn_scene_destroy(&scene);
 }
 
-/* A ball that skims over a ground, which it touches at (4, 0, 0) after a second: 8 forward and 2 down a second, and up. */
+/* A ball that skims over a ground, which it touches at (4, 0, 0) after a second: 8 forward and 2 down a second, and up.
+ */
 static lmn_scene *skimming_scene(void)
 {
     moving_scene m;
@@ -533,8 +534,8 @@ static uint32_t piece_end(const primitive *p, uint32_t first)
     return end;
 }
 
-/* Lines begin at the outermost places: of a ball that is looked at from the side, on its circle, at the rear, spread over
- * all of its breadth; more strokes lie beside them, each time elsewhere. */
+/* Lines begin at the outermost places: of a ball that is looked at from the side, on its circle, at the rear, spread
+ * over all of its breadth; more strokes lie beside them, each time elsewhere. */
 static void lines_begin_at_the_rear_of_the_outline(void **state)
 {
     (void)state;
@@ -544,10 +545,11 @@ static void lines_begin_at_the_rear_of_the_outline(void **state)
     double       at[3], way[3] = {forward, -gravity * now, 0}, low = INFINITY, high = -INFINITY;
     vector3_normalise(way);
     ball_at(now, at);
-    tell_or_fail(scene,
-                 "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 0, \"jitter\": "
-                 "0}]",
-                 now, NULL);
+    tell_or_fail(
+        scene,
+        "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 0, \"jitter\": "
+        "0}]",
+        now, NULL);
     const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
     assert_non_null(lines);
     assert_int_equal(pieces_of(lines), LINES);
@@ -567,10 +569,11 @@ static void lines_begin_at_the_rear_of_the_outline(void **state)
         high = fmax(high, aside);
     }
     assert_true(low < -0.6 * radius && high > 0.6 * radius);
-    tell_or_fail(scene,
-                 "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 2, \"jitter\": "
-                 "0.5}]",
-                 now, NULL);
+    tell_or_fail(
+        scene,
+        "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 2, \"jitter\": "
+        "0.5}]",
+        now, NULL);
     lines = glyph_at(scene, "motion-lines", NULL, 0);
     assert_int_equal(pieces_of(lines), 3 * LINES);
     for (uint32_t i = 0; i < lines->vertex_count; i = piece_end(lines, i)) {
