@@ -907,75 +907,6 @@ static void all_ways_are_dashed_from_now_on(void **state)
     lmn_scene_destroy(&scene);
 }
 
-/* A flat wing of 2 across goes along z, 10 a second, and rises by t³/2: it is pushed up by 3 t, across its way by less.
- */
-static lmn_scene *glider_scene(const char *semantics)
-{
-    static char text[16384];
-    size_t      used = (size_t)snprintf(text, sizeof text,
-                                        "{\"limner_script\": 1, \"nodes\": [{\"name\": \"glider\", \"semantics\": \"%s\", "
-                                             "\"box\": {\"size\": [2, 0.04, 0.6]}}], \"behaviour\": {\"target\": \"glider\", "
-                                             "\"duration\": 2, \"linear\": [",
-                                        semantics);
-    for (int i = 0; i <= 240; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s[0, %.9g, %.9g]", i ? ", " : "",
-                                 pow(i / 120.0, 3) / 2, i / 12.0);
-    used += (size_t)snprintf(text + used, sizeof text - used, "]}}");
-    return load_or_fail(temp_file("glider.json", text, used));
-}
-
-/* Across the way at a time. */
-static void push_at(double t, double out[3])
-{
-    double way[3] = {0, 1.5 * t * t, 10};
-    vector3_normalise(way);
-    vector3_set(out, 0, 3 * t, 0);
-    vector3_add(out, out, -vector3_dot(out, way), way);
-}
-
-/* How far the wings' tips lie above the middle. */
-static double tips_above(const primitive *p, double t)
-{
-    double sum = 0;
-    int    count = 0;
-    assert_non_null(p);
-    for (uint32_t i = 0; i < p->vertex_count; i++)
-        if (fabs((double)p->positions[i].x) > 0.9) {
-            sum += (double)p->positions[i].y - pow(t, 3) / 2;
-            count++;
-        }
-    assert_true(count > 0);
-    return sum / count;
-}
-
-/* Wings lag behind, by what pushes the plane; of what is no paper plane nothing bends, and nobody may ask for it. */
-static void wings_bend_as_they_are_pushed(void **state)
-{
-    (void)state;
-    const double half[3] = {1, 0.02, 0.3}, radius = vector3_length(half) / sqrt(3), bend = 0.5;
-    double       most[3], push[3];
-    lmn_scene   *plane = glider_scene("paper-plane"), *other = glider_scene("ball");
-    push_at(2, most);
-    push_at(1, push);
-    tell_at(plane, 1, "[{\"target\": \"glider\", \"depict\": \"still\", \"count\": 3, \"bend\": 0.5}]");
-    const double first = tips_above(glyph_at(plane, "still", "past", 0), 0),
-                 second = tips_above(glyph_at(plane, "still", "present", 0), 1),
-                 expected = -bend / radius * push[1] / vector3_length(most);
-    assert_near(first, 0, 0.04); /* told a fifteenth of a second behind the beginning */
-    assert_near(second / expected, 1, 0.15);
-    assert_true(tips_above(glyph_at(plane, "still", "future", 0), 2) < 1.4 * second);
-    tell_at(other, 1, "[{\"target\": \"glider\", \"depict\": \"still\", \"count\": 3}]");
-    assert_near(tips_above(glyph_at(other, "still", "present", 0), 1), 0, 1e-4);
-    lmn_error       error = {0};
-    lmn_draw_desc   draw = seen_at(1);
-    lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
-    desc.expressions = "[{\"target\": \"glider\", \"depict\": \"still\", \"bend\": 0.5}]";
-    assert_int_equal(lmn_depict(other, &draw, &desc, NULL, &error), LMN_FORMAT);
-    assert_non_null(strstr(error.message, "bend"));
-    lmn_scene_destroy(&plane);
-    lmn_scene_destroy(&other);
-}
-
 static void causes_are_shown(void **state)
 {
     (void)state;
@@ -1015,65 +946,6 @@ static void causes_are_shown(void **state)
     assert_near(tip[0], -0.15, 0.01);
     assert_near(tip[1], 0, 0.01);
     lmn_scene_destroy(&scene);
-}
-
-/* Corners of a square, again and again, or farther out with each lap. */
-static lmn_scene *laps_scene(int laps, double outward)
-{
-    enum { LAPS_MOST = 400 };
-    static double times[4 * LAPS_MOST + 1], values[3 * (4 * LAPS_MOST + 1)];
-    moving_scene  m;
-    moving_scene_begin(&m);
-    int ball = moving_scene_sphere(&m, 0, 0, 0, 0.2, red);
-    moving_scene_name(&m, ball, "ball");
-    for (int i = 0; i <= 4 * laps; i++) {
-        const double far = 2 + outward * i / 4;
-        times[i] = i / 4.0;
-        values[3 * i] = i % 4 == 1 || i % 4 == 2 ? far : -far;
-        values[3 * i + 1] = i % 4 >= 2 ? far : -far;
-        values[3 * i + 2] = 0;
-    }
-    moving_scene_keys(&m, ball, "translation", 4 * laps + 1, times, values);
-    return finish(&m, "laps");
-}
-
-/* Where ways lie on each other there is one arrow: the last lap up to now, and the next one. */
-static void laps_are_told_once(void **state)
-{
-    (void)state;
-    static const char text[] = "[{\"target\": \"ball\", \"depict\": \"path\", \"short_of\": 0}]";
-    uint32_t          vertices[2];
-    for (int i = 0; i < 2; i++) {
-        lmn_scene *scene = laps_scene(i ? 400 : 4, 0);
-        tell_at(scene, i ? 201.3 : 2.3, text);
-        const primitive *past = sign_at(scene, "arrow", 0), *future = sign_at(scene, "arrow", 1);
-        assert_true(past && future);
-        vertices[i] = past->vertex_count + future->vertex_count;
-        for (int k = 0; k < 2; k++) { /* all four sides are there */
-            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, at[3];
-            for (uint32_t v = 0; v < (k ? future : past)->vertex_count; v++) {
-                position(k ? future : past, v, at);
-                for (int a = 0; a < 2; a++) {
-                    low[a] = fmin(low[a], at[a]);
-                    high[a] = fmax(high[a], at[a]);
-                }
-            }
-            for (int a = 0; a < 2; a++)
-                assert_true(low[a] < -1.9 && high[a] > 1.9);
-        }
-        lmn_scene_destroy(&scene);
-    }
-    assert_int_equal(vertices[0], vertices[1]);
-    lmn_scene *spiral = laps_scene(4, 0.5);
-    double     at[3], far = 0;
-    tell_at(spiral, 2.3, text);
-    const primitive *past = sign_at(spiral, "arrow", 0);
-    for (uint32_t v = 0; v < past->vertex_count; v++) {
-        position(past, v, at);
-        far = fmax(far, hypot(at[0] + 2, at[1] + 2) < 0.1);
-    }
-    assert_true(far > 0); /* from its very beginning: each lap goes elsewhere */
-    lmn_scene_destroy(&spiral);
 }
 
 static void streaks_lie_behind(void **state)
@@ -1308,9 +1180,7 @@ int main(void)
         cmocka_unit_test(bursts_go_outward),
         cmocka_unit_test(stems_branch_smoothly),
         cmocka_unit_test(all_ways_are_dashed_from_now_on),
-        cmocka_unit_test(wings_bend_as_they_are_pushed),
         cmocka_unit_test(causes_are_shown),
-        cmocka_unit_test(laps_are_told_once),
         cmocka_unit_test(streaks_lie_behind),
         cmocka_unit_test(proposals_tell_patterns_apart),
         cmocka_unit_test(every_option_changes_its_signs),

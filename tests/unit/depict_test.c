@@ -586,6 +586,68 @@ static void lines_begin_at_the_rear_of_the_outline(void **state)
     lmn_scene_destroy(&scene);
 }
 
+/* Corners of a square, again and again, or farther out with each lap. */
+static lmn_scene *laps_scene(int laps, double outward)
+{
+    enum { LAPS_MOST = 400 };
+    static double times[4 * LAPS_MOST + 1], values[3 * (4 * LAPS_MOST + 1)];
+    moving_scene  m;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 0.2, red);
+    moving_scene_name(&m, ball, "ball");
+    for (int i = 0; i <= 4 * laps; i++) {
+        const double far = 2 + outward * i / 4;
+        times[i] = i / 4.0;
+        values[3 * i] = i % 4 == 1 || i % 4 == 2 ? far : -far;
+        values[3 * i + 1] = i % 4 >= 2 ? far : -far;
+        values[3 * i + 2] = 0;
+    }
+    moving_scene_keys(&m, ball, "translation", 4 * laps + 1, times, values);
+    char path[256];
+    snprintf(path, sizeof path, "%s/laps.glb", temp_folder());
+    moving_scene_write(&m, path);
+    return load_or_fail(path);
+}
+
+/* Where ways lie on each other there is one arrow: the last lap up to now, and the next one. */
+static void laps_are_told_once(void **state)
+{
+    (void)state;
+    static const char text[] = "[{\"target\": \"ball\", \"depict\": \"path\", \"short_of\": 0}]";
+    uint32_t          vertices[2];
+    for (int i = 0; i < 2; i++) {
+        lmn_scene *scene = laps_scene(i ? 400 : 4, 0);
+        tell_at(scene, i ? 201.3 : 2.3, text);
+        const primitive *past = sign_at(scene, "arrow", 0), *future = sign_at(scene, "arrow", 1);
+        assert_true(past && future);
+        vertices[i] = past->vertex_count + future->vertex_count;
+        for (int k = 0; k < 2; k++) { /* all four sides are there */
+            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, at[3];
+            for (uint32_t v = 0; v < (k ? future : past)->vertex_count; v++) {
+                position(k ? future : past, v, at);
+                for (int a = 0; a < 2; a++) {
+                    low[a] = fmin(low[a], at[a]);
+                    high[a] = fmax(high[a], at[a]);
+                }
+            }
+            for (int a = 0; a < 2; a++)
+                assert_true(low[a] < -1.9 && high[a] > 1.9);
+        }
+        lmn_scene_destroy(&scene);
+    }
+    assert_int_equal(vertices[0], vertices[1]);
+    lmn_scene *spiral = laps_scene(4, 0.5);
+    double     at[3], far = 0;
+    tell_at(spiral, 2.3, text);
+    const primitive *past = sign_at(spiral, "arrow", 0);
+    for (uint32_t v = 0; v < past->vertex_count; v++) {
+        position(past, v, at);
+        far = fmax(far, hypot(at[0] + 2, at[1] + 2) < 0.1);
+    }
+    assert_true(far > 0); /* from its very beginning: each lap goes elsewhere */
+    lmn_scene_destroy(&spiral);
+}
+
 static void targets_are_hidden_for_their_ghosts(void **state)
 {
     (void)state;
@@ -826,6 +888,7 @@ int main(void)
         cmocka_unit_test(lines_end_at_the_impact_that_is_told),
         cmocka_unit_test(lines_trail_behind),
         cmocka_unit_test(lines_begin_at_the_rear_of_the_outline),
+        cmocka_unit_test(laps_are_told_once),
         cmocka_unit_test(targets_are_hidden_for_their_ghosts),
         cmocka_unit_test(every_option_changes_the_glyphs),
         cmocka_unit_test(expressions_come_back_as_they_were),
