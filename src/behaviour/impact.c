@@ -44,14 +44,14 @@ static bool is_impact(const trajectory_sample *a, const trajectory_sample *b, do
     return moved <= 1e-6 * (1 + fast) && out->speed >= least && out->speed > 1e-4 * fast;
 }
 
-lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, double from, double to,
-                        double least, lmn_error *error)
+lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, const double point[3],
+                        double from, double to, double least, lmn_error *error)
 {
     trajectory t;
     size_t     capacity = 0;
     *out = NULL;
     *count = 0;
-    lmn_status status = schedule_trajectory(&t, s, node_index, NULL, from, to, INFINITY, error);
+    lmn_status status = schedule_trajectory(&t, s, node_index, point, from, to, INFINITY, error);
     for (size_t i = 0; i + 1 < t.count && status == LMN_OK; i++) {
         impact found;
         if (!is_impact(&t.samples[i], &t.samples[i + 1], least, &found))

@@ -30,8 +30,8 @@ lmn_status schedule_point_at(trajectory_sample *out, const schedule *s, int32_t 
                              double seconds, time_side side, lmn_error *error);
 
 /* An impact: an instant at which a node's velocity jumps while its place does not. The normal is the way that it is
- * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place its origin. Read from the
- * motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
+ * pushed, the speed how much its velocity changes (the impulse of a unit mass), the place that of the point. Read from
+ * the motion alone: what it hits need not be in the scene (contact/contact.h looks for it). */
 typedef struct impact {
     double seconds, place[3], normal[3], speed;
     double before[3], after[3]; /* its velocity */
@@ -40,10 +40,10 @@ typedef struct impact {
     bool   thrown_back;         /* it turns back from a plane to which the same pull draws it before and behind */
 } impact;
 
-/* Those of a node in from … to with a speed of `least` or more, in order; free *out with mem_free. Errors: as of
- * schedule_trajectory. */
-lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, double from, double to,
-                        double least, lmn_error *error);
+/* Those of a node's point (in its axes; NULL: its origin) in from … to with a speed of `least` or more, in order; free
+ * *out with mem_free. Errors: as of schedule_trajectory. */
+lmn_status impacts_find(impact **out, size_t *count, const schedule *s, int32_t node_index, const double point[3],
+                        double from, double to, double least, lmn_error *error);
 
 /* What a node is: its attribute "semantics", or a guess from what it has and what it is called: "camera", "light",
  * "character", "vehicle", "plane", "door", "ball", "ground" …; NULL: nobody knows. */

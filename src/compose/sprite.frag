@@ -51,20 +51,20 @@ vec4 fallback_of(float alpha)
 }
 #endif
 
-void main()
+/* The figure at a pixel: its colour, and its depth, 1 where there is nothing. */
+vec4 sprite_at(ivec2 pixel, out float depth)
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    find_positions(pixel);
     vec4 ink = vec4(0.0);
 #ifdef PERTURBED
-    float fill_depth = own_depth(pixel_at(fill_position())), depth = fill_depth;
+    float fill_depth = own_depth(pixel_at(fill_position()));
     depth = depth_around(fill_position());
     vec4 fill = depth < 1.0 ? shade_at(fill_position()) : vec4(0.0);
     depth = fill.a > 0.0 ? depth : 1.0;
 #else
     /* Ink of further line techniques is folded into the fill, outside the boundary, too. Here all is looked up at the pixel itself, once. */
     bool own = is_own(pixel);
-    float fill_depth = own ? texelFetch(t_depth, pixel, 0).r : 1.0, depth = fill_depth;
+    float fill_depth = own ? texelFetch(t_depth, pixel, 0).r : 1.0;
+    depth = fill_depth;
     vec4 fill = own ? shade_at(fill_position()) : vec4(0.0);
 #endif
 #ifdef HAS_LINES
@@ -105,7 +105,28 @@ void main()
     fill = mix(fallback_of(fill.a), fill, fill_fraction());
 #endif
 #endif
-    vec4 colour = u_filled ? ink + fill * (1.0 - ink.a) : ink;
+    return u_filled ? ink + fill * (1.0 - ink.a) : ink;
+}
+
+/* Lines alone are in few of the pixels of their tiles: software drivers leave out a loop that no pixel enters, and run all else. */
+int may_have_any(ivec2 pixel)
+{
+#if defined(HAS_LINES) && !defined(PERTURBED) && !defined(MERGED) && !defined(JOINS_INK)
+    return u_filled || ink_at(line_position(0)).a > 0.0 ? 1 : 0;
+#else
+    return 1;
+#endif
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    find_positions(pixel);
+    vec4 colour = vec4(0.0);
+    float depth = 1.0;
+    int wanted = may_have_any(pixel);
+    for (int once = 0; once < wanted; once++)
+        colour = sprite_at(pixel, depth);
     if (colour.a <= 0.0 || depth >= 1.0)
         discard;
     out_0 = vec4(mix(colour.rgb, u_ghost.rgb * colour.a, u_ghost.a), colour.a);

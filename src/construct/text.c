@@ -315,7 +315,42 @@ static lmn_status take_run(region **glyphs, size_t *made, size_t *capacity, fenc
     return status;
 }
 
-static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error *error)
+/* Are all glyphs beside each other? Each is compared with those before it by their boxes. */
+static bool are_apart(const region *glyphs, size_t count)
+{
+    double right = -INFINITY; /* of all so far */
+    bool   apart = true;
+    for (size_t i = 0; i < count && apart; i++) {
+        double low[2], high[2];
+        if (!region_bounds(&glyphs[i], low, high))
+            continue;
+        apart = low[0] > right;
+        right = fmax(right, high[0]);
+    }
+    return apart;
+}
+
+/* Takes the contours of all, which are left empty. */
+static lmn_status put_beside(region *out, region *glyphs, size_t count, lmn_error *error)
+{
+    size_t contours = 0;
+    for (size_t i = 0; i < count; i++)
+        contours += glyphs[i].count;
+    out->contours = mem_calloc(contours + 1, sizeof *out->contours);
+    if (!out->contours)
+        return error_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        if (glyphs[i].count)
+            memcpy(out->contours + out->count, glyphs[i].contours, glyphs[i].count * sizeof *out->contours);
+        out->count += glyphs[i].count;
+        glyphs[i].count = 0;
+    }
+    return LMN_OK;
+}
+
+/* `beside`: where no union is needed there is none, which takes a quarter of the time; contours are then in the order
+ * of the letters. */
+static lmn_status join_glyphs(region *out, const fence_bytes *answer, bool beside, lmn_error *error)
 {
     fence_reader r = fence_read(answer->bytes, answer->size);
     size_t       runs = fence_take_u32(&r), made = 0, capacity = 0;
@@ -326,7 +361,8 @@ static lmn_status join_glyphs(region *out, const fence_bytes *answer, lmn_error 
     if (status == LMN_OK && r.ended)
         status = error_set(error, LMN_FORMAT, "text: the font's reader gave a wrong answer");
     if (status == LMN_OK)
-        status = region_combine(out, glyphs, made, REGION_UNION, error);
+        status = beside && are_apart(glyphs, made) ? put_beside(out, glyphs, made, error)
+                                                   : region_combine(out, glyphs, made, REGION_UNION, error);
     for (size_t i = 0; i < made; i++)
         region_release(&glyphs[i]);
     mem_free(glyphs);
@@ -379,7 +415,7 @@ lmn_status construct_text(region *out, const char *utf8, const text_style *style
     if (status == LMN_OK)
         status = fence_call(&answer, shape_text, "the reader of fonts", &request, error);
     if (status == LMN_OK)
-        status = join_glyphs(out, &answer, error);
+        status = join_glyphs(out, &answer, style->fallback, error);
     text_runs_release(&runs);
     mem_free(request.bytes);
     mem_free(answer.bytes);

@@ -17,11 +17,20 @@ static bool is_below(const lmn_scene *s, int32_t node_index, int32_t above)
     return node_index != NONE;
 }
 
+void box_sides(box3 box, double out[BOX_SIDES][3])
+{
+    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z},
+                 high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    for (int i = 0; i < BOX_SIDES; i++)
+        for (int k = 0; k < 3; k++)
+            out[i][k] = box3_is_empty(box) ? 0 : i / 2 != k ? (low[k] + high[k]) / 2 : i % 2 ? high[k] : low[k];
+}
+
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *s, int32_t node_index, lmn_error *error)
 {
     box3 box = box3_empty();
-    *out =
-        (contact_sides){mem_calloc(s->part_count + 1, sizeof(bool)), mem_calloc(s->part_count + 1, sizeof(bool)), 0, 0};
+    *out = (contact_sides){.own = mem_calloc(s->part_count + 1, sizeof(bool)),
+                           .others = mem_calloc(s->part_count + 1, sizeof(bool))};
     mat4 *worlds = scene_world_matrices(s, NULL);
     if (!out->own || !out->others || !worlds) {
         mem_free(worlds);
@@ -35,6 +44,7 @@ lmn_status contact_sides_find(contact_sides *out, const lmn_scene *s, int32_t no
             box = box3_union(box, part_bounds(s, worlds, i));
     }
     mem_free(worlds);
+    box_sides(box, out->outermost);
     out->radius = box3_is_empty(box) ? 0 : box3_diagonal(box) / (2 * sqrt(3));
     out->reach = CONTACT_REACH * out->radius;
     return LMN_OK;
@@ -55,6 +65,11 @@ bool contact_is_hit(const double before[3], const double after[3], const double 
     return in > 0 && in >= 0.1 * vector3_length(change) && out >= -0.1 * in;
 }
 
+bool contact_is_off_hinge(const double place_velocity[3], const double farthest_velocity[3])
+{
+    return vector3_length(place_velocity) > 0.25 * vector3_length(farthest_velocity);
+}
+
 double contact_reach(double reach, const double before[3], double since, double until)
 {
     const bool sampled = since > 0 && until > 0 && since <= 0.05 && until <= 0.05;
@@ -69,8 +84,10 @@ typedef struct search {
     contact_sides   sides;
     pose            posed, earlier;
     bool            is_posed, is_earlier;
-    const impact   *hit;    /* that is looked at */
-    double          before; /* when the motion changed before it */
+    const impact   *hit;      /* that is looked at */
+    double          before;   /* when the motion changed before it */
+    double          point[3]; /* of the node, in its axes: whose motion tells when it hits something */
+    bool            turns;    /* on the spot: it is not the origin */
 } search;
 
 static void transform_point(const mat4 *m, const double p[3], double out[3])
@@ -117,15 +134,19 @@ static lmn_status pose_at(pose *posed, bool *is_posed, const search *q, double s
     return status;
 }
 
-/* Limbs touch each other all the time; they meet where they have been apart. Half way since the hit before. */
-static lmn_status were_apart(bool *out, search *q, const touch *t, int32_t other, lmn_error *error)
+/* Limbs touch each other all the time, and so does a door its hinge; they meet where they have been apart. Half way
+ * since the hit before, or, of what turns on the spot, when the place was three reaches farther off, if that is longer
+ * ago. */
+static lmn_status were_apart(bool *out, search *q, const touch *t, int32_t other, double speed, lmn_error *error)
 {
     const lmn_scene *scene = q->s->scene;
-    const double     then = (q->before + q->hit->seconds) / 2;
-    mat4             world = schedule_world(q->s, q->node_index, q->hit->seconds, SIDE_AT), back = mat4_inverse(&world);
-    bool             near = false, *theirs = mem_calloc(scene->part_count + 1, sizeof *theirs);
-    double           local[3], at[3];
-    surface_place    there;
+    const double     since = (q->hit->seconds - q->before) / 2,
+                 then = q->hit->seconds -
+                        (q->turns ? fmax(since, fmin(3 * q->sides.reach / speed, q->hit->seconds)) : since);
+    mat4          world = schedule_world(q->s, q->node_index, q->hit->seconds, SIDE_AT), back = mat4_inverse(&world);
+    bool          near = false, *theirs = mem_calloc(scene->part_count + 1, sizeof *theirs);
+    double        local[3], at[3];
+    surface_place there;
     if (!theirs)
         return error_memory(error);
     for (size_t i = 0; i < scene->part_count; i++)
@@ -159,7 +180,8 @@ static lmn_status approach(double out[3], void *user, size_t part, const double 
     return relative_velocity(out, user, part, place, SIDE_BEFORE, error);
 }
 
-/* Do both come together where the surface is, and go on together or apart? Limbs of one body have been apart, too. */
+/* Do both come together where the surface is, and go on together or apart? What is one body, and what turns on the
+ * spot, have been apart, too. */
 static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *error)
 {
     search       *q = user;
@@ -169,10 +191,10 @@ static lmn_status accepts(bool *out, void *user, const touch *found, lmn_error *
     if (status == LMN_OK)
         status = relative_velocity(after, q, found->part, found->place, SIDE_BEHIND, error);
     *out = status == LMN_OK && contact_is_hit(before, after, found->normal);
-    if (!*out || !are_kin(q, other))
+    if (!*out || !(q->turns || are_kin(q, other)))
         return status;
-    *out = fabs(found->gap) <= q->sides.reach;
-    return *out ? were_apart(out, q, found, other, error) : LMN_OK;
+    *out = fabs(found->gap) <= q->sides.reach && (!q->turns || contact_is_off_hinge(before, q->hit->before));
+    return *out ? were_apart(out, q, found, other, vector3_length(before), error) : LMN_OK;
 }
 
 /* Where nothing is met it touches with what is outermost. */
@@ -183,13 +205,25 @@ static lmn_status take_outermost(contact *c, const search *q, lmn_error *error)
                              error);
 }
 
+/* Of what turns each place has its own velocity: that where it is hit. */
+static lmn_status take_velocities(contact *c, const search *q, lmn_error *error)
+{
+    double     change[3];
+    lmn_status status = velocity_of(c->hit.before, q, q->node_index, c->hit.place, q->hit->seconds, SIDE_BEFORE, error);
+    if (status == LMN_OK)
+        status = velocity_of(c->hit.after, q, q->node_index, c->hit.place, q->hit->seconds, SIDE_BEHIND, error);
+    vector3_add(change, c->hit.after, -1, c->hit.before);
+    c->hit.speed = vector3_length(change);
+    return status;
+}
+
 /* A contact of what has been found in the motion. */
 static lmn_status meet(contact *c, search *q, lmn_error *error)
 {
     touch              there;
     bool               touches = false;
     const touch_motion motion = {approach, accepts, q,
-                                 contact_reach(q->sides.reach, q->hit->before, q->hit->since, q->hit->until)};
+                                 contact_reach(q->sides.reach, q->hit->before, q->hit->since, q->hit->until), q->turns};
     lmn_status         status = pose_at(&q->posed, &q->is_posed, q, q->hit->seconds, error);
     if (status == LMN_OK)
         status = touch_find(&there, &touches, &q->posed, q->sides.own, q->sides.others, &motion, error);
@@ -199,6 +233,52 @@ static lmn_status meet(contact *c, search *q, lmn_error *error)
     c->distance = fabs(there.gap);
     vector3_copy(c->hit.place, there.place);
     vector3_copy(c->hit.normal, there.normal);
+    return q->turns ? take_velocities(c, q, error) : LMN_OK;
+}
+
+/* How far a point of the node goes. */
+static double way_of(const search *q, const double point[3], double from, double to)
+{
+    enum { STEPS = 32 };
+    double length = 0, at[3], last[3] = {0, 0, 0};
+    for (int i = 0; i <= STEPS; i++) {
+        const mat4 world = schedule_world(q->s, q->node_index, from + (to - from) * i / STEPS, SIDE_AT);
+        transform_point(&world, point, at);
+        length += i > 0 ? vector3_distance(at, last) : 0;
+        vector3_copy(last, at);
+    }
+    return length;
+}
+
+static bool is_turned(const search *q)
+{
+    bool turned = false;
+    for (int32_t n = q->node_index; n != NONE && !turned; n = q->s->scene->nodes[n].parent)
+        turned = schedule_property(q->s, PATH_ROTATION, n) != NONE;
+    return turned;
+}
+
+/* What goes about its origin, which stays or hardly moves, has an outermost place that goes farthest. */
+static lmn_status find_point(search *q, double from, double to, lmn_error *error)
+{
+    const double on_the_spot = 0.3; /* of the farthest way */
+    mat4        *worlds = is_turned(q) ? scene_world_matrices(q->s->scene, NULL) : NULL;
+    if (!worlds)
+        return is_turned(q) ? error_memory(error) : LMN_OK;
+    const mat4   inverse = mat4_inverse(&worlds[q->node_index]);
+    const double own = way_of(q, q->point, from, to);
+    double       farthest = 0;
+    mem_free(worlds);
+    for (int i = 0; i < BOX_SIDES; i++) {
+        double point[3];
+        transform_point(&inverse, q->sides.outermost[i], point);
+        const double length = way_of(q, point, from, to);
+        if (length > farthest && own < on_the_spot * length) {
+            farthest = length;
+            vector3_copy(q->point, point);
+            q->turns = true;
+        }
+    }
     return LMN_OK;
 }
 
@@ -220,8 +300,11 @@ lmn_status contacts_find(contact **out, size_t *count, const schedule *s, const 
     *out = NULL;
     *count = 0;
     lmn_status status = contact_sides_find(&q.sides, s->scene, node_index, error);
-    if (status == LMN_OK && has_surface(&q.sides, s->scene))
-        status = impacts_find(&hits, count, s, node_index, from, to, least, error);
+    const bool solid = status == LMN_OK && has_surface(&q.sides, s->scene);
+    if (solid)
+        status = find_point(&q, from, to, error);
+    if (solid && status == LMN_OK)
+        status = impacts_find(&hits, count, s, node_index, q.point, from, to, least, error);
     if (status == LMN_OK && *count > 0) {
         *out = mem_calloc(*count, sizeof **out);
         status = *out ? LMN_OK : error_memory(error);

@@ -8,6 +8,10 @@
 #include "behaviour/inspect.h"
 #include "pose/moment.h"
 
+enum { BOX_SIDES = 6 };
+/* The middles of a box's sides; its places are 0 where it is empty. */
+void box_sides(box3 box, double out[BOX_SIDES][3]);
+
 typedef struct contact {
     impact hit;       /* its place is where it touches, its normal that of what is met; where nothing is, its outermost
                          place against the change of its velocity, and the way of this */
@@ -24,6 +28,7 @@ typedef struct contact {
 typedef struct contact_sides {
     bool  *own, *others;
     double reach, radius;
+    double outermost[BOX_SIDES][3]; /* of the own ones at rest, in the world: in the middles of their box's sides */
 } contact_sides;
 lmn_status contact_sides_find(contact_sides *out, const lmn_scene *scene, int32_t node_index, lmn_error *error);
 void       contact_sides_release(contact_sides *s);
@@ -31,6 +36,10 @@ void       contact_sides_release(contact_sides *s);
 /* Is a change of velocity a hit? Velocities are of one thing against the other, the normal, unit, is that of the
  * surface which is met: it comes on, which is a good part of what changes, and does not go on through the surface. */
 bool contact_is_hit(const double before[3], const double after[3], const double normal[3]);
+
+/* Of what turns on the spot: is a place fast enough to hit something, against the farthest one? Near its hinge it only
+ * comes close to what it hangs on. */
+bool contact_is_off_hinge(const double place_velocity[3], const double farthest_velocity[3]);
 
 /* How near a surface has to be to be met, where `reach` is for what is exact: corners of a curve that is sampled, 20 or
  * more times a second, lie up to a sample away from where it turns round. */

@@ -11,6 +11,7 @@
 /* A triangle in axes that lie across the motion (0, 1) and along it (2). */
 typedef struct flat_triangle {
     double at[3][3], low[3], high[3];
+    bool   is_inner[3]; /* the edge from corner k on: another triangle goes on behind it in the same plane */
 } flat_triangle;
 
 typedef struct flat_list {
@@ -38,7 +39,7 @@ static void axes_across(const double along[3], double axes[3][3])
 
 static flat_triangle flat_of(const sweep *s, const touch_piece *p, uint32_t first)
 {
-    flat_triangle t;
+    flat_triangle t = {.is_inner = {false}};
     vector3_set(t.low, INFINITY, INFINITY, INFINITY);
     vector3_set(t.high, -INFINITY, -INFINITY, -INFINITY);
     for (int k = 0; k < 3; k++)
@@ -72,6 +73,66 @@ static int compare_low(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* --- edges inside faces ------------------------------------------------------------------------------------------- */
+
+/* An edge of a triangle, its ends in an order that does not depend on the triangle. */
+typedef struct flat_edge {
+    const double  *ends[2];
+    flat_triangle *of;
+    int            first; /* corner */
+} flat_edge;
+
+static int compare_places(const double *a, const double *b)
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k] != b[k])
+            return a[k] < b[k] ? -1 : 1;
+    return 0;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const flat_edge *x = a, *y = b;
+    const int        begin = compare_places(x->ends[0], y->ends[0]);
+    return begin ? begin : compare_places(x->ends[1], y->ends[1]);
+}
+
+static bool are_coplanar(const flat_triangle *a, const flat_triangle *b)
+{
+    const double alike = 1e-4; /* sine of the angle between them */
+    double       n[3], m[3], across[3];
+    normal_of(a, n);
+    normal_of(b, m);
+    vector3_cross(across, n, m);
+    return vector3_dot(n, m) > 0 && vector3_length(across) < alike * vector3_length(n) * vector3_length(m);
+}
+
+/* Marks edges that two triangles of one plane share: faces have none inside. What is near of an edge is near of all
+ * triangles beside it, so that those of the list suffice. False: out of memory. */
+static bool mark_inner_edges(flat_list *l)
+{
+    enum { SHARED_MOST = 8 }; /* triangles at one edge that are compared */
+    const size_t count = 3 * l->count;
+    flat_edge   *edges = mem_alloc((count + 1) * sizeof *edges);
+    for (size_t i = 0; edges && i < count; i++) {
+        flat_triangle *t = &l->items[i / 3];
+        const int      k = (int)(i % 3);
+        const double  *a = t->at[k], *b = t->at[(k + 1) % 3];
+        const bool     turns = compare_places(a, b) > 0;
+        edges[i] = (flat_edge){{turns ? b : a, turns ? a : b}, t, k};
+    }
+    if (edges && count > 1)
+        qsort(edges, count, sizeof *edges, compare_edges);
+    for (size_t i = 0; edges && i + 1 < count; i++)
+        for (size_t k = i + 1; k < count && k <= i + SHARED_MOST && compare_edges(&edges[i], &edges[k]) == 0; k++)
+            if (are_coplanar(edges[i].of, edges[k].of))
+                edges[i].of->is_inner[edges[i].first] = edges[k].of->is_inner[edges[k].first] = true;
+    mem_free(edges);
+    return edges != NULL;
+}
+
+/* --- what is near ------------------------------------------------------------------------------------------------- */
+
 /* The box that a piece fills. */
 static void extent_of(const sweep *s, const touch_piece *p, double low[3], double high[3])
 {
@@ -103,8 +164,10 @@ static bool list_near(flat_list *out, const sweep *s, const touch_piece *p, cons
     }
     if (out->items && out->count > 1)
         qsort(out->items, out->count, sizeof *out->items, compare_low);
-    return out->items;
+    return out->items && mark_inner_edges(out);
 }
+
+/* --- meetings ----------------------------------------------------------------------------------------------------- */
 
 /* What has been found at a place of the own piece, in the sweep's axes. */
 static lmn_status keep(const sweep *s, const double own[3], double normal[3], double gone, bool of_face,
@@ -189,7 +252,8 @@ static lmn_status triangles_meet(const sweep *s, const flat_triangle *own, const
         status = corners_meet(s, other, own, false, error);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3 && status == LMN_OK; k++)
-            status = edges_meet(s, own->at[i], own->at[(i + 1) % 3], other->at[k], other->at[(k + 1) % 3], error);
+            if (!own->is_inner[i] && !other->is_inner[k])
+                status = edges_meet(s, own->at[i], own->at[(i + 1) % 3], other->at[k], other->at[(k + 1) % 3], error);
     return status;
 }
 

@@ -1,5 +1,6 @@
 #include "contact/touch.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -222,6 +223,24 @@ static lmn_status meet_part(touch *out, bool *found, touch_search *s, size_t par
     return status;
 }
 
+/* A place of the own surface that is nearest to another part: from each other's nearest place to the next one. */
+static lmn_status nearest_to_part(double at[3], touch_search *s, size_t part, lmn_error *error)
+{
+    enum { STEPS = 8 };
+    surface_place there;
+    bool          found = true, *theirs = mem_calloc(s->p->scene->part_count + 1, sizeof *theirs);
+    lmn_status    status = theirs ? LMN_OK : error_memory(error);
+    if (status == LMN_OK)
+        theirs[part] = true;
+    for (int i = 0; i < STEPS && status == LMN_OK && found; i++) {
+        status = surface_nearest(&there, &found, s->p, i % 2 ? s->own_parts : theirs, at, INFINITY, error);
+        if (found)
+            vector3_copy(at, there.place);
+    }
+    mem_free(theirs);
+    return status;
+}
+
 /* Another part, when it is near enough and both come together. */
 static lmn_status try_part(touch *out, bool *found, touch_search *s, size_t part, lmn_error *error)
 {
@@ -233,7 +252,9 @@ static lmn_status try_part(touch *out, bool *found, touch_search *s, size_t part
     if (!is_near(s, &s->p->part_boxes[part], m->reach))
         return LMN_OK;
     box3_middle(s->box, middle);
-    lmn_status status = m->approach(how.along, m->user, part, middle, error);
+    lmn_status status = m->turns ? nearest_to_part(middle, s, part, error) : LMN_OK;
+    if (status == LMN_OK)
+        status = m->approach(how.along, m->user, part, middle, error);
     if (status != LMN_OK || !vector3_normalise(how.along))
         return status;
     status = meet_part(&here, &meets, s, part, &how, error);

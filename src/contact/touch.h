@@ -19,6 +19,7 @@ typedef struct touch_motion {
     lmn_status (*accepts)(bool *out, void *user, const touch *found, lmn_error *error);
     void  *user;
     double reach; /* how far apart both may be, or in one another */
+    bool   turns; /* places of it go different ways: that counts which is nearest to the other part, not its middle */
 } touch_motion;
 
 /* How own parts (a flag each) touch others in a pose. The normal is that of the face which is met, or, where an edge

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/work.h"
 #include "depict/course.h"
 #include "depict/page.h"
 #include "depict/rounded.h"
@@ -215,8 +216,7 @@ static bool shift_aside(const depict_job *j, double (*points)[3], size_t count, 
     return moved != NULL;
 }
 
-/* How much smaller things have to be where the way is lifted to, to be seen as large; its points go there. */
-static double lift_before(const depict_job *j, double (*points)[3], size_t count)
+double glyph_lift_before(const depict_job *j, double (*points)[3], size_t count)
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
@@ -245,7 +245,7 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
         vector3_add(points[i], way.samples[i].position, (double)v->offset * t->radius, j->camera.up);
     if (status == LMN_OK && v->aside != 0 && !shift_aside(j, points, way.count, (double)v->aside * t->radius))
         status = error_memory(error);
-    const double scale = v->before && status == LMN_OK ? lift_before(j, points, way.count) : 1;
+    const double scale = v->before && status == LMN_OK ? glyph_lift_before(j, points, way.count) : 1;
     const double width = (double)v->width * t->radius * scale;
     if (status == LMN_OK) {
         const arrow_style style = {width,
@@ -261,6 +261,45 @@ static lmn_status put_way(depict_job *j, const expression *e, const depict_targe
     mem_free(points);
     trajectory_release(&way);
     return status;
+}
+
+/* Does it go the same way again after `lap` seconds, as long as the interval lasts? */
+static bool goes_again(const depict_target *t, double from, double to, double lap, double within)
+{
+    enum { STEPS = 128 };
+    bool again = true;
+    for (int i = 0; i <= STEPS && again; i++) {
+        const double seconds = from + (to - lap - from) * i / STEPS;
+        double       first[3], second[3];
+        way_point(&t->way, t->centre, seconds, first);
+        way_point(&t->way, t->centre, seconds + lap, second);
+        again = vector3_distance(first, second) <= within;
+    }
+    return again;
+}
+
+/* How long it takes what goes round and round, or to and fro, before it does so again; 0: it does not. */
+static lmn_status find_lap(double *lap, const depict_target *t, double from, double to, lmn_error *error)
+{
+    enum { TRIES = 64 };
+    const double within = 0.01 * t->radius;
+    trajectory   way;
+    lmn_status   status = way_trajectory(&way, &t->way, t->centre, from, to, within, error);
+    double       gone = 0;
+    *lap = 0;
+    for (size_t i = 1, tries = 0; i < way.count && status == LMN_OK && *lap == 0 && tries < TRIES; i++) {
+        const double off = vector3_distance(way.samples[i].position, way.samples[0].position),
+                     after = way.samples[i].seconds - from;
+        gone = fmax(gone, off);
+        if (2 * after > to - from)
+            break;
+        if (gone <= t->radius || off > within)
+            continue;
+        tries++;
+        *lap = goes_again(t, from, to, after, within) ? after : 0;
+    }
+    trajectory_release(&way);
+    return status == LMN_OK ? work_check(error) : status;
 }
 
 /* Split, each piece is an arrow of its own. Nienhaus 2005, section 7.10, figure 7-11. */
@@ -285,11 +324,18 @@ static lmn_status path_depict(depict_job *j, const expression *e, lmn_error *err
     lmn_status    status = target_open(&t, j, e->target, error);
     if (status == LMN_OK && ((const path_values *)e->values)->tip)
         status = target_take_tip(&t, j, error);
-    bool has_future = e->to > e->now;
-    if (status == LMN_OK && e->now > e->from)
-        status = put_pieces(j, e, &t, e->from, fmin(e->now, e->to), GLYPH_PAST, !has_future, error);
-    if (status == LMN_OK && has_future)
-        status = put_pieces(j, e, &t, fmax(e->now, e->from), e->to, GLYPH_FUTURE, true, error);
+    const bool has_future = e->to > e->now;
+    double     lap = 0;
+    if (status == LMN_OK && ((const path_values *)e->values)->pieces == 1)
+        status = find_lap(&lap, &t, e->from, e->to, error);
+    for (int future = 0; future < 2 && status == LMN_OK; future++) {
+        double from = future ? fmax(e->now, e->from) : e->from, to = future ? e->to : fmin(e->now, e->to);
+        if (!(to > from))
+            continue;
+        if (lap > 0) /* arrows on arrows are seen as one: the last lap, and the next one */
+            *(future ? &to : &from) = future ? fmin(to, from + lap) : fmax(from, to - lap);
+        status = put_pieces(j, e, &t, from, to, future ? GLYPH_FUTURE : GLYPH_PAST, future || !has_future, error);
+    }
     target_release(&t);
     return status;
 }

@@ -290,7 +290,8 @@ static lmn_status turn_to_viewer(depict_job *j, const expression_list *expressio
     if (status == LMN_OK)
         status = place_viewer(j, &with.scene, desc, error);
     preview_release(&with);
-    *moved = !sees_alike(&before, &j->camera);
+    *moved = j->drafts || !sees_alike(&before, &j->camera);
+    j->drafts = false;
     return status == LMN_OK && *moved ? make_glyphs(j, expressions, error) : status;
 }
 
@@ -307,6 +308,7 @@ lmn_status depict(lmn_scene *scene, const expression_list *expressions, const lm
                       .warnings = &of_glyphs,
                       .expressions = expressions};
     j.fixed_view = desc->camera || desc->matrices_given || (desc->eye_given && !desc->fit_direction);
+    j.drafts = !j.fixed_view;
     lmn_status status = depict_clear(scene, error);
     if (status == LMN_OK)
         status = time_moment(&j.when, scene, desc, NULL, error); /* who draws says what is wrong with the time */

@@ -3,6 +3,7 @@
 #define LIMNER_DEPICT_DEPICT_PRIVATE_H
 
 #include "base/vector3.h"
+#include "contact/contact.h"
 #include "depict/depict.h"
 #include "depict/way.h"
 #include "plan/camera.h"
@@ -25,6 +26,7 @@ typedef struct depict_job {
     moment                 when;
     view_camera            camera;
     bool                   fixed_view; /* it does not step back for signs */
+    bool                   drafts;     /* signs are made to find the view alone: turns need not be rounded */
     double                 size;       /* of the scene: the diagonal of its box */
     box3                   box;        /* of all that it has, wherever it goes */
     uint32_t               seed;
@@ -62,12 +64,13 @@ void        depict_poses_release(depict_poses *kept);
 
 /* Its parts are those at its node and below. */
 typedef struct depict_target {
-    int32_t node;      /* that was named */
-    way     way;       /* of the node, or of what carries a skin: its hip */
-    double  centre[3]; /* in the way's axes */
-    double  radius;    /* of its box, world, at rest */
-    double  reach;     /* half of that box's longest side */
-    bool   *parts;     /* per part of the scene */
+    int32_t node;                    /* that was named */
+    way     way;                     /* of the node, or of what carries a skin: its hip */
+    double  centre[3];               /* in the way's axes */
+    double  radius;                  /* of its box, world, at rest */
+    double  reach;                   /* half of that box's longest side */
+    double  outermost[BOX_SIDES][3]; /* in the middles of that box's sides; in the way's axes */
+    bool   *parts;                   /* per part of the scene */
     size_t  part_count;
 } depict_target;
 lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error);
@@ -89,10 +92,14 @@ typedef struct depict_impact {
     double before[3];    /* its velocity before it */
     double speed;        /* of that */
     double since, until; /* how long it has gone straight before, and does behind */
+    bool   turns;        /* all that is of another place than the centre, since it turns on the spot */
 } depict_impact;
 /* Those of a target, in order, at most `most`. *count gets how many. Errors: LMN_MEMORY. */
 lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
                           double to, lmn_error *error);
+/* The same where it may hit something: of what turns on the spot they are those of the place that goes farthest. */
+lmn_status target_hits(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
+                       lmn_error *error);
 /* Where it touches what it meets: the vertex that is farthest against the change of velocity. */
 lmn_status impact_contact(double out[3], const depict_job *j, const depict_target *t, const depict_impact *i,
                           lmn_error *error);
@@ -167,6 +174,10 @@ typedef struct arrow_style {
 /* An arrow through points in the world. */
 void glyph_put_arrow(glyph_mesh *m, const depict_job *j, const double (*points)[3], size_t count,
                      const arrow_style *style);
+
+/* Moves a way before all that the scene has, on its lines of sight. Returns how much smaller things have to be there to
+ * be seen as large. */
+double glyph_lift_before(const depict_job *j, double (*points)[3], size_t count);
 
 /* The colours of tenses where nobody says another. */
 colour depict_tint(glyph_tense when, colour wanted);

@@ -72,7 +72,7 @@ static lmn_status impact_depict(depict_job *j, const expression *e, lmn_error *e
     double               strongest = 0;
     lmn_status           status = target_open(&t, j, e->target, error);
     if (status == LMN_OK)
-        status = target_impacts(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
+        status = target_hits(impacts, (size_t)v->count, &count, &t, e->from, e->to, error);
     if (status == LMN_OK && e->partner == NONE)
         status = keep_hits(impacts, &count, j, &t, error);
     if (status == LMN_OK)

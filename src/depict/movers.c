@@ -77,7 +77,7 @@ static lmn_status count_hits(mover *m, const depict_job *j, const depict_target 
 {
     depict_impact impacts[MOVER_HITS];
     size_t        count = 0;
-    lmn_status    status = target_impacts(impacts, MOVER_HITS, &count, t, all.from, all.to, error);
+    lmn_status    status = target_hits(impacts, MOVER_HITS, &count, t, all.from, all.to, error);
     for (size_t i = 0; i < count && status == LMN_OK; i++) {
         bool    hits = false;
         int32_t whom = NONE;

@@ -273,6 +273,49 @@ static void tell_hits(const proposal *p, const mover_list *all, mover *m)
     }
 }
 
+/* The share of a box that lies in another one. */
+static double share_in(const box3 *own, const box3 *other)
+{
+    const double both[3] = {(double)(fminf(own->max.x, other->max.x) - fmaxf(own->min.x, other->min.x)),
+                            (double)(fminf(own->max.y, other->max.y) - fmaxf(own->min.y, other->min.y)),
+                            (double)(fminf(own->max.z, other->max.z) - fmaxf(own->min.z, other->min.z))},
+                 whole[3] = {(double)(own->max.x - own->min.x), (double)(own->max.y - own->min.y),
+                             (double)(own->max.z - own->min.z)};
+    double share = 1;
+    for (int k = 0; k < 3; k++)
+        share *= whole[k] > 0 ? fmax(both[k], 0) / whole[k] : both[k] >= 0;
+    return share;
+}
+
+/* Does half of it lie within the box of one other part, as a gear in its housing? */
+static lmn_status lies_inside(bool *out, const proposal *p, const mover *m, lmn_error *error)
+{
+    depict_target t;
+    const mat4   *worlds = depict_worlds_at_rest(&p->job);
+    box3          own = box3_empty();
+    lmn_status    status = target_open(&t, &p->job, m->node, error);
+    *out = false;
+    for (size_t i = 0; i < t.part_count && status == LMN_OK && worlds; i++)
+        if (t.parts[i])
+            own = box3_union(own, part_bounds(p->job.scene, worlds, i));
+    for (size_t i = 0; i < t.part_count && status == LMN_OK && worlds && !box3_is_empty(own); i++) {
+        const box3 other = t.parts[i] ? own : part_bounds(p->job.scene, worlds, i);
+        *out = *out || (!t.parts[i] && share_in(&own, &other) > 0.5);
+    }
+    target_release(&t);
+    return status == LMN_OK && !worlds ? error_memory(error) : status;
+}
+
+static lmn_status tell_turn(const proposal *p, const mover *m, lmn_error *error)
+{
+    bool        inside = false;
+    expression *e = propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
+    lmn_status  status = e ? lies_inside(&inside, p, m, error) : LMN_OK;
+    if (inside)
+        set_text(e, "before", "true");
+    return status;
+}
+
 static lmn_status tell(const proposal *p, const mover_list *all, mover *m, lmn_error *error)
 {
     lmn_status   status = LMN_OK;
@@ -289,10 +332,10 @@ static lmn_status tell(const proposal *p, const mover_list *all, mover *m, lmn_e
         tell_way(p, m, ways);
     else if (m->figure)
         status = tell_figure(p, m, ways, error);
-    if (m->hits && !m->figure && !turns)
+    if (m->hits && !m->figure)
         tell_hits(p, all, m);
-    if (turns)
-        propose(p, m, "turnaround", "it turns on the spot; radians", m->turned);
+    if (turns && status == LMN_OK)
+        status = tell_turn(p, m, error);
     tell_size(p, m);
     return status;
 }
@@ -358,6 +401,18 @@ static const char *noise_of(const expression *e)
         if (strcmp(e->row->params[i].key, "text") == 0)
             return ((const param_words *)((const char *)e->values + e->row->params[i].offset))->text;
     return NULL;
+}
+
+/* Where several things hit something their stars are smaller, or they would hide each other. */
+static void make_room_for_stars(const proposal *p)
+{
+    const double among_others = 1.15;
+    size_t       count = 0;
+    for (size_t i = 0; i < p->out->count; i++)
+        count += strcmp(p->out->items[i].row->characteristic, "collision") == 0;
+    for (size_t i = 0; i < p->out->count && count > 1; i++)
+        if (strcmp(p->out->items[i].row->characteristic, "collision") == 0)
+            set_number(&p->out->items[i], "size", among_others);
 }
 
 /* A noise that nobody wrote costs nobody the picture. */
@@ -434,8 +489,10 @@ lmn_status depict_propose(expression_list *out, json_t **reasons, const lmn_scen
         status = tell_groups(movers.items, movers.count, &p, error);
     if (status == LMN_OK)
         status = tell_all(&p, &movers, error);
-    if (status == LMN_OK)
+    if (status == LMN_OK) {
+        make_room_for_stars(&p);
         status = leave_out_noises(&p, error);
+    }
     movers_release(&movers);
     depict_poses_release(&poses);
     return status == LMN_OK ? work_check(error) : status;

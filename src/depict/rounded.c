@@ -72,13 +72,21 @@ static double least_radius(const page_way *w)
     return 0.62 * w->width;
 }
 
+/* Is a turn surely less than a tenth, radians? Most are; an arc tangent takes most of the time of a radius. */
+static bool hardly_turns(const double a[3], const double b[3], const double c[3])
+{
+    const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - b[0], y2 = c[1] - b[1];
+    return fabs(x1 * y2 - y1 * x2) < 0.1003 * (x1 * x2 + y1 * y2); /* tan 0.1 is more than that */
+}
+
 /* How sharply it turns at a sample: the radius of that; many times the width where it hardly turns. */
 static double radius_at(const page_way *w, size_t i)
 {
     const size_t reach = A_WIDTH / 2, a = i > reach ? i - reach : 0,
                  c = i + reach < w->sample_count ? i + reach : w->sample_count - 1;
-    const double turned =
-        i > 0 && i + 1 < w->sample_count ? turn_between(w->samples[a], w->samples[i], w->samples[c]) : 0;
+    if (i == 0 || i + 1 >= w->sample_count || hardly_turns(w->samples[a], w->samples[i], w->samples[c]))
+        return 10 * w->width;
+    const double turned = turn_between(w->samples[a], w->samples[i], w->samples[c]);
     const double legs = apart(w->samples[a], w->samples[i]) + apart(w->samples[i], w->samples[c]);
     return turned > 0.1 ? legs / 2 / turned : 10 * w->width;
 }
@@ -108,16 +116,20 @@ static bool mark_sharp(page_way *w, const bool *moved, bool *active)
     return any;
 }
 
-/* One step of a thread under tension, of the samples that are listed. */
-static void pull(page_way *w, double (*next)[3], const size_t *listed, size_t count)
+/* One step of a thread under tension, of the samples that are listed, in order: each goes half way to the middle
+ * between its neighbours, all at once. */
+static void pull(page_way *w, const size_t *listed, size_t count)
 {
-    for (size_t n = 0; n < count; n++)
-        for (int k = 0; k < 3; k++) {
-            const double(*at)[3] = (const double(*)[3])w->samples + listed[n];
-            next[n][k] = (at[-1][k] + 2 * at[0][k] + at[1][k]) / 4;
-        }
-    for (size_t n = 0; n < count; n++)
-        memcpy(w->samples[listed[n]], next[n], sizeof *next);
+    double before[3] = {0, 0, 0}; /* where the last one was */
+    for (size_t n = 0; n < count; n++) {
+        const size_t  i = listed[n];
+        double       *at = w->samples[i];
+        const double *last = n > 0 && listed[n - 1] + 1 == i ? before : w->samples[i - 1], *next = w->samples[i + 1];
+        const double  x = (last[0] + 2 * at[0] + next[0]) / 4, y = (last[1] + 2 * at[1] + next[1]) / 4,
+                     z = (last[2] + 2 * at[2] + next[2]) / 4;
+        vector3_copy(before, at);
+        vector3_set(at, x, y, z);
+    }
 }
 
 /* Sharp turns give way, as a thread under tension does, until they are broad. */
@@ -127,20 +139,18 @@ static void relax(page_way *w)
     const size_t room = w->sample_count + 1;
     bool        *active = mem_calloc(2 * room, sizeof *active), *before = active ? active + room : NULL;
     size_t      *listed = mem_alloc(room * sizeof *listed);
-    double(*next)[3] = mem_alloc(room * sizeof *next);
-    const bool good = active && listed && next;
+    const bool   good = active && listed;
     for (int round = 0; round < ROUNDS && good && mark_sharp(w, round ? before : NULL, active); round++) {
         size_t count = 0;
         for (size_t i = 1; i + 1 < w->sample_count; i++)
             if (active[i])
                 listed[count++] = i;
         for (int step = 0; step < STEPS; step++)
-            pull(w, next, listed, count);
+            pull(w, listed, count);
         memcpy(before, active, room * sizeof *active);
     }
     mem_free(active);
     mem_free(listed);
-    mem_free(next);
 }
 
 /* From a sample on, one way or the other, those that were moved go back to where the way is: the turn is left out that
@@ -288,7 +298,7 @@ void rounded_make(rounded_way *out, const depict_job *j, const double (*points)[
         w.lengths[i] = i == 0 ? 0 : w.lengths[i - 1] + apart(w.points[i - 1], w.points[i]);
     }
     const course way = course_of(&w);
-    const bool   turns = !out->failed && count > 2 && width > 0 && course_end(&way) > width;
+    const bool   turns = !out->failed && !j->drafts && count > 2 && width > 0 && course_end(&way) > width;
     if (turns && take_samples(&w)) {
         relax(&w);
         break_reversals(&w);

@@ -105,22 +105,34 @@ static lmn_status change_find(shape_change *c, const expression *e, const depict
     return status;
 }
 
+/* What pushes something at a time, units a second and second; where its way begins or ends, just inside: nothing is
+ * known of what was before, and it has not been stopped by the end of a clip. */
+static void push_at(const depict_target *t, double seconds, double out[3])
+{
+    const double span = fmin(1.0 / 15, t->way.end / 4), inside = fmin(fmax(seconds, span), t->way.end - span);
+    double       a[3];
+    vector3_set(out, 0, 0, 0);
+    if (!(span > 0))
+        return;
+    way_velocity(&t->way, t->centre, inside - span / 2, span, a);
+    way_velocity(&t->way, t->centre, inside + span / 2, span, out);
+    for (int k = 0; k < 3; k++)
+        out[k] = (out[k] - a[k]) / span;
+}
+
 /* What pushes a plane across its way, and how far its wings lag behind. */
 static void bend_find(shape_change *c, const expression *e, const depict_target *t, double seconds, double most)
 {
     const still_values *v = e->values;
-    const double        span = 1.0 / 15;
-    double              a[3], b[3], across[3], to[3];
-    way_velocity(&t->way, t->centre, seconds - span / 2, span, a);
-    way_velocity(&t->way, t->centre, seconds + span / 2, span, b);
-    vector3_add(across, b, -1, a);
+    double              across[3], to[3];
+    push_at(t, seconds, across);
     vector3_add(across, across, -vector3_dot(across, c->axis), c->axis);
     vector3_copy(to, across);
     if (!(most > 0) || !vector3_normalise(to))
         return;
     c->reach = t->radius;
     for (int k = 0; k < 3; k++)
-        c->pull[k] = -(double)v->bend * t->radius * vector3_length(across) / span / most * to[k];
+        c->pull[k] = -(double)v->bend * t->radius * vector3_length(across) / most * to[k];
 }
 
 /* --- copies ----------------------------------------------------------------------------------------------------------
@@ -398,16 +410,14 @@ static double strongest_push(const expression *e, const depict_target *t)
 {
     enum { STEPS = 64 };
     const double span = 1.0 / 15;
-    double       most = 0, a[3], b[3];
+    double       most = 0;
     for (int i = 0; i <= STEPS; i++) {
-        double seconds = e->from + (e->to - e->from) * i / STEPS, along[3];
-        way_velocity(&t->way, t->centre, seconds - span / 2, span, a);
-        way_velocity(&t->way, t->centre, seconds + span / 2, span, b);
+        double seconds = e->from + (e->to - e->from) * i / STEPS, along[3], push[3];
+        push_at(t, seconds, push);
         way_velocity(&t->way, t->centre, seconds, span, along);
-        vector3_add(b, b, -1, a);
         if (vector3_normalise(along))
-            vector3_add(b, b, -vector3_dot(b, along), along);
-        most = fmax(most, vector3_length(b) / span);
+            vector3_add(push, push, -vector3_dot(push, along), along);
+        most = fmax(most, vector3_length(push));
     }
     return most;
 }

@@ -31,6 +31,14 @@ static int32_t hip_of(const lmn_scene *s, const skin *k)
     return top;
 }
 
+static void put_in(const mat4 *m, double place[3])
+{
+    double out[3];
+    for (int k = 0; k < 3; k++)
+        out[k] = m->m[k] * place[0] + m->m[4 + k] * place[1] + m->m[8 + k] * place[2] + m->m[12 + k];
+    vector3_copy(place, out);
+}
+
 lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lmn_error *error)
 {
     const lmn_scene *s = j->scene;
@@ -60,6 +68,9 @@ lmn_status target_open(depict_target *out, const depict_job *j, int32_t node, lm
     middle = mat4_transform_point(&inverse, middle);
     if (carrier == node)
         vector3_set(out->centre, (double)middle.x, (double)middle.y, (double)middle.z);
+    box_sides(box, out->outermost);
+    for (int i = 0; i < BOX_SIDES; i++)
+        put_in(&inverse, out->outermost[i]);
     out->radius = box3_is_empty(box) ? j->size * 0.02 : box3_diagonal(box) / (2 * 1.7320508);
     if (!(out->radius > 0))
         out->radius = j->size * 0.02;
@@ -152,11 +163,12 @@ lmn_status target_vertices(vec3 **out, size_t *count, const depict_job *j, const
  */
 
 /* How the velocity differs between `span` before a time and `span` after it. Two keys may lie at a bounce. */
-static void change_at(const depict_target *t, double seconds, double span, double before[3], double change[3])
+static void change_at(const depict_target *t, const double place[3], double seconds, double span, double before[3],
+                      double change[3])
 {
     double p[4][3];
     for (int i = 0; i < 4; i++)
-        way_point(&t->way, t->centre, seconds + (i < 2 ? i - 2 : i - 1) * span, p[i]);
+        way_point(&t->way, place, seconds + (i < 2 ? i - 2 : i - 1) * span, p[i]);
     for (int k = 0; k < 3; k++) {
         before[k] = (p[1][k] - p[0][k]) / span;
         change[k] = (p[3][k] - p[2][k]) / span - before[k];
@@ -185,11 +197,12 @@ static void impact_keep(depict_impact *out, size_t most, size_t *count, const de
     out[place] = *now;
 }
 
-lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
-                          double to, lmn_error *error)
+/* Of a place in the way's axes. */
+static lmn_status impacts_of(depict_impact *out, size_t most, size_t *count, const depict_target *t,
+                             const double place[3], double from, double to, lmn_error *error)
 {
     trajectory way;
-    lmn_status status = way_trajectory(&way, &t->way, t->centre, from, to, t->radius * 0.02, error);
+    lmn_status status = way_trajectory(&way, &t->way, place, from, to, t->radius * 0.02, error);
     double     length = 0;
     *count = 0;
     for (size_t i = 1; i < way.count && status == LMN_OK; i++)
@@ -200,7 +213,7 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
         depict_impact now = {.time = way.samples[i].seconds};
         if (now.time - last < 4 * span || now.time - from < 4 * span || to - now.time < 4 * span)
             continue;
-        change_at(t, now.time, span, now.before, now.change);
+        change_at(t, place, now.time, span, now.before, now.change);
         now.speed = vector3_length(now.before);
         /* What only bends hardly turns within so short a time. */
         double turn = vector3_length(now.change);
@@ -215,6 +228,55 @@ lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const 
     if (*count > 1)
         qsort(out, *count, sizeof *out, compare_impacts);
     trajectory_release(&way);
+    return status;
+}
+
+lmn_status target_impacts(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from,
+                          double to, lmn_error *error)
+{
+    return impacts_of(out, most, count, t, t->centre, from, to, error);
+}
+
+/* How far a place goes. */
+static double way_of(const depict_target *t, const double place[3], double from, double to)
+{
+    enum { STEPS = 32 };
+    double length = 0, at[3], last[3] = {0, 0, 0};
+    for (int i = 0; i <= STEPS; i++) {
+        way_point(&t->way, place, from + (to - from) * i / STEPS, at);
+        length += i > 0 ? vector3_distance(at, last) : 0;
+        vector3_copy(last, at);
+    }
+    return length;
+}
+
+/* Does what moves it turn it by itself? */
+static bool is_turned(const depict_target *t)
+{
+    bool turned = false;
+    for (size_t i = 0; i < t->way.count && !turned; i++)
+        turned = t->way.steps[i].rotation != NULL;
+    return turned;
+}
+
+lmn_status target_hits(depict_impact *out, size_t most, size_t *count, const depict_target *t, double from, double to,
+                       lmn_error *error)
+{
+    const double on_the_spot = 0.3, /* of the farthest way */
+        origin[3] = {0, 0, 0};
+    const double *farthest = t->centre;
+    double        longest = 0;
+    for (int i = 0; i < BOX_SIDES && is_turned(t); i++) {
+        const double length = way_of(t, t->outermost[i], from, to);
+        if (length > longest) {
+            longest = length;
+            farthest = t->outermost[i];
+        }
+    }
+    const bool turns = is_turned(t) && way_of(t, origin, from, to) < on_the_spot * longest;
+    lmn_status status = impacts_of(out, most, count, t, turns ? farthest : t->centre, from, to, error);
+    for (size_t i = 0; i < *count && status == LMN_OK; i++)
+        out[i].turns = turns;
     return status;
 }
 

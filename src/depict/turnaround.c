@@ -7,6 +7,7 @@
 
 typedef struct turn_values {
     float  radius, width, head;
+    bool   before;
     colour colour;
 } turn_values;
 
@@ -17,6 +18,8 @@ static const param turn_params[] = {
                     .doc = "Breadth of the arrow, fraction of the target's radius."),
     PARAM_FLOAT_ROW(turn_values, head, .def = 2.6, .min = 0, .max = 20, .soft_max = 8,
                     .doc = "Length of the head, in breadths; 0: none."),
+    PARAM_BOOL_ROW(turn_values, before, .def = 0,
+                   .doc = "Before all that the scene has, so that what turns inside of something is told, too."),
     PARAM_COLOUR_ROW(turn_values, colour, .def_colour = {0, 0, 0, 0},
                      .doc = "Of the arrow; none: grey for the past, red for the future."),
 };
@@ -30,27 +33,31 @@ typedef struct bend {
     double radius;
 } bend;
 
-/* Around the axis, at the end of the target that the viewer sees, or level with its middle where the axis lies across
- * the line of sight; outside all of it. It begins where the middle does, if that goes
- * around, else so that its own middle faces the viewer. */
+/* Around the axis, at the end of the target that the viewer sees, or, where the axis lies across the line of sight, as
+ * far up as it leaves the middle to be seen, such as a face; outside all of it. It begins where the middle does, if
+ * that goes around, else so that its own middle faces the viewer. */
 static void bend_place(bend *b, const depict_job *j, const expression *e, const depict_target *t, const turning *turn,
                        const vec3 *vertices, size_t count)
 {
-    double centre[3], off[3], begin[3], to_eye[3], far = 0, near = 0;
+    const double above_middle = 0.6;
+    double       centre[3], off[3], begin[3], to_eye[3], far = 0, near = 0, top = 0;
     way_point(&t->way, t->centre, fmin(fmax(e->now, e->from), e->to), centre);
     vector3_add(off, centre, -1, turn->pivot);
     vector3_add(b->middle, turn->pivot, vector3_dot(off, turn->axis), turn->axis);
     depict_to_eye(j, b->middle, to_eye);
-    const double facing = vector3_dot(to_eye, turn->axis);
+    const double facing = vector3_dot(to_eye, turn->axis), upward = vector3_dot(turn->axis, j->camera.up);
     for (size_t i = 0; i < count; i++) {
         double p[3] = {(double)vertices[i].x, (double)vertices[i].y, (double)vertices[i].z};
         vector3_add(p, p, -1, b->middle);
         near = fmax(near, facing * vector3_dot(p, turn->axis));
+        top = fmax(top, copysign(1, upward) * vector3_dot(p, turn->axis));
         vector3_add(p, p, -vector3_dot(p, turn->axis), turn->axis);
         far = fmax(far, vector3_length(p));
     }
     if (fabs(facing) > 0.3)
         vector3_add(b->middle, b->middle, near / facing + copysign(0.15 * t->radius, facing), turn->axis);
+    else
+        vector3_add(b->middle, b->middle, above_middle * upward * top, turn->axis);
     const turn_values *v = e->values;
     b->radius = (double)v->radius * (far > 0 ? far : t->radius);
     way_point(&t->way, t->centre, e->from, begin);
@@ -80,13 +87,14 @@ static lmn_status put_bend(depict_job *j, const expression *e, const depict_targ
 {
     enum { STEPS = 64 };
     const turn_values *v = e->values;
-    double             points[STEPS + 1][3], width = (double)v->width * t->radius;
+    double             points[STEPS + 1][3];
     glyph_mesh         m = {0};
     for (int i = 0; i <= STEPS; i++) {
         const double angle = from + (to - from) * i / STEPS;
         vector3_add(points[i], b->middle, b->radius * cos(angle), b->first);
         vector3_add(points[i], points[i], b->radius * sin(angle), b->second);
     }
+    const double      width = (double)v->width * t->radius * (v->before ? glyph_lift_before(j, points, STEPS + 1) : 1);
     const bool        future = when == GLYPH_FUTURE;
     const arrow_style style = {.width = width,
                                .dash = future ? 2.2 * width : 0,

@@ -421,7 +421,8 @@ static gpu_marks *upload_ribbons(frame *f, stroke_store *store, figure_state *s,
 
 static void draw_exact(frame *f, figure_state *s, stroke_store *store, const strokes_values *v)
 {
-    text         prelude = {0};
+    text prelude = {0};
+    text_append(&prelude, "#define THE_BRUSH %d\n", (int)v->style.brush);
     gpu_program *program = program_of(f, GPU_FLOOR, "lines/stroke/ribbons.vert", "lines/stroke/stroke.frag", &prelude);
     gpu_marks   *marks = upload_ribbons(f, store, s, v);
     open_maps(f, s);

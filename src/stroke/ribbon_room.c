@@ -67,23 +67,34 @@ static void lay(line_room *room, const ribbon_job *job)
     }
 }
 
-/* One row or column, `apart` items from one another. */
+/* One row or column, `apart` items from one another. Most of a page has no lines: only what is near ink changes. `line`
+ * has room for REACH more on both sides, and zeros there. */
 static void blur_line(float *items, size_t apart, int count, const float *weights, float *line)
 {
+    int inked = -1; /* up to here there is ink within reach */
     for (int i = 0; i < count; i++)
         line[i] = items[(size_t)i * apart];
+    for (int i = 0; i < REACH; i++)
+        line[count + i] = 0;
+    for (int i = 0; i < REACH && i < count; i++)
+        inked = line[i] != 0 ? i + REACH : inked;
     for (int i = 0; i < count; i++) {
+        inked = line[i + REACH] != 0 ? i + 2 * REACH : inked;
+        if (i > inked)
+            continue;
         float sum = 0;
         for (int k = -REACH; k <= REACH; k++)
-            sum += i + k >= 0 && i + k < count ? weights[k + REACH] * line[i + k] : 0;
+            sum += weights[k + REACH] * line[i + k];
         items[(size_t)i * apart] = sum;
     }
 }
 
 static bool blur(line_room *room)
 {
-    float  weights[2 * REACH + 1], sum = 0;
-    float *line = mem_alloc((size_t)(room->columns > room->rows ? room->columns : room->rows) * sizeof *line);
+    float     weights[2 * REACH + 1], sum = 0;
+    const int longest = room->columns > room->rows ? room->columns : room->rows;
+    float    *with_rims = mem_calloc((size_t)longest + 2 * REACH, sizeof *with_rims),
+          *line = with_rims ? with_rims + REACH : NULL;
     for (int k = -REACH; k <= REACH; k++)
         sum += weights[k + REACH] = expf(-0.5f * (float)(k * k) / (deviation_cells * deviation_cells));
     for (int k = 0; k <= 2 * REACH; k++)
@@ -92,8 +103,8 @@ static bool blur(line_room *room)
         blur_line(room->ink + (size_t)row * (size_t)room->columns, 1, room->columns, weights, line);
     for (int column = 0; line && column < room->columns; column++)
         blur_line(room->ink + column, (size_t)room->columns, room->rows, weights, line);
-    mem_free(line);
-    return line != NULL;
+    mem_free(with_rims);
+    return with_rims != NULL;
 }
 
 bool line_room_find(line_room *room, const ribbon_job *job)

@@ -521,7 +521,7 @@ static void test_impacts_are_those_of_the_ball(void **state)
     for (size_t i = 0; i < s->node_count; i++) {
         if (!s->nodes[i].name || strcmp(s->nodes[i].name, "green") != 0)
             continue;
-        assert_int_equal(impacts_find(&found, &count, &c, (int32_t)i, 0, 4, 1, NULL), LMN_OK);
+        assert_int_equal(impacts_find(&found, &count, &c, (int32_t)i, NULL, 0, 4, 1, NULL), LMN_OK);
         double falls = sqrt(2 * 3.5 / 9.81), arrives = 9.81 * falls;
         assert_true(count >= 3);
         assert_true(fabs(found[0].seconds - falls) < 1e-9 && fabs(found[0].speed - 1.7 * arrives) < 1e-4);

@@ -383,6 +383,94 @@ static void test_what_glides_meets_nothing(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A crate of 1 on the face of a plate whose triangles meet along its diagonals, below the crate's front corners where
+ * it stops; `turn`: of all of it about y, degrees, `sunk`: so deep does it glide in the plate, `wall`: there is
+ * something to be met, at its face 0.5 before the crate's middle. */
+static void expect_of_glide(double turn, double sunk, bool wall)
+{
+    const double half = turn * acos(-1) / 360, way[3] = {cos(2 * half), 0, -sin(2 * half)};
+    char         nodes[1024], behaviour[512], walls[256] = "", rotation[128];
+    size_t       count;
+    snprintf(rotation, sizeof rotation, "\"rotation\": [0, %.17g, 0, %.17g]", sin(half), cos(half));
+    if (wall)
+        snprintf(walls, sizeof walls,
+                 "{\"name\": \"wall\", \"box\": {\"size\": [1, 4, 4]}, \"translation\": [%.17g, 1, %.17g], %s},",
+                 way[0], way[2], rotation);
+    snprintf(nodes, sizeof nodes,
+             "%s{\"name\": \"plate\", \"box\": {\"size\": [8, 1, 8]}, \"translation\": [0, -0.5, 0], %s}, "
+             "{\"name\": \"crate\", \"box\": {\"size\": [1, 1, 1]}, %s}",
+             walls, rotation, rotation);
+    snprintf(
+        behaviour, sizeof behaviour,
+        "{\"target\": \"crate\", \"linear\": [[%.17g, %.17g, %.17g], [0, %.17g, 0], [0, %.17g, 0]], \"times\": [0, 1, "
+        "2]}",
+        -2 * way[0], 0.5 - sunk, -2 * way[2], 0.5 - sunk, 0.5 - sunk);
+    lmn_scene *s = scene_of(nodes, behaviour);
+    contact   *found = contacts_of(s, "crate", 0, &count);
+    if (count != (wall ? 1 : 0))
+        fail_msg("%g degrees, %g deep: %zu contacts", turn, sunk, count);
+    if (wall)
+        expect(s, &found[0], 1, (const double[]){0.5 * way[0], 0.5 - sunk, 0.5 * way[2]},
+               (const double[]){-way[0], 0, -way[2]}, 2, "wall");
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
+/* A face has no edges inside, whatever triangles it is made of. */
+static void test_what_glides_along_a_face_meets_no_diagonal(void **state)
+{
+    (void)state;
+    static const double turns[] = {0, 90, 180, 270, 30}, depths[] = {0, 1e-6, -1e-6, 1e-3};
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++)
+        for (size_t k = 0; k < sizeof depths / sizeof *depths; k++) {
+            expect_of_glide(turns[i], depths[k], false);
+            expect_of_glide(turns[i], depths[k], true);
+        }
+}
+
+/* A lever about its middle, of which the lower edge of the left end comes to a block; its post carries it all the time.
+ */
+static void test_what_turns_on_the_spot_hits_with_its_end(void **state)
+{
+    (void)state;
+    const double a = 20 * acos(-1) / 180, place[3] = {-2 * cos(a) + 0.1 * sin(a), 1 - 2 * sin(a) - 0.1 * cos(a), 0};
+    for (int i = 0; i < 2; i++) {
+        char   nodes[1024];
+        size_t count;
+        snprintf(nodes, sizeof nodes,
+                 "{\"name\": \"block\", \"box\": {\"size\": [1.5, 1, 2]}, \"translation\": [-1.75, %.17g, 0]}, "
+                 "{\"name\": \"post\", \"box\": {\"size\": [0.1, 0.9, 0.5]}, \"translation\": [0, 0.45, 0]}, "
+                 "{\"name\": \"lever\", \"box\": {\"size\": [4, 0.2, 0.6]}, \"translation\": [0, 1, 0]}",
+                 place[1] - 0.5 - 0.2 * i);
+        lmn_scene *s = scene_of(nodes, "{\"target\": \"lever\", \"property\": \"rotation\", \"axis\": [0, 0, 1], "
+                                       "\"linear\": [0, 20, 0], \"times\": [0, 1, 2]}");
+        contact   *found = contacts_of(s, "lever", 0.1, &count);
+        assert_int_equal(count, i ? 0 : 1);
+        if (count)
+            expect(s, &found[0], 1, place, UP, 2 * a * hypot(2, 0.1), "block");
+        mem_free(found);
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* A door stops a bit open: the edges of its square knuckle have turned into the wall, which they touch all the time. */
+static void test_hinges_are_no_contacts(void **state)
+{
+    (void)state;
+    size_t     count;
+    lmn_scene *s = scene_of("{\"name\": \"wall\", \"box\": {\"size\": [2, 3, 0.4]}, \"translation\": [-1.05, 1.5, 0]}, "
+                            "{\"name\": \"hinge\", \"translation\": [0, 1.5, 0]}, "
+                            "{\"name\": \"leaf\", \"parent\": \"hinge\", \"box\": {\"size\": [2, 3, 0.1]}, "
+                            "\"translation\": [1, 0, 0]}, "
+                            "{\"name\": \"knuckle\", \"parent\": \"hinge\", \"box\": {\"size\": [0.1, 3, 0.1]}}",
+                            "{\"target\": \"hinge\", \"property\": \"rotation\", \"axis\": [0, 1, 0], "
+                            "\"linear\": [0, -15, -15], \"times\": [0, 1, 2]}");
+    contact   *found = contacts_of(s, "hinge", 0, &count);
+    assert_int_equal(count, 0);
+    mem_free(found);
+    lmn_scene_destroy(&s);
+}
+
 /* An edge that is hit off its middle pushes towards the middle of the ball, a corner, too. */
 static void test_edges_and_corners_push_along_the_ball(void **state)
 {
@@ -560,6 +648,9 @@ int main(void)
         cmocka_unit_test(test_balls_of_all_shapes_are_met_exactly),
         cmocka_unit_test(test_floors_that_are_not_there_touch_the_sphere),
         cmocka_unit_test(test_what_glides_meets_nothing),
+        cmocka_unit_test(test_what_glides_along_a_face_meets_no_diagonal),
+        cmocka_unit_test(test_what_turns_on_the_spot_hits_with_its_end),
+        cmocka_unit_test(test_hinges_are_no_contacts),
         cmocka_unit_test(test_edges_and_corners_push_along_the_ball),
         cmocka_unit_test(test_boxes_meet_with_what_comes_first),
         cmocka_unit_test(test_the_document_is_whole_or_none),

@@ -143,12 +143,82 @@ static void skins_are_parted_at_their_joints(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A flat wing of 2 across goes along z, 10 a second, and rises by t³/2: it is pushed up by 3 t, across its way by less.
+ */
+static lmn_scene *glider_scene(const char *semantics)
+{
+    static char text[16384];
+    size_t      used = (size_t)snprintf(text, sizeof text,
+                                        "{\"limner_script\": 1, \"nodes\": [{\"name\": \"glider\", \"semantics\": \"%s\", "
+                                             "\"box\": {\"size\": [2, 0.04, 0.6]}}], \"behaviour\": {\"target\": \"glider\", "
+                                             "\"duration\": 2, \"linear\": [",
+                                        semantics);
+    for (int i = 0; i <= 240; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s[0, %.9g, %.9g]", i ? ", " : "",
+                                 pow(i / 120.0, 3) / 2, i / 12.0);
+    used += (size_t)snprintf(text + used, sizeof text - used, "]}}");
+    return load_or_fail(temp_file("glider.json", text, used));
+}
+
+/* Across the way at a time. */
+static void push_at(double t, double out[3])
+{
+    double way[3] = {0, 1.5 * t * t, 10};
+    vector3_normalise(way);
+    vector3_set(out, 0, 3 * t, 0);
+    vector3_add(out, out, -vector3_dot(out, way), way);
+}
+
+/* How far the wings' tips lie above the middle. */
+static double tips_above(const primitive *p, double t)
+{
+    double sum = 0;
+    int    count = 0;
+    assert_non_null(p);
+    for (uint32_t i = 0; i < p->vertex_count; i++)
+        if (fabs((double)p->positions[i].x) > 0.9) {
+            sum += (double)p->positions[i].y - pow(t, 3) / 2;
+            count++;
+        }
+    assert_true(count > 0);
+    return sum / count;
+}
+
+/* Wings lag behind, by what pushes the plane; of what is no paper plane nothing bends, and nobody may ask for it. */
+static void wings_bend_as_they_are_pushed(void **state)
+{
+    (void)state;
+    const double half[3] = {1, 0.02, 0.3}, radius = vector3_length(half) / sqrt(3), bend = 0.5;
+    double       most[3], push[3];
+    lmn_scene   *plane = glider_scene("paper-plane"), *other = glider_scene("ball");
+    push_at(2, most);
+    push_at(1, push);
+    tell_at(plane, 1, "[{\"target\": \"glider\", \"depict\": \"still\", \"count\": 3, \"bend\": 0.5}]");
+    const double first = tips_above(glyph_at(plane, "still", "past", 0), 0),
+                 second = tips_above(glyph_at(plane, "still", "present", 0), 1),
+                 expected = -bend / radius * push[1] / vector3_length(most);
+    assert_near(first, 0, 0.04); /* told a fifteenth of a second behind the beginning */
+    assert_near(second / expected, 1, 0.15);
+    assert_true(tips_above(glyph_at(plane, "still", "future", 0), 2) < 1.4 * second);
+    tell_at(other, 1, "[{\"target\": \"glider\", \"depict\": \"still\", \"count\": 3}]");
+    assert_near(tips_above(glyph_at(other, "still", "present", 0), 1), 0, 1e-4);
+    lmn_error       error = {0};
+    lmn_draw_desc   draw = seen_at(1);
+    lmn_depict_desc desc = LMN_DEPICT_DESC_INIT;
+    desc.expressions = "[{\"target\": \"glider\", \"depict\": \"still\", \"bend\": 0.5}]";
+    assert_int_equal(lmn_depict(other, &draw, &desc, NULL, &error), LMN_FORMAT);
+    assert_non_null(strstr(error.message, "bend"));
+    lmn_scene_destroy(&plane);
+    lmn_scene_destroy(&other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_runs_through_other_times),
         cmocka_unit_test(what_keeps_its_form_is_not_torn),
         cmocka_unit_test(skins_are_parted_at_their_joints),
+        cmocka_unit_test(wings_bend_as_they_are_pushed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -279,6 +279,51 @@ static void ways_that_go_back_lie_beside_each_other(void **state)
     lmn_scene_destroy(&s);
 }
 
+/* A gear in its housing is told before it; one beside it where it is. */
+static void what_turns_inside_is_told_before_all(void **state)
+{
+    (void)state;
+    static const char *const places[] = {"0", "5"};
+    for (int i = 0; i < 2; i++) {
+        char nodes[512];
+        snprintf(
+            nodes, sizeof nodes,
+            "{\"name\": \"housing\", \"box\": {\"size\": [4, 4, 4]}}, {\"name\": \"gear\", \"translation\": [%s, 0, "
+            "0], \"box\": {\"size\": [2, 2, 1]}}",
+            places[i]);
+        lmn_scene    *s = scene_of(nodes, "{\"target\": \"gear\", \"property\": \"rotation\", \"axis\": [0, 0, 1], "
+                                             "\"linear\": [0, 90], \"duration\": 2}");
+        json_t       *told = told_of(s, NULL, 1);
+        const json_t *e = expression_of(told, "turnaround", "gear");
+        assert_non_null(e);
+        assert_int_equal(json_is_true(json_object_get(e, "before")), i == 0);
+        json_decref(told);
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* Stars of several things are smaller than that of one. */
+static void stars_of_several_leave_each_other_room(void **state)
+{
+    (void)state;
+    static const char one[] = "{\"target\": \"a\", \"linear\": [[0, 3, 0], [0, 0.5, 0], [0, 3, 0]], \"duration\": 2}",
+                      other[] = "{\"target\": \"b\", \"linear\": [[3, 3, 0], [3, 0.5, 0], [3, 3, 0]], \"duration\": 2}";
+    for (int i = 0; i < 2; i++) {
+        char behaviour[512];
+        snprintf(behaviour, sizeof behaviour, i ? "[%s, %s]" : "[%s]", one, other);
+        lmn_scene *s =
+            scene_of("{\"name\": \"ground\", \"box\": {\"size\": [20, 1, 9]}, \"translation\": [0, -0.5, 0]}, " CRATE(
+                         "a") ", " CRATE("b"),
+                     behaviour);
+        json_t       *told = told_of(s, NULL, 1.5);
+        const json_t *e = expression_of(told, "collision", "a"), *size = json_object_get(e, "size");
+        assert_non_null(e);
+        assert_true(i ? size && json_number_value(size) < 1.7 && expression_of(told, "collision", "b") : !size);
+        json_decref(told);
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* --- warnings --------------------------------------------------------------------------------------------------------
  */
 
@@ -560,6 +605,8 @@ int main(void)
         cmocka_unit_test(cameras_that_zoom_or_turn_are_told),
         cmocka_unit_test(lights_that_move_have_ways),
         cmocka_unit_test(ways_that_go_back_lie_beside_each_other),
+        cmocka_unit_test(what_turns_inside_is_told_before_all),
+        cmocka_unit_test(stars_of_several_leave_each_other_room),
         cmocka_unit_test(what_is_not_told_is_said),
         cmocka_unit_test(other_clips_are_named),
         cmocka_unit_test(controls_in_names_are_shown),

@@ -138,8 +138,8 @@ static lmn_scene *growth_scene(double from, double to, double way)
     return finish(&m, "growth");
 }
 
-/* A foot comes to a ball after a second, which flies off then, and rises. */
-static lmn_scene *kick_scene(void)
+/* A foot comes to a ball after a second, or rests beside it, which flies off then, and rises. */
+static lmn_scene *kick_scene(bool comes)
 {
     moving_scene m;
     moving_scene_begin(&m);
@@ -147,9 +147,67 @@ static lmn_scene *kick_scene(void)
         ball = moving_scene_sphere(&m, 0, 0, 0, 0.3, red);
     moving_scene_name(&m, foot, "foot");
     moving_scene_name(&m, ball, "ball");
-    moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
+    if (comes)
+        moving_scene_keys(&m, foot, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 0, 0, -1, 0, 0, -1, 3, 0});
     moving_scene_keys(&m, ball, "translation", 3, (double[]){0, 1, 2}, (double[]){0, 0, 0, 0, 0, 0, 5, 2, 0});
     return finish(&m, "kick");
+}
+
+static void turn_to(moving_scene *m, int node, int axis, const double degrees[3])
+{
+    double values[12] = {0};
+    for (int i = 0; i < 3; i++) {
+        values[4 * i + axis] = sin(degrees[i] * pi / 360);
+        values[4 * i + 3] = cos(degrees[i] * pi / 360);
+    }
+    moving_scene_keys(m, node, "rotation", 3, (double[]){0, 1, 2}, values);
+}
+
+static const double lever_turn = 20;
+
+/* Where the lower edge of a lever's left end is when it is turned. */
+static void lever_end(double out[2])
+{
+    const double a = lever_turn * pi / 180;
+    out[0] = -2 * cos(a) + 0.1 * sin(a);
+    out[1] = 1 - 2 * sin(a) - 0.1 * cos(a);
+}
+
+/* A lever on an axle, about which it turns there and back; its left end comes to a block after a second, or stops so
+ * much above it. A post carries it, and touches it all the time. */
+static lmn_scene *lever_scene(double gap)
+{
+    moving_scene m;
+    double       end[2];
+    lever_end(end);
+    moving_scene_begin(&m);
+    int lever = moving_scene_box(&m, 0, 1, 0, (double[]){2, 0.1, 0.3}, red),
+        block = moving_scene_box(&m, -1.75, end[1] - gap - 0.5, 0, (double[]){0.75, 0.5, 1}, grey),
+        post = moving_scene_box(&m, 0, 0.4, 0, (double[]){0.05, 0.5, 0.3}, grey);
+    moving_scene_name(&m, lever, "lever");
+    moving_scene_name(&m, block, "block");
+    moving_scene_name(&m, post, "post");
+    turn_to(&m, lever, 2, (double[]){0, lever_turn, 0});
+    return finish(&m, "lever");
+}
+
+/* A door of 2 by 3, 0.1 thick, whose square knuckle lies against a wall, into which its edges turn; it opens a bit and
+ * stays, or falls to, against a jamb behind its other edge. */
+static lmn_scene *door_scene(bool closes)
+{
+    moving_scene m;
+    moving_scene_begin(&m);
+    int wall = moving_scene_box(&m, -1.05, 1.5, 0, (double[]){1, 1.5, 0.2}, grey),
+        jamb = moving_scene_box(&m, 2, 1.5, -0.1, (double[]){0.2, 1.5, 0.05}, grey),
+        hinge = moving_scene_joint(&m, 0, 1.5, 0), leaf = moving_scene_box(&m, 1, 0, 0, (double[]){1, 1.5, 0.05}, red),
+        knuckle = moving_scene_box(&m, 0, 0, 0, (double[]){0.05, 1.5, 0.05}, red);
+    moving_scene_name(&m, wall, "wall");
+    moving_scene_name(&m, jamb, "jamb");
+    moving_scene_name(&m, hinge, "hinge");
+    moving_scene_put_in(&m, leaf, hinge);
+    moving_scene_put_in(&m, knuckle, hinge);
+    turn_to(&m, hinge, 1, closes ? (double[]){-90, 0, 0} : (double[]){0, -30, -30});
+    return finish(&m, "door");
 }
 
 /* A body with a head, and in this a mouth where it is wanted. */
@@ -217,6 +275,33 @@ static void stars_find_what_is_hit(void **state)
         assert_near(at[1], gaps[i][1], 1e-4);
         lmn_scene_destroy(&scene);
     }
+}
+
+/* What turns about its middle, which stays where it is, hits with its end. */
+static void stars_are_where_what_turns_hits(void **state)
+{
+    (void)state;
+    double     end[2], at[3];
+    lmn_scene *scene = lever_scene(0);
+    lever_end(end);
+    for (int named = 0; named < 2; named++) {
+        tell_at(scene, 1.5,
+                named ? "[{\"target\": \"lever\", \"depict\": \"collision\", \"partner\": \"block\"}]"
+                      : "[{\"target\": \"lever\", \"depict\": \"collision\"}]");
+        assert_int_equal(count_of(scene, "star"), 2);
+        position(sign_at(scene, "star", 0), 0, at);
+        assert_near(at[0], end[0], 1e-4);
+        assert_near(at[1], end[1], 1e-4);
+    }
+    tell_at(scene, 1.5, "[{\"target\": \"lever\", \"depict\": \"collision\", \"partner\": \"post\"}]");
+    assert_null(sign_at(scene, "star", 0)); /* it lies on that */
+    lmn_scene_destroy(&scene);
+    scene = door_scene(true);
+    tell_at(scene, 1.5, "[{\"target\": \"hinge\", \"depict\": \"collision\"}]");
+    position(sign_at(scene, "star", 0), 0, at);
+    assert_near(at[0], 1.9, 1e-4); /* the middle of what of the leaf lies on the jamb: from 1.8 to 2 */
+    assert_near(at[1], 1.5, 1e-4);
+    lmn_scene_destroy(&scene);
 }
 
 /* In perspective what is nearer to the viewer is seen elsewhere unless it lies on the line of sight. */
@@ -825,7 +910,7 @@ static void all_ways_are_dashed_from_now_on(void **state)
 static void causes_are_shown(void **state)
 {
     (void)state;
-    lmn_scene *scene = kick_scene();
+    lmn_scene *scene = kick_scene(true);
     double     tip[3], tail[3], low = INFINITY, high = -INFINITY;
     tell_at(scene, 1.6, "[{\"target\": \"ball\", \"depict\": \"cause\", \"partner\": \"foot\"}]");
     const primitive *arrow = sign_at(scene, "cause-arrow", 0), *ghost = sign_at(scene, "still", 0);
@@ -850,6 +935,16 @@ static void causes_are_shown(void **state)
     desc.expressions = "[{\"target\": \"ball\", \"depict\": \"cause\"}]";
     assert_int_equal(lmn_depict(scene, &draw, &desc, NULL, &error), LMN_FORMAT);
     assert_non_null(strstr(error.message, "partner"));
+    lmn_scene_destroy(&scene);
+    scene = kick_scene(false); /* from the surface of what rests to that of what sets off */
+    tell_at(scene, 1.6, "[{\"target\": \"ball\", \"depict\": \"cause\", \"partner\": \"foot\"}]");
+    arrow = sign_at(scene, "cause-arrow", 0);
+    assert_non_null(arrow);
+    ribbon_point(arrow, 0, tail);
+    position(arrow, arrow->vertex_count - 1, tip);
+    assert_near(tail[0], -0.7, 0.01);
+    assert_near(tip[0], -0.15, 0.01);
+    assert_near(tip[1], 0, 0.01);
     lmn_scene_destroy(&scene);
 }
 
@@ -909,6 +1004,13 @@ static void proposals_tell_patterns_apart(void **state)
     check_proposal(bounce_scene(0), "camera-path", false, "no camera");
     check_proposal(bounce_scene(0), "collision", true, "bounce");
     check_proposal(drive_scene(false), "collision", false, "drive");
+    check_proposal(lever_scene(0), "collision", true, "lever on a block");
+    check_proposal(lever_scene(0), "turnaround", true, "lever on a block");
+    check_proposal(lever_scene(0.3), "collision", false, "lever above a block");
+    check_proposal(door_scene(true), "collision", true, "door falls to");
+    check_proposal(door_scene(true), "turnaround", true, "door falls to");
+    check_proposal(door_scene(false), "collision", false, "door opens");
+    check_proposal(load_or_fail(LIMNER_SOURCE_DIR "/examples/scripts/door.json"), "collision", false, "door in a wall");
     check_proposal(growth_scene(1, 2, 0), "expand", true, "growing");
     check_proposal(growth_scene(1, 2, 0), "collapse", false, "growing");
     check_proposal(growth_scene(2, 1, 0), "collapse", true, "shrinking");
@@ -926,7 +1028,7 @@ static lmn_scene *scene_for(const char *row, char text[160])
     if (strcmp(row, "collision") == 0)
         scene = bounce_scene(0);
     else if (strcmp(row, "cause") == 0) {
-        scene = kick_scene();
+        scene = kick_scene(true);
         more = ", \"partner\": \"foot\"";
     } else if (strcmp(row, "turnaround") == 0 || strcmp(row, "tailspin") == 0) {
         scene = spin_scene((double[]){1, 0, 0}, 0.7);
@@ -1061,6 +1163,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_are_where_things_meet),
         cmocka_unit_test(stars_find_what_is_hit),
+        cmocka_unit_test(stars_are_where_what_turns_hits),
         cmocka_unit_test(stars_are_seen_where_things_meet),
         cmocka_unit_test(bent_arrows_turn_as_things_do),
         cmocka_unit_test(helices_turn_as_often),

@@ -454,19 +454,35 @@ static void split_ways_grow_with_speed(void **state)
     lmn_scene_destroy(&scene);
 }
 
-/* Joined with the star where it hit the ground, lines begin there. */
+/* A ball that skims over a ground, which it touches at (4, 0, 0) after a second: 8 forward and 2 down a second, and up.
+ */
+static lmn_scene *skimming_scene(void)
+{
+    moving_scene m;
+    char         path[256];
+    moving_scene_begin(&m);
+    const int ground = moving_scene_box(&m, 4, -0.1, 0, (double[]){12, 0.1, 2}, grey),
+              ball = moving_scene_sphere(&m, -4, 2.5, 0, radius, red);
+    moving_scene_name(&m, ground, "ground");
+    moving_scene_name(&m, ball, "ball");
+    moving_scene_keys(&m, ball, "translation", 3, (double[]){0, 1, 2}, (double[]){-4, 2.5, 0, 4, 0.5, 0, 12, 2.5, 0});
+    snprintf(path, sizeof path, "%s/skims.glb", temp_folder());
+    moving_scene_write(&m, path);
+    return load_or_fail(path);
+}
+
+/* Joined with the star where it hit the ground, lines begin there; else they go on through it. */
 static void lines_end_at_the_impact_that_is_told(void **state)
 {
     (void)state;
-    lmn_scene   *scene = ball_scene("joined.glb", true);
-    const double now = contact_time() + 0.15;
-    double       low[2] = {INFINITY, INFINITY}, p[3];
+    lmn_scene *scene = skimming_scene();
+    double     low[2] = {INFINITY, INFINITY}, p[3];
     for (int joined = 0; joined < 2; joined++) {
         tell_or_fail(scene,
                      joined ? "[{\"target\": \"ball\", \"depict\": \"motion\", \"seconds\": 0.6}, {\"target\": "
                               "\"ball\", \"depict\": \"collision\"}]"
                             : "[{\"target\": \"ball\", \"depict\": \"motion\", \"seconds\": 0.6}]",
-                     now, NULL);
+                     1.2, NULL);
         const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
         assert_non_null(lines);
         for (uint32_t i = 0; i < lines->vertex_count; i++) {
@@ -474,9 +490,8 @@ static void lines_end_at_the_impact_that_is_told(void **state)
             low[joined] = fmin(low[joined], p[0]);
         }
     }
-    /* Of the fall nothing is left: its middle came from farther back. */
-    assert_true(low[0] < forward * (now - 0.4));
-    assert_true(low[1] > forward * contact_time() - 1.5 * radius);
+    assert_true(low[0] < 8 * (1.2 - 0.6 + 0.1) - 4); /* 0.6 s back, and a bit less for some */
+    assert_true(low[1] > 4 - 1.1 * radius);
     lmn_scene_destroy(&scene);
 }
 
@@ -501,6 +516,136 @@ static void lines_trail_behind(void **state)
     tell_or_fail(scene, "[{\"target\": \"ball\", \"depict\": \"motion\", \"now\": 0}]", now, NULL);
     assert_null(glyph_at(scene, "motion-lines", NULL, 0));
     lmn_scene_destroy(&scene);
+}
+
+/* The vertex behind those of the piece that begins at one: pieces lie one behind the other. */
+static uint32_t piece_end(const primitive *p, uint32_t first)
+{
+    uint32_t end = first + 1;
+    for (uint32_t i = 0; i + 2 < p->index_count; i += 3) {
+        bool     own = false;
+        uint32_t high = 0;
+        for (uint32_t k = i; k < i + 3; k++) {
+            own = own || (p->indices[k] >= first && p->indices[k] < end);
+            high = p->indices[k] > high ? p->indices[k] : high;
+        }
+        end = own && high + 1 > end ? high + 1 : end;
+    }
+    return end;
+}
+
+/* Lines begin at the outermost places: of a ball that is looked at from the side, on its circle, at the rear, spread
+ * over all of its breadth; more strokes lie beside them, each time elsewhere. */
+static void lines_begin_at_the_rear_of_the_outline(void **state)
+{
+    (void)state;
+    enum { LINES = 7 };
+    lmn_scene   *scene = ball_scene("rear.glb", true);
+    const double now = 0.5;
+    double       at[3], way[3] = {forward, -gravity * now, 0}, low = INFINITY, high = -INFINITY;
+    vector3_normalise(way);
+    ball_at(now, at);
+    tell_or_fail(
+        scene,
+        "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 0, \"jitter\": "
+        "0}]",
+        now, NULL);
+    const primitive *lines = glyph_at(scene, "motion-lines", NULL, 0);
+    assert_non_null(lines);
+    assert_int_equal(pieces_of(lines), LINES);
+    for (uint32_t i = 0, next = 0; i < lines->vertex_count; i++) {
+        double p[3], q[3];
+        if (i != next)
+            continue;
+        next = piece_end(lines, i);
+        position(lines, i, p);
+        position(lines, i + 1, q);
+        vector3_mix(p, p, q, 0.5);
+        vector3_add(p, p, -1, at);
+        const double along = vector3_dot(p, way), aside = p[1] * way[0] - p[0] * way[1];
+        assert_near(vector3_length(p), radius, 0.03 * radius);
+        assert_near(along, -sqrt(fmax(radius * radius - aside * aside, 0)), 0.2 * radius);
+        low = fmin(low, aside);
+        high = fmax(high, aside);
+    }
+    assert_true(low < -0.6 * radius && high > 0.6 * radius);
+    tell_or_fail(
+        scene,
+        "[{\"target\": \"ball\", \"depict\": \"motion\", \"count\": 7, \"gap\": 0, \"strokes\": 2, \"jitter\": "
+        "0.5}]",
+        now, NULL);
+    lines = glyph_at(scene, "motion-lines", NULL, 0);
+    assert_int_equal(pieces_of(lines), 3 * LINES);
+    for (uint32_t i = 0; i < lines->vertex_count; i = piece_end(lines, i)) {
+        double p[3], q[3];
+        position(lines, i, p);
+        position(lines, i + 1, q);
+        vector3_mix(p, p, q, 0.5);
+        assert_true(vector3_distance(p, at) < radius * (1 + 0.5 * 0.4 * sqrt(3)));
+    }
+    lmn_scene_destroy(&scene);
+}
+
+/* Corners of a square, again and again, or farther out with each lap. */
+static lmn_scene *laps_scene(int laps, double outward)
+{
+    enum { LAPS_MOST = 400 };
+    static double times[4 * LAPS_MOST + 1], values[3 * (4 * LAPS_MOST + 1)];
+    moving_scene  m;
+    moving_scene_begin(&m);
+    int ball = moving_scene_sphere(&m, 0, 0, 0, 0.2, red);
+    moving_scene_name(&m, ball, "ball");
+    for (int i = 0; i <= 4 * laps; i++) {
+        const double far = 2 + outward * i / 4;
+        times[i] = i / 4.0;
+        values[3 * i] = i % 4 == 1 || i % 4 == 2 ? far : -far;
+        values[3 * i + 1] = i % 4 >= 2 ? far : -far;
+        values[3 * i + 2] = 0;
+    }
+    moving_scene_keys(&m, ball, "translation", 4 * laps + 1, times, values);
+    char path[256];
+    snprintf(path, sizeof path, "%s/laps.glb", temp_folder());
+    moving_scene_write(&m, path);
+    return load_or_fail(path);
+}
+
+/* Where ways lie on each other there is one arrow: the last lap up to now, and the next one. */
+static void laps_are_told_once(void **state)
+{
+    (void)state;
+    static const char text[] = "[{\"target\": \"ball\", \"depict\": \"path\", \"short_of\": 0}]";
+    uint32_t          vertices[2];
+    for (int i = 0; i < 2; i++) {
+        lmn_scene *scene = laps_scene(i ? 400 : 4, 0);
+        tell_at(scene, i ? 201.3 : 2.3, text);
+        const primitive *past = sign_at(scene, "arrow", 0), *future = sign_at(scene, "arrow", 1);
+        assert_true(past && future);
+        vertices[i] = past->vertex_count + future->vertex_count;
+        for (int k = 0; k < 2; k++) { /* all four sides are there */
+            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, at[3];
+            for (uint32_t v = 0; v < (k ? future : past)->vertex_count; v++) {
+                position(k ? future : past, v, at);
+                for (int a = 0; a < 2; a++) {
+                    low[a] = fmin(low[a], at[a]);
+                    high[a] = fmax(high[a], at[a]);
+                }
+            }
+            for (int a = 0; a < 2; a++)
+                assert_true(low[a] < -1.9 && high[a] > 1.9);
+        }
+        lmn_scene_destroy(&scene);
+    }
+    assert_int_equal(vertices[0], vertices[1]);
+    lmn_scene *spiral = laps_scene(4, 0.5);
+    double     at[3], far = 0;
+    tell_at(spiral, 2.3, text);
+    const primitive *past = sign_at(spiral, "arrow", 0);
+    for (uint32_t v = 0; v < past->vertex_count; v++) {
+        position(past, v, at);
+        far = fmax(far, hypot(at[0] + 2, at[1] + 2) < 0.1);
+    }
+    assert_true(far > 0); /* from its very beginning: each lap goes elsewhere */
+    lmn_scene_destroy(&spiral);
 }
 
 static void targets_are_hidden_for_their_ghosts(void **state)
@@ -742,6 +887,8 @@ int main(void)
         cmocka_unit_test(split_ways_grow_with_speed),
         cmocka_unit_test(lines_end_at_the_impact_that_is_told),
         cmocka_unit_test(lines_trail_behind),
+        cmocka_unit_test(lines_begin_at_the_rear_of_the_outline),
+        cmocka_unit_test(laps_are_told_once),
         cmocka_unit_test(targets_are_hidden_for_their_ghosts),
         cmocka_unit_test(every_option_changes_the_glyphs),
         cmocka_unit_test(expressions_come_back_as_they_were),

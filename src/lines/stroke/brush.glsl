@@ -32,9 +32,14 @@ float brush_dryness(float pattern, float across, uint seed)
     return clamp((bristle - dry * 0.9 + 0.12) * 6.0, 0.0, 1.0);
 }
 
+/* THE_BRUSH: all strokes have this one. Software drivers run what each brush does for all pixels, unless they know that. */
 float brush_ink(piece_position p)
 {
+#ifdef THE_BRUSH
+    const int brush = THE_BRUSH;
+#else
     int brush = int(v_look.w) >> BRUSH_SHIFT;
+#endif
     if (brush == PEN)
         return p.fraction;
     uint seed = uint(v_along.w);
