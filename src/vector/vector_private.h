@@ -19,7 +19,7 @@ lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
 /* Names separated by commas, none twice. Errors: LMN_USAGE. */
 lmn_status  vector_parse_views(const char *text, vector_view out[VIEWS_MOST], size_t *count, lmn_error *error);
 const char *vector_view_name(lmn_view view);
-/* The largest usual scale that is no larger. */
+/* The largest scale of ISO 5455 that is no larger. */
 double vector_usual_scale(double scale);
 /* "1:20", "2:1", "1:3.7". */
 void vector_print_scale(char out[32], double scale);

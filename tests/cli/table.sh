@@ -728,7 +728,7 @@ group_vectors() {
     row 0 'warning: at 2:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 2:1 --page A6
     # A page that stays empty is no drawing.
     row 1 "^limner: $gear: nothing of the model lies on the page at 100000:1" '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
-    row 1 '^hint: it fits at --scale 1:2.5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
+    row 1 '^hint: it fits at --scale 1:5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 1:2.5 --page A6
     row 1 "^limner: $gear: at 1:1000000 the model is 0\.0[0-9]+ mm large on the page" '' draw "$gear" "${sheet[@]}" -o x.svg --scale 1:1000000
     row 1 "^limner: $examples/spot.obj: at 1:100 the model is 0\.0[0-9]+ mm large" '' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:100 --unit mm
