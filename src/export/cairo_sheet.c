@@ -46,9 +46,20 @@ char *cairo_clean_text(const char *words)
     return copy;
 }
 
+/* By how much a cubic is off the arc that it stands for, of its radius. */
+static double error_of_cubic(double sweep)
+{
+    double sine = sin(sweep / 4), cosine = cos(sweep / 4);
+    return 2.0 / 27 * pow(sine, 6) / (cosine * cosine);
+}
+
 int cairo_arc_cubics(const sheet_piece *arc, double out[CAIRO_CUBICS_MOST][6])
 {
-    int    pieces = (int)fmin(fmax(ceil(fabs(arc->sweep) / 1.571), 1), CAIRO_CUBICS_MOST);
+    static const double widest = 2.2; /* radians */
+    double              size = fabs(arc->sweep), radius = fmax(arc->radii[0], arc->radii[1]);
+    int                 pieces = (int)fmin(fmax(ceil(size / widest), 1), CAIRO_CUBICS_MOST);
+    while (pieces < CAIRO_CUBICS_MOST && radius * error_of_cubic(size / pieces) > CAIRO_ARC_ERROR)
+        pieces++;
     double step = arc->sweep / pieces, handle = 4.0 / 3 * tan(step / 4);
     for (int i = 0; i < pieces; i++) {
         double begin = arc->from + i * step, end = begin + step;

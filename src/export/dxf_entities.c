@@ -22,7 +22,20 @@ static int line_weight(double width)
     return line_weights[best];
 }
 
-/* `path`: NULL for texts. */
+static bool has_weight(const sheet_item *item, const sheet_path *path)
+{
+    return item->kind == SHEET_PATH && !path->filled;
+}
+
+int dxf_weight_of(const sheet *s, const sheet_item *item)
+{
+    for (uint32_t k = 0; k < item->count; k++)
+        if (has_weight(item, &s->paths[item->first + k]))
+            return line_weight((double)s->paths[item->first + k].width);
+    return DXF_NO_WEIGHT;
+}
+
+/* `path`: NULL for texts. What an entity does not say is its layer's. */
 static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item, const sheet_path *path,
                          const char *class_name)
 {
@@ -45,7 +58,7 @@ static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item
         if (fabs(stretched - 1) >= 5e-5)
             dxf_put_number(w, 48, stretched);
     }
-    if (path && item->kind == SHEET_PATH && !path->filled)
+    if (path && has_weight(item, path) && line_weight((double)path->width) != layer->weight)
         dxf_put_whole(w, 370, line_weight((double)path->width));
     dxf_put(w, 100, class_name);
 }

@@ -15,8 +15,17 @@ typedef struct pdf_picture {
     unsigned char *alpha;   /* NULL: opaque */
 } pdf_picture;
 
+/* An object that lies in the stream of those that are none themselves. */
+typedef struct pdf_packed {
+    size_t number, place;
+} pdf_packed;
+
+enum { PDF_PLACE_BYTES = 5 }; /* of a place in the file */
+
 typedef struct pdf_writer {
-    text         out, content;
+    text         out, content, packed;
+    pdf_packed  *packed_objects;
+    size_t       packed_count, packed_capacity;
     const sheet *s;
     size_t      *layers; /* object of each group; 0: no layer */
     size_t       layer_count, object_count;

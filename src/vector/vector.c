@@ -24,8 +24,8 @@
 #include "light/light.h"
 
 static const double speck_on_page = 0.1; /* mm; the thinnest pens draw wider lines */
-/* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
-static const double simplified_part = 0.25, written_error = 0.0007;
+/* Of what curves may be off: what points are left out for, and what writers round numbers by and arcs that they have none of, mm. */
+static const double simplified_part = 0.25, written_error = 0.0017;
 
 /* Progress of a part of the work, as a part of the whole. */
 static bool report_part(double fraction, const char *stage, void *user)

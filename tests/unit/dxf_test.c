@@ -349,8 +349,8 @@ static void test_words(void **state)
 #define LAYER "ODD--NAME----WITH-VERY-MANY-LETTERS-IN-IT"
     assert_non_null(strstr(out, "\n1\nS\\U+00E4ge   \\U+FFFD end\n"));
     assert_non_null(strstr(out, "\n0\nTEXT\n5\n"));
-    assert_non_null(strstr(out, "\n8\n" LAYER "\n100\nAcDbText\n10\n30.0000\n20\n10.0000\n30\n0.0000\n40\n7.1600\n"));
-    assert_non_null(strstr(out, "\n8\n" LAYER "\n100\nAcDbCircle\n10\n10.0000\n20\n30.0000\n30\n0.0000\n40\n2.0000\n"));
+    assert_non_null(strstr(out, "\n8\n" LAYER "\n100\nAcDbText\n10\n30.0\n20\n10.0\n30\n0.0\n40\n7.16\n"));
+    assert_non_null(strstr(out, "\n8\n" LAYER "\n100\nAcDbCircle\n10\n10.0\n20\n30.0\n30\n0.0\n40\n2.0\n"));
     assert_non_null(strstr(out, "2\n" LAYER "\n70\n0\n62\n1\n")); /* the layer is red */
     mem_free(bytes.data);
     sheet_release(&s);

@@ -109,18 +109,20 @@ static void test_structure(void **state)
     assert_int_equal(
         count_of(document,
                  "//s:g[@id='view-front'][@clip-path]/s:g[@id='view-front-part-3'][@data-part='3'][@data-name='Wheel "
-                 "<left>']/s:g[@class='visible contour']"),
+                 "<left>']/s:g[@class='visible contour']"), /* two styles: its items have them */
         1);
     assert_int_equal(count_of(document, "//s:g[@*[local-name()='groupmode']='layer']"), count_of(document, "//s:g"));
     assert_int_equal(count_of(document, "//s:g[@*[local-name()='label']='Wheel <left>']"), 3); /* one again */
     assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2']"), 1);
-    assert_int_equal(count_of(document, "//s:path[@data-line='1f'][@d='M1 2l2.5 2']"),
+    assert_int_equal(count_of(document, "//s:path[@data-line='V'][@d='M1 2l2.5 2']"),
                      1); /* what rounds to nothing is left out */
     assert_int_equal(count_of(document, "//s:text[.='a < b & c \xEF\xBF\xBD']"), 1);
     assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='2 1'][@stroke-dashoffset='.5']"), 1);
+    assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2'][starts-with(@class,'part s')]/s:path[not(@class)]"), 1);
+    assert_int_equal(count_of(document, "//s:g[@class='view']/s:path[not(@class)]"), 0);
     assert_non_null(strstr((const char *)bytes.data, "stroke:#ff0000;stroke-width:.25;stroke-opacity:.5"));
     assert_non_null(strstr((const char *)bytes.data, "stroke-opacity:.5;stroke-linecap:butt"));
-    assert_int_equal(count_of(document, "//s:path[@data-line='2f'][@d='M1 2l2.5 2z']"), 1);
+    assert_int_equal(count_of(document, "//s:path[@data-line='l'][@d='M1 2l2.5 2z']"), 1);
     assert_null(strstr((const char *)bytes.data, "nan"));
     xmlFreeDoc(document);
     mem_free(bytes.data);
@@ -134,6 +136,37 @@ static void test_structure(void **state)
     assert_int_equal(dates, 2);
     mem_free(pdf.data);
     mem_free(pdf_twice.data);
+    sheet_release(&s);
+}
+
+/* What is round is an element of its own, unless dashes begin somewhere on it. */
+static void test_round(void **state)
+{
+    sheet s;
+    (void)state;
+    sheet_begin(&s, 100, 100, 4);
+    uint32_t group = sheet_add_group(&s, -1, "holes", "visible contour", 0);
+    for (int i = 0; i < 3; i++) {
+        float points[120][2];
+        for (int k = 0; k < 120; k++) {
+            double x = 12 * cos(k * 3.14159265358979323846 / 60), y = (i == 1 ? 5 : 12) * sin(k * 3.14159265358979323846 / 60);
+            points[k][0] = (float)(40 + 0.8 * x - 0.6 * y);
+            points[k][1] = (float)(50 + 0.6 * x + 0.8 * y);
+        }
+        sheet_add_item(&s, SHEET_PATH, group, black, 0);
+        sheet_add_path(&s, &(sheet_path){.width = 0.5f, .closed = true, .curved = true}, (const float(*)[2])points, 120);
+        if (i == 2)
+            sheet_dash_path(&s, (const float[2]){2, 1}, 2, 0);
+    }
+    sheet_fit(&s, 0.02);
+    export_bytes bytes = bytes_of(&s, export_svg);
+    xmlDocPtr    document = parse(&bytes);
+    assert_int_equal(count_of(document, "//s:g[@class='visible contour s0']/s:circle[@cx='40'][@cy='50'][@r>11.98][@r<12.02]"), 1);
+    assert_int_equal(count_of(document, "//s:ellipse[@rx>11.98][@rx<12.02][@ry>4.98][@ry<5.02][starts-with(@transform,'translate(40 50)rotate(36.8')]"), 1);
+    assert_int_equal(count_of(document, "//s:path[@stroke-dasharray]"), 1);
+    assert_int_equal(count_of(document, "//s:path"), 1);
+    xmlFreeDoc(document);
+    mem_free(bytes.data);
     sheet_release(&s);
 }
 
@@ -537,7 +570,7 @@ static void test_pdf_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure),   cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_round),   cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),
         cmocka_unit_test(test_pdf_picture), cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
