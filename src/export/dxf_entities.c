@@ -29,6 +29,8 @@ static bool has_weight(const sheet_item *item, const sheet_path *path)
 
 int dxf_weight_of(const sheet *s, const sheet_item *item)
 {
+    if (item->hatch.apart > 0)
+        return line_weight(item->hatch.width);
     for (uint32_t k = 0; k < item->count; k++)
         if (has_weight(item, &s->paths[item->first + k]))
             return line_weight((double)s->paths[item->first + k].width);
@@ -255,6 +257,48 @@ static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *pa
         put_corner(w, (double)points[i][0], (double)points[i][1], 0);
 }
 
+/* Areas that are hatched are one HATCH: their borders as polylines, and one family of lines. Programs that have patterns
+ * of their own take the one that is called so, at this scale and angle: lines at 45 degrees, an eighth of an inch apart.
+ * y is up here, so that what is around an area runs the other way. */
+static void put_hatch(dxf_writer *w, const sheet_item *item)
+{
+    static const double apart_there = 3.175, angle_there = 45;
+    const sheet_hatch  *h = &item->hatch;
+    const double        angle = degrees(-h->angle);
+    begin_entity(w, "HATCH", item, NULL, "AcDbHatch");
+    dxf_put_position(w, 10, 0, w->s->height);
+    dxf_put_number(w, 210, 0);
+    dxf_put_number(w, 220, 0);
+    dxf_put_number(w, 230, 1);
+    dxf_put(w, 2, "ANSI31");
+    dxf_put_whole(w, 70, 0); /* lines */
+    dxf_put_whole(w, 71, 0); /* tied to nothing */
+    dxf_put_whole(w, 91, (int)item->count);
+    for (uint32_t k = 0; k < item->count; k++) {
+        const sheet_path *path = &w->s->paths[item->first + k];
+        dxf_put_whole(w, 92, 1 + 2); /* outermost of all, a polyline */
+        dxf_put_whole(w, 72, 0);     /* without bulges */
+        dxf_put_whole(w, 73, 1);
+        dxf_put_whole(w, 93, (int)path->count);
+        for (uint32_t i = 0; i < path->count; i++)
+            put_corner(w, (double)w->s->points[path->first + i][0], (double)w->s->points[path->first + i][1], 0);
+        dxf_put_whole(w, 97, 0);
+    }
+    dxf_put_whole(w, 75, 0); /* inside and outside in turn */
+    dxf_put_whole(w, 76, 1);
+    dxf_put_number(w, 52, degrees(-h->angle - angle_there * (PI / 180)));
+    dxf_put_number(w, 41, h->apart / apart_there);
+    dxf_put_whole(w, 77, 0);
+    dxf_put_whole(w, 78, 1);
+    dxf_put_number(w, 53, angle);
+    dxf_put_number(w, 43, h->origin[0]);
+    dxf_put_number(w, 44, w->s->height - h->origin[1]);
+    dxf_put_number(w, 45, -h->apart * sin(-h->angle));
+    dxf_put_number(w, 46, h->apart * cos(-h->angle));
+    dxf_put_whole(w, 79, 0);
+    dxf_put_whole(w, 98, 0);
+}
+
 static void put_dots(dxf_writer *w, const sheet_item *item, const sheet_path *path)
 {
     for (uint32_t i = 0; i < path->count; i++) {
@@ -288,6 +332,10 @@ void dxf_put_entities(dxf_writer *w)
         const sheet_item *item = &w->s->items[i];
         if (item->kind == SHEET_TEXT && item->text)
             put_text(w, item);
+        if (item->hatch.apart > 0 && item->count) {
+            put_hatch(w, item);
+            continue;
+        }
         for (uint32_t k = 0; k < item->count; k++) {
             if (item->kind == SHEET_DOTS)
                 put_dots(w, item, &w->s->paths[item->first + k]);

@@ -116,6 +116,40 @@ void pdf_put_picture(pdf_writer *w, const pdf_picture *p)
     }
 }
 
+/* A tile is so long that no line ends on the page, and has many lines, since readers round its size to their pixels.
+ * Patterns are laid out on the page as it is, y up. */
+static void put_pattern(pdf_writer *w, const pdf_pattern *p)
+{
+    static const double high = 100; /* mm, or nearly so */
+    const sheet_hatch  *h = &p->hatch;
+    const int           lines = (int)fmax(round(high / h->apart), 1);
+    const double        wide = 2 * (hypot(w->s->width, w->s->height) + hypot(h->origin[0], h->origin[1])),
+                 tall = lines * h->apart, c = points_per_mm * cos(h->angle), s = points_per_mm * sin(h->angle),
+                 left = -wide / 2, top = -h->apart / 2;
+    const double corner[2] = {points_per_mm * h->origin[0] + c * left - s * top,
+                              points_per_mm * (w->s->height - h->origin[1]) - s * left - c * top};
+    text tile = {0}, entries = {0};
+    pdf_put_number(&tile, (double)p->ink.r);
+    pdf_put_number(&tile, (double)p->ink.g);
+    pdf_put_number(&tile, (double)p->ink.b);
+    pdf_put(&tile, "RG ");
+    pdf_put_number(&tile, h->width);
+    pdf_put(&tile, "w\n");
+    for (int i = 0; i < lines; i++)
+        text_append(&tile, "0 %.4f m %.0f %.4f l\n", (i + 0.5) * h->apart, ceil(wide), (i + 0.5) * h->apart);
+    pdf_put(&tile, "S");
+    text_append(&entries, "/Type/Pattern/PatternType 1/PaintType 1/TilingType 1/Resources<<>>/BBox[0 0 %.6f %.6f]", wide,
+                tall);
+    text_append(&entries, "/XStep %.6f/YStep %.6f/Matrix[%.9f %.9f %.9f %.9f %.6f %.6f]", wide, tall, c, -s, -s, -c,
+                corner[0], corner[1]);
+    begin_object(w, p->object);
+    w->out.failed = w->out.failed || tile.failed || entries.failed;
+    if (!w->out.failed)
+        put_stream(w, tile.data, tile.size, entries.data);
+    text_release(&tile);
+    text_release(&entries);
+}
+
 /* --- layers --------------------------------------------------------------------------------------------- */
 
 static bool is_layer(const pdf_writer *w, size_t group)
@@ -217,6 +251,9 @@ static void put_pages(pdf_writer *w)
     pdf_put(&w->packed, ">>/XObject<<");
     for (size_t i = 0; i < w->picture_count; i++)
         text_append(&w->packed, "/X%zu %zu 0 R", i, w->pictures[i].object);
+    pdf_put(&w->packed, ">>/Pattern<<");
+    for (size_t i = 0; i < w->pattern_count; i++)
+        text_append(&w->packed, "/P%zu %zu 0 R", i, w->patterns[i].object);
     pdf_put(&w->packed, ">>>>>>\n");
     begin_packed(w, PDF_FONT);
     pdf_put(&w->packed, "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>\n");
@@ -294,6 +331,8 @@ static void put_file(pdf_writer *w)
     put_stream(w, w->content.data, w->content.size, "");
     for (size_t i = 0; i < w->picture_count; i++)
         pdf_put_picture(w, &w->pictures[i]);
+    for (size_t i = 0; i < w->pattern_count; i++)
+        put_pattern(w, &w->patterns[i]);
     put_catalog(w);
     put_pages(w);
     put_info(w);
@@ -323,6 +362,7 @@ lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error)
         mem_free(w.pictures[i].alpha);
     }
     mem_free(w.pictures);
+    mem_free(w.patterns);
     mem_free(w.opacities);
     mem_free(w.layers);
     mem_free(w.offsets);

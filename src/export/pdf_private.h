@@ -20,6 +20,13 @@ typedef struct pdf_packed {
     size_t number, place;
 } pdf_packed;
 
+/* A pattern of lines that areas are filled with. */
+typedef struct pdf_pattern {
+    size_t      object;
+    sheet_hatch hatch;
+    colour      ink;
+} pdf_pattern;
+
 enum { PDF_PLACE_BYTES = 5 }; /* of a place in the file */
 
 typedef struct pdf_writer {
@@ -34,6 +41,8 @@ typedef struct pdf_writer {
     size_t       opacity_count, opacity_capacity;
     pdf_picture *pictures;
     size_t       picture_count, picture_capacity;
+    pdf_pattern *patterns;
+    size_t       pattern_count, pattern_capacity;
 } pdf_writer;
 
 void pdf_put(text *out, const char *words);

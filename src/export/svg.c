@@ -21,6 +21,7 @@ typedef struct svg_style {
     bool      filled, dots;
     float     width;
     sheet_cap cap;
+    double    hatch[5]; /* distance, angle, origin, width; of areas that are hatched */
 } svg_style;
 
 typedef struct svg_writer {
@@ -172,6 +173,11 @@ static void style_of(svg_style *out, const sheet_item *item, const sheet_path *p
     out->ink = item->ink;
     out->dots = item->kind == SHEET_DOTS;
     out->filled = path->filled && !out->dots;
+    if (out->filled && item->hatch.apart > 0) {
+        const double hatch[5] = {item->hatch.apart, item->hatch.angle, item->hatch.origin[0], item->hatch.origin[1],
+                                 item->hatch.width};
+        memcpy(out->hatch, hatch, sizeof hatch);
+    }
     if (out->filled)
         return;
     out->width = path->width;
@@ -255,7 +261,9 @@ static void put_style(svg_writer *w, size_t index)
     char             ink[10];
     print_colour(ink, style->ink);
     text_append(&w->out, ".s%zu{", index);
-    if (style->filled) {
+    if (style->hatch[0] > 0) {
+        text_append(&w->out, "fill:url(#hatch.%zu)", index);
+    } else if (style->filled) {
         text_append(&w->out, "fill:%s", ink);
         if (opacity_of(style->ink) < 1) {
             put(w, ";fill-opacity:");
@@ -407,9 +415,55 @@ static void go_to_group(svg_writer *w, int32_t group)
     }
 }
 
-static void put_clips(svg_writer *w)
+static void put_attribute(svg_writer *w, const char *name, double value)
+{
+    text_append(&w->out, " %s=\"", name);
+    put_number(w, value);
+    put(w, "\"");
+}
+
+/* One line a tile, which is so long that none ends on the page: tiles that meet along a line show where. */
+static void put_pattern(svg_writer *w, size_t index)
+{
+    const svg_style *style = &w->styles[index];
+    const double    *h = style->hatch;
+    double           half = hypot(w->s->width, w->s->height) + hypot(h[2], h[3]);
+    char             ink[10];
+    print_colour(ink, style->ink);
+    text_append(&w->out, "<pattern id=\"hatch.%zu\" patternUnits=\"userSpaceOnUse\"", index);
+    put_attribute(w, "width", 2 * half);
+    put_attribute(w, "height", h[0]);
+    put(w, " patternTransform=\"translate(");
+    put_number(w, h[2]);
+    put(w, " ");
+    put_number(w, h[3]);
+    put(w, ")rotate(");
+    put_number(w, h[1] * (180 / PI));
+    put(w, ")translate(");
+    put_number(w, -half);
+    put(w, " ");
+    put_number(w, -h[0] / 2);
+    put(w, ")\"><path d=\"M0 ");
+    put_number(w, h[0] / 2);
+    put(w, "H");
+    put_number(w, 2 * half);
+    text_append(&w->out, "\" stroke=\"%s\"", ink);
+    put_attribute(w, "stroke-width", h[4]);
+    if (opacity_of(style->ink) < 1)
+        put_attribute(w, "stroke-opacity", opacity_of(style->ink));
+    put(w, "/></pattern>\n");
+}
+
+static void put_definitions(svg_writer *w)
 {
     bool any = false;
+    for (size_t i = 0; i < w->style_count; i++) {
+        if (!(w->styles[i].hatch[0] > 0))
+            continue;
+        put(w, any ? "" : "<defs>\n");
+        any = true;
+        put_pattern(w, i);
+    }
     for (size_t i = 0; i < w->s->group_count; i++) {
         const sheet_group *g = &w->s->groups[i];
         if (!(g->clip[2] > 0))
@@ -430,13 +484,6 @@ static void put_clips(svg_writer *w)
 }
 
 /* --- items ---------------------------------------------------------------------------------------------- */
-
-static void put_attribute(svg_writer *w, const char *name, double value)
-{
-    text_append(&w->out, " %s=\"", name);
-    put_number(w, value);
-    put(w, "\"");
-}
 
 /* A command letter and two numbers. */
 static size_t print_pair(char *to, char letter, long long x, long long y)
@@ -720,7 +767,7 @@ static void put_head(svg_writer *w)
     put_element(w, "title", s->title);
     put_element(w, "desc", s->description);
     put_styles(w);
-    put_clips(w);
+    put_definitions(w);
     if (!(s->ground.a > 0))
         return;
     char ground[10];

@@ -399,7 +399,8 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
     colour *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
     for (size_t i = 0; colours && i < j->scene->part_count; i++)
         colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
-    lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours, &j->out->hatches,
+    lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours,
+                                                   j->wanted->loose_hatch || j->wanted->plotter, &j->out->hatches,
                                                    j->wanted->verify ? &check : NULL, error)
                                 : error_memory(error);
     mem_free(colours);

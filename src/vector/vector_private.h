@@ -96,10 +96,11 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
 
 /* --- hatch.c ------------------------------------------------------------------------------------- */
 
-/* Hatches the cut faces of these parts as the look says, each in its colour; adds up how many lines these are, and
- * says what rays make of them (`check`, may be NULL). Errors: LMN_MEMORY, LMN_CANCELLED. */
+/* Hatches the cut faces of these parts as the look says, each in its colour, `loose` by one line after the other alone;
+ * adds up how many lines these are, and says what rays make of them (`check`, may be NULL). Errors: LMN_MEMORY,
+ * LMN_CANCELLED. */
 lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
-                            const colour *colours, uint64_t *count, stroke_check *check, lmn_error *error);
+                            const colour *colours, bool loose, uint64_t *count, stroke_check *check, lmn_error *error);
 
 /* --- order.c: for plotters ----------------------------------------------------------------------- */
 

@@ -196,6 +196,7 @@ static void layers_are_a_tree(void **state)
     build(&s);
     export_bytes pdf = pdf_of(&s);
     char        *text = packed_of(&pdf);
+    assert_int_equal(count_of(text, "(D:20000101000000Z)"), 2); /* the time of day is not in it */
     assert_int_equal(count_of(text, "/Type/OCG/Name<FEFF"), 4);
     assert_non_null(strstr(text, "/Order[7 0 R [8 0 R [9 0 R ]]10 0 R ]"));
     assert_non_null(strstr(text, "/Title<FEFF0041002000280074")); /* A (t */
