@@ -105,6 +105,30 @@ static double3 in_world(const hatcher *h, window_point p)
                      m[2] * x + m[6] * y + m[10] * z + m[14]};
 }
 
+/* A position of the page on a cut face: its depth is that of the cutting plane, since faces of caps may be needles, which
+ * know none. */
+static window_point on_cap(const hatcher *h, const stretch *s, uint32_t triangle, const double page[2])
+{
+    const stroke_view   *v = h->v;
+    const stroke_camera *c = &v->camera;
+    const edge_cap      *cap = &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap];
+    const double        *m = h->to_world.m, *e = c->projection.m;
+    window_point         out = on_plane(v, triangle, page);
+    double               x = (2 * out.x / (v->units * c->width) + (c->orthographic ? -e[12] : e[8])) / e[0],
+           y = (-2 * out.y / (v->units * c->height) + (c->orthographic ? -e[13] : e[9])) / e[5], away = cap->offset,
+           nearer = 0;
+    for (int k = 0; k < 3; k++) { /* from the page, or from the eye, on to the plane */
+        double begin = m[12 + k] + (c->orthographic ? m[k] * x + m[4 + k] * y : 0),
+               way = (c->orthographic ? 0 : m[k] * x + m[4 + k] * y) - m[8 + k];
+        away -= cap->normal[k] * begin;
+        nearer += cap->normal[k] * way;
+    }
+    double depth = away / nearer;
+    if (fabs(nearer) > 1e-4 && isfinite(depth) && (c->orthographic || depth > 0))
+        out.z = c->orthographic ? depth : -1 / depth;
+    return out;
+}
+
 /* --- stretches ------------------------------------------------------------------------------------------ */
 
 static bool put_stretch(hatcher *h, const stretch *s)
@@ -490,8 +514,8 @@ static void fill_segments(const hatcher *h, window_segment *segments)
         double         ends[2][2];
         position_on_line(&g, s->line, s->from, ends[0]);
         position_on_line(&g, s->line, s->to, ends[1]);
-        segments[i] = (window_segment){.a = on_plane(v, s->triangle, ends[0]),
-                                       .b = on_plane(v, s->last, ends[1]),
+        segments[i] = (window_segment){.a = on_cap(h, s, s->triangle, ends[0]),
+                                       .b = on_cap(h, s, s->last, ends[1]),
                                        .ends = {NO_VERTEX, NO_VERTEX},
                                        .faces = {v->triangles[s->triangle].face, EDGE_NO_FACE}};
     }

@@ -726,6 +726,9 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>' --projection first
     cmp -s x.svg in-third.svg && complain "first angle is third angle"
     row 0 'warning: at 2:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 2:1 --page A6
+    # Cut faces have patterns, needles among their triangles or not; or lines.
+    row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --cut x --view right; has x.svg 'fill:url\(#hatch'; has x.svg '<pattern id="hatch'
+    row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --cut x --view right --loose-hatch; grep -q '<pattern' x.svg && complain "loose hatching has patterns"
     # A page that stays empty is no drawing.
     row 1 "^limner: $gear: nothing of the model lies on the page at 100000:1" '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
     row 1 '^hint: it fits at --scale 1:5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
