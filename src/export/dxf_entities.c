@@ -238,11 +238,33 @@ static bool has_one_border(const sheet *s, const sheet_path *path)
     return true;
 }
 
+/* Bytes that a path takes, nearly: as entities of its pieces, and as a polyline of its points. Where lines and curves take
+ * turns every few points, each change is an entity, and more than all points. */
+static bool takes_less(const sheet *s, const sheet_path *path)
+{
+    static const size_t entity = 110, corner = 24, bulge = 14, ellipse = 90, knot = 5, position = 31;
+    size_t              size = 0;
+    for (uint32_t i = 0; i < path->piece_count; i++) {
+        const sheet_piece *p = &s->pieces[path->first_piece + i];
+        const int          sort = sort_of(p);
+        const bool         begins = i == 0 || sort == 2 || sort != sort_of(p - 1);
+        size += begins ? entity : 0;
+        if (sort == 2)
+            size += ellipse;
+        else if (sort == 1)
+            size += 3 * (knot + position) + (begins ? 5 * knot + position : 0);
+        else
+            size += corner + (p->kind == SHEET_ARC ? bulge : 0) + (begins ? corner : 0);
+    }
+    return size < entity + path->count * corner;
+}
+
 static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *path)
 {
     const float(*points)[2] = (const float(*)[2])w->s->points + path->first;
     bool closed = path->closed || path->filled;
-    if (path->piece_count && (!path->filled || has_one_border(w->s, path))) {
+    if (path->piece_count && (path->piece_count == 1 || takes_less(w->s, path)) &&
+        (!path->filled || has_one_border(w->s, path))) {
         put_pieces(w, item, path);
         return;
     }

@@ -87,12 +87,15 @@ const technique_use *vector_rule_marks(const rule *r);
 typedef struct vector_marks {
     mark_page_options  options;
     const stroke_view *view;
+    const struct cut  *cut; /* what lies in it has none; NULL: nothing is cut away */
     colour             ground;      /* of the page, sRGB */
     bool               one_pen;     /* for plotters: all as wide as the look says, each on its own */
     uint64_t           dots, lines; /* out: how many */
     uint64_t          *part_marks;  /* out: added up for each part */
 } vector_marks;
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
+/* Does a position, world axes, lie in what is cut away, or at its border? */
+bool vector_is_cut_away(const struct cut *c, const double p[3]);
 
 /* --- hatch.c ------------------------------------------------------------------------------------- */
 
