@@ -238,8 +238,8 @@ static bool has_one_border(const sheet *s, const sheet_path *path)
     return true;
 }
 
-/* Bytes that a path takes, nearly: as entities of its pieces, and as a polyline of its points. Where lines and curves take
- * turns every few points, each change is an entity, and more than all points. */
+/* Bytes that a path takes, nearly: as entities of its pieces, and as a polyline of its points. Where lines and curves
+ * take turns every few points, each change is an entity, and more than all points. */
 static bool takes_less(const sheet *s, const sheet_path *path)
 {
     static const size_t entity = 110, corner = 24, bulge = 14, ellipse = 90, knot = 5, position = 31;
@@ -279,9 +279,9 @@ static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *pa
         put_corner(w, (double)points[i][0], (double)points[i][1], 0);
 }
 
-/* Areas that are hatched are one HATCH: their borders as polylines, and one family of lines. Programs that have patterns
- * of their own take the one that is called so, at this scale and angle: lines at 45 degrees, an eighth of an inch apart.
- * y is up here, so that what is around an area runs the other way. */
+/* Areas that are hatched are one HATCH: their borders as polylines, and one family of lines. Programs that have
+ * patterns of their own take the one that is called so, at this scale and angle: lines at 45 degrees, an eighth of an
+ * inch apart. y is up here, so that what is around an area runs the other way. */
 static void put_hatch(dxf_writer *w, const sheet_item *item)
 {
     static const double apart_there = 3.175, angle_there = 45;

@@ -6,7 +6,7 @@
 #include "sheet/sheet.h"
 
 typedef struct dxf_layer {
-    char *name; /* owned */
+    char *name;        /* owned */
     int   ink, weight; /* of the first of its items; others say that theirs differ */
 } dxf_layer;
 
@@ -44,7 +44,7 @@ void dxf_put_position(dxf_writer *w, int code, double x, double y);
 /* One line; what is not ASCII by its code, "\U+00E9". */
 void dxf_put_words(dxf_writer *w, int code, const char *words);
 
-int              dxf_palette_index(colour ink);
+int dxf_palette_index(colour ink);
 /* Of an item's lines, hundredths of a millimetre; DXF_NO_WEIGHT: it has none. */
 int              dxf_weight_of(const sheet *s, const sheet_item *item);
 const dxf_layer *dxf_layer_of(const dxf_writer *w, const sheet_item *item);

@@ -128,7 +128,7 @@ static void put_pattern(pdf_writer *w, const pdf_pattern *p)
                  left = -wide / 2, top = -h->apart / 2;
     const double corner[2] = {points_per_mm * h->origin[0] + c * left - s * top,
                               points_per_mm * (w->s->height - h->origin[1]) - s * left - c * top};
-    text tile = {0}, entries = {0};
+    text         tile = {0}, entries = {0};
     pdf_put_number(&tile, (double)p->ink.r);
     pdf_put_number(&tile, (double)p->ink.g);
     pdf_put_number(&tile, (double)p->ink.b);
@@ -138,8 +138,8 @@ static void put_pattern(pdf_writer *w, const pdf_pattern *p)
     for (int i = 0; i < lines; i++)
         text_append(&tile, "0 %.4f m %.0f %.4f l\n", (i + 0.5) * h->apart, ceil(wide), (i + 0.5) * h->apart);
     pdf_put(&tile, "S");
-    text_append(&entries, "/Type/Pattern/PatternType 1/PaintType 1/TilingType 1/Resources<<>>/BBox[0 0 %.6f %.6f]", wide,
-                tall);
+    text_append(&entries, "/Type/Pattern/PatternType 1/PaintType 1/TilingType 1/Resources<<>>/BBox[0 0 %.6f %.6f]",
+                wide, tall);
     text_append(&entries, "/XStep %.6f/YStep %.6f/Matrix[%.9f %.9f %.9f %.9f %.6f %.6f]", wide, tall, c, -s, -s, -c,
                 corner[0], corner[1]);
     begin_object(w, p->object);

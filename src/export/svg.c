@@ -27,10 +27,10 @@ typedef struct svg_style {
 typedef struct svg_writer {
     text         out;
     const sheet *s;
-    char       **ids;      /* of groups */
-    bool        *opened;   /* groups whose id is out */
+    char       **ids;          /* of groups */
+    bool        *opened;       /* groups whose id is out */
     uint32_t    *group_styles; /* of each group: style + 1, 0: of its items, or of none */
-    uint32_t    *id_slots; /* hash of ids: group + 1 */
+    uint32_t    *id_slots;     /* hash of ids: group + 1 */
     size_t       slot_count;
     svg_style   *styles;
     size_t       style_count, style_capacity;

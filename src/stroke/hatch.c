@@ -105,8 +105,8 @@ static double3 in_world(const hatcher *h, window_point p)
                      m[2] * x + m[6] * y + m[10] * z + m[14]};
 }
 
-/* A position of the page on a cut face: its depth is that of the cutting plane, since faces of caps may be needles, which
- * know none. */
+/* A position of the page on a cut face: its depth is that of the cutting plane, since faces of caps may be needles,
+ * which know none. */
 static window_point on_cap(const hatcher *h, const stretch *s, uint32_t triangle, const double page[2])
 {
     const stroke_view   *v = h->v;
@@ -450,15 +450,16 @@ static bool put_area(hatch_areas *out, const hatcher *h, const cap_triangle *fac
     const stroke_view *v = h->v;
     rim               *rims = mem_alloc(3 * count * sizeof *rims), *kept = mem_alloc(3 * count * sizeof *rims);
     uint8_t           *used = mem_calloc(3 * count + 1, 1);
-    bool               good = rims && kept && used &&
-                mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items);
+    bool               good =
+        rims && kept && used && mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items);
     for (size_t i = 0; good && i < 3 * count; i++) {
         const uint32_t *t = v->triangles[faces[i / 3].triangle].v;
         rims[i] = (rim){t[i % 3], t[(i % 3 + 1) % 3]};
     }
     if (good) {
-        const hatching g = hatching_of(h, faces->item, &v->scene->meshes[v->scene->items[faces->item].mesh].caps[faces->cap]);
-        double         at[2];
+        const hatching g =
+            hatching_of(h, faces->item, &v->scene->meshes[v->scene->items[faces->item].mesh].caps[faces->cap]);
+        double at[2];
         position_on_line(&g, 0, 0, at);
         out->items[out->count] = (hatch_area){.part = v->scene->items[faces->item].part_index + 1,
                                               .apart = g.apart,
@@ -486,9 +487,10 @@ static bool find_areas(hatch_areas *out, hatcher *h, const visibility *seen, uin
         const stretch *s = &h->items[i];
         bool           whole = true;
         for (end = i; end < h->count && h->items[end].item == s->item && h->items[end].cap == s->cap; end++)
-            whole = whole && seen->starts[end + 1] - seen->starts[end] == 1 && seen->spans[seen->starts[end]].count == 0;
-        while (face < h->face_count && (h->faces[face].item < s->item ||
-                                        (h->faces[face].item == s->item && h->faces[face].cap < s->cap)))
+            whole =
+                whole && seen->starts[end + 1] - seen->starts[end] == 1 && seen->spans[seen->starts[end]].count == 0;
+        while (face < h->face_count &&
+               (h->faces[face].item < s->item || (h->faces[face].item == s->item && h->faces[face].cap < s->cap)))
             face++;
         size_t last = face;
         while (last < h->face_count && h->faces[last].item == s->item && h->faces[last].cap == s->cap)

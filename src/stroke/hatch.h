@@ -25,16 +25,16 @@ typedef struct hatch_area {
 
 typedef struct hatch_areas {
     hatch_area *items;
-    uint32_t   *loops;   /* where each begins in `points`; one more at the end. Holes run the other way round */
-    float (*points)[2];  /* page */
+    uint32_t   *loops;  /* where each begins in `points`; one more at the end. Holes run the other way round */
+    float (*points)[2]; /* page */
     size_t count, capacity, loop_count, loop_capacity, point_count, point_capacity;
 } hatch_areas;
 void hatch_areas_release(hatch_areas *a);
 
 /* Parallel lines on all cut faces of the parts with `parts[index]`, `apart` units apart at an angle (radians), turned
- * and spaced for each part and body as pictures do (light/cut.glsl). Free `items` with mem_free. `areas` (may be NULL) gets the faces
- * of meshes of which no line is hidden anywhere: filled with lines like these, they look the same. Errors: LMN_MEMORY,
- * LMN_CANCELLED. */
+ * and spaced for each part and body as pictures do (light/cut.glsl). Free `items` with mem_free. `areas` (may be NULL)
+ * gets the faces of meshes of which no line is hidden anywhere: filled with lines like these, they look the same.
+ * Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status hatch_find(hatch_lines *out, hatch_areas *areas, const stroke_view *v, double apart, double angle,
                       const bool *parts, lmn_error *error);
 

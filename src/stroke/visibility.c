@@ -5,8 +5,8 @@
  * the line counts as being on the positive side, as if the line were shifted a little to the other one. So a line that
  * runs along the edge between two triangles is covered by one of them, not by both or neither, and where a line leaves
  * one triangle for the next the two numbers are the same, because both come from the edge that they share. Where the
- * edges of two bodies meet, as of parts that touch, they share none, and roundings leave gaps that are no width at all: a
- * line that runs along such an edge is hidden, too, where it would be a little to either side of it. */
+ * edges of two bodies meet, as of parts that touch, they share none, and roundings leave gaps that are no width at all:
+ * a line that runs along such an edge is hidden, too, where it would be a little to either side of it. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Hatching of cut faces on the sheet, in groups of their parts: faces that are seen as a whole are areas that are filled
- * with lines, of others each line is one. */
+/* Hatching of cut faces on the sheet, in groups of their parts: faces that are seen as a whole are areas that are
+ * filled with lines, of others each line is one. */
 #include "stroke/hatch.h"
 
 #include "base/memory.h"

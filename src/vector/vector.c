@@ -24,7 +24,8 @@
 #include "light/light.h"
 
 static const double speck_on_page = 0.1; /* mm; the thinnest pens draw wider lines */
-/* Of what curves may be off: what points are left out for, and what writers round numbers by and arcs that they have none of, mm. */
+/* Of what curves may be off: what points are left out for, and what writers round numbers by and arcs that they have
+ * none of, mm. */
 static const double simplified_part = 0.25, written_error = 0.0017;
 
 /* Progress of a part of the work, as a part of the whole. */
@@ -187,7 +188,7 @@ static void keep_circle(uint8_t *pixels, int width, int height, double radius)
 {
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            double away = hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height), in = radius * width - away + 0.5;
+            double   away = hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height), in = radius * width - away + 0.5;
             uint8_t *alpha = &pixels[4 * ((size_t)y * (size_t)width + (size_t)x) + 3];
             *alpha = (uint8_t)lrint(*alpha * fmin(fmax(in, 0), 1));
         }
@@ -217,10 +218,10 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
         d.fit_direction = false;
         d.orthographic = v->camera.orthographic;
     }
-    char         cut[VECTOR_CUT_TEXT_SIZE];
+    char cut[VECTOR_CUT_TEXT_SIZE];
     if (j->cut_open)
         vector_cut_text(j, j->cut_open, cut, sizeof cut);
-    lmn_status   status = j->draw_surfaces(&pixels, &d, j->cut_open ? cut : NULL, j->user, error);
+    lmn_status status = j->draw_surfaces(&pixels, &d, j->cut_open ? cut : NULL, j->user, error);
     if (status == LMN_OK && v->extra && v->extra->kind == DRAFT_DETAIL)
         keep_circle(pixels, d.width, d.height, radius_of_detail(v) / v->width);
     export_bytes png = {0};
@@ -260,7 +261,8 @@ static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
     return parts;
 }
 
-/* Where a rule's marks may lie in what is cut away, as some of its parts are spared, only what lies beside surfaces goes. */
+/* Where a rule's marks may lie in what is cut away, as some of its parts are spared, only what lies beside surfaces
+ * goes. */
 static bool spares_any(const vector_job *j, const bool *parts)
 {
     bool any = false;
@@ -431,10 +433,10 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
     colour *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
     for (size_t i = 0; colours && i < j->scene->part_count; i++)
         colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
-    lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours,
-                                                   j->wanted->loose_hatch || j->wanted->plotter, &j->out->hatches,
-                                                   j->wanted->verify ? &check : NULL, error)
-                                : error_memory(error);
+    lmn_status status =
+        colours ? vector_put_hatch(ink, view, v, j->stroked, colours, j->wanted->loose_hatch || j->wanted->plotter,
+                                   &j->out->hatches, j->wanted->verify ? &check : NULL, error)
+                : error_memory(error);
     mem_free(colours);
     j->out->check.samples += check.samples;
     j->out->check.wrong += check.wrong;

@@ -87,7 +87,7 @@ const technique_use *vector_rule_marks(const rule *r);
 typedef struct vector_marks {
     mark_page_options  options;
     const stroke_view *view;
-    const struct cut  *cut; /* what lies in it has none; NULL: nothing is cut away */
+    const struct cut  *cut;         /* what lies in it has none; NULL: nothing is cut away */
     colour             ground;      /* of the page, sRGB */
     bool               one_pen;     /* for plotters: all as wide as the look says, each on its own */
     uint64_t           dots, lines; /* out: how many */

@@ -200,8 +200,7 @@ static void read_line(const subject *s, const char *line, int styles[STYLES_MAX]
     int         style;
     char        colour[8] = "";
     const char *part = strstr(line, "data-name=\"");
-    bool        path = strncmp(line, "<path", 5) == 0 || strncmp(line, "<circle", 7) == 0 ||
-                strncmp(line, "<ellipse", 8) == 0;
+    bool path = strncmp(line, "<path", 5) == 0 || strncmp(line, "<circle", 7) == 0 || strncmp(line, "<ellipse", 8) == 0;
     if (sscanf(line, ".s%d{stroke:%7[#0-9a-f]", &style, colour) == 2 && style < STYLES_MAX)
         styles[style] = strcmp(colour, "#ff0000") == 0 ? STROKES : strcmp(colour, "#0000ff") == 0 ? FOUND : NONE_KIND;
     if (strncmp(line, "<g", 2) == 0)

@@ -336,12 +336,13 @@ static void test_curves_by_gdal(void **state)
  * mend. */
 static void test_hatch(void **state)
 {
-    static const float square[4][2] = {{20, 30}, {60, 30}, {60, 70}, {20, 70}}, hole[4][2] = {{30, 40}, {30, 50}, {40, 50}, {40, 40}};
-    const sheet_hatch  h = {1.5, 0.5, {25, 35}, 0.25};
-    char               path[] = "/tmp/limner-dxf-XXXXXX", command[900], line[65536];
-    sheet              s;
-    export_bytes       bytes;
-    lmn_error          error = {0};
+    static const float square[4][2] = {{20, 30}, {60, 30}, {60, 70}, {20, 70}},
+                       hole[4][2] = {{30, 40}, {30, 50}, {40, 50}, {40, 40}};
+    const sheet_hatch h = {1.5, 0.5, {25, 35}, 0.25};
+    char              path[] = "/tmp/limner-dxf-XXXXXX", command[900], line[65536];
+    sheet             s;
+    export_bytes      bytes;
+    lmn_error         error = {0};
     (void)state;
     sheet_begin(&s, 100, 100, 4);
     uint32_t group = sheet_add_group(&s, -1, "hatch", "hatch", 0);
@@ -356,7 +357,8 @@ static void test_hatch(void **state)
     assert_int_equal(file_store(path, bytes.data, bytes.size, &error), LMN_OK);
     mem_free(bytes.data);
     sheet_release(&s);
-    snprintf(command, sizeof command, "ogrinfo -q -al 'DXF:%s' 2>/dev/null || ogrinfo -q -al %s 2>/dev/null", path, path);
+    snprintf(command, sizeof command, "ogrinfo -q -al 'DXF:%s' 2>/dev/null || ogrinfo -q -al %s 2>/dev/null", path,
+             path);
     FILE *told = popen(command, "r");
     bool  polygon = false, answered = false;
     while (told && fgets(line, sizeof line, told)) {
@@ -367,11 +369,14 @@ static void test_hatch(void **state)
         assert_true(polygon);
     else
         print_message("GDAL is not installed: the area is not read back\n");
-    snprintf(command, sizeof command,
-             "/usr/bin/python3 -c \"import ezdxf,math;d=ezdxf.readfile('%s');a=d.audit();h=d.modelspace().query('HATCH')[0];"
-             "l=h.pattern.lines[0];print(len(a.errors)+len(a.fixes),len(h.paths.paths),len(h.pattern.lines),round(math.hypot(*l.offset),3),"
-             "abs(round(math.sin(math.radians(l.angle)+0.5),4)),round(l.base_point[0],2),round(l.base_point[1],2))\" 2>/dev/null",
-             path);
+    snprintf(
+        command, sizeof command,
+        "/usr/bin/python3 -c \"import ezdxf,math;d=ezdxf.readfile('%s');a=d.audit();h=d.modelspace().query('HATCH')[0];"
+        "l=h.pattern.lines[0];print(len(a.errors)+len(a.fixes),len(h.paths.paths),len(h.pattern.lines),round(math."
+        "hypot(*l.offset),3),"
+        "abs(round(math.sin(math.radians(l.angle)+0.5),4)),round(l.base_point[0],2),round(l.base_point[1],2))\" "
+        "2>/dev/null",
+        path);
     told = popen(command, "r");
     line[0] = '\0';
     if (!told || !fgets(line, sizeof line, told))
@@ -423,8 +428,8 @@ static void test_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_back), cmocka_unit_test(test_curves_by_dxflib),
-                                       cmocka_unit_test(test_curves_by_gdal), cmocka_unit_test(test_hatch), cmocka_unit_test(test_words),
-                                       cmocka_unit_test(test_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_back),      cmocka_unit_test(test_curves_by_dxflib),
+                                       cmocka_unit_test(test_curves_by_gdal), cmocka_unit_test(test_hatch),
+                                       cmocka_unit_test(test_words),          cmocka_unit_test(test_nothing)};
     return cmocka_run_group_tests_name("dxf", tests, NULL, NULL);
 }

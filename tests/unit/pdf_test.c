@@ -291,7 +291,8 @@ static void long_texts_are_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_on_the_page), cmocka_unit_test(layers_are_a_tree),
-                                       cmocka_unit_test(many_groups_are_no_layers), cmocka_unit_test(large_circles_are_round),
+                                       cmocka_unit_test(many_groups_are_no_layers),
+                                       cmocka_unit_test(large_circles_are_round),
                                        cmocka_unit_test(long_texts_are_whole)};
     return cmocka_run_group_tests_name("pdf", tests, NULL, NULL);
 }

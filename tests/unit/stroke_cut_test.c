@@ -172,6 +172,7 @@ static void what_is_hidden_has_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sections_leave_rims), cmocka_unit_test(what_is_gone_or_spared),
-                                       cmocka_unit_test(areas_have_the_same_lines), cmocka_unit_test(what_is_hidden_has_lines)};
+                                       cmocka_unit_test(areas_have_the_same_lines),
+                                       cmocka_unit_test(what_is_hidden_has_lines)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,7 +119,8 @@ static void test_structure(void **state)
                      1); /* what rounds to nothing is left out */
     assert_int_equal(count_of(document, "//s:text[.='a < b & c \xEF\xBF\xBD']"), 1);
     assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='2 1'][@stroke-dashoffset='.5']"), 1);
-    assert_int_equal(count_of(document, "//s:g[@id='view-front-part-3-2'][starts-with(@class,'part s')]/s:path[not(@class)]"), 1);
+    assert_int_equal(
+        count_of(document, "//s:g[@id='view-front-part-3-2'][starts-with(@class,'part s')]/s:path[not(@class)]"), 1);
     assert_int_equal(count_of(document, "//s:g[@class='view']/s:path[not(@class)]"), 0);
     assert_non_null(strstr((const char *)bytes.data, "stroke:#ff0000;stroke-width:.25;stroke-opacity:.5"));
     assert_non_null(strstr((const char *)bytes.data, "stroke-opacity:.5;stroke-linecap:butt"));
@@ -146,20 +147,26 @@ static void test_round(void **state)
     for (int i = 0; i < 3; i++) {
         float points[120][2];
         for (int k = 0; k < 120; k++) {
-            double x = 12 * cos(k * 3.14159265358979323846 / 60), y = (i == 1 ? 5 : 12) * sin(k * 3.14159265358979323846 / 60);
+            double x = 12 * cos(k * 3.14159265358979323846 / 60),
+                   y = (i == 1 ? 5 : 12) * sin(k * 3.14159265358979323846 / 60);
             points[k][0] = (float)(40 + 0.8 * x - 0.6 * y);
             points[k][1] = (float)(50 + 0.6 * x + 0.8 * y);
         }
         sheet_add_item(&s, SHEET_PATH, group, black, 0);
-        sheet_add_path(&s, &(sheet_path){.width = 0.5f, .closed = true, .curved = true}, (const float(*)[2])points, 120);
+        sheet_add_path(&s, &(sheet_path){.width = 0.5f, .closed = true, .curved = true}, (const float(*)[2])points,
+                       120);
         if (i == 2)
             sheet_dash_path(&s, (const float[2]){2, 1}, 2, 0);
     }
     sheet_fit(&s, 0.02);
     export_bytes bytes = bytes_of(&s, export_svg);
     xmlDocPtr    document = parse(&bytes);
-    assert_int_equal(count_of(document, "//s:g[@class='visible contour s0']/s:circle[@cx='40'][@cy='50'][@r>11.98][@r<12.02]"), 1);
-    assert_int_equal(count_of(document, "//s:ellipse[@rx>11.98][@rx<12.02][@ry>4.98][@ry<5.02][starts-with(@transform,'translate(40 50)rotate(36.8')]"), 1);
+    assert_int_equal(
+        count_of(document, "//s:g[@class='visible contour s0']/s:circle[@cx='40'][@cy='50'][@r>11.98][@r<12.02]"), 1);
+    assert_int_equal(
+        count_of(document, "//s:ellipse[@rx>11.98][@rx<12.02][@ry>4.98][@ry<5.02][starts-with(@transform,'translate(40 "
+                           "50)rotate(36.8')]"),
+        1);
     assert_int_equal(count_of(document, "//s:path[@stroke-dasharray]"), 1);
     assert_int_equal(count_of(document, "//s:path"), 1);
     xmlFreeDoc(document);
@@ -407,7 +414,8 @@ static void hatch_ring(sheet *s, bool area)
             if (in && isnan(begun))
                 begun = t;
             if (!in && !isnan(begun)) {
-                const double ends[2][2] = {{from[0] + begun * c, from[1] + begun * n}, {from[0] + t * c, from[1] + t * n}};
+                const double ends[2][2] = {{from[0] + begun * c, from[1] + begun * n},
+                                           {from[0] + t * c, from[1] + t * n}};
                 sheet_add_line(s, group, black, ends[0], ends[1], width);
                 begun = NAN;
             }
@@ -444,8 +452,9 @@ static void test_hatch_pictures(void **state)
     static const struct {
         const char *program, *format;
         lmn_status (*write)(export_bytes *, const sheet *, lmn_error *);
-    } ways[] = {{"rsvg-convert", "rsvg-convert -w 600 -h 600 %s/sheet -o %s/sheet.png", export_svg},
-                {"pdftoppm", "pdftoppm -singlefile -png -scale-to-x 600 -scale-to-y 600 %s/sheet %s/sheet", export_pdf}};
+    } ways[] = {
+        {"rsvg-convert", "rsvg-convert -w 600 -h 600 %s/sheet -o %s/sheet.png", export_svg},
+        {"pdftoppm", "pdftoppm -singlefile -png -scale-to-x 600 -scale-to-y 600 %s/sheet %s/sheet", export_pdf}};
     (void)state;
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         if (!has_program(ways[i].program)) {
@@ -455,7 +464,8 @@ static void test_hatch_pictures(void **state)
         draw_hatch_by(&wanted, false, ways[i].write, ways[i].format);
         draw_hatch_by(&drawn, true, ways[i].write, ways[i].format);
         double found = fraction_near(&wanted, &drawn), true_ink = fraction_near(&drawn, &wanted);
-        print_message("%s: %.4f of the lines are drawn, %.4f of what is drawn is theirs\n", ways[i].program, found, true_ink);
+        print_message("%s: %.4f of the lines are drawn, %.4f of what is drawn is theirs\n", ways[i].program, found,
+                      true_ink);
         assert_true(found >= 0.99 && true_ink >= 0.99);
     }
 }
@@ -654,8 +664,9 @@ static void test_pdf_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_round), cmocka_unit_test(test_hatch_pictures),   cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),
-        cmocka_unit_test(test_pdf_picture), cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_round),        cmocka_unit_test(test_hatch_pictures),
+        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),  cmocka_unit_test(test_pdf_picture),
+        cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
     xmlCleanupParser();

@@ -598,9 +598,10 @@ static void test_section(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_dots), cmocka_unit_test(test_behind),    cmocka_unit_test(test_section),    cmocka_unit_test(test_files),
-        cmocka_unit_test(test_plotter),   cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),
-        cmocka_unit_test(test_rims),      cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_same_dots),     cmocka_unit_test(test_behind),  cmocka_unit_test(test_section),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_plotter), cmocka_unit_test(test_paper),
+        cmocka_unit_test(test_none),          cmocka_unit_test(test_rims),    cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("vector_marks", tests, set_up, tear_down);
 }
