@@ -248,7 +248,10 @@ static void large_circles_are_round(void **state)
         export_bytes pdf = pdf_of(&s);
         char        *page = content_of(&pdf);
         int          cubics = 0;
-        for (char *line = strtok(page, "\n"); line; line = strtok(NULL, "\n")) {
+        for (char *line = page, *next; line; line = next) {
+            next = strchr(line, '\n');
+            if (next)
+                *next++ = '\0';
             if (sscanf(line, "%lf %lf m", &c[4], &c[5]) == 2 && strchr(line, 'm') && !strchr(line, 'c'))
                 memcpy(at, c + 4, sizeof at);
             if (strlen(line) < 2 || strcmp(line + strlen(line) - 2, " c") != 0 ||
