@@ -21,7 +21,8 @@ typedef struct draw_values {
     const char   *lod, *terrain;
     option_number populate, deflection;
     word_list     defines;
-    bool quiet, verbose, frame, plotter, centre_lines, fill, verify, lenient, strict, fit_time, resume, explain;
+    bool quiet, verbose, frame, plotter, centre_lines, loose_hatch, fill, verify, lenient, strict, fit_time, resume,
+        explain;
     viewpoint_values viewpoint;
     job_values       job;
     task_values      task;

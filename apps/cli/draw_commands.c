@@ -115,6 +115,9 @@ static const option options[] = {
      .choices = line_groups},
     {"centre-lines", 0, OPTION_FLAG, AT(centre_lines), NULL,
      "Of vector drawings in parallel projection: axes of cylinders, and pitch circles."},
+    {"loose-hatch", 0, OPTION_FLAG, AT(loose_hatch), NULL,
+     "Of vector drawings: hatching of cut faces as one line after the other, for programs that know no patterns. "
+     "Default: patterns where a face is seen as a whole."},
     {"section", 0, OPTION_LIST, AT(sections), "VIEW[@WHERE]",
      "Beside --views: a view cut open, with its cutting plane on another view. front, front@40%, front@10,50%,25 (in "
      "steps: at depth 10 up to half of the width, then at 25), front@half. May be repeated."},

@@ -244,6 +244,7 @@ static lmn_status prepare(session *s, const lmn_scene *scene, const lmn_look *lo
                                     .background = desc->background,
                                     .pixels_per_mm = paper_pixels_per_mm(desc->width, desc->height, desc->dpi) * side,
                                     .as_sprites = w->maps,
+                                    .cut = w->cut,
                                     .surfaces_only = w->surfaces_only};
     lmn_status           status = capacity_check_sides(r->g, desc->width, desc->height, side, error);
     if (status == LMN_OK)

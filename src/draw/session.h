@@ -51,6 +51,7 @@ int samples_side(const lmn_draw_desc *desc);
 typedef struct draw_options {
     const lmn_draw_desc *desc;
     bool                 maps; /* its buffers alone, one sample a pixel */
+    const char          *cut;  /* what is cut away instead of what the look says; NULL: that */
     bool surfaces_only;        /* what lies below the lines of a sheet: neither lines, nor marks, nor hatching */
     /* One of several times of an exposure. */
     const pose        *held;        /* parts without `moves` are as in this pose; NULL: all are as at the time */

@@ -6,13 +6,13 @@ typedef struct sheet_surfaces {
     const lmn_look  *look;
 } sheet_surfaces;
 
-static lmn_status draw_surfaces(uint8_t **out, const lmn_draw_desc *desc, void *user, lmn_error *error)
+static lmn_status draw_surfaces(uint8_t **out, const lmn_draw_desc *desc, const char *cut, void *user, lmn_error *error)
 {
     const sheet_surfaces *s = user;
     lmn_drawing          *drawing;
     *out = NULL;
     lmn_status status = renderer_draw(&drawing, s->renderer, s->scene, s->look,
-                                      &(draw_options){.desc = desc, .surfaces_only = true}, error);
+                                      &(draw_options){.desc = desc, .cut = cut, .surfaces_only = true}, error);
     if (status == LMN_OK) {
         *out = drawing->pixels;
         drawing->pixels = NULL;

@@ -46,9 +46,20 @@ char *cairo_clean_text(const char *words)
     return copy;
 }
 
+/* By how much a cubic is off the arc that it stands for, of its radius. */
+static double error_of_cubic(double sweep)
+{
+    double sine = sin(sweep / 4), cosine = cos(sweep / 4);
+    return 2.0 / 27 * pow(sine, 6) / (cosine * cosine);
+}
+
 int cairo_arc_cubics(const sheet_piece *arc, double out[CAIRO_CUBICS_MOST][6])
 {
-    int    pieces = (int)fmin(fmax(ceil(fabs(arc->sweep) / 1.571), 1), CAIRO_CUBICS_MOST);
+    static const double widest = 2.2; /* radians */
+    double              size = fabs(arc->sweep), radius = fmax(arc->radii[0], arc->radii[1]);
+    int                 pieces = (int)fmin(fmax(ceil(size / widest), 1), CAIRO_CUBICS_MOST);
+    while (pieces < CAIRO_CUBICS_MOST && radius * error_of_cubic(size / pieces) > CAIRO_ARC_ERROR)
+        pieces++;
     double step = arc->sweep / pieces, handle = 4.0 / 3 * tan(step / 4);
     for (int i = 0; i < pieces; i++) {
         double begin = arc->from + i * step, end = begin + step;
@@ -127,6 +138,30 @@ static void set_dashes(painter *w, const sheet_path *path)
         mem_free(lengths);
 }
 
+/* The lines over what the path encloses, and no farther. */
+static void draw_hatch(cairo_t *c, const sheet_hatch *h)
+{
+    double box[4], along[2] = {cos(h->angle), sin(h->angle)}, low = INFINITY, high = -INFINITY, reach = 0;
+    cairo_path_extents(c, &box[0], &box[1], &box[2], &box[3]);
+    for (int k = 0; k < 4; k++) {
+        double x = box[k & 1 ? 2 : 0] - h->origin[0], y = box[k & 2 ? 3 : 1] - h->origin[1],
+               across = along[0] * y - along[1] * x;
+        low = fmin(low, across);
+        high = fmax(high, across);
+        reach = fmax(reach, hypot(x, y));
+    }
+    cairo_save(c);
+    cairo_clip(c);
+    for (double at = ceil(low / h->apart) * h->apart; at <= high; at += h->apart)
+        for (int k = -1; k <= 1; k += 2)
+            (k < 0 ? cairo_move_to : cairo_line_to)(c, h->origin[0] - at * along[1] + k * reach * along[0],
+                                                    h->origin[1] + at * along[0] + k * reach * along[1]);
+    cairo_set_dash(c, NULL, 0, 0);
+    cairo_set_line_width(c, h->width);
+    cairo_stroke(c);
+    cairo_restore(c);
+}
+
 static void draw_paths(painter *w, const sheet_item *item)
 {
     cairo_t *c = w->context;
@@ -137,7 +172,10 @@ static void draw_paths(painter *w, const sheet_item *item)
         for (; k < item->count && cairo_same_pen(first, &w->s->paths[item->first + k]); k++)
             add_path(w, &w->s->paths[item->first + k], dots);
         if (first->filled && !dots) {
-            cairo_fill(c);
+            if (item->hatch.apart > 0)
+                draw_hatch(c, &item->hatch);
+            else
+                cairo_fill(c);
             continue;
         }
         set_dashes(w, first);

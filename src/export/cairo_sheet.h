@@ -10,9 +10,10 @@
  * context has its own status beside it. */
 bool cairo_sheet_draw(cairo_t *context, const sheet *s);
 
-/* An arc as cubics of at most a quarter of a turn, which are off by less than 3e-4 of the radius: two control points
- * and the end of each. Returns how many. */
-enum { CAIRO_CUBICS_MOST = 8 };
+/* An arc as cubics, as few as are off by no more than this, mm: two control points and the end of each. Returns how
+ * many. */
+#define CAIRO_ARC_ERROR 0.001
+enum { CAIRO_CUBICS_MOST = 24 };
 int cairo_arc_cubics(const sheet_piece *arc, double out[CAIRO_CUBICS_MOST][6]);
 
 /* Are they drawn in one go? Dashed lines are drawn one by one. */

@@ -63,7 +63,10 @@ void dxf_put_number(dxf_writer *w, int code, double value)
     long long          scaled = isfinite(value) ? llround(value * 10000) : 0;
     unsigned long long left = scaled < 0 ? (unsigned long long)-scaled : (unsigned long long)scaled;
     int                size =
-        snprintf(digits, sizeof digits, "%d\n%s%llu.%04llu\n", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
+        snprintf(digits, sizeof digits, "%d\n%s%llu.%04llu", code, scaled < 0 ? "-" : "", left / 10000, left % 10000);
+    for (int least = size - 3; size > least && digits[size - 1] == '0';) /* reals have a point and a digit behind it */
+        size--;
+    digits[size++] = '\n';
     text_append_bytes(&w->out, digits, (size_t)size);
 }
 
@@ -140,7 +143,7 @@ static uint64_t hash_name(const char *name)
 }
 
 /* Takes the name. */
-static uint32_t find_layer(dxf_writer *w, char *name, int ink)
+static uint32_t find_layer(dxf_writer *w, char *name, int ink, int weight)
 {
     size_t at = name ? hash_name(name) & (w->layer_slot_count - 1) : 0;
     for (; name && w->layer_slots[at]; at = (at + 1) & (w->layer_slot_count - 1))
@@ -153,7 +156,7 @@ static uint32_t find_layer(dxf_writer *w, char *name, int ink)
         w->out.failed = true;
         return 0;
     }
-    w->layers[w->layer_count] = (dxf_layer){name, ink};
+    w->layers[w->layer_count] = (dxf_layer){name, ink, weight};
     w->layer_slots[at] = (uint32_t)++w->layer_count;
     return (uint32_t)w->layer_count - 1;
 }
@@ -169,11 +172,12 @@ static void find_layers(dxf_writer *w)
         w->out.failed = true;
         return;
     }
-    find_layer(w, mem_copy_text("0"), 7);
+    find_layer(w, mem_copy_text("0"), 7, DXF_NO_WEIGHT);
     for (size_t i = 0; i < w->s->item_count && !w->out.failed; i++) {
         uint32_t group = w->s->items[i].group;
         if (group < groups && !w->layer_of[group])
-            w->layer_of[group] = find_layer(w, layer_name(w->s, group), dxf_palette_index(w->s->items[i].ink));
+            w->layer_of[group] = find_layer(w, layer_name(w->s, group), dxf_palette_index(w->s->items[i].ink),
+                                            dxf_weight_of(w->s, &w->s->items[i]));
     }
 }
 
@@ -352,7 +356,7 @@ static void put_layers(dxf_writer *w)
         dxf_put_whole(w, 70, 0);
         dxf_put_whole(w, 62, w->layers[i].ink);
         dxf_put(w, 6, "Continuous");
-        dxf_put_whole(w, 370, -3);
+        dxf_put_whole(w, 370, w->layers[i].weight);
     }
     dxf_put(w, 0, "ENDTAB");
 }

@@ -22,7 +22,22 @@ static int line_weight(double width)
     return line_weights[best];
 }
 
-/* `path`: NULL for texts. */
+static bool has_weight(const sheet_item *item, const sheet_path *path)
+{
+    return item->kind == SHEET_PATH && !path->filled;
+}
+
+int dxf_weight_of(const sheet *s, const sheet_item *item)
+{
+    if (item->hatch.apart > 0)
+        return line_weight(item->hatch.width);
+    for (uint32_t k = 0; k < item->count; k++)
+        if (has_weight(item, &s->paths[item->first + k]))
+            return line_weight((double)s->paths[item->first + k].width);
+    return DXF_NO_WEIGHT;
+}
+
+/* `path`: NULL for texts. What an entity does not say is its layer's. */
 static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item, const sheet_path *path,
                          const char *class_name)
 {
@@ -45,7 +60,7 @@ static void begin_entity(dxf_writer *w, const char *type, const sheet_item *item
         if (fabs(stretched - 1) >= 5e-5)
             dxf_put_number(w, 48, stretched);
     }
-    if (path && item->kind == SHEET_PATH && !path->filled)
+    if (path && has_weight(item, path) && line_weight((double)path->width) != layer->weight)
         dxf_put_whole(w, 370, line_weight((double)path->width));
     dxf_put(w, 100, class_name);
 }
@@ -223,11 +238,33 @@ static bool has_one_border(const sheet *s, const sheet_path *path)
     return true;
 }
 
+/* Bytes that a path takes, nearly: as entities of its pieces, and as a polyline of its points. Where lines and curves
+ * take turns every few points, each change is an entity, and more than all points. */
+static bool takes_less(const sheet *s, const sheet_path *path)
+{
+    static const size_t entity = 110, corner = 24, bulge = 14, ellipse = 90, knot = 5, position = 31;
+    size_t              size = 0;
+    for (uint32_t i = 0; i < path->piece_count; i++) {
+        const sheet_piece *p = &s->pieces[path->first_piece + i];
+        const int          sort = sort_of(p);
+        const bool         begins = i == 0 || sort == 2 || sort != sort_of(p - 1);
+        size += begins ? entity : 0;
+        if (sort == 2)
+            size += ellipse;
+        else if (sort == 1)
+            size += 3 * (knot + position) + (begins ? 5 * knot + position : 0);
+        else
+            size += corner + (p->kind == SHEET_ARC ? bulge : 0) + (begins ? corner : 0);
+    }
+    return size < entity + path->count * corner;
+}
+
 static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *path)
 {
     const float(*points)[2] = (const float(*)[2])w->s->points + path->first;
     bool closed = path->closed || path->filled;
-    if (path->piece_count && (!path->filled || has_one_border(w->s, path))) {
+    if (path->piece_count && (path->piece_count == 1 || takes_less(w->s, path)) &&
+        (!path->filled || has_one_border(w->s, path))) {
         put_pieces(w, item, path);
         return;
     }
@@ -240,6 +277,48 @@ static void put_path(dxf_writer *w, const sheet_item *item, const sheet_path *pa
     begin_polyline(w, item, path, path->count, closed);
     for (uint32_t i = 0; i < path->count; i++)
         put_corner(w, (double)points[i][0], (double)points[i][1], 0);
+}
+
+/* Areas that are hatched are one HATCH: their borders as polylines, and one family of lines. Programs that have
+ * patterns of their own take the one that is called so, at this scale and angle: lines at 45 degrees, an eighth of an
+ * inch apart. y is up here, so that what is around an area runs the other way. */
+static void put_hatch(dxf_writer *w, const sheet_item *item)
+{
+    static const double apart_there = 3.175, angle_there = 45;
+    const sheet_hatch  *h = &item->hatch;
+    const double        angle = degrees(-h->angle);
+    begin_entity(w, "HATCH", item, NULL, "AcDbHatch");
+    dxf_put_position(w, 10, 0, w->s->height);
+    dxf_put_number(w, 210, 0);
+    dxf_put_number(w, 220, 0);
+    dxf_put_number(w, 230, 1);
+    dxf_put(w, 2, "ANSI31");
+    dxf_put_whole(w, 70, 0); /* lines */
+    dxf_put_whole(w, 71, 0); /* tied to nothing */
+    dxf_put_whole(w, 91, (int)item->count);
+    for (uint32_t k = 0; k < item->count; k++) {
+        const sheet_path *path = &w->s->paths[item->first + k];
+        dxf_put_whole(w, 92, 1 + 2); /* outermost of all, a polyline */
+        dxf_put_whole(w, 72, 0);     /* without bulges */
+        dxf_put_whole(w, 73, 1);
+        dxf_put_whole(w, 93, (int)path->count);
+        for (uint32_t i = 0; i < path->count; i++)
+            put_corner(w, (double)w->s->points[path->first + i][0], (double)w->s->points[path->first + i][1], 0);
+        dxf_put_whole(w, 97, 0);
+    }
+    dxf_put_whole(w, 75, 0); /* inside and outside in turn */
+    dxf_put_whole(w, 76, 1);
+    dxf_put_number(w, 52, degrees(-h->angle - angle_there * (PI / 180)));
+    dxf_put_number(w, 41, h->apart / apart_there);
+    dxf_put_whole(w, 77, 0);
+    dxf_put_whole(w, 78, 1);
+    dxf_put_number(w, 53, angle);
+    dxf_put_number(w, 43, h->origin[0]);
+    dxf_put_number(w, 44, w->s->height - h->origin[1]);
+    dxf_put_number(w, 45, -h->apart * sin(-h->angle));
+    dxf_put_number(w, 46, h->apart * cos(-h->angle));
+    dxf_put_whole(w, 79, 0);
+    dxf_put_whole(w, 98, 0);
 }
 
 static void put_dots(dxf_writer *w, const sheet_item *item, const sheet_path *path)
@@ -275,6 +354,10 @@ void dxf_put_entities(dxf_writer *w)
         const sheet_item *item = &w->s->items[i];
         if (item->kind == SHEET_TEXT && item->text)
             put_text(w, item);
+        if (item->hatch.apart > 0 && item->count) {
+            put_hatch(w, item);
+            continue;
+        }
         for (uint32_t k = 0; k < item->count; k++) {
             if (item->kind == SHEET_DOTS)
                 put_dots(w, item, &w->s->paths[item->first + k]);

@@ -6,8 +6,8 @@
 #include "sheet/sheet.h"
 
 typedef struct dxf_layer {
-    char *name; /* owned */
-    int   ink;
+    char *name;        /* owned */
+    int   ink, weight; /* of the first of its items; others say that theirs differ */
 } dxf_layer;
 
 /* One dash and one gap: of lines whose pattern is this one, or this one stretched. */
@@ -30,20 +30,23 @@ typedef struct dxf_writer {
 } dxf_writer;
 
 /* Handles of what others refer to. */
+enum { DXF_NO_WEIGHT = -3 /* the program's own */ };
 enum { DXF_MODEL_SPACE = 0x20, DXF_PAPER_SPACE = 0x21, DXF_FIRST_HANDLE = 0x100, DXF_NAME_CAPACITY = 32 };
 
 /* --- pairs of a code and a value --- */
 void dxf_put(dxf_writer *w, int code, const char *value);
 void dxf_put_whole(dxf_writer *w, int code, int value);
 void dxf_put_handle(dxf_writer *w, int code, unsigned handle);
-/* Four decimals: a tenth of a thousandth of a millimetre. */
+/* Four decimals at most: a tenth of a thousandth of a millimetre. */
 void dxf_put_number(dxf_writer *w, int code, double value);
 /* x, y from the sheet's coordinates; z is 0. */
 void dxf_put_position(dxf_writer *w, int code, double x, double y);
 /* One line; what is not ASCII by its code, "\U+00E9". */
 void dxf_put_words(dxf_writer *w, int code, const char *words);
 
-int              dxf_palette_index(colour ink);
+int dxf_palette_index(colour ink);
+/* Of an item's lines, hundredths of a millimetre; DXF_NO_WEIGHT: it has none. */
+int              dxf_weight_of(const sheet *s, const sheet_item *item);
 const dxf_layer *dxf_layer_of(const dxf_writer *w, const sheet_item *item);
 /* Dash and gap of a path. */
 dxf_line_type dxf_pattern_of(const sheet *s, const sheet_path *path);

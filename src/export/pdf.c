@@ -1,7 +1,7 @@
 /* PDF of a sheet (ISO 32000-1): one page with lines, arcs as cubics, dashes and areas as the page description has them,
  * and each group of the sheet as an optional content group, which viewers and Illustrator show as a layer. Texts are
  * drawn by the outlines of their letters, so that no font need be there, and say beside them what they are. Dates are
- * fixed, so that equal sheets are equal files. */
+ * fixed, so that equal sheets are equal files. Objects that are no streams, layers above all, are packed into one. */
 #include <libdeflate.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,6 +75,16 @@ static void begin_object(pdf_writer *w, size_t number)
     text_append(&w->out, "%zu 0 obj\n", number);
 }
 
+/* An object that is no stream: all of these lie in one, packed together. What follows goes into `packed`. */
+static void begin_packed(pdf_writer *w, size_t number)
+{
+    if (!mem_grow((void **)&w->packed_objects, &w->packed_capacity, w->packed_count + 1, sizeof *w->packed_objects)) {
+        w->packed.failed = true;
+        return;
+    }
+    w->packed_objects[w->packed_count++] = (pdf_packed){number, w->packed.size};
+}
+
 /* Compressed bytes as a stream; `entries`: more of its dictionary. */
 static void put_stream(pdf_writer *w, const void *bytes, size_t size, const char *entries)
 {
@@ -106,6 +116,40 @@ void pdf_put_picture(pdf_writer *w, const pdf_picture *p)
     }
 }
 
+/* A tile is so long that no line ends on the page, and has many lines, since readers round its size to their pixels.
+ * Patterns are laid out on the page as it is, y up. */
+static void put_pattern(pdf_writer *w, const pdf_pattern *p)
+{
+    static const double high = 100; /* mm, or nearly so */
+    const sheet_hatch  *h = &p->hatch;
+    const int           lines = (int)fmax(round(high / h->apart), 1);
+    const double        wide = 2 * (hypot(w->s->width, w->s->height) + hypot(h->origin[0], h->origin[1])),
+                 tall = lines * h->apart, c = points_per_mm * cos(h->angle), s = points_per_mm * sin(h->angle),
+                 left = -wide / 2, top = -h->apart / 2;
+    const double corner[2] = {points_per_mm * h->origin[0] + c * left - s * top,
+                              points_per_mm * (w->s->height - h->origin[1]) - s * left - c * top};
+    text         tile = {0}, entries = {0};
+    pdf_put_number(&tile, (double)p->ink.r);
+    pdf_put_number(&tile, (double)p->ink.g);
+    pdf_put_number(&tile, (double)p->ink.b);
+    pdf_put(&tile, "RG ");
+    pdf_put_number(&tile, h->width);
+    pdf_put(&tile, "w\n");
+    for (int i = 0; i < lines; i++)
+        text_append(&tile, "0 %.4f m %.0f %.4f l\n", (i + 0.5) * h->apart, ceil(wide), (i + 0.5) * h->apart);
+    pdf_put(&tile, "S");
+    text_append(&entries, "/Type/Pattern/PatternType 1/PaintType 1/TilingType 1/Resources<<>>/BBox[0 0 %.6f %.6f]",
+                wide, tall);
+    text_append(&entries, "/XStep %.6f/YStep %.6f/Matrix[%.9f %.9f %.9f %.9f %.6f %.6f]", wide, tall, c, -s, -s, -c,
+                corner[0], corner[1]);
+    begin_object(w, p->object);
+    w->out.failed = w->out.failed || tile.failed || entries.failed;
+    if (!w->out.failed)
+        put_stream(w, tile.data, tile.size, entries.data);
+    text_release(&tile);
+    text_release(&entries);
+}
+
 /* --- layers --------------------------------------------------------------------------------------------- */
 
 static bool is_layer(const pdf_writer *w, size_t group)
@@ -124,10 +168,10 @@ static void put_layers(pdf_writer *w)
         const sheet_group *g = &w->s->groups[i];
         if (!w->layers[i])
             continue;
-        begin_object(w, w->layers[i]);
-        pdf_put(&w->out, "<</Type/OCG/Name");
-        pdf_put_text(&w->out, g->name && *g->name ? g->name : "group");
-        pdf_put(&w->out, ">>\nendobj\n");
+        begin_packed(w, w->layers[i]);
+        pdf_put(&w->packed, "<</Type/OCG/Name");
+        pdf_put_text(&w->packed, g->name && *g->name ? g->name : "group");
+        pdf_put(&w->packed, ">>\n");
     }
 }
 
@@ -138,7 +182,7 @@ static void put_order(pdf_writer *w)
     size_t    count = w->s->group_count;
     uint32_t *links = mem_calloc(3 * count + 3, sizeof *links), *first = links,
              *next = links ? links + count + 1 : NULL, *stack = links ? next + count + 1 : NULL;
-    w->out.failed = w->out.failed || !links;
+    w->packed.failed = w->packed.failed || !links;
     for (size_t i = count; links && i-- > 0;) {
         size_t parent = (size_t)(w->s->groups[i].parent + 1);
         if (!w->layers[i])
@@ -149,13 +193,13 @@ static void put_order(pdf_writer *w)
     size_t depth = 0;
     for (uint32_t at = links ? first[0] : 0; at || depth;) {
         if (!at) {
-            pdf_put(&w->out, "]");
+            pdf_put(&w->packed, "]");
             at = stack[--depth];
             continue;
         }
-        text_append(&w->out, "%zu 0 R ", w->layers[at - 1]);
+        text_append(&w->packed, "%zu 0 R ", w->layers[at - 1]);
         if (first[at]) {
-            pdf_put(&w->out, "[");
+            pdf_put(&w->packed, "[");
             stack[depth++] = next[at - 1];
             at = first[at];
         } else {
@@ -167,93 +211,134 @@ static void put_order(pdf_writer *w)
 
 static void put_catalog(pdf_writer *w)
 {
-    begin_object(w, PDF_CATALOG);
-    text_append(&w->out, "<</Type/Catalog/Pages %d 0 R", PDF_PAGES);
+    begin_packed(w, PDF_CATALOG);
+    text_append(&w->packed, "<</Type/Catalog/Pages %d 0 R", PDF_PAGES);
     if (w->layer_count) {
-        pdf_put(&w->out, "/PageMode/UseOC/OCProperties<</OCGs[");
+        pdf_put(&w->packed, "/PageMode/UseOC/OCProperties<</OCGs[");
         for (size_t i = 0; i < w->s->group_count; i++)
             if (w->layers[i])
-                text_append(&w->out, "%zu 0 R ", w->layers[i]);
-        pdf_put(&w->out, "]/D<</Order[");
+                text_append(&w->packed, "%zu 0 R ", w->layers[i]);
+        pdf_put(&w->packed, "]/D<</Order[");
         put_order(w);
-        pdf_put(&w->out, "]>>>>");
+        pdf_put(&w->packed, "]>>>>");
     }
-    pdf_put(&w->out, ">>\nendobj\n");
+    pdf_put(&w->packed, ">>\n");
 }
 
 /* --- what lies on the page ------------------------------------------------------------------------------ */
 
 static void put_pages(pdf_writer *w)
 {
-    begin_object(w, PDF_PAGES);
-    text_append(&w->out, "<</Type/Pages/Count 1/Kids[%d 0 R]>>\nendobj\n", PDF_PAGE);
-    begin_object(w, PDF_PAGE);
-    text_append(&w->out, "<</Type/Page/Parent %d 0 R/Contents %d 0 R/MediaBox[0 0 ", PDF_PAGES, PDF_CONTENTS);
-    pdf_put_number(&w->out, w->s->width * points_per_mm);
-    pdf_put_number(&w->out, w->s->height * points_per_mm);
-    text_append(&w->out, "]/Group<</S/Transparency/CS/DeviceRGB>>/Resources<</Font<</F %d 0 R>>", PDF_FONT);
-    pdf_put(&w->out, "/ExtGState<<");
+    begin_packed(w, PDF_PAGES);
+    text_append(&w->packed, "<</Type/Pages/Count 1/Kids[%d 0 R]>>\n", PDF_PAGE);
+    begin_packed(w, PDF_PAGE);
+    text_append(&w->packed, "<</Type/Page/Parent %d 0 R/Contents %d 0 R/MediaBox[0 0 ", PDF_PAGES, PDF_CONTENTS);
+    pdf_put_number(&w->packed, w->s->width * points_per_mm);
+    pdf_put_number(&w->packed, w->s->height * points_per_mm);
+    text_append(&w->packed, "]/Group<</S/Transparency/CS/DeviceRGB>>/Resources<</Font<</F %d 0 R>>", PDF_FONT);
+    pdf_put(&w->packed, "/ExtGState<<");
     for (size_t i = 0; i < w->opacity_count; i++) {
-        text_append(&w->out, "/A%zu<</CA ", i);
-        pdf_put_number(&w->out, w->opacities[i]);
-        pdf_put(&w->out, "/ca ");
-        pdf_put_number(&w->out, w->opacities[i]);
-        pdf_put(&w->out, ">>");
+        text_append(&w->packed, "/A%zu<</CA ", i);
+        pdf_put_number(&w->packed, w->opacities[i]);
+        pdf_put(&w->packed, "/ca ");
+        pdf_put_number(&w->packed, w->opacities[i]);
+        pdf_put(&w->packed, ">>");
     }
-    pdf_put(&w->out, ">>/Properties<<");
+    pdf_put(&w->packed, ">>/Properties<<");
     for (size_t i = 0; i < w->s->group_count; i++)
         if (w->layers[i])
-            text_append(&w->out, "/L%zu %zu 0 R", i, w->layers[i]);
-    pdf_put(&w->out, ">>/XObject<<");
+            text_append(&w->packed, "/L%zu %zu 0 R", i, w->layers[i]);
+    pdf_put(&w->packed, ">>/XObject<<");
     for (size_t i = 0; i < w->picture_count; i++)
-        text_append(&w->out, "/X%zu %zu 0 R", i, w->pictures[i].object);
-    pdf_put(&w->out, ">>>>>>\nendobj\n");
-    begin_object(w, PDF_FONT);
-    pdf_put(&w->out, "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>\nendobj\n");
+        text_append(&w->packed, "/X%zu %zu 0 R", i, w->pictures[i].object);
+    pdf_put(&w->packed, ">>/Pattern<<");
+    for (size_t i = 0; i < w->pattern_count; i++)
+        text_append(&w->packed, "/P%zu %zu 0 R", i, w->patterns[i].object);
+    pdf_put(&w->packed, ">>>>>>\n");
+    begin_packed(w, PDF_FONT);
+    pdf_put(&w->packed, "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>\n");
 }
 
 static void put_info(pdf_writer *w)
 {
-    begin_object(w, PDF_INFO);
-    pdf_put(&w->out, "<<");
+    begin_packed(w, PDF_INFO);
+    pdf_put(&w->packed, "<<");
     if (w->s->title && *w->s->title) {
-        pdf_put(&w->out, "/Title");
-        pdf_put_text(&w->out, w->s->title);
+        pdf_put(&w->packed, "/Title");
+        pdf_put_text(&w->packed, w->s->title);
     }
     if (w->s->description && *w->s->description) {
-        pdf_put(&w->out, "/Subject");
-        pdf_put_text(&w->out, w->s->description);
+        pdf_put(&w->packed, "/Subject");
+        pdf_put_text(&w->packed, w->s->description);
     }
-    text_append(&w->out, "/Creator(Limner)/Producer(Limner)/CreationDate(%s)/ModDate(%s)>>\nendobj\n", fixed_date,
+    text_append(&w->packed, "/Creator(Limner)/Producer(Limner)/CreationDate(%s)/ModDate(%s)>>\n", fixed_date,
                 fixed_date);
 }
 
-static void put_references(pdf_writer *w)
+/* Numbers and places of the packed objects stand before them. */
+static void put_packed(pdf_writer *w, size_t number)
 {
-    size_t at = w->out.size;
-    text_append(&w->out, "xref\n0 %zu\n0000000000 65535 f \n", w->object_count);
-    for (size_t i = 1; i < w->object_count; i++)
-        text_append(&w->out, "%010zu 00000 n \n", w->offsets[i]);
-    text_append(&w->out, "trailer\n<</Size %zu/Root %d 0 R/Info %d 0 R>>\nstartxref\n%zu\n%%%%EOF\n", w->object_count,
-                PDF_CATALOG, PDF_INFO, at);
+    text all = {0};
+    char entries[96];
+    for (size_t i = 0; i < w->packed_count; i++)
+        text_append(&all, "%zu %zu ", w->packed_objects[i].number, w->packed_objects[i].place);
+    snprintf(entries, sizeof entries, "/Type/ObjStm/N %zu/First %zu", w->packed_count, all.size);
+    text_append_bytes(&all, w->packed.data ? w->packed.data : "", w->packed.size);
+    begin_object(w, number);
+    put_stream(w, all.data, all.size, entries);
+    w->out.failed = w->out.failed || all.failed || w->packed.failed;
+    text_release(&all);
+}
+
+static void put_row(unsigned char *row, unsigned kind, size_t place, size_t index)
+{
+    const size_t numbers[2] = {place, index};
+    row[0] = (unsigned char)kind;
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < PDF_PLACE_BYTES; i++)
+            row[1 + PDF_PLACE_BYTES * k + i] = (unsigned char)(numbers[k] >> (8 * (PDF_PLACE_BYTES - 1 - i)));
+}
+
+/* Where all objects are, as a stream: a row of a kind (0 none, 1 in the file, 2 packed) and two numbers each. */
+static void put_references(pdf_writer *w, size_t packed, size_t number)
+{
+    enum { ROW = 1 + 2 * PDF_PLACE_BYTES };
+    size_t         at = w->out.size, count = number + 1;
+    unsigned char *rows = mem_calloc(count, ROW);
+    char           entries[160];
+    begin_object(w, number);
+    for (size_t i = 0; rows && i < count; i++)
+        put_row(rows + ROW * i, i > 0, w->offsets[i], i ? 0 : 65535);
+    for (size_t i = 0; rows && i < w->packed_count; i++)
+        put_row(rows + ROW * w->packed_objects[i].number, 2, packed, i);
+    snprintf(entries, sizeof entries, "/Type/XRef/Size %zu/W[1 %d %d]/Root %d 0 R/Info %d 0 R", count, PDF_PLACE_BYTES,
+             PDF_PLACE_BYTES, PDF_CATALOG, PDF_INFO);
+    put_stream(w, rows, rows ? count * ROW : 0, entries);
+    w->out.failed = w->out.failed || !rows;
+    mem_free(rows);
+    text_append(&w->out, "startxref\n%zu\n%%%%EOF\n", at);
 }
 
 static void put_file(pdf_writer *w)
 {
+    const size_t packed = w->object_count++, references = w->object_count++;
     w->offsets = mem_calloc(w->object_count + 1, sizeof *w->offsets);
     w->out.failed = w->out.failed || !w->offsets;
     if (w->out.failed)
         return;
     pdf_put(&w->out, "%PDF-1.5\n%\xE2\xE3\xCF\xD3\n");
+    begin_object(w, PDF_CONTENTS);
+    put_stream(w, w->content.data, w->content.size, "");
+    for (size_t i = 0; i < w->picture_count; i++)
+        pdf_put_picture(w, &w->pictures[i]);
+    for (size_t i = 0; i < w->pattern_count; i++)
+        put_pattern(w, &w->patterns[i]);
     put_catalog(w);
     put_pages(w);
     put_info(w);
-    begin_object(w, PDF_CONTENTS);
-    put_stream(w, w->content.data, w->content.size, "");
     put_layers(w);
-    for (size_t i = 0; i < w->picture_count; i++)
-        pdf_put_picture(w, &w->pictures[i]);
-    put_references(w);
+    put_packed(w, packed);
+    put_references(w, packed, references);
 }
 
 lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error)
@@ -277,9 +362,12 @@ lmn_status export_pdf(export_bytes *out, const sheet *s, lmn_error *error)
         mem_free(w.pictures[i].alpha);
     }
     mem_free(w.pictures);
+    mem_free(w.patterns);
     mem_free(w.opacities);
     mem_free(w.layers);
     mem_free(w.offsets);
+    mem_free(w.packed_objects);
+    text_release(&w.packed);
     text_release(&w.content);
     out->size = w.out.size;
     out->data = (unsigned char *)text_take(&w.out);

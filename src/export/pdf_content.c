@@ -185,6 +185,26 @@ static void put_path(page_writer *p, const sheet_path *path, bool dots)
         pdf_put(p->out, "h\n");
 }
 
+/* The pattern of an item's areas as what is filled with. */
+static void set_pattern(page_writer *p, const sheet_item *item)
+{
+    pdf_writer *w = p->w;
+    size_t      at = 0;
+    while (at < w->pattern_count && (memcmp(&w->patterns[at].hatch, &item->hatch, sizeof item->hatch) != 0 ||
+                                     memcmp(&w->patterns[at].ink, &item->ink, sizeof item->ink) != 0))
+        at++;
+    if (at == w->pattern_count) {
+        if (!mem_grow((void **)&w->patterns, &w->pattern_capacity, at + 1, sizeof *w->patterns)) {
+            p->out->failed = true;
+            return;
+        }
+        w->patterns[w->pattern_count++] = (pdf_pattern){w->object_count++, item->hatch, item->ink};
+    }
+    set_opacity(p, (double)item->ink.a);
+    text_append(p->out, "/Pattern cs /P%zu scn\n", at);
+    p->pen.ink.r = NAN; /* none of ink any more */
+}
+
 static void put_paths(page_writer *p, const sheet_item *item)
 {
     const sheet *s = p->w->s;
@@ -192,7 +212,9 @@ static void put_paths(page_writer *p, const sheet_item *item)
     for (uint32_t k = 0; k < item->count;) {
         const sheet_path *first = &s->paths[item->first + k];
         bool              filled = first->filled && !dots;
-        if (filled)
+        if (filled && item->hatch.apart > 0)
+            set_pattern(p, item);
+        else if (filled)
             set_ink(p, item->ink, true);
         else
             set_pen(p, item, first);

@@ -15,8 +15,24 @@ typedef struct pdf_picture {
     unsigned char *alpha;   /* NULL: opaque */
 } pdf_picture;
 
+/* An object that lies in the stream of those that are none themselves. */
+typedef struct pdf_packed {
+    size_t number, place;
+} pdf_packed;
+
+/* A pattern of lines that areas are filled with. */
+typedef struct pdf_pattern {
+    size_t      object;
+    sheet_hatch hatch;
+    colour      ink;
+} pdf_pattern;
+
+enum { PDF_PLACE_BYTES = 5 }; /* of a place in the file */
+
 typedef struct pdf_writer {
-    text         out, content;
+    text         out, content, packed;
+    pdf_packed  *packed_objects;
+    size_t       packed_count, packed_capacity;
     const sheet *s;
     size_t      *layers; /* object of each group; 0: no layer */
     size_t       layer_count, object_count;
@@ -25,6 +41,8 @@ typedef struct pdf_writer {
     size_t       opacity_count, opacity_capacity;
     pdf_picture *pictures;
     size_t       picture_count, picture_capacity;
+    pdf_pattern *patterns;
+    size_t       pattern_count, pattern_capacity;
 } pdf_writer;
 
 void pdf_put(text *out, const char *words);

@@ -1,6 +1,6 @@
-/* SVG of a sheet: millimetres, a group for each of the sheet's groups, styles as classes. Numbers have three
- * decimals at most, so that files are small; between points of a path it is their rounded differences that are
- * written, which add up without drift. */
+/* SVG of a sheet: millimetres, a group for each of the sheet's groups, styles as classes, of a whole group where all
+ * that lies in it is drawn alike. Numbers have three decimals at most, so that files are small; between points of a
+ * path it is their rounded differences that are written, which add up without drift. */
 #include "export/export.h"
 
 #include <math.h>
@@ -21,14 +21,16 @@ typedef struct svg_style {
     bool      filled, dots;
     float     width;
     sheet_cap cap;
+    double    hatch[5]; /* distance, angle, origin, width; of areas that are hatched */
 } svg_style;
 
 typedef struct svg_writer {
     text         out;
     const sheet *s;
-    char       **ids;      /* of groups */
-    bool        *opened;   /* groups whose id is out */
-    uint32_t    *id_slots; /* hash of ids: group + 1 */
+    char       **ids;          /* of groups */
+    bool        *opened;       /* groups whose id is out */
+    uint32_t    *group_styles; /* of each group: style + 1, 0: of its items, or of none */
+    uint32_t    *id_slots;     /* hash of ids: group + 1 */
     size_t       slot_count;
     svg_style   *styles;
     size_t       style_count, style_capacity;
@@ -171,6 +173,11 @@ static void style_of(svg_style *out, const sheet_item *item, const sheet_path *p
     out->ink = item->ink;
     out->dots = item->kind == SHEET_DOTS;
     out->filled = path->filled && !out->dots;
+    if (out->filled && item->hatch.apart > 0) {
+        const double hatch[5] = {item->hatch.apart, item->hatch.angle, item->hatch.origin[0], item->hatch.origin[1],
+                                 item->hatch.width};
+        memcpy(out->hatch, hatch, sizeof hatch);
+    }
     if (out->filled)
         return;
     out->width = path->width;
@@ -215,16 +222,37 @@ static size_t find_style(svg_writer *w, const svg_style *style)
     return w->style_count - 1;
 }
 
+enum { STYLE_NONE = 0, STYLE_SEVERAL = UINT32_MAX };
+
+/* A group that has one style has it for all of its items; groups around others, and such as have texts, which would
+ * take it, have none. */
+static void note_style(svg_writer *w, uint32_t group, size_t style)
+{
+    if (group >= w->s->group_count)
+        return;
+    uint32_t *own = &w->group_styles[group];
+    *own = *own == STYLE_NONE || *own == style + 1 ? (uint32_t)style + 1 : STYLE_SEVERAL;
+}
+
 static void find_styles(svg_writer *w)
 {
-    for (size_t i = 0; i < w->s->item_count; i++) {
-        const sheet_item *item = &w->s->items[i];
+    const sheet *s = w->s;
+    for (size_t i = 0; i < s->group_count; i++)
+        if (s->groups[i].parent >= 0)
+            w->group_styles[s->groups[i].parent] = STYLE_SEVERAL;
+    for (size_t i = 0; i < s->item_count; i++) {
+        const sheet_item *item = &s->items[i];
+        if (item->kind == SHEET_TEXT && item->group < s->group_count)
+            w->group_styles[item->group] = STYLE_SEVERAL;
         for (uint32_t k = 0; k < item->count; k++) {
             svg_style style;
-            style_of(&style, item, &w->s->paths[item->first + k]);
-            find_style(w, &style);
+            style_of(&style, item, &s->paths[item->first + k]);
+            note_style(w, item->group, find_style(w, &style));
         }
     }
+    for (size_t i = 0; i < s->group_count; i++)
+        if (w->group_styles[i] == STYLE_SEVERAL)
+            w->group_styles[i] = STYLE_NONE;
 }
 
 static void put_style(svg_writer *w, size_t index)
@@ -233,7 +261,9 @@ static void put_style(svg_writer *w, size_t index)
     char             ink[10];
     print_colour(ink, style->ink);
     text_append(&w->out, ".s%zu{", index);
-    if (style->filled) {
+    if (style->hatch[0] > 0) {
+        text_append(&w->out, "fill:url(#hatch.%zu)", index);
+    } else if (style->filled) {
         text_append(&w->out, "fill:%s", ink);
         if (opacity_of(style->ink) < 1) {
             put(w, ";fill-opacity:");
@@ -254,7 +284,7 @@ static void put_style(svg_writer *w, size_t index)
 
 static void put_styles(svg_writer *w)
 {
-    put(w, "<style>\npath{fill:none;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'Liberation "
+    put(w, "<style>\nsvg{fill:none;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'Liberation "
            "Sans',Arial,Helvetica,sans-serif}\n");
     for (size_t i = 0; i < w->style_count && !w->out.failed; i++)
         put_style(w, i);
@@ -326,7 +356,8 @@ static bool name_groups(svg_writer *w)
     w->ids = mem_calloc(count, sizeof *w->ids);
     w->opened = mem_calloc(count, sizeof *w->opened);
     w->id_slots = mem_calloc(w->slot_count, sizeof *w->id_slots);
-    bool good = w->ids && w->opened && w->id_slots;
+    w->group_styles = mem_calloc(count, sizeof *w->group_styles);
+    bool good = w->ids && w->opened && w->id_slots && w->group_styles;
     for (size_t i = 0; i < count && good; i++)
         good = name_group(w, i);
     return good;
@@ -339,9 +370,12 @@ static void open_group(svg_writer *w, uint32_t index)
     if (!w->opened[index])
         text_append(&w->out, " id=\"%s\"", w->ids[index]);
     w->opened[index] = true;
-    if (g->css_class && *g->css_class) {
+    bool named = g->css_class && *g->css_class, styled = w->group_styles[index] != STYLE_NONE;
+    if (named || styled) {
         put(w, " class=\"");
-        put_escaped(w, g->css_class);
+        put_escaped(w, named ? g->css_class : "");
+        if (styled)
+            text_append(&w->out, "%ss%u", named ? " " : "", w->group_styles[index] - 1);
         put(w, "\"");
     }
     if (g->part) {
@@ -381,9 +415,55 @@ static void go_to_group(svg_writer *w, int32_t group)
     }
 }
 
-static void put_clips(svg_writer *w)
+static void put_attribute(svg_writer *w, const char *name, double value)
+{
+    text_append(&w->out, " %s=\"", name);
+    put_number(w, value);
+    put(w, "\"");
+}
+
+/* One line a tile, which is so long that none ends on the page: tiles that meet along a line show where. */
+static void put_pattern(svg_writer *w, size_t index)
+{
+    const svg_style *style = &w->styles[index];
+    const double    *h = style->hatch;
+    double           half = hypot(w->s->width, w->s->height) + hypot(h[2], h[3]);
+    char             ink[10];
+    print_colour(ink, style->ink);
+    text_append(&w->out, "<pattern id=\"hatch.%zu\" patternUnits=\"userSpaceOnUse\"", index);
+    put_attribute(w, "width", 2 * half);
+    put_attribute(w, "height", h[0]);
+    put(w, " patternTransform=\"translate(");
+    put_number(w, h[2]);
+    put(w, " ");
+    put_number(w, h[3]);
+    put(w, ")rotate(");
+    put_number(w, h[1] * (180 / PI));
+    put(w, ")translate(");
+    put_number(w, -half);
+    put(w, " ");
+    put_number(w, -h[0] / 2);
+    put(w, ")\"><path d=\"M0 ");
+    put_number(w, h[0] / 2);
+    put(w, "H");
+    put_number(w, 2 * half);
+    text_append(&w->out, "\" stroke=\"%s\"", ink);
+    put_attribute(w, "stroke-width", h[4]);
+    if (opacity_of(style->ink) < 1)
+        put_attribute(w, "stroke-opacity", opacity_of(style->ink));
+    put(w, "/></pattern>\n");
+}
+
+static void put_definitions(svg_writer *w)
 {
     bool any = false;
+    for (size_t i = 0; i < w->style_count; i++) {
+        if (!(w->styles[i].hatch[0] > 0))
+            continue;
+        put(w, any ? "" : "<defs>\n");
+        any = true;
+        put_pattern(w, i);
+    }
     for (size_t i = 0; i < w->s->group_count; i++) {
         const sheet_group *g = &w->s->groups[i];
         if (!(g->clip[2] > 0))
@@ -404,13 +484,6 @@ static void put_clips(svg_writer *w)
 }
 
 /* --- items ---------------------------------------------------------------------------------------------- */
-
-static void put_attribute(svg_writer *w, const char *name, double value)
-{
-    text_append(&w->out, " %s=\"", name);
-    put_number(w, value);
-    put(w, "\"");
-}
 
 /* A command letter and two numbers. */
 static size_t print_pair(char *to, char letter, long long x, long long y)
@@ -445,11 +518,18 @@ static void put_pair(svg_pen *pen, char letter, const double position[2], long l
     pen->letter = letter;
 }
 
-/* Arcs of more than 150 degrees are several: their centre comes from both ends, and the nearer these are to half
- * a turn, the less exactly. */
+/* Their centre comes from both ends, and the nearer these are to half a turn, or to a whole one, the less exactly:
+ * such arcs are several. */
+static int pieces_of_arc(double sweep)
+{
+    double size = fabs(sweep);
+    return size <= 2.6 ? 1 : size >= 3.7 && size <= 5.5 ? 1 : size <= 5.2 ? 2 : 3;
+}
+
 static void put_arc(svg_pen *pen, const sheet_piece *arc)
 {
-    int pieces = (int)ceil(fabs(arc->sweep) / 2.6);
+    int  pieces = pieces_of_arc(arc->sweep);
+    bool large = fabs(arc->sweep) > PI * pieces;
     for (int i = 1; i <= pieces; i++) {
         double    end[2] = {arc->end[0], arc->end[1]};
         long long rounded[2];
@@ -461,7 +541,8 @@ static void put_arc(svg_pen *pen, const sheet_piece *arc)
         put_number(pen->w, arc->radii[1]);
         put(pen->w, " ");
         put_number(pen->w, arc->turn * (180 / PI));
-        put(pen->w, arc->sweep > 0 ? " 0 1" : " 0 0");
+        put(pen->w, large ? " 1" : " 0");
+        put(pen->w, arc->sweep > 0 ? " 1" : " 0");
         pen->letter = 'a';
         put_pair(pen, 'a', end, rounded);
         memcpy(pen->at, rounded, sizeof rounded);
@@ -546,28 +627,84 @@ static void put_dashes(svg_writer *w, const sheet_path *path)
         put_attribute(w, "stroke-dashoffset", (double)path->phase);
 }
 
-/* Paths that follow each other in one style are one element; dashed ones have their own. */
+/* 48 bits of a name, in digits and letters. */
+static void put_line_name(svg_writer *w, uint64_t id)
+{
+    static const char digits[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
+    char              name[9];
+    size_t            at = sizeof name - 1;
+    name[at] = '\0';
+    for (uint64_t left = (id ^ id >> 48) & UINT64_C(0xFFFFFFFFFFFF); left || at == sizeof name - 1; left >>= 6)
+        name[--at] = digits[left & 63];
+    text_append(&w->out, " data-line=\"%s\"", name + at);
+}
+
+static void begin_element(svg_writer *w, const char *name, const sheet_item *item, size_t style)
+{
+    put(w, "<");
+    put(w, name);
+    if (item->group >= w->s->group_count || w->group_styles[item->group] != style + 1)
+        text_append(&w->out, " class=\"s%zu\"", style);
+    if (item->id)
+        put_line_name(w, item->id);
+}
+
+/* The circle or ellipse that a path is, NULL: it is none. Dashes begin where a path does. */
+static const sheet_piece *round_of(const svg_writer *w, const sheet_item *item, const sheet_path *path)
+{
+    const sheet_piece *p = path->piece_count == 1 ? &w->s->pieces[path->first_piece] : NULL;
+    bool               whole = p && p->kind == SHEET_ARC && fabs(p->sweep) > 2 * PI - 1e-9;
+    return whole && item->kind == SHEET_PATH && !path->filled && !path->dash_count ? p : NULL;
+}
+
+static void put_round(svg_writer *w, const sheet_item *item, size_t style, const sheet_piece *p)
+{
+    bool circle = thousandths(p->radii[0]) == thousandths(p->radii[1]), turned = !circle && thousandths(p->turn) != 0;
+    begin_element(w, circle ? "circle" : "ellipse", item, style);
+    if (!turned) {
+        put_attribute(w, "cx", p->centre[0]);
+        put_attribute(w, "cy", p->centre[1]);
+    }
+    put_attribute(w, circle ? "r" : "rx", p->radii[0]);
+    if (!circle)
+        put_attribute(w, "ry", p->radii[1]);
+    if (turned) {
+        put(w, " transform=\"translate(");
+        put_number(w, p->centre[0]);
+        put(w, " ");
+        put_number(w, p->centre[1]);
+        put(w, ")rotate(");
+        put_number(w, p->turn * (180 / PI));
+        put(w, ")\"");
+    }
+    put(w, "/>\n");
+}
+
+/* Paths that follow each other in one style are one element; dashed and round ones have their own. */
 static void put_paths(svg_writer *w, const sheet_item *item)
 {
-    size_t current = SIZE_MAX;
+    size_t current = SIZE_MAX; /* the style of the element that is open */
     for (uint32_t k = 0; k < item->count; k++) {
-        const sheet_path *path = &w->s->paths[item->first + k];
-        svg_style         style;
+        const sheet_path  *path = &w->s->paths[item->first + k];
+        const sheet_piece *round = round_of(w, item, path);
+        svg_style          style;
         style_of(&style, item, path);
         size_t index = find_style(w, &style);
-        if (index != current || path->dash_count || (k && path[-1].dash_count)) {
+        if (index != current || round || path->dash_count || (k && path[-1].dash_count)) {
             put(w, current == SIZE_MAX ? "" : "\"/>\n");
-            text_append(&w->out, "<path class=\"s%zu\"", index);
-            if (item->id)
-                text_append(&w->out, " data-line=\"%llx\"", (unsigned long long)item->id);
+            current = round ? SIZE_MAX : index;
+            if (round) {
+                put_round(w, item, index, round);
+                continue;
+            }
+            begin_element(w, "path", item, index);
             if (path->dash_count)
                 put_dashes(w, path);
             put(w, " d=\"");
-            current = index;
         }
         put_path_data(w, path, item->kind == SHEET_DOTS);
     }
-    put(w, item->count ? "\"/>\n" : "");
+    put(w, current == SIZE_MAX ? "" : "\"/>\n");
 }
 
 static void put_image(svg_writer *w, const sheet_item *item)
@@ -630,7 +767,7 @@ static void put_head(svg_writer *w)
     put_element(w, "title", s->title);
     put_element(w, "desc", s->description);
     put_styles(w);
-    put_clips(w);
+    put_definitions(w);
     if (!(s->ground.a > 0))
         return;
     char ground[10];
@@ -660,6 +797,7 @@ lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error)
     mem_free(w.ids);
     mem_free(w.opened);
     mem_free(w.id_slots);
+    mem_free(w.group_styles);
     mem_free(w.styles);
     mem_free(w.style_slots);
     out->size = w.out.size;

@@ -621,7 +621,8 @@ static lmn_status open_plan(plan *out, const pose *pose, const lmn_look *look, c
                           .box = box3_empty()};
     lmn_status status = find_ground(&out->ground, look, options->background, error);
     if (status == LMN_OK && !options->parts_only)
-        status = section_find(&out->section, pose, look, options->select, error);
+        status = options->cut ? section_find_cut(&out->section, options->cut, pose, look, options->select, error)
+                              : section_find(&out->section, pose, look, options->select, error);
     out->has_cut = out->section.cut.cell_count > 0;
     return status;
 }

@@ -71,6 +71,7 @@ typedef struct plan_options {
     const char *background;    /* a colour, or NULL: the look's */
     double      pixels_per_mm; /* of paper, supersamples counted */
     bool        as_sprites;    /* no figure is drawn directly (maps need their buffers) */
+    const char *cut;           /* what is cut away, in the words of scene.cut; NULL: as the look says */
     bool        surfaces_only; /* neither lines, nor marks on surfaces, nor hatching of sections */
     bool        on_sheet;      /* lines are strokes, which find each other whatever rule they are of */
     bool        parts_only;    /* no figures, ghosts and sections: for who draws parts by the look's own rules */

@@ -25,11 +25,18 @@ static lmn_status match_parts(bool **out, const lmn_scene *scene, const char *te
 
 lmn_status section_find(section *out, const pose *pose, const lmn_look *look, const char *select, lmn_error *error)
 {
+    const scene_values *v = look->wide[KIND_SCENE].values;
+    return section_find_cut(out, v->cut.text, pose, look, select, error);
+}
+
+lmn_status section_find_cut(section *out, const char *text, const pose *pose, const lmn_look *look, const char *select,
+                            lmn_error *error)
+{
     const lmn_scene    *scene = pose->scene;
     const scene_values *v = look->wide[KIND_SCENE].values;
     *out = (section){.spared = NULL};
     memset(&out->cut, 0, sizeof out->cut);
-    if (!v->cut.text[0])
+    if (!text[0])
         return LMN_OK;
     bool      *selected;
     box3       box = box3_empty();
@@ -39,7 +46,7 @@ lmn_status section_find(section *out, const pose *pose, const lmn_look *look, co
             box = box3_union(box, pose->fit_boxes[i]);
     mem_free(selected);
     if (status == LMN_OK)
-        status = cut_parse(&out->cut, v->cut.text, box, error);
+        status = cut_parse(&out->cut, text, box, error);
     if (status == LMN_OK)
         status = match_parts(&out->spared, scene, v->cut_keep.text, false, error);
     return status;

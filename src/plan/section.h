@@ -15,6 +15,9 @@ typedef struct section {
 /* Percentages of a cut count along the bounds of what is selected (NULL: all). Errors: LMN_USAGE, LMN_MEMORY.
  * Release it also after one. */
 lmn_status section_find(section *out, const pose *pose, const lmn_look *look, const char *select, lmn_error *error);
+/* The same with another cut than the look's, in the words of scene.cut. */
+lmn_status section_find_cut(section *out, const char *text, const pose *pose, const lmn_look *look, const char *select,
+                            lmn_error *error);
 /* Sets which parts stay whole, by a selector. Errors: LMN_USAGE, LMN_MEMORY. */
 lmn_status section_spare(section *s, const lmn_scene *scene, const char *selector, lmn_error *error);
 void       section_release(section *s);

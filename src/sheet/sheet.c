@@ -92,6 +92,14 @@ void sheet_add_item(sheet *s, sheet_kind kind, uint32_t group, colour ink, uint6
     add_item(s, kind, group, ink, id);
 }
 
+void sheet_add_hatch(sheet *s, uint32_t group, colour ink, const sheet_hatch *hatch)
+{
+    sheet_item *item = add_item(s, SHEET_PATH, group, ink, 0);
+    bool        finite = isfinite(hatch->angle + hatch->origin[0] + hatch->origin[1] + hatch->width + hatch->apart);
+    if (item && finite && hatch->apart > 0.01 && hatch->width > 0)
+        item->hatch = *hatch;
+}
+
 static float within(float value)
 {
     return fminf(fmaxf(value, -farthest), farthest);

@@ -34,12 +34,19 @@ typedef struct sheet_path {
                                            at the first point, the last of a closed path ends there */
 } sheet_path;
 
+/* Lines that fill an area instead of ink: all over it at multiples of `apart` from one through `origin`, along an angle
+ * (radians, from x to y). mm. */
+typedef struct sheet_hatch {
+    double apart, angle, origin[2], width; /* apart 0: ink */
+} sheet_hatch;
+
 typedef struct sheet_item {
-    sheet_kind kind;
-    uint32_t   group;        /* in the sheet's groups */
-    colour     ink;          /* sRGB, straight alpha */
-    uint64_t   id;           /* 0: none; in hexadecimal it names the item */
-    uint32_t   first, count; /* paths */
+    sheet_kind  kind;
+    uint32_t    group;        /* in the sheet's groups */
+    colour      ink;          /* sRGB, straight alpha */
+    uint64_t    id;           /* 0: none; it names the item */
+    uint32_t    first, count; /* paths */
+    sheet_hatch hatch;        /* of areas */
     /* images: PNG bytes, owned; position and size */
     unsigned char *png;
     size_t         png_size;
@@ -94,6 +101,8 @@ void sheet_clip_group(sheet *s, uint32_t group, double x, double y, double width
 
 /* Begins an item of paths or dots. */
 void sheet_add_item(sheet *s, sheet_kind kind, uint32_t group, colour ink, uint64_t id);
+/* Begins an item of areas that are hatched. What says nothing (distance or width not above 0, not finite) is ink. */
+void sheet_add_hatch(sheet *s, uint32_t group, colour ink, const sheet_hatch *hatch);
 /* Adds a path to the last item, drawn as `style` says (what it has of the sheet's arrays does not matter). Where points
  * are not finite it is broken. Lines of one point are left out; dots are not. */
 void sheet_add_path(sheet *s, const sheet_path *style, const float (*points)[2], size_t count);

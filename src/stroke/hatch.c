@@ -29,6 +29,11 @@ typedef struct stretch {
     uint32_t last;     /* and where it ends: depths are those of triangles there, as needles know none elsewhere */
 } stretch;
 
+/* A triangle of a cut face. */
+typedef struct cap_triangle {
+    uint32_t item, cap, triangle;
+} cap_triangle;
+
 typedef struct hatcher {
     const stroke_view *v;
     const bool        *parts;
@@ -36,6 +41,9 @@ typedef struct hatcher {
     mat4               to_world; /* from eye space */
     stretch           *items;
     size_t             count, capacity;
+    cap_triangle      *faces; /* all that are hatched, where areas are wanted */
+    size_t             face_count, face_capacity;
+    bool               wants_areas;
     solid_trimmer     *trimmer; /* of the solid at hand */
     uint32_t           trimmed; /* its item */
 } hatcher;
@@ -95,6 +103,30 @@ static double3 in_world(const hatcher *h, window_point p)
     double scale = c->orthographic ? 1 : depth, x = at[0] / e[0] * scale, y = at[1] / e[5] * scale, z = -depth;
     return (double3){m[0] * x + m[4] * y + m[8] * z + m[12], m[1] * x + m[5] * y + m[9] * z + m[13],
                      m[2] * x + m[6] * y + m[10] * z + m[14]};
+}
+
+/* A position of the page on a cut face: its depth is that of the cutting plane, since faces of caps may be needles,
+ * which know none. */
+static window_point on_cap(const hatcher *h, const stretch *s, uint32_t triangle, const double page[2])
+{
+    const stroke_view   *v = h->v;
+    const stroke_camera *c = &v->camera;
+    const edge_cap      *cap = &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap];
+    const double        *m = h->to_world.m, *e = c->projection.m;
+    window_point         out = on_plane(v, triangle, page);
+    double               x = (2 * out.x / (v->units * c->width) + (c->orthographic ? -e[12] : e[8])) / e[0],
+           y = (-2 * out.y / (v->units * c->height) + (c->orthographic ? -e[13] : e[9])) / e[5], away = cap->offset,
+           nearer = 0;
+    for (int k = 0; k < 3; k++) { /* from the page, or from the eye, on to the plane */
+        double begin = m[12 + k] + (c->orthographic ? m[k] * x + m[4 + k] * y : 0),
+               way = (c->orthographic ? 0 : m[k] * x + m[4 + k] * y) - m[8 + k];
+        away -= cap->normal[k] * begin;
+        nearer += cap->normal[k] * way;
+    }
+    double depth = away / nearer;
+    if (fabs(nearer) > 1e-4 && isfinite(depth) && (c->orthographic || depth > 0))
+        out.z = c->orthographic ? depth : -1 / depth;
+    return out;
 }
 
 /* --- stretches ------------------------------------------------------------------------------------------ */
@@ -224,6 +256,16 @@ static uint32_t item_of(const stroke_view *v, uint32_t face)
     return low;
 }
 
+static bool note_face(hatcher *h, uint32_t triangle, uint32_t item, uint32_t cap, const edge_mesh *m)
+{
+    if (!h->wants_areas || m->solid)
+        return true;
+    if (!mem_grow((void **)&h->faces, &h->face_capacity, h->face_count + 1, sizeof *h->faces))
+        return false;
+    h->faces[h->face_count++] = (cap_triangle){item, cap, triangle};
+    return true;
+}
+
 static lmn_status lay_all(hatcher *h, lmn_error *error)
 {
     const stroke_view *v = h->v;
@@ -236,7 +278,7 @@ static lmn_status lay_all(hatcher *h, lmn_error *error)
         uint32_t cap = (uint32_t)(EDGE_CAP_MATERIAL(0) - m->materials[own]);
         if (m->solid && (!view_is_front(v, face) || !is_in_plane(h, item, m, own, &m->caps[cap])))
             continue;
-        if (work_stopped() || !lay_over(h, i, item, cap, m))
+        if (work_stopped() || !lay_over(h, i, item, cap, m) || !note_face(h, i, item, cap, m))
             return error_memory(error);
     }
     return LMN_OK;
@@ -279,13 +321,14 @@ static void join_stretches(hatcher *h)
 /* --- what is seen --------------------------------------------------------------------------------------- */
 
 static bool put_line(hatch_lines *out, const stroke_view *v, const window_segment *s, double from, double to,
-                     uint32_t part)
+                     uint32_t part, uint32_t area)
 {
     if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
         return false;
     hatch_line  *line = &out->items[out->count++];
     const double at[2] = {from, to};
     line->part = part;
+    line->area = area;
     for (int k = 0; k < 2; k++) {
         double x = s->a.x + at[k] * ((double)s->b.x - s->a.x), y = s->a.y + at[k] * ((double)s->b.y - s->a.y);
         line->ends[k][0] = (float)(x / v->units + 0.5 * v->camera.width);
@@ -295,52 +338,241 @@ static bool put_line(hatch_lines *out, const stroke_view *v, const window_segmen
     return true;
 }
 
-static lmn_status keep_seen(hatch_lines *out, const hatcher *h, lmn_error *error)
+/* --- areas ---------------------------------------------------------------------------------------------- */
+
+void hatch_areas_release(hatch_areas *a)
+{
+    mem_free(a->items);
+    mem_free(a->loops);
+    mem_free(a->points);
+    memset(a, 0, sizeof *a);
+}
+
+static int compare_faces(const void *a, const void *b)
+{
+    const cap_triangle *p = a, *q = b;
+    if (p->item != q->item)
+        return p->item < q->item ? -1 : 1;
+    if (p->cap != q->cap)
+        return p->cap < q->cap ? -1 : 1;
+    return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
+}
+
+/* A side of a triangle, in the direction in which that is seen to run; one that another triangle has the other way
+ * round is no rim. */
+typedef struct rim {
+    uint32_t from, to;
+} rim;
+
+static int compare_rims(const void *a, const void *b)
+{
+    const rim *p = a, *q = b;
+    if (p->from != q->from)
+        return p->from < q->from ? -1 : 1;
+    return p->to < q->to ? -1 : p->to > q->to;
+}
+
+/* The first side that begins at a point, their number when there is none. */
+static size_t first_rim(const rim *rims, size_t count, uint32_t from)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (rims[middle].from < from)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Sorts sides and gives those that do not run both ways, in order; returns how many. */
+static size_t keep_rims(rim *rims, size_t count, rim *out)
+{
+    size_t kept = 0;
+    qsort(rims, count, sizeof *rims, compare_rims);
+    for (size_t i = 0; i < count; i++) {
+        bool both = false;
+        for (size_t k = first_rim(rims, count, rims[i].to); k < count && rims[k].from == rims[i].to && !both; k++)
+            both = rims[k].to == rims[i].from;
+        if (!both)
+            out[kept++] = rims[i];
+    }
+    return kept;
+}
+
+static bool put_area_point(hatch_areas *out, const stroke_view *v, uint32_t point)
+{
+    double page[2];
+    if (!mem_grow((void **)&out->points, &out->point_capacity, out->point_count + 1, sizeof *out->points))
+        return false;
+    on_page(v, v->points[point], page);
+    out->points[out->point_count][0] = (float)page[0];
+    out->points[out->point_count++][1] = (float)(v->camera.height - page[1]);
+    return true;
+}
+
+static bool begin_loop(hatch_areas *out)
+{
+    if (!mem_grow((void **)&out->loops, &out->loop_capacity, out->loop_count + 2, sizeof *out->loops))
+        return false;
+    out->loops[out->loop_count++] = (uint32_t)out->point_count;
+    out->loops[out->loop_count] = (uint32_t)out->point_count;
+    return true;
+}
+
+/* From each side on to one that begins where it ends, until one ends where the first began. */
+static bool put_loops(hatch_areas *out, const stroke_view *v, const rim *rims, size_t count, uint8_t *used)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (used[i])
+            continue;
+        if (!begin_loop(out))
+            return false;
+        for (size_t at = i; at < count && rims[at].from != NO_VERTEX;) {
+            used[at] = 1;
+            if (!put_area_point(out, v, rims[at].from))
+                return false;
+            if (rims[at].to == rims[i].from)
+                break;
+            size_t next = first_rim(rims, count, rims[at].to);
+            while (next < count && rims[next].from == rims[at].to && used[next])
+                next++;
+            at = next < count && rims[next].from == rims[at].to ? next : count;
+        }
+        out->loops[out->loop_count] = (uint32_t)out->point_count;
+    }
+    return true;
+}
+
+static bool put_area(hatch_areas *out, const hatcher *h, const cap_triangle *faces, size_t count)
 {
     const stroke_view *v = h->v;
-    window_segment    *segments = mem_calloc(h->count + 1, sizeof *segments);
-    visibility         seen;
-    if (!segments)
-        return error_memory(error);
+    rim               *rims = mem_alloc(3 * count * sizeof *rims), *kept = mem_alloc(3 * count * sizeof *rims);
+    uint8_t           *used = mem_calloc(3 * count + 1, 1);
+    bool               good =
+        rims && kept && used && mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items);
+    for (size_t i = 0; good && i < 3 * count; i++) {
+        const uint32_t *t = v->triangles[faces[i / 3].triangle].v;
+        rims[i] = (rim){t[i % 3], t[(i % 3 + 1) % 3]};
+    }
+    if (good) {
+        const hatching g =
+            hatching_of(h, faces->item, &v->scene->meshes[v->scene->items[faces->item].mesh].caps[faces->cap]);
+        double at[2];
+        position_on_line(&g, 0, 0, at);
+        out->items[out->count] = (hatch_area){.part = v->scene->items[faces->item].part_index + 1,
+                                              .apart = g.apart,
+                                              .angle = -atan2(g.along[1], g.along[0]),
+                                              .origin = {at[0], v->camera.height - at[1]},
+                                              .first = (uint32_t)out->loop_count};
+        size_t left = keep_rims(rims, 3 * count, kept);
+        good = put_loops(out, v, kept, left, used);
+        out->items[out->count].count = (uint32_t)out->loop_count - out->items[out->count].first;
+        out->count += good;
+    }
+    mem_free(rims);
+    mem_free(kept);
+    mem_free(used);
+    return good;
+}
+
+/* Which stretches are seen from one end to the other with all others of their face? `wholes` gets 1 + the area of
+ * each. */
+static bool find_areas(hatch_areas *out, hatcher *h, const visibility *seen, uint32_t *wholes)
+{
+    if (h->face_count)
+        qsort(h->faces, h->face_count, sizeof *h->faces, compare_faces);
+    for (size_t i = 0, end, face = 0; i < h->count; i = end) {
+        const stretch *s = &h->items[i];
+        bool           whole = true;
+        for (end = i; end < h->count && h->items[end].item == s->item && h->items[end].cap == s->cap; end++)
+            whole =
+                whole && seen->starts[end + 1] - seen->starts[end] == 1 && seen->spans[seen->starts[end]].count == 0;
+        while (face < h->face_count &&
+               (h->faces[face].item < s->item || (h->faces[face].item == s->item && h->faces[face].cap < s->cap)))
+            face++;
+        size_t last = face;
+        while (last < h->face_count && h->faces[last].item == s->item && h->faces[last].cap == s->cap)
+            last++;
+        if (!whole || last == face)
+            continue;
+        if (!put_area(out, h, h->faces + face, last - face))
+            return false;
+        for (size_t k = i; k < end; k++)
+            wholes[k] = (uint32_t)out->count;
+    }
+    return true;
+}
+
+/* --- all ------------------------------------------------------------------------------------------------ */
+
+static void fill_segments(const hatcher *h, window_segment *segments)
+{
+    const stroke_view *v = h->v;
     for (size_t i = 0; i < h->count; i++) {
         const stretch *s = &h->items[i];
         hatching       g = hatching_of(h, s->item, &v->scene->meshes[v->scene->items[s->item].mesh].caps[s->cap]);
         double         ends[2][2];
         position_on_line(&g, s->line, s->from, ends[0]);
         position_on_line(&g, s->line, s->to, ends[1]);
-        segments[i] = (window_segment){.a = on_plane(v, s->triangle, ends[0]),
-                                       .b = on_plane(v, s->last, ends[1]),
+        segments[i] = (window_segment){.a = on_cap(h, s, s->triangle, ends[0]),
+                                       .b = on_cap(h, s, s->last, ends[1]),
                                        .ends = {NO_VERTEX, NO_VERTEX},
                                        .faces = {v->triangles[s->triangle].face, EDGE_NO_FACE}};
     }
-    lmn_status status = visibility_find(&seen, v, segments, h->count, NULL, NULL, error);
+}
+
+static lmn_status keep_seen(hatch_lines *out, hatch_areas *areas, hatcher *h, lmn_error *error)
+{
+    const stroke_view *v = h->v;
+    window_segment    *segments = mem_calloc(h->count + 1, sizeof *segments);
+    uint32_t          *wholes = mem_calloc(h->count + 1, sizeof *wholes);
+    visibility         seen = {.spans = NULL};
+    lmn_status         status = segments && wholes ? LMN_OK : error_memory(error);
+    if (status == LMN_OK) {
+        fill_segments(h, segments);
+        status = visibility_find(&seen, v, segments, h->count, NULL, NULL, error);
+    }
+    if (status == LMN_OK && areas && !find_areas(areas, h, &seen, wholes))
+        status = error_memory(error);
     for (size_t i = 0; i < h->count && status == LMN_OK; i++)
-        for (uint32_t k = seen.starts[i]; k < seen.starts[i + 1]; k++) {
+        for (uint32_t k = seen.starts[i]; k < seen.starts[i + 1] && status == LMN_OK; k++) {
             double to = k + 1 < seen.starts[i + 1] ? (double)seen.spans[k + 1].from : 1;
             if (seen.spans[k].count == 0 && !put_line(out, v, &segments[i], (double)seen.spans[k].from, to,
-                                                      v->scene->items[h->items[i].item].part_index + 1))
+                                                      v->scene->items[h->items[i].item].part_index + 1, wholes[i]))
                 status = error_memory(error);
         }
-    if (status == LMN_OK)
-        visibility_release(&seen);
+    visibility_release(&seen);
     mem_free(segments);
+    mem_free(wholes);
     return status;
 }
 
-lmn_status hatch_find(hatch_lines *out, const stroke_view *v, double apart, double angle, const bool *parts,
-                      lmn_error *error)
+lmn_status hatch_find(hatch_lines *out, hatch_areas *areas, const stroke_view *v, double apart, double angle,
+                      const bool *parts, lmn_error *error)
 {
-    hatcher h = {.v = v, .parts = parts, .apart = apart, .angle = angle, .to_world = mat4_inverse(&v->camera.view)};
+    hatcher h = {.v = v,
+                 .parts = parts,
+                 .apart = apart,
+                 .angle = angle,
+                 .to_world = mat4_inverse(&v->camera.view),
+                 .wants_areas = areas != NULL};
     memset(out, 0, sizeof *out);
+    if (areas)
+        memset(areas, 0, sizeof *areas);
     lmn_status status = apart > 0 ? lay_all(&h, error) : LMN_OK;
     join_stretches(&h);
     if (status == LMN_OK && h.count)
-        status = keep_seen(out, &h, error);
+        status = keep_seen(out, areas, &h, error);
     solid_trimmer_destroy(&h.trimmer);
     mem_free(h.items);
+    mem_free(h.faces);
     if (status != LMN_OK) {
         mem_free(out->items);
         memset(out, 0, sizeof *out);
+        if (areas)
+            hatch_areas_release(areas);
     }
     return status;
 }

@@ -195,7 +195,9 @@ static bool find_candidates(joiner *j, uint32_t a)
         for (int32_t column = p->column - 1; column <= p->column + 1; column++) {
             int left = MEETING_MOST;
             for (uint32_t b = j->heads[cell_hash(column, row) & j->mask]; b != NO_VERTEX && left; b = j->nexts[b]) {
-                if (b <= a || j->ends[b].column != column || j->ends[b].row != row)
+                if (b <= a) /* those behind it came before it */
+                    break;
+                if (j->ends[b].column != column || j->ends[b].row != row)
                     continue;
                 left--;
                 if (is_far(j, a, b))

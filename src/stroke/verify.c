@@ -10,10 +10,11 @@
 #include "base/memory.h"
 #include "stroke/solid.h"
 
-/* A position counts as right when one within this distance is as it should be: pixels. Outlines are the rim of what
- * they belong to. */
-static const double near_by[] = {0, 0.25, 0.5};
-enum { DIRECTIONS = 8, RINGS = 3, STACK = 128, TICK = 4096 };
+/* A position counts as right when one within half a pixel is as it should be. Outlines are the rim of what they belong
+ * to; and between parts that run in each other there may be no more to be seen through than a hundredth of a pixel.
+ * Distances at which is looked, pixels. */
+static const double near_by[] = {0, 0.25, 0.5, 0.1, 0.03, 0.008};
+enum { DIRECTIONS = 8, RINGS = sizeof near_by / sizeof *near_by, STACK = 128, TICK = 4096 };
 
 typedef struct ray {
     double3 from, along; /* `along` is a unit vector */

@@ -4,7 +4,9 @@
  * What makes this hold together where triangles meet: on which side of the line a corner lies is exact, and a corner on
  * the line counts as being on the positive side, as if the line were shifted a little to the other one. So a line that
  * runs along the edge between two triangles is covered by one of them, not by both or neither, and where a line leaves
- * one triangle for the next the two numbers are the same, because both come from the edge that they share. */
+ * one triangle for the next the two numbers are the same, because both come from the edge that they share. Where the
+ * edges of two bodies meet, as of parts that touch, they share none, and roundings leave gaps that are no width at all:
+ * a line that runs along such an edge is hidden, too, where it would be a little to either side of it. */
 #include "stroke/stroke_private.h"
 
 #include <math.h>
@@ -17,6 +19,8 @@
 
 /* Stretches shorter than this are not told apart, pixels. */
 #define CRUMB 0.02
+/* Gaps between bodies are no wider than twice this where it is roundings that make them, pixels. */
+#define GAP 0.01
 enum { BLOCK = 512 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
@@ -64,6 +68,10 @@ typedef struct worker {
     size_t                step_capacity;
     solid_covers          covers; /* of faces of solids */
     uint64_t              pairs;
+    double                gap;    /* GAP by the segment's length: sides of corners so near are none, window units */
+    double                beside; /* by how many units the segment was moved aside; 0: it is where it is */
+    bool                  grazed; /* an edge of another body's face runs along it */
+    span_block            sides[2], merged; /* spans to either side of it; those that go into the block */
     bool                  failed;
 } worker;
 
@@ -217,6 +225,23 @@ static bool is_around(const stroke_view *v, uint32_t face)
     return solid && v->around[solid - 1];
 }
 
+/* Does an edge of a triangle run along the segment, so near that it might as well lie on its other side? */
+static bool runs_along(const worker *w, const window_point p[3], const int64_t sides[3])
+{
+    const window_segment *s = w->segment;
+    double                from = INFINITY, to = -INFINITY, x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    int                   near = 0;
+    for (int k = 0; k < 3; k++) {
+        if (fabs((double)sides[k]) > w->gap)
+            continue;
+        double at = x * ((double)p[k].x - s->a.x) + y * ((double)p[k].y - s->a.y);
+        from = fmin(from, at);
+        to = fmax(to, at);
+        near++;
+    }
+    return near == 2 && to > 0 && from < x * x + y * y;
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -234,8 +259,10 @@ static void compare(worker *w, uint32_t number)
         sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
     bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
     bool own = (t->face == s->faces[0]) | (t->face == s->faces[1]);
-    if (((low[0] == low[1]) & (low[1] == low[2])) | (own & !is_around(v, t->face)))
+    if (((low[0] == low[1]) & (low[1] == low[2])) | (own & !is_around(v, t->face))) {
+        w->grazed = w->grazed || (!own && runs_along(w, p, sides));
         return;
+    }
     int alone = low[0] == low[1]   ? 2
                 : low[0] == low[2] ? 1
                                    : 0,
@@ -261,7 +288,7 @@ static void compare(worker *w, uint32_t number)
     if (own || (to == 1 && has_corner(t, s->ends[1])))
         after = 0;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
-    double same = view_tolerance(v, z0) + box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
+    double same = view_tolerance(v, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
     if (s->ignored_count && is_ignored(s, t->face))
         return;
     uint32_t solid = view_solid(v, t->face);
@@ -359,7 +386,10 @@ static void put_solid_step(void *user, double at, int32_t step)
 
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
     w->segment = s;
+    w->gap = GAP * w->v->units * sqrt(x * x + y * y);
+    w->grazed = false;
     w->stamp++;
     w->filled_count = 0;
     w->low_x = s->a.x < s->b.x ? s->a.x : s->b.x;
@@ -375,6 +405,87 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
         w->failed = !put_spans(w, block);
 }
 
+/* --- along edges ---------------------------------------------------------------------------------------- */
+
+/* The segment a little to its left, or to its right. */
+static bool move_aside(window_segment *s, double by, double length)
+{
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    if (!(length > 0))
+        return false;
+    int32_t aside[2] = {(int32_t)lrint(-y / length * by), (int32_t)lrint(x / length * by)};
+    s->a.x += aside[0];
+    s->b.x += aside[0];
+    s->a.y += aside[1];
+    s->b.y += aside[1];
+    return true;
+}
+
+/* The number of surfaces at a place; `at` goes on to the span that the place is in. */
+static uint32_t count_at(const visibility_span *spans, size_t count, size_t *at, float place)
+{
+    while (*at + 1 < count && spans[*at + 1].from <= place)
+        ++*at;
+    return spans[*at].count;
+}
+
+/* As many surfaces are in front as there are to both sides, and no fewer than were found. */
+static bool merge_sides(worker *w, const span_block *block, size_t first)
+{
+    const visibility_span *lists[3] = {block->spans + first, w->sides[0].spans, w->sides[1].spans};
+    const size_t           counts[3] = {block->count - first, w->sides[0].count, w->sides[1].count};
+    size_t                 at[3] = {0, 0, 0};
+    float                  place = 0;
+    w->merged.count = 0;
+    for (;;) {
+        uint32_t own[3];
+        float    next = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            own[k] = count_at(lists[k], counts[k], &at[k], place);
+            if (at[k] + 1 < counts[k])
+                next = fminf(next, lists[k][at[k] + 1].from);
+        }
+        uint32_t both = own[1] < own[2] ? own[1] : own[2];
+        if (!put_span(&w->merged, (double)place, both > own[0] ? both : own[0], 0, 0))
+            return false;
+        if (!(next < INFINITY))
+            return true;
+        place = next;
+    }
+}
+
+static bool is_seen(const span_block *block, size_t first)
+{
+    for (size_t i = first; i < block->count; i++)
+        if (block->spans[i].count == 0)
+            return true;
+    return false;
+}
+
+/* What is seen along the edge of another body may be seen through a gap that is none. */
+static void look_beside(worker *w, span_block *block, const window_segment *s, size_t first)
+{
+    double length = w->gap / (GAP * w->v->units), by = GAP * w->v->units;
+    bool   moved = true;
+    for (int k = 0; k < 2 && !w->failed && moved; k++) {
+        window_segment aside = *s;
+        moved = move_aside(&aside, k ? by : -by, length);
+        w->sides[k].count = 0;
+        w->beside = by;
+        if (moved)
+            find_spans(w, &w->sides[k], &aside);
+        w->beside = 0;
+    }
+    if (w->failed || !moved)
+        return;
+    w->failed = !merge_sides(w, block, first) ||
+                !mem_grow((void **)&block->spans, &block->capacity, first + w->merged.count, sizeof *block->spans);
+    if (w->failed)
+        return;
+    memcpy(block->spans + first, w->merged.spans, w->merged.count * sizeof *block->spans);
+    block->count = first + w->merged.count;
+}
+
 static void find_blocks(size_t begin, size_t end, void *user)
 {
     span_job *job = user;
@@ -386,6 +497,8 @@ static void find_blocks(size_t begin, size_t end, void *user)
         for (size_t i = b * BLOCK; i < last && !w.failed; i++) {
             size_t before = block->count;
             find_spans(&w, block, &job->segments[i]);
+            if (w.grazed && !w.failed && is_seen(block, before))
+                look_beside(&w, block, &job->segments[i], before);
             job->lengths[i] = (uint32_t)(block->count - before);
         }
         block->pairs = w.pairs;
@@ -398,6 +511,9 @@ static void find_blocks(size_t begin, size_t end, void *user)
     mem_free(w.filled);
     mem_free(w.steps);
     solid_covers_release(&w.covers);
+    mem_free(w.sides[0].spans);
+    mem_free(w.sides[1].spans);
+    mem_free(w.merged.spans);
 }
 
 /* The blocks' spans one after the other. */

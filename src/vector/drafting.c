@@ -12,7 +12,6 @@
 #include "vector/vector_job.h"
 
 static const double usual_narrow = 0.25; /* mm, beside lines whose widths are the look's */
-enum { CUT_TEXT_SIZE = 2 * DRAFT_CUT_SIZE };
 
 double vector_wide(const vector_job *j)
 {
@@ -45,14 +44,20 @@ draft_view vector_drafting_view(const vector_job *j, const vector_view *v, uint3
 
 /* --- sections ------------------------------------------------------------------------------------------- */
 
+void vector_cut_text(const vector_job *j, const draft_extra *extra, char *out, size_t size)
+{
+    const char *own = ((const scene_values *)j->look->wide[KIND_SCENE].values)->cut.text;
+    snprintf(out, size, "%s%s%s", own, own[0] ? ";" : "", extra->cut);
+}
+
 lmn_status vector_section(section *out, const vector_job *j, const draft_extra *extra, lmn_error *error)
 {
     const scene_values *v = j->look->wide[KIND_SCENE].values;
-    char                text[CUT_TEXT_SIZE];
+    char                text[VECTOR_CUT_TEXT_SIZE];
     lmn_status          status = section_find(out, &j->pose, j->look, j->desc->select, error);
     if (status != LMN_OK)
         return status;
-    snprintf(text, sizeof text, "%s%s%s", v->cut.text, v->cut.text[0] ? ";" : "", extra->cut);
+    vector_cut_text(j, extra, text, sizeof text);
     status = cut_parse(&out->cut, text, j->plan.fit.box, error);
     bool spares = status == LMN_OK && v->cut_keep.text[0] && !out->spared;
     return spares ? section_spare(out, j->scene, v->cut_keep.text, error) : status;
@@ -156,25 +161,6 @@ lmn_status vector_face_normal(const vector_job *j, const double at[3], double ou
     return status;
 }
 
-lmn_status vector_check_drafting(const vector_job *j, lmn_error *error)
-{
-    bool sections = false, details = false, marks = false;
-    for (size_t i = 0; i < j->out->extras.count; i++) {
-        sections =
-            sections || j->out->extras.items[i].kind == DRAFT_SECTION || j->out->extras.items[i].kind == DRAFT_REVOLVED;
-        details = details || j->out->extras.items[i].kind == DRAFT_DETAIL;
-    }
-    for (size_t i = 0; i < j->look->rule_count; i++)
-        marks = marks || vector_rule_marks(&j->look->rules[i]);
-    if ((sections || details) && (j->pixels || (marks && sections))) {
-        error_set(error, LMN_UNSUPPORTED, "sections and details are drawn in lines, and the look '%s' has %s",
-                  j->look->name ? j->look->name : "", j->pixels ? "surfaces of pixels" : "marks on surfaces");
-        error_hint(error, "take the look technical or line, or fill parts with their colour (`fill`, --fill)");
-        return LMN_UNSUPPORTED;
-    }
-    return LMN_OK;
-}
-
 /* --- centre lines --------------------------------------------------------------------------------------- */
 
 lmn_status vector_find_axes(vector_job *j, lmn_error *error)
@@ -211,7 +197,7 @@ static void sample(const draft_cylinder *c, double (*out)[3])
     }
 }
 
-static bool is_cut_away(const cut *c, const double p[3])
+bool vector_is_cut_away(const cut *c, const double p[3])
 {
     for (int32_t i = 0; i < c->cell_count; i++) {
         bool inside = true;
@@ -236,7 +222,7 @@ static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut
     if (!hidden)
         stroke_view_count(view, (const double(*)[3])places, SAMPLES, before);
     for (int i = 0; i < SAMPLES && !any; i++)
-        any = !(cut && is_cut_away(cut, places[i])) && (hidden || before[i] == 0);
+        any = !(cut && vector_is_cut_away(cut, places[i])) && (hidden || before[i] == 0);
     return any;
 }
 

@@ -197,9 +197,14 @@ static void count_marks(vector_marks *m, const marks_page *page, size_t part_cou
     }
 }
 
+/* What is cut away hides itself. */
 static void count_in_front(void *user, const double (*positions)[3], size_t count, uint32_t *out)
 {
-    stroke_view_count(user, positions, count, out);
+    const vector_marks *m = user;
+    stroke_view_count(m->view, positions, count, out);
+    for (size_t i = 0; i < count && m->cut; i++)
+        if (out[i] == 0 && vector_is_cut_away(m->cut, positions[i]))
+            out[i] = 1;
 }
 
 /* One pen draws all marks alike: none comes or goes by its size. */
@@ -228,7 +233,7 @@ lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *e
     float pen_width = m->one_pen ? settle_pen(&surface) : 0;
     options.surface = &surface;
     options.hidden = count_in_front;
-    options.user = (void *)(uintptr_t)m->view;
+    options.user = m;
     lmn_status  status = marks_on_page(&page, &options, error);
     mark_writer w = {
         .ink = ink, .page = &page, .pen_width = pen_width, .name = "dots", .group = -1, .pen = {.how = ink}};

@@ -117,30 +117,17 @@ lmn_status vector_parse_views(const char *text, vector_view out[VIEWS_MOST], siz
     }
 }
 
-/* The largest of these, times a power of ten, that is no larger. */
-static double from_series(const double *series, size_t count, double value)
-{
-    double unit = pow(10, floor(log10(value) + 1e-9)), best = unit;
-    for (size_t i = 0; i < count; i++)
-        if (unit * series[i] <= value * (1 + 1e-9))
-            best = unit * series[i];
-    return best;
-}
-
-/* ISO 5455 has 1, 2 and 5 times powers of ten. Where that would leave much of the page empty, the scales that
- * drawing offices use between these. */
+/* ISO 5455: 1, 2 and 5 times powers of ten. */
 double vector_usual_scale(double scale)
 {
-    static const double standard[] = {1, 2, 5}, larger[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
-    /* Of 1:r, as fractions of 10: 1:8, 1:6, 1:5 … 1:1.5. */
-    static const double smaller[] = {1, 10 / 8.0, 10 / 6.0, 2, 2.5, 10 / 3.0, 4, 5, 10 / 1.5};
-    const double        enough = 0.7;
+    static const double series[] = {1, 2, 5};
     if (!(scale > 1e-9) || !(scale < 1e9))
         return scale;
-    double usual = from_series(standard, 3, scale);
-    if (usual >= enough * scale)
-        return usual;
-    return from_series(scale < 1 ? smaller : larger, 9, scale);
+    double unit = pow(10, floor(log10(scale) + 1e-9)), best = unit;
+    for (size_t i = 0; i < sizeof series / sizeof *series; i++)
+        if (unit * series[i] <= scale * (1 + 1e-9))
+            best = unit * series[i];
+    return best;
 }
 
 void vector_print_scale(char out[32], double scale)

@@ -161,7 +161,8 @@ static lmn_status hatch(vector_job *j, const turned *t, const vector_view *v, ui
     if (status == LMN_OK && !colours)
         status = error_memory(error);
     if (status == LMN_OK)
-        status = vector_put_hatch(&ink, view, &values, j->stroked, colours, &j->out->hatches, NULL, error);
+        status = vector_put_hatch(&ink, view, &values, j->stroked, colours,
+                                  j->wanted->loose_hatch || j->wanted->plotter, &j->out->hatches, NULL, error);
     mem_free(colours);
     stroke_view_destroy(&view);
     return status;

@@ -24,8 +24,9 @@
 #include "light/light.h"
 
 static const double speck_on_page = 0.1; /* mm; the thinnest pens draw wider lines */
-/* Of what curves may be off: what points are left out for, and what writers round numbers by, mm. */
-static const double simplified_part = 0.25, written_error = 0.0007;
+/* Of what curves may be off: what points are left out for, and what writers round numbers by and arcs that they have
+ * none of, mm. */
+static const double simplified_part = 0.25, written_error = 0.0017;
 
 /* Progress of a part of the work, as a part of the whole. */
 static bool report_part(double fraction, const char *stage, void *user)
@@ -178,6 +179,23 @@ static void set_resolution(const vector_job *j, lmn_draw_desc *d)
     d->dpi = PX_PER_INCH * finer;
 }
 
+/* Of the circle that a detail is cut out at, pixels of the view. */
+static double radius_of_detail(const vector_view *v)
+{
+    return v->extra->radius * v->height / (2 * v->camera.half_height);
+}
+
+/* Nothing is seen outside of a circle around the middle; its radius is a fraction of the width. */
+static void keep_circle(uint8_t *pixels, int width, int height, double radius)
+{
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double   away = hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height), in = radius * width - away + 0.5;
+            uint8_t *alpha = &pixels[4 * ((size_t)y * (size_t)width + (size_t)x) + 3];
+            *alpha = (uint8_t)lrint(*alpha * fmin(fmax(in, 0), 1));
+        }
+}
+
 /* The surfaces of a view as pixels. The eye is given, so that the camera is the same. */
 static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t group, lmn_error *error)
 {
@@ -202,7 +220,12 @@ static lmn_status put_picture(vector_job *j, const vector_view *v, uint32_t grou
         d.fit_direction = false;
         d.orthographic = v->camera.orthographic;
     }
-    lmn_status   status = j->draw_surfaces(&pixels, &d, j->user, error);
+    char cut[VECTOR_CUT_TEXT_SIZE];
+    if (j->cut_open)
+        vector_cut_text(j, j->cut_open, cut, sizeof cut);
+    lmn_status status = j->draw_surfaces(&pixels, &d, j->cut_open ? cut : NULL, j->user, error);
+    if (status == LMN_OK && v->extra && v->extra->kind == DRAFT_DETAIL)
+        keep_circle(pixels, d.width, d.height, radius_of_detail(v) / v->width);
     export_bytes png = {0};
     if (status == LMN_OK)
         status = export_png(&png, pixels, d.width, d.height, error);
@@ -240,9 +263,19 @@ static bool *parts_of(const vector_job *j, const rule *r, size_t *count)
     return parts;
 }
 
+/* Where a rule's marks may lie in what is cut away, as some of its parts are spared, only what lies beside surfaces
+ * goes. */
+static bool spares_any(const vector_job *j, const bool *parts)
+{
+    bool any = false;
+    for (size_t i = 0; i < j->scene->part_count && j->spared; i++)
+        any = any || (parts[i] && j->spared[i]);
+    return any;
+}
+
 /* The marks of one rule's parts. */
 static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vector_view *v, const rule *r,
-                             const vector_ink *ink, lmn_error *error)
+                             const vector_ink *ink, const cut *cut, lmn_error *error)
 {
     const technique_use *surface = vector_rule_marks(r);
     size_t               count = 0;
@@ -252,6 +285,7 @@ static lmn_status draw_marks(vector_job *j, const stroke_view *view, const vecto
     if (!parts)
         return error_memory(error);
     vector_marks m = {.view = view,
+                      .cut = cut->cell_count && !spares_any(j, parts) ? cut : NULL,
                       .ground = j->plan.ground,
                       .one_pen = j->wanted->plotter,
                       .part_marks = j->out->part_marks,
@@ -401,9 +435,10 @@ static lmn_status draw_hatch(vector_job *j, const stroke_view *view, const vecto
     colour *colours = mem_alloc((j->scene->part_count + 1) * sizeof *colours);
     for (size_t i = 0; colours && i < j->scene->part_count; i++)
         colours[i] = colour_of_hatch(plan_rule(&j->plan, i), v->cut_colour);
-    lmn_status status = colours ? vector_put_hatch(ink, view, v, j->stroked, colours, &j->out->hatches,
-                                                   j->wanted->verify ? &check : NULL, error)
-                                : error_memory(error);
+    lmn_status status =
+        colours ? vector_put_hatch(ink, view, v, j->stroked, colours, j->wanted->loose_hatch || j->wanted->plotter,
+                                   &j->out->hatches, j->wanted->verify ? &check : NULL, error)
+                : error_memory(error);
     mem_free(colours);
     j->out->check.samples += check.samples;
     j->out->check.wrong += check.wrong;
@@ -421,7 +456,7 @@ static lmn_status draw_ink(vector_job *j, const vector_view *v, const vector_ink
     if (status == LMN_OK && j->as_is.item_count)
         status = stroke_view_create(&as_is, &j->as_is, &camera, report_part, j, error);
     for (size_t i = 0; i < j->look->rule_count && status == LMN_OK; i++)
-        status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, error);
+        status = draw_marks(j, as_is ? as_is : view, v, &j->look->rules[i], ink, cut, error);
     stroke_view_destroy(&as_is);
     if (status == LMN_OK && cut->cell_count)
         status = draw_hatch(j, view, ink, error);
@@ -480,8 +515,7 @@ static void make_paler(vector_job *j, size_t first)
 static void cut_out_detail(sheet *page, const vector_view *v, size_t first)
 {
     const double centre[2] = {v->box[0] + v->box[2] / 2, v->box[1] + v->box[3] / 2};
-    sheet_clip_circle(page, first, centre,
-                      v->extra->radius * v->height / (2 * v->camera.half_height) / VECTOR_PIXELS_PER_MM);
+    sheet_clip_circle(page, first, centre, radius_of_detail(v) / VECTOR_PIXELS_PER_MM);
 }
 
 static lmn_status draw_view(vector_job *j, const vector_view *v, const cut *cut, lmn_error *error)
@@ -727,8 +761,6 @@ static lmn_status prepare(vector_job *j, lmn_error *error)
         return status;
     lay_ground(j);
     status = vector_place_all(j, error);
-    if (status == LMN_OK)
-        status = vector_check_drafting(j, error);
     return status == LMN_OK ? keep_facts(j, error) : status;
 }
 

@@ -57,8 +57,10 @@ struct lmn_sheet {
 bool vector_needs_pixels(const lmn_look *look);
 
 /* Draws the surfaces of the scene and look alone, without what vectors draw themselves: RGBA, row 0 on top,
- * desc->width times desc->height. *out is the caller's to free with mem_free. */
-typedef lmn_status (*surfaces_fn)(uint8_t **out, const lmn_draw_desc *desc, void *user, lmn_error *error);
+ * desc->width times desc->height. `cut` (NULL: as the look says) is what is cut away, in the words of scene.cut. *out
+ * is the caller's to free with mem_free. */
+typedef lmn_status (*surfaces_fn)(uint8_t **out, const lmn_draw_desc *desc, const char *cut, void *user,
+                                  lmn_error *error);
 
 /* See limner/sheet.h; `draw_surfaces` (NULL: there is no renderer) is asked for the pixels below the lines;
  * arguments are checked but for what they say. */

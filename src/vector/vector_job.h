@@ -55,14 +55,15 @@ lmn_status vector_place_all(vector_job *j, lmn_error *error);
 double vector_scale_that_fits(const vector_job *j, lmn_error *error);
 
 /* --- drafting.c --- */
-/* What a look cuts away and a section besides. Errors: LMN_USAGE, LMN_MEMORY. */
+enum { VECTOR_CUT_TEXT_SIZE = 2 * DRAFT_CUT_SIZE };
+/* What a look cuts away and a section besides, in words. */
+void vector_cut_text(const vector_job *j, const draft_extra *extra, char *out, size_t size);
+/* The same as it is cut. Errors: LMN_USAGE, LMN_MEMORY. */
 lmn_status vector_section(section *out, const vector_job *j, const draft_extra *extra, lmn_error *error);
 /* Where a section turns there is no edge: lines of cut faces that are seen from the side are none. */
 void vector_hide_turns(stroke_scene *scene, const draft_extra *extra);
 /* Where the face nearest to a position looks. Errors: LMN_USAGE (there are none), LMN_MEMORY. */
 lmn_status vector_face_normal(const vector_job *j, const double at[3], double out[3], lmn_error *error);
-/* What sheets with sections and details cannot have. */
-lmn_status vector_check_drafting(const vector_job *j, lmn_error *error);
 /* Puts what the headers of the files say into a title block, where the caller says nothing. Errors: LMN_MEMORY. */
 lmn_status vector_take_header(vector_job *j, lmn_error *error);
 /* Finds cylinders when centre lines are wanted. Errors: LMN_MEMORY, LMN_CANCELLED. */

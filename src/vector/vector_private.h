@@ -19,7 +19,7 @@ lmn_status vector_parse_scale(const char *text, double *out, lmn_error *error);
 /* Names separated by commas, none twice. Errors: LMN_USAGE. */
 lmn_status  vector_parse_views(const char *text, vector_view out[VIEWS_MOST], size_t *count, lmn_error *error);
 const char *vector_view_name(lmn_view view);
-/* The largest usual scale that is no larger. */
+/* The largest scale of ISO 5455 that is no larger. */
 double vector_usual_scale(double scale);
 /* "1:20", "2:1", "1:3.7". */
 void vector_print_scale(char out[32], double scale);
@@ -87,19 +87,23 @@ const technique_use *vector_rule_marks(const rule *r);
 typedef struct vector_marks {
     mark_page_options  options;
     const stroke_view *view;
+    const struct cut  *cut;         /* what lies in it has none; NULL: nothing is cut away */
     colour             ground;      /* of the page, sRGB */
     bool               one_pen;     /* for plotters: all as wide as the look says, each on its own */
     uint64_t           dots, lines; /* out: how many */
     uint64_t          *part_marks;  /* out: added up for each part */
 } vector_marks;
 lmn_status vector_put_marks(const vector_ink *ink, vector_marks *m, lmn_error *error);
+/* Does a position, world axes, lie in what is cut away, or at its border? */
+bool vector_is_cut_away(const struct cut *c, const double p[3]);
 
 /* --- hatch.c ------------------------------------------------------------------------------------- */
 
-/* Hatches the cut faces of these parts as the look says, each in its colour; adds up how many lines these are, and
- * says what rays make of them (`check`, may be NULL). Errors: LMN_MEMORY, LMN_CANCELLED. */
+/* Hatches the cut faces of these parts as the look says, each in its colour, `loose` by one line after the other alone;
+ * adds up how many lines these are, and says what rays make of them (`check`, may be NULL). Errors: LMN_MEMORY,
+ * LMN_CANCELLED. */
 lmn_status vector_put_hatch(const vector_ink *ink, const stroke_view *view, const scene_values *v, const bool *parts,
-                            const colour *colours, uint64_t *count, stroke_check *check, lmn_error *error);
+                            const colour *colours, bool loose, uint64_t *count, stroke_check *check, lmn_error *error);
 
 /* --- order.c: for plotters ----------------------------------------------------------------------- */
 

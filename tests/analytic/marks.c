@@ -157,7 +157,7 @@ static int shapes_of_marks(const char *path)
     if (file)
         fclose(file);
     text[length] = 0;
-    char *marks = strstr(text, "class=\"marks\""), *end = marks ? strstr(marks, "</g>") : NULL;
+    char *marks = strstr(text, "class=\"marks"), *end = marks ? strstr(marks, "</g>") : NULL;
     int   count = 0;
     for (char *at = marks; at && at < end; at++)
         count += *at == 'z';

@@ -183,24 +183,38 @@ static void in_the_window(void)
 
 enum { STYLES_MAX = 64 };
 
+/* The style that an element is of class of, −1: of none. */
+static int style_of(const char *element)
+{
+    const char *at = strstr(element, "class=\""), *end = at ? strchr(at + 7, '"') : NULL;
+    for (at = at ? at + 7 : NULL; at && at < end; at += strcspn(at, " \"") + 1)
+        if (at[0] == 's' && at[1] >= '0' && at[1] <= '9')
+            return (int)strtol(at + 1, NULL, 10);
+    return -1;
+}
+
 /* Reads a line of the drawing's file: which styles are of which kind, whose part follows, and what its lines are
- * drawn with. */
-static void read_line(const subject *s, const char *line, int styles[STYLES_MAX], int *kind, tally *out)
+ * drawn with: `*open` is the style of the group around them. */
+static void read_line(const subject *s, const char *line, int styles[STYLES_MAX], int *open, int *kind, tally *out)
 {
     int         style;
     char        colour[8] = "";
-    const char *part = strstr(line, "data-name=\""), *path = strstr(line, "<path class=\"s");
+    const char *part = strstr(line, "data-name=\"");
+    bool path = strncmp(line, "<path", 5) == 0 || strncmp(line, "<circle", 7) == 0 || strncmp(line, "<ellipse", 8) == 0;
     if (sscanf(line, ".s%d{stroke:%7[#0-9a-f]", &style, colour) == 2 && style < STYLES_MAX)
         styles[style] = strcmp(colour, "#ff0000") == 0 ? STROKES : strcmp(colour, "#0000ff") == 0 ? FOUND : NONE_KIND;
+    if (strncmp(line, "<g", 2) == 0)
+        *open = style_of(line);
     if (part) {
         part += strlen("data-name=\"");
         *kind = is_marked(s, part, strcspn(part, "\""));
         *kind = *kind ? STROKES : FOUND;
     }
     if (path && *kind != NONE_KIND) {
-        style = (int)strtol(path + strlen("<path class=\"s"), NULL, 10);
+        style = style_of(line);
+        style = style < 0 ? *open : style;
         out->ink[*kind]++;
-        out->alien[*kind] += style >= STYLES_MAX || styles[style] != *kind;
+        out->alien[*kind] += style < 0 || style >= STYLES_MAX || styles[style] != *kind;
     }
 }
 
@@ -241,10 +255,10 @@ static void as_strokes(void)
                  LIMNER_EXAMPLES, s->model, drawing, look, report);
         bool  good = write_look(look, look_of(s, "discontinuity", "auto")) && system(command) == 0;
         FILE *file = good ? fopen(drawing, "r") : NULL;
-        int   styles[STYLES_MAX] = {0}, kind = NONE_KIND;
+        int   styles[STYLES_MAX] = {0}, kind = NONE_KIND, open = -1;
         tally t = {0};
         while (file && fgets(line, sizeof line, file))
-            read_line(s, line, styles, &kind, &t);
+            read_line(s, line, styles, &open, &kind, &t);
         check_that("C11", file != NULL, "%s as a vector drawing", s->model);
         if (file)
             fclose(file);

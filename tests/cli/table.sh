@@ -272,7 +272,7 @@ group_draw() {
     row 0 '' 'x.png' draw "$examples/buggy.glb" --size 200x200 --time 1 --motion speed-lines --report in-m.json -o x.png
     tr -d ' \n' < in-m.json | grep -q '"A3":24' || complain "the report does not count speed lines: $(cat in-m.json)"
     row 0 '' 'x.svg' draw "$examples/buggy.glb" --time 1 --look line --motion ghosts --set motion.contours=3 --report in-m.json -o x.svg
-    grep -q 'class="visible past"' x.svg || complain "the drawing has no contours of the past"
+    grep -q 'class="visible past[" ]' x.svg || complain "the drawing has no contours of the past"
     tr -d ' \n' < in-m.json | grep -q '"contours":3' || complain "the report does not count contours: $(cat in-m.json)"
     row 0 'warning: motion' 'x.png' draw "$examples/buggy.glb" $small --motion ghosts -o x.png
     # A look with several rules says so once.
@@ -706,7 +706,7 @@ has() {
 group_vectors() {
     local sheet=(--look technical)
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg; has x.svg '^<svg xmlns="http://www.w3.org/2000/svg" width="270.933mm"'; cp x.svg in-first.svg
-    has x.svg '<g id="view-iso-visible-part-1-contour" class="visible contour"'
+    has x.svg '<g id="view-iso-visible-part-1-contour" class="visible contour[" ]'
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg
     cmp -s x.svg in-first.svg || complain "two runs give different files"
     row 0 '' '' draw "$gear" "${sheet[@]}" -o - --format svg; cmp -s .stdout in-first.svg || complain "standard output gets another drawing"
@@ -726,9 +726,12 @@ group_vectors() {
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --page A3 --views front,top,right,iso --frame --title 'A & <B>' --projection first
     cmp -s x.svg in-third.svg && complain "first angle is third angle"
     row 0 'warning: at 2:1 the views do not fit on the page' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 2:1 --page A6
+    # Cut faces have patterns, needles among their triangles or not; or lines.
+    row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --cut x --view right; has x.svg 'fill:url\(#hatch'; has x.svg '<pattern id="hatch'
+    row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --cut x --view right --loose-hatch; grep -q '<pattern' x.svg && complain "loose hatching has patterns"
     # A page that stays empty is no drawing.
     row 1 "^limner: $gear: nothing of the model lies on the page at 100000:1" '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
-    row 1 '^hint: it fits at --scale 1:2.5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
+    row 1 '^hint: it fits at --scale 1:5' '' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 100000:1 --page A6
     row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --views front,top --scale 1:2.5 --page A6
     row 1 "^limner: $gear: at 1:1000000 the model is 0\.0[0-9]+ mm large on the page" '' draw "$gear" "${sheet[@]}" -o x.svg --scale 1:1000000
     row 1 "^limner: $examples/spot.obj: at 1:100 the model is 0\.0[0-9]+ mm large" '' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:100 --unit mm
@@ -737,11 +740,11 @@ group_vectors() {
     row 0 'warning: the file does not say its unit' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 50:1
     row 0 '' 'x.svg' draw "$examples/spot.obj" "${sheet[@]}" -o x.svg --scale 1:2 --unit cm
     # Plotters, areas, surfaces.
-    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen"'
-    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill"'; grep -q '<image' x.svg && complain "areas lie over a picture"
+    row 0 '' 'x.svg' draw "$gear" "${sheet[@]}" -o x.svg --plotter; has x.svg '<g id="pen-1" class="pen[" ]'
+    row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.svg' draw "$box" --look toon -o x.svg --fill; has x.svg 'class="part fill[" ]'; grep -q '<image' x.svg && complain "areas lie over a picture"
     row 0 '' 'x.svg' draw "$box" --look toon -o x.svg; has x.svg '<image .*href="data:image/png;base64,'
     row 0 'warning: scene.ground: the shadow on the ground is left out' 'x.dxf' draw "$box" --look toon -o x.dxf
-    row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease"'
+    row 0 '' 'x.svg' draw "$gear" --look wire -o x.svg; has x.svg 'class="hidden crease[" ]'
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg; has x.svg 'class="hidden'
     row 0 '' 'x.svg' draw "$gear" --look blueprint -o x.svg --set layers.count=1
     grep -q 'class="hidden' x.svg && complain "one layer has hidden lines"
@@ -753,12 +756,12 @@ group_vectors() {
         row 0 '' "x.$ending" draw "$gear" "$widget" "${sheet[@]}" -o x.$ending --cut 'box=50%,50%,50%:100%,100%,100%'
     done
     has x.dxf '^HATCH - '
-    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'; has x.svg 'class="hidden crease"'
+    row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x; has x.svg 'class="hatch[" ]'; has x.svg 'class="hidden crease[" ]'
     row 0 '' 'x.svg' draw "$widget" "${sheet[@]}" -o x.svg --cut x --set scene.cut_hatch=0pt
-    grep -q 'class="hatch"' x.svg && complain "hatching that was not wished for"
+    grep -q 'class="hatch[" ]' x.svg && complain "hatching that was not wished for"
     # Where surfaces need pixels, the picture below is cut as the lines are.
     local pixels=(--look toon --set scene.ground=none --size 64x64 --dpi 96)
-    row 0 '' 'x.svg' draw "$widget" "${pixels[@]}" -o x.svg --cut x; has x.svg 'class="hatch"'
+    row 0 '' 'x.svg' draw "$widget" "${pixels[@]}" -o x.svg --cut x; has x.svg 'class="hatch[" ]'
     row 0 '' 'y.svg' draw "$widget" "${pixels[@]}" -o y.svg
     [ "$(grep -o 'base64,[^"]*' x.svg | md5sum)" != "$(grep -o 'base64,[^"]*' y.svg | md5sum)" ] || complain "lines of a section over the picture of the whole"
     # What has no strokes is said.

@@ -242,7 +242,7 @@ static double hatched(const stroke_scene *scene, double apart, bool flat)
     hatch_lines  lines;
     double       length = 0;
     assert_int_equal(stroke_view_create(&v, scene, &camera, NULL, NULL, NULL), LMN_OK);
-    assert_int_equal(hatch_find(&lines, v, apart, 0.7, NULL, NULL), LMN_OK);
+    assert_int_equal(hatch_find(&lines, NULL, v, apart, 0.7, NULL, NULL), LMN_OK);
     for (size_t i = 0; i < lines.count; i++) {
         const hatch_line *l = &lines.items[i];
         assert_int_equal(l->part, 1);
@@ -306,7 +306,7 @@ static void needles_are_hatched(void **state)
         assert_int_equal(stroke_scene_create_cut(&scene, &at_rest, parts, 0.5, 0, &section, NULL, NULL, NULL), LMN_OK);
         assert_int_equal(scene.item_count, 1);
         assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
-        assert_int_equal(hatch_find(&lines, v, 4, 0.7, NULL, NULL), LMN_OK);
+        assert_int_equal(hatch_find(&lines, NULL, v, 4, 0.7, NULL, NULL), LMN_OK);
         for (size_t i = 0; i < lines.count; i++)
             length += hypot((double)lines.items[i].ends[1][0] - (double)lines.items[i].ends[0][0],
                             (double)lines.items[i].ends[1][1] - (double)lines.items[i].ends[0][1]);

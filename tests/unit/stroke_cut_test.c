@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "cut/cut.h"
 #include "pose/pose.h"
+#include "stroke/hatch.h"
 
 /* A box and a ball, a half of both cut away. */
 static stroke_scene make(const char *spec, bool spare)
@@ -61,8 +62,117 @@ static void what_is_gone_or_spared(void **state)
     stroke_scene_release(&s);
 }
 
+/* Is a position in what loops run around? How often a ray to the right is crossed. */
+static bool is_within(const hatch_areas *a, const hatch_area *area, double x, double y)
+{
+    bool in = false;
+    for (uint32_t l = area->first; l < area->first + area->count; l++)
+        for (uint32_t i = a->loops[l]; i < a->loops[l + 1]; i++) {
+            const float *p = a->points[i], *q = a->points[i + 1 < a->loops[l + 1] ? i + 1 : a->loops[l]];
+            if (((double)p[1] > y) != ((double)q[1] > y) &&
+                x < (double)p[0] + (y - (double)p[1]) / ((double)q[1] - (double)p[1]) * ((double)q[0] - (double)p[0]))
+                in = !in;
+        }
+    return in;
+}
+
+static double size_of(const hatch_areas *a, const hatch_area *area)
+{
+    double sum = 0;
+    for (uint32_t l = area->first; l < area->first + area->count; l++)
+        for (uint32_t i = a->loops[l]; i < a->loops[l + 1]; i++) {
+            const float *p = a->points[i], *q = a->points[i + 1 < a->loops[l + 1] ? i + 1 : a->loops[l]];
+            sum += 0.5 * ((double)p[0] * (double)q[1] - (double)q[0] * (double)p[1]);
+        }
+    return fabs(sum);
+}
+
+/* Filled with the area's lines, an area looks as its lines do one by one: each of these is one of those, and ends where
+ * the area does. What is hidden in part is none. */
+static void areas_have_the_same_lines(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const bool    flat = k != 1;
+        stroke_scene  scene = make("x=0.13", false);
+        stroke_camera camera = look_along(-1, k == 2 ? -0.8 : 0.3, 0.2, (const double[3]){0.13, 1.5, 0}, 20,
+                                          flat ? 3 : 0.15, flat, 900, 900);
+        stroke_view  *v;
+        hatch_lines   lines;
+        hatch_areas   areas;
+        double        sizes[3] = {0}, lengths[3] = {0};
+        assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
+        assert_int_equal(hatch_find(&lines, &areas, v, 5, 0.7, NULL, NULL), LMN_OK);
+        assert_int_equal(areas.count, 2);
+        for (size_t i = 0; i < areas.count; i++)
+            sizes[areas.items[i].part] = size_of(&areas, &areas.items[i]);
+        for (size_t i = 0; i < lines.count; i++) {
+            const hatch_line *l = &lines.items[i];
+            const hatch_area *a = &areas.items[l->area - 1];
+            double            x = (double)l->ends[0][0], y = (double)l->ends[0][1], dx = (double)l->ends[1][0] - x,
+                   dy = (double)l->ends[1][1] - y, length = hypot(dx, dy);
+            assert_true(l->area > 0 && a->part == l->part);
+            if (length < 1)
+                continue;
+            double across = ((x - a->origin[0]) * -sin(a->angle) + (y - a->origin[1]) * cos(a->angle)) / a->apart;
+            assert_true(fabs(across - round(across)) < 2e-3);
+            assert_true(fabs(dx * sin(a->angle) - dy * cos(a->angle)) < 2e-3 * length);
+            for (int n = 0; n < 20; n++)
+                assert_true(is_within(&areas, a, x + dx * (n + 0.5) / 20, y + dy * (n + 0.5) / 20));
+            for (int end = 0; end < 2; end++) {
+                double beyond = end ? 1 + 0.2 / length : -0.2 / length;
+                assert_false(is_within(&areas, a, x + dx * beyond, y + dy * beyond));
+            }
+            lengths[l->part] += length * a->apart;
+        }
+        for (int part = 1; part <= 2; part++)
+            assert_true(fabs(lengths[part] - sizes[part]) < 0.01 * sizes[part]);
+        mem_free(lines.items);
+        hatch_areas_release(&areas);
+        stroke_view_destroy(&v);
+        stroke_scene_release(&scene);
+    }
+}
+
+/* Where something that stays whole is in front of a part of a cut face, its lines are no area's. */
+static void what_is_hidden_has_lines(void **state)
+{
+    (void)state;
+    lmn_scene *s = stroke_scene_begin();
+    add_box(s, -1, -1, -1, 1, 1, 1);
+    add_ball(s, 0.4, 0.3, 0, 0.5, 24, 12);
+    assert_int_equal(scene_finish(s, "test", NULL), LMN_OK);
+    pose              at_rest;
+    cut               c;
+    const bool        spared[2] = {false, true};
+    stroke_scene      scene;
+    stroke_topologies kept = {NULL};
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, NULL), LMN_OK);
+    assert_int_equal(cut_parse(&c, "x=0.13", (box3){{-1, -1, -1}, {2.5f, 1, 1}}, NULL), LMN_OK);
+    stroke_section section = {&c, spared};
+    assert_int_equal(stroke_scene_create_keeping(&scene, &at_rest, NULL, 0.5, 0, &kept, &section, NULL), LMN_OK);
+    stroke_camera camera = look_along(-1, 0, 0, (const double[3]){0.13, 0, 0}, 20, 3, true, 900, 900);
+    stroke_view  *v;
+    hatch_lines   lines;
+    hatch_areas   areas;
+    assert_int_equal(stroke_view_create(&v, &scene, &camera, NULL, NULL, NULL), LMN_OK);
+    assert_int_equal(hatch_find(&lines, &areas, v, 5, 0.7, NULL, NULL), LMN_OK);
+    assert_true(lines.count > 50 && areas.count == 0);
+    for (size_t i = 0; i < lines.count; i++)
+        assert_int_equal(lines.items[i].area, 0);
+    mem_free(lines.items);
+    hatch_areas_release(&areas);
+    stroke_view_destroy(&v);
+    stroke_scene_release(&scene);
+    stroke_topologies_release(&kept);
+    pose_release(&at_rest);
+    lmn_scene_destroy(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sections_leave_rims), cmocka_unit_test(what_is_gone_or_spared)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sections_leave_rims), cmocka_unit_test(what_is_gone_or_spared),
+                                       cmocka_unit_test(areas_have_the_same_lines),
+                                       cmocka_unit_test(what_is_hidden_has_lines)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

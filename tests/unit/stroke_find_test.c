@@ -208,6 +208,41 @@ static void thin_plates_hide(void **state)
     shot_release(&shot);
 }
 
+/* Two boxes that touch, or nearly do, lie on a third, one of whose sides ends right below the joint: it is hidden, from
+ * whichever side it is looked at. Beside a joint that is open it is seen. */
+static void joints_hide_what_lies_below(void **state)
+{
+    static const double gaps[] = {0, 1e-6, 3e-6, 2e-5, -1e-6, 0.0012, 0.05}; /* one unit is 90 */
+    (void)state;
+    for (size_t i = 0; i < sizeof gaps / sizeof *gaps; i++)
+        for (int turned = 0; turned < 4; turned++) {
+            double     side = turned % 2 ? -1 : 1, joint = 0.31, wide[2][2];
+            lmn_scene *s = stroke_scene_begin();
+            for (int k = 0; k < 2; k++) { /* to both sides of the joint, and what ends below it */
+                wide[0][k] = side * (joint + (k ? gaps[i] : -4));
+                wide[1][k] = side * (joint + (k ? 4 : 0));
+            }
+            for (int k = 0; k < 2; k++) {
+                double a = k ? wide[0][1] : wide[0][0], b = k ? wide[1][1] : wide[1][0];
+                add_box(s, fmin(a, b), -3, 0, fmax(a, b), 3, 1);
+            }
+            add_box(s, side > 0 ? -2 : -joint, -2, -3, side > 0 ? joint : 2, 2, -0.5);
+            stroke_shot shot =
+                shoot(s, look_along(0, turned < 2 ? 0 : 1e-9, -1, origin, 20, 5, true, 900, 900), all_lines());
+            double seen = 0;
+            for (size_t k = 0; k < shot.set.stroke_count; k++) {
+                const stroke       *t = &shot.set.strokes[k];
+                const stroke_point *p = &shot.set.points[t->first];
+                if (t->part == 3 && t->hidden_by == 0)
+                    seen += (double)(p[t->count - 1].arc - p->arc);
+            }
+            if (gaps[i] > 0.001 ? seen < 300 : seen > 0)
+                fail_msg("gap %g, way %d: %.1f units of what lies below are seen", gaps[i], turned, seen);
+            assert_int_equal(shot.check.wrong, 0);
+            shot_release(&shot);
+        }
+}
+
 /* A ball cut by a plate: the crossing is a circle of √(r² − h²). */
 static void pieces_that_cross_have_a_line(void **state)
 {
@@ -650,6 +685,7 @@ int main(void)
         cmocka_unit_test(balls_that_coincide_are_one),
         cmocka_unit_test(pipes_that_cross_have_whole_lines),
         cmocka_unit_test(thin_plates_hide),
+        cmocka_unit_test(joints_hide_what_lies_below),
         cmocka_unit_test(pieces_that_cross_have_a_line),
         cmocka_unit_test(walls_meet_edges_of_posts),
         cmocka_unit_test(flush_parts_are_calm),

@@ -397,7 +397,7 @@ static void test_files(void **state)
         file_data svg = written(s, "svg"), same = written(again, "svg"), dxf = written(s, "dxf");
         assert_int_equal(svg.size, same.size);
         assert_memory_equal(svg.data, same.data, svg.size);
-        assert_int_equal(count_words(&svg, i ? "class=\"marks\"" : "class=\"dots\""), 2); /* parts */
+        assert_int_equal(count_words(&svg, i ? "class=\"marks" : "class=\"dots"), 2); /* parts */
         assert_int_equal(count_words(&svg, "data-name=\"wall\""), 1);
         assert_int_equal(count_words(&svg, "<image"), 0);
         if (i == 0) {
@@ -567,12 +567,41 @@ static void test_out_of_memory(void **state)
     }
 }
 
+/* Marks are those of what a section leaves: before the wall stands a half ball, whose cut face has none; what is spared
+ * keeps its own. */
+static void test_section(void **state)
+{
+    const fixture *f = *state;
+    lmn_draw_desc  how = front();
+    for (int i = 0; i < 2; i++) {
+        lmn_look *look = look_of(i ? quill : stipple);
+        lmn_error error = {0};
+        uint64_t  ball[3], wall[3];
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(lmn_look_set(look, "scene.cut", k ? "z=-0.1" : "", &error), LMN_OK);
+            assert_int_equal(lmn_look_set(look, "scene.cut_keep", k == 2 ? "ball" : "", &error), LMN_OK);
+            lmn_sheet *s = draw(f, look, &how, NULL);
+            ball[k] = s->part_marks[0];
+            wall[k] = s->part_marks[1];
+            lmn_sheet_destroy(&s);
+        }
+        print_message("ball %d %d %d, wall %d %d %d\n", (int)ball[0], (int)ball[1], (int)ball[2], (int)wall[0],
+                      (int)wall[1], (int)wall[2]);
+        assert_true(ball[0] > 50 && wall[0] > 50);
+        assert_int_equal(ball[1], 0);
+        assert_true(ball[2] == ball[0] && wall[2] == wall[0]);
+        assert_true(wall[1] >= wall[0]);
+        lmn_look_destroy(&look);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_dots), cmocka_unit_test(test_behind),    cmocka_unit_test(test_files),
-        cmocka_unit_test(test_plotter),   cmocka_unit_test(test_paper),     cmocka_unit_test(test_none),
-        cmocka_unit_test(test_rims),      cmocka_unit_test(test_cancelled), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_same_dots),     cmocka_unit_test(test_behind),  cmocka_unit_test(test_section),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_plotter), cmocka_unit_test(test_paper),
+        cmocka_unit_test(test_none),          cmocka_unit_test(test_rims),    cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests_name("vector_marks", tests, set_up, tear_down);
 }
