@@ -56,7 +56,7 @@ static const pass passes[] = {
     LINES_PASSES_BEFORE,
     {.name = "pairs",
      .shader = "lines/edge/pairs.frag",
-     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH},
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH, TARGET_MEETING},
      .writes = LINES_PAIRS},
     {.name = "crowd",
      .shader = "lines/edge/crowd.frag",
@@ -82,7 +82,7 @@ static const pass passes[] = {
     /* What records have not drawn. */
     {.name = "feet",
      .shader = "lines/edge/feet.frag",
-     .reads = {LINES_PAIRS, LINES_BARE, TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH, LINES_TILES},
+     .reads = {LINES_PAIRS, LINES_BARE, TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH, TARGET_MEETING, LINES_TILES},
      .writes = LINES_THIN,
      .writes_too = LINES_FEET,
      .tiles = LINES_TILES},

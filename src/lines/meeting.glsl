@@ -1,0 +1,43 @@
+/* Where a figure's surface runs through those of other rules. Its own pictures know nothing of these, so that it can be looked up beside the pixel, or layer after layer; their window depth lies in a picture
+ * of its own. A surface runs through another one where it is in front of it at a pixel and behind it at the next, and both go on from one to the other. */
+#ifdef HAS_MEETING
+/* As in pairs.frag: what rounding can add up to. */
+const float MEETING_NOISE = 16.0 * 5.96e-8;
+
+/* x: of the figure; y: of the others. */
+vec2 meeting_depths(vec2 off)
+{
+    vec2 at = (gl_FragCoord.xy + off) * u_texel;
+    return vec2(textureLod(t_depth, at, 0.0).r, textureLod(t_meeting, at, 0.0).r);
+}
+
+/* Is a step from pixel to pixel no more than the slopes beside it lead to expect? Where nothing is there is no slope. */
+bool goes_on(float before, float here, float next, float behind)
+{
+    float across = next - here;
+    vec2 slopes = vec2(here - before, behind - next);
+    slopes = before < 1.0 ? (behind < 1.0 ? slopes : slopes.xx) : (behind < 1.0 ? slopes.yy : vec2(across));
+    vec2 sizes = abs(slopes);
+    float excess = max(min(slopes.x, slopes.y) - across, across - max(slopes.x, slopes.y));
+    return excess <= max(min(sizes.x, sizes.y), MEETING_NOISE);
+}
+
+/* Between this pixel and the next one to this side? */
+bool meets(vec2 side)
+{
+    vec2 here = meeting_depths(vec2(0.0)), next = meeting_depths(side), before = meeting_depths(-side), behind = meeting_depths(2.0 * side);
+    float first = here.x - here.y, second = next.x - next.y;
+    bool turns = (first <= 0.0) != (second <= 0.0) && abs(first) + abs(second) > MEETING_NOISE;
+    bool there = max(max(here.x, here.y), max(next.x, next.y)) < 1.0;
+    return turns && there && goes_on(before.x, here.x, next.x, behind.x) && goes_on(before.y, here.y, next.y, behind.y);
+}
+
+/* The others' slope here: the gentler one to either side, since beyond the other there may be another surface. */
+vec2 meeting_slope()
+{
+    float here = meeting_depths(vec2(0.0)).y;
+    vec2 before = here - vec2(meeting_depths(vec2(-1.0, 0.0)).y, meeting_depths(vec2(0.0, -1.0)).y);
+    vec2 behind = vec2(meeting_depths(vec2(1.0, 0.0)).y, meeting_depths(vec2(0.0, 1.0)).y) - here;
+    return mix(behind, before, vec2(lessThan(abs(before), abs(behind))));
+}
+#endif
