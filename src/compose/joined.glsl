@@ -64,10 +64,9 @@ vec4 ink_of_copies(inout float depth)
         vec4 own = averaged_at(line_position(i), i);
         inked = is_outline(own) ? i : inked;
 #ifdef HAS_MEETING
-        ivec2 at = pixel_at(line_position(i));
         int met = max(max(own.x, own.y), max(own.z, own.w)) > 0.0 ? 1 : 0;
         for (int once = 0; once < met; once++)
-            met_at = min(met_at, met_depth(at, own_depth(at)));
+            met_at = min(met_at, met_depth(line_position(i), own_depth(pixel_at(line_position(i)))));
 #endif
         join_copy(own, i);
     }

@@ -95,7 +95,7 @@ void main()
 #ifdef HAS_MEETING
         int inked = own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < inked; once++)
-            line_depth = met_depth(pixel_at(position), line_depth);
+            line_depth = met_depth(position, line_depth);
 #endif
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);

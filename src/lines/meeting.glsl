@@ -11,25 +11,24 @@ vec2 meeting_depths(vec2 off)
     return vec2(textureLod(t_depth, at, 0.0).r, textureLod(t_meeting, at, 0.0).r);
 }
 
-/* Is a step from pixel to pixel no more than the slopes beside it lead to expect? Where nothing is there is no slope. */
+/* Is a step from pixel to pixel no more than the slopes beside it lead to expect? At the rim of a figure these are not known: the last face may be a pixel wide. */
 bool goes_on(float before, float here, float next, float behind)
 {
     float across = next - here;
-    vec2 slopes = vec2(here - before, behind - next);
-    slopes = before < 1.0 ? (behind < 1.0 ? slopes : slopes.xx) : (behind < 1.0 ? slopes.yy : vec2(across));
-    vec2 sizes = abs(slopes);
+    vec2 slopes = vec2(here - before, behind - next), sizes = abs(slopes);
     float excess = max(min(slopes.x, slopes.y) - across, across - max(slopes.x, slopes.y));
-    return excess <= max(min(sizes.x, sizes.y), MEETING_NOISE);
+    return max(before, behind) >= 1.0 || excess <= max(min(sizes.x, sizes.y), MEETING_NOISE);
 }
 
-/* Between this pixel and the next one to this side? */
+/* Between this pixel and the next one to this side? Where a surface ends between them, it counts as far as it would have gone on: who stands in a wall may not reach far into it. */
 bool meets(vec2 side)
 {
     vec2 here = meeting_depths(vec2(0.0)), next = meeting_depths(side), before = meeting_depths(-side), behind = meeting_depths(2.0 * side);
-    float first = here.x - here.y, second = next.x - next.y;
-    bool turns = (first <= 0.0) != (second <= 0.0) && abs(first) + abs(second) > MEETING_NOISE;
+    bvec2 on = bvec2(goes_on(before.x, here.x, next.x, behind.x), goes_on(before.y, here.y, next.y, behind.y));
+    vec2 ahead = mix(2.0 * here - before, next, vec2(on)), back = mix(2.0 * next - behind, here, vec2(on));
+    bool turns = (here.x <= here.y) != (ahead.x <= ahead.y) || (back.x <= back.y) != (next.x <= next.y);
     bool there = max(max(here.x, here.y), max(next.x, next.y)) < 1.0;
-    return turns && there && goes_on(before.x, here.x, next.x, behind.x) && goes_on(before.y, here.y, next.y, behind.y);
+    return turns && there && abs(here.x - here.y) + abs(next.x - next.y) > MEETING_NOISE;
 }
 
 /* The others' slope here: the gentler one to either side, since beyond the other there may be another surface. */

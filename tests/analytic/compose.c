@@ -274,51 +274,6 @@ static void per_object(void)
     }
 }
 
-/* Perturbed and seen through, a figure has no line where it runs through those of other rules: that is said, and what
- * has it. */
-static void missing_meetings_are_told(void)
-{
-#define POST "\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{\"operator\":\"discontinuity\"}"
-#define BLOCK                                                                                                          \
-    "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},{\"select\":\"lined*\","
-    static const char sketched[] = ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":2}";
-    static const struct {
-        const char *begin, *end, *complement;
-        double      apart;
-        bool        told, seam;
-    } cases[] = {
-        {BLOCK, "", "true", 0, false, true},
-        {BLOCK, sketched, "true", 0, true, false},
-        {BLOCK, sketched, "false", 0, false, false},
-        {BLOCK, sketched, "true", 3, false, false},
-        {"{\"select\":\"*\",", sketched, "true", 0, false, true},
-        {BLOCK, ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":\"blueprint\"", NULL, 0, true, false},
-    };
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        const char *changes[] = {cases[c].complement ? "layers.complement" : NULL, cases[c].complement, NULL};
-        char        look[1024];
-        shape       s = {0};
-        shot        drawing;
-        int         seam = 0;
-        snprintf(look, sizeof look, LOOK("%s" POST "%s}"), cases[c].begin, cases[c].end);
-        shape_box(&s, "plain block", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
-        shape_box(&s, "lined post", dvec_of(-0.3, -0.5 + cases[c].apart, -0.3),
-                  dvec_of(0.3, 0.8 + cases[c].apart, 0.3));
-        if (shot_of_shape(&drawing, &s, "meetings.glb", look, changes, &views[0])) {
-            for (int i = 6; i < 45; i++)
-                seam += dark_near(&drawing, shot_project(&drawing, dvec_of(-0.3 + 0.6 * i / 50.0, 0, 0.3)), 4) > 0;
-            check_that("E18", shot_has_warning(&drawing, "unused") == cases[c].told,
-                       "case %zu: %s that a line is missing", c, cases[c].told ? "it is told" : "nothing tells");
-            if (cases[c].seam)
-                check_at_least("E18", seam, 37, "  of 39 places of the intersection with a line");
-            else
-                check_at_most("E18", seam, 8, "  of 39 places of the intersection with a line");
-        }
-        shot_release(&drawing);
-        shape_release(&s);
-    }
-}
-
 /* A figure drawn by ids alone is an outline; the background beside it keeps all its lines. */
 static void id_only(void)
 {
@@ -587,7 +542,6 @@ int main(int argc, char **argv)
         {"forms", forms_agree},
         {"colours", superimposed_colours},
         {"objects", per_object},
-        {"meetings", missing_meetings_are_told},
         {"abstract", id_only},
         {"widths", widths},
         {"slanted", slanted_width},
