@@ -76,7 +76,7 @@ static const pass passes[] = {
      .writes_too = LINES_BARE},
     {.name = "tiles of pairs",
      .shader = "lines/edge/pair_tiles.frag",
-     .reads = {LINES_PAIRS, LINES_BARE, LINES_CROWD},
+     .reads = {LINES_PAIRS, LINES_BARE, LINES_CROWD, TARGET_MEETING},
      .writes = LINES_TILES,
      .writes_too = LINES_CALM},
     /* What records have not drawn. */
@@ -103,7 +103,7 @@ static const pass passes[] = {
      .without = LINES_BARE},
     {.name = "calm",
      .shader = "lines/edge/calm.frag",
-     .reads = {LINES_PAIRS, LINES_BARE, TARGET_NORMAL_DEPTH, TARGET_ID, LINES_CALM, LINES_CROWD},
+     .reads = {LINES_PAIRS, LINES_BARE, TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_DEPTH, TARGET_MEETING, LINES_CALM, LINES_CROWD},
      .writes = TARGET_EDGE,
      .tiles = LINES_CALM,
      .onto = true,
