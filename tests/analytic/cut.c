@@ -232,6 +232,34 @@ static void cut_faces_are_nearly_solid(void)
     }
 }
 
+/* In layers the hatch is ink, once, however often lines are repeated, and whatever else the layer shows. */
+static void layers_are_hatched_once(void)
+{
+    static const char *const perturbs[] = {"",
+                                           ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":0.01,\"repeat\":3}"};
+    const shot_view   view = {.width = 400, .height = 400, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const char *const changes[] = {
+        "scene.cut", "z", "scene.cut_hatch", "10px", "scene.cut_width", "2px", "scene.cut_angle", "30", NULL};
+    for (int k = 0; k < 2; k++) {
+        char  look[512];
+        shape s = {0};
+        shot  cut;
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"x\",\"rules\":[{\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\","
+                 "\"count\":1},"
+                 "\"lines\":{\"operator\":\"four-tap\",\"colour\":\"#000000\"},\"compose\":{\"technique\":"
+                 "\"blueprint\",\"tint\":"
+                 "\"#00000000\"}%s}],\"finish\":{\"ground\":\"#ffffff\"}}",
+                 perturbs[k]);
+        shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        if (shot_of_shape(&cut, &s, "layers.glb", look, changes, &view))
+            check_near("cut", darkness(&cut), 0.2, 0.02, "dark share of a blueprint's cut face%s",
+                       k ? ", lines repeated" : "");
+        shot_release(&cut);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -239,6 +267,7 @@ int main(int argc, char **argv)
         {"a_corner_is_open", a_corner_is_open},
         {"hatch_covers_its_fraction", hatch_covers_its_fraction},
         {"cut_faces_are_nearly_solid", cut_faces_are_nearly_solid},
+        {"layers_are_hatched_once", layers_are_hatched_once},
         {"outlines_are_lines", outlines_are_lines},
         {"dialects_agree", dialects_agree},
         {"open_parts_are_told", open_parts_are_told},

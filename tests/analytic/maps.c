@@ -331,11 +331,15 @@ static void one_pass(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"smooth", smooth_shapes},       {"parts", parts_and_placements},
-        {"normals", made_normals},       {"linear", depth_is_linear},
+        {"smooth", smooth_shapes},
+        {"parts", parts_and_placements},
+        {"normals", made_normals},
+        {"linear", depth_is_linear},
         {"bumps", normal_maps_know_their_axes},
-        {"sphere", sphere_normals},      {"background", background_and_coarse},
-        {"capture", capture_and_report}, {"pass", one_pass},
+        {"sphere", sphere_normals},
+        {"background", background_and_coarse},
+        {"capture", capture_and_report},
+        {"pass", one_pass},
     };
     int status = check_main(argc, argv, "maps", cases, sizeof cases / sizeof *cases);
     shot_end();
