@@ -11,5 +11,5 @@ void main()
     vec3 normal = model_normal();
     if (dot(normal, towards_viewer(v_eye)) < 0.0 && !gl_FrontFacing)
         normal = -normal;
-    out_light = vec4(light_of(surface_point(v_eye, normal, vec4(albedo.rgb, 1.0), u_unlit != 0, 0u)), 0.0, 0.0, 1.0);
+    out_light = vec4(light_of(surface_point(v_eye, normal, normal, vec4(albedo.rgb, 1.0), u_unlit != 0, 0u)), 0.0, 0.0, 1.0);
 }

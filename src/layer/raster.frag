@@ -216,7 +216,12 @@ void main()
     s_uv_unique = v_uv0;
 #endif
 #endif
-    out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, albedo, u_unlit != 0, 0u));
+#ifdef SOLID
+    vec3 face = turned ? -normal : normal;
+#else
+    vec3 face = normalize(facing);
+#endif
+    out_shade = surface_colour(surface_point(v_eye, turned ? -normal : normal, face, albedo, u_unlit != 0, 0u));
 #ifdef HAS_DEPTH_CUE
     out_shade = depth_cued(out_shade, -v_eye.z);
 #endif

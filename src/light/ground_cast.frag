@@ -45,7 +45,7 @@ float lit_at(vec3 eye)
 #else
 float lit_at(vec3 eye)
 {
-    return lit_fraction(eye, u_ground_plane.xyz, u_shadow_light);
+    return lit_fraction(eye, u_ground_plane.xyz, u_ground_plane.xyz, u_shadow_light);
 }
 #endif
 

@@ -24,7 +24,7 @@ float unshadowed(surface_point p)
     arrived_light arrived = light_at(p);
     return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
 #elif defined(LIT_WITH_SHADOW)
-    return lit_fraction(p.eye, p.normal, towards_light(0, p.eye));
+    return lit_fraction(p.eye, p.normal, p.face, towards_light(0, p.eye));
 #else
     return 1.0;
 #endif

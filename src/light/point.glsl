@@ -4,6 +4,7 @@
 struct surface_point {
     vec3 eye;     /* position */
     vec3 normal;  /* unit, towards the viewer's side */
+    vec3 face;    /* unit, of the flat surface that is drawn there; `normal` where that is not known */
     vec4 albedo;  /* unlit colour of the model, light, straight alpha */
     bool unlit;   /* the file asks for no light here */
     uint part;    /* its number, where shading comes after the geometry; else 0 */

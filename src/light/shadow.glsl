@@ -21,17 +21,22 @@ vec2 shadow_slope(vec3 normal)
     return -turned * u_shadow_texel.x / (facing < 0.0 ? min(facing, -1e-6) : max(facing, 1e-6));
 }
 
+/* How far a face is raised, for the square of the sine of the angle to its normal, as a share of what the map spans: that of a ball as large as that. */
+const float RAISED = 0.4;
+
 /* The mean of comparisons over the side of a pixel, one texel to three: the border of a shadow has no steps on the page, and what is finer than a pixel is a
  * tone. */
-float lit_fraction(vec3 eye, vec3 normal, vec3 light)
+float lit_fraction(vec3 eye, vec3 normal, vec3 face, vec3 light)
 {
-    /* What is looked at is as deep as its surface's plane is there; off that by as much as normals and planes can differ within a texel. */
-    float slope = sqrt(max(1.0 - dot(normal, light) * dot(normal, light), 0.0));
-    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.35 + 0.4 * slope)), 1.0)).xyz;
+    /* What is looked at is as deep as its face's plane is there; off that by as much as planes can differ within a texel. A face that turns away from the light while
+     * the shape that it stands for does not would lie in the shadow of its neighbours: its position is raised to where that shape is. */
+    float turned = dot(face, light), slope = sqrt(max(1.0 - turned * turned, 0.0)), tilt = min(1.0 - dot(face, normal) * dot(face, normal), 0.1); /* normal maps tilt farther */
+    float raised = dot(normal, light) > 0.0 ? RAISED * tilt * (1.0 - smoothstep(0.0, 0.5, turned)) / u_shadow_texel.x : 0.0;
+    vec3 at = (u_shadow_from_eye * vec4(eye + normal * (u_shadow_texel.y * (0.35 + 0.4 * slope + raised)), 1.0)).xyz;
     vec2 texel = at.xy / u_shadow_texel.x - 0.5, low = floor(texel), fraction = texel - low;
     ivec2 position = ivec2(low) - 1, last = textureSize(t_shadow, 0) - 1;
     float side = clamp(u_shadow_pixel * (u_perspective > 0.5 ? -eye.z : 1.0), 1.0, 3.0), reach = 0.5 * side + 0.5, sum = 0.0;
-    vec2 rise = shadow_slope(normal);
+    vec2 rise = shadow_slope(turned > 0.0 ? face : normal);
     const vec4 steps = vec4(-1.0, 0.0, 1.0, 2.0);
     vec4 across = clamp(reach - abs(steps - fraction.x), 0.0, 1.0), along = clamp(reach - abs(steps - fraction.y), 0.0, 1.0);
     vec4 depths = at.z + rise.x * (steps - fraction.x);

@@ -32,7 +32,8 @@ float page_area(mark_position m)
 /* How dark it shall be; `bright`: of the model's own colour there, linear. */
 float darkness_at(mark_position m, float bright)
 {
-    surface_point p = surface_point(m.eye, m.facing < 0.0 ? -m.normal : m.normal, vec4(vec3(bright), 1.0), false, 0u);
+    vec3 normal = m.facing < 0.0 ? -m.normal : m.normal;
+    surface_point p = surface_point(m.eye, normal, normal, vec4(vec3(bright), 1.0), false, 0u);
     return focused(p, clamp(darkness_of(tone_of_light(p, light_of(p))), 0.0, 1.0));
 }
 

@@ -60,6 +60,10 @@ static const param params[] = {
                            "but join the next one; from half of it on they run out less."),
     PARAM_FLOAT_ROW(surface_lines_values, swell, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
                     .doc = "Unevenness of widths from line to line."),
+    PARAM_FLOAT_ROW(surface_lines_values, solid, .toggles = true, .def = 0, .min = 0, .max = 1, .soft_min = 0.5,
+                    .unit = UNIT_FRACTION,
+                    .doc = "Darkness from which the ground between lines is ink, too, as a woodcutter clears the "
+                           "lights and a pen fills the deepest shade; 0: never. In pictures only."),
 };
 
 static void describe(text *out, const void *values)

@@ -35,7 +35,7 @@ float lit_beside(shadow_position own, vec2 off)
     vec3 apart = other.eye - own.eye;
     float most = 0.35 * length(apart) + 1e-6 * abs(own.eye.z);
     bool same = dot(own.normal, other.normal) > 0.8 && abs(dot(own.normal, apart)) < most && abs(dot(other.normal, apart)) < most;
-    return same && dot(other.normal, u_shadow_light) > 0.05 ? lit_fraction(other.eye, other.normal, u_shadow_light) : UNKNOWN;
+    return same && dot(other.normal, u_shadow_light) > 0.05 ? lit_fraction(other.eye, other.normal, other.normal, u_shadow_light) : UNKNOWN;
 }
 
 float step_between(float a, float b)

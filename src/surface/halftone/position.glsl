@@ -251,7 +251,7 @@ stroke_plane plane_of(surface_point p, rest_position r, int i, vec2 turn)
 
 int planes_at(rest_position r, vec2 turn)
 {
-    return plane_of(surface_point(vec3(0.0), vec3(0.0), vec4(0.0), false, 0u), r, 0, turn).weight < 1.0 ? 2 : 1;
+    return plane_of(surface_point(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), false, 0u), r, 0, turn).weight < 1.0 ? 2 : 1;
 }
 #elif COORDINATES == 3
 #define PLANES 1
