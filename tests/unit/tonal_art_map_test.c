@@ -412,6 +412,31 @@ static void strokes_are_evenly_spread(void **state)
     }
 }
 
+/* Where strokes that let through lie over each other, the last gaps are looked for along their middles: paper is left
+ * nowhere in the darkest tone. */
+static void the_last_gaps_are_filled(void **state)
+{
+    (void)state;
+    static const float opacities[] = {0.35f, 0.6f, 0.8f};
+    for (int k = 0; k < 3; k++) {
+        tam_options w = usual(TAM_STRIPS);
+        mip_chain   m;
+        w.opacity = opacities[k];
+        assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+        const uint8_t *t = mip_layer(&m, 0, TONES - 1);
+        double         bare = 0, sum = 0, squares = 0;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            bare += t[i] > 230;
+            sum += t[i] / 255.0;
+            squares += t[i] / 255.0 * t[i] / 255.0;
+        }
+        sum /= SIDE * SIDE;
+        printf("    opacity %.2f: %.4f bare, deviation %.4f of mean %.4f\n", (double)opacities[k], bare / (SIDE * SIDE),
+               sqrt(squares / (SIDE * SIDE) - sum * sum), sum);
+        mip_chain_release(&m);
+    }
+}
+
 /* How far the steps across a border of 2 x 2 copies are off those inside, in deviations of all lines of one copy.
  * `square`: large steps count more. */
 static double seam_off(const uint8_t *t, int side, bool across, bool square)
@@ -953,6 +978,7 @@ int main(void)
         cmocka_unit_test(lengths_are_what_they_may_be),
         cmocka_unit_test(strokes_have_grain),
         cmocka_unit_test(strokes_are_evenly_spread),
+        cmocka_unit_test(the_last_gaps_are_filled),
         cmocka_unit_test(borders_are_like_the_inside),
         cmocka_unit_test(crosses_from_the_middle),
         cmocka_unit_test(overlaps_darken_less_and_less),
