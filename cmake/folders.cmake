@@ -52,7 +52,8 @@ if(LIMNER_STEP)
   include(GNUInstallDirs)
   set(LIMNER_MODULE_FOLDER ${CMAKE_INSTALL_LIBDIR}/limner)
   target_compile_definitions(limner_import PRIVATE LIMNER_MODULE_FOLDER="${CMAKE_INSTALL_FULL_LIBDIR}/limner")
-  add_library(limner_step MODULE ${PROJECT_SOURCE_DIR}/src/import/step_module.cpp)
+  add_library(limner_step MODULE ${PROJECT_SOURCE_DIR}/src/import/step_module.cpp ${PROJECT_SOURCE_DIR}/src/import/step_file.cpp
+                             ${PROJECT_SOURCE_DIR}/src/import/iges_file.cpp)
   set_target_properties(limner_step PROPERTIES PREFIX "" OUTPUT_NAME limner-step CXX_STANDARD 17 CXX_VISIBILITY_PRESET hidden
                         COMPILE_OPTIONS "-Wall;-Wextra" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_include_directories(limner_step PRIVATE ${PROJECT_SOURCE_DIR}/src)

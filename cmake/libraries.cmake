@@ -45,12 +45,12 @@ if(LIMNER_DRACO)
   enable_language(CXX)
 endif()
 
-# OpenCASCADE is C++ and seventy libraries: a module of its own that only the child loads which reads STEP, and that the library does not
+# OpenCASCADE is C++ and seventy libraries: a module of its own that only the child loads which reads STEP and IGES, and that the library does not
 # need; without it such files are refused by name.
 find_path(OCCT_INCLUDE STEPCAFControl_Reader.hxx PATH_SUFFIXES opencascade)
 set(OCCT_LIBRARIES "")
 set(occt_found ON)
-foreach(name IN ITEMS TKXDESTEP TKSTEP TKXSBase TKXCAF TKLCAF TKCDF TKMesh TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+foreach(name IN ITEMS TKXDESTEP TKSTEP TKXDEIGES TKIGES TKXSBase TKXCAF TKLCAF TKCDF TKMesh TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
   find_library(OCCT_${name} ${name})
   mark_as_advanced(OCCT_${name})
   if(OCCT_${name})
@@ -62,7 +62,7 @@ endforeach()
 if(NOT OCCT_INCLUDE)
   set(occt_found OFF)
 endif()
-option(LIMNER_STEP "Read STEP with OpenCASCADE" ${occt_found})
+option(LIMNER_STEP "Read STEP and IGES with OpenCASCADE" ${occt_found})
 if(LIMNER_STEP)
   enable_language(CXX)
 endif()

@@ -58,7 +58,8 @@ typedef struct program_options {
 #define DEFLECTION_OPTION(at)                                                                                          \
     {                                                                                                                  \
         "deflection", 0, OPTION_NUMBER, at, "MM",                                                                      \
-            "Of STEP files: how far triangles and lines may lie off curved surfaces, millimetres. Default: a 2000th "  \
+            "Of STEP and IGES files: how far triangles and lines may lie off curved surfaces, millimetres. Default: "  \
+            "a 2000th "                                                                                                \
             "of the size of each part.",                                                                               \
             1e-9, 1e9                                                                                                  \
     }

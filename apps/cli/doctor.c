@@ -217,11 +217,11 @@ static json_t *find_step(void)
 static void print_step(const json_t *found)
 {
     const char *version = text_at(found, "opencascade", NULL);
-    printf("\nSTEP\n  %-28s ", "OpenCASCADE");
+    printf("\nSTEP, IGES\n  %-28s ", "OpenCASCADE");
     if (version)
         printf("%s\n", version);
     else
-        printf("no: STEP files need it (package %s, or build Limner with libocct-data-exchange-dev)\n",
+        printf("no: STEP and IGES files need it (package %s, or build Limner with libocct-data-exchange-dev)\n",
                text_at(found, "package", ""));
 }
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "eye_row.h"
 #include "words.h"
 
 /* --- rows: a part, or what several paths begin with ------------------------------------------------------- */
@@ -210,8 +211,8 @@ static bool row_is_hidden(const document *d, PartRow *row)
 static void eye_clicked(GtkToggleButton *eye, gpointer user)
 {
     parts   *p = user;
-    PartRow *row = g_object_get_data(G_OBJECT(eye), "row");
-    if (!row || g_object_get_data(G_OBJECT(eye), "binds"))
+    PartRow *row = eye_row_clicked(eye);
+    if (!row)
         return;
     GArray *all = g_array_new(FALSE, FALSE, sizeof(uint32_t));
     collect(row, all);
@@ -220,59 +221,25 @@ static void eye_clicked(GtkToggleButton *eye, gpointer user)
     g_array_unref(all);
 }
 
-static void show_eye(parts *p, GtkWidget *eye, PartRow *row)
+static void show_eye(gpointer user, GtkWidget *eye, gpointer of)
 {
-    bool  shown = !row_is_hidden(p->document, row);
-    char *name = g_strdup_printf(_("Show %s"), row->name);
-    g_object_set_data(G_OBJECT(eye), "binds", GINT_TO_POINTER(1));
-    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(eye), shown);
-    gtk_button_set_icon_name(GTK_BUTTON(eye), shown ? "view-reveal-symbolic" : "view-conceal-symbolic");
-    g_object_set_data(G_OBJECT(eye), "binds", NULL);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(eye), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-    g_free(name);
+    const parts *p = user;
+    PartRow     *row = of;
+    eye_row_show(eye, row->name, !row_is_hidden(p->document, row));
 }
 
 static void row_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
 {
     (void)factory;
-    GtkWidget *expander = gtk_tree_expander_new(), *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
-    GtkWidget *label = gtk_label_new(NULL), *eye = gtk_toggle_button_new();
-    gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_MIDDLE);
-    gtk_widget_set_hexpand(label, TRUE);
-    gtk_widget_add_css_class(eye, "flat");
-    gtk_widget_set_tooltip_text(eye, _("Show or hide"));
-    g_signal_connect(eye, "toggled", G_CALLBACK(eye_clicked), user);
-    gtk_box_append(GTK_BOX(box), label);
-    gtk_box_append(GTK_BOX(box), eye);
-    gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
-    gtk_list_item_set_child(item, expander);
+    eye_row_setup(item, PANGO_ELLIPSIZE_MIDDLE, G_CALLBACK(eye_clicked), user);
 }
 
 static void row_bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
 {
     (void)factory;
-    parts     *p = user;
-    gpointer   what = gtk_list_item_get_item(item);
-    PartRow   *row = row_of(what);
-    GtkWidget *expander = gtk_list_item_get_child(item);
-    GtkWidget *label = gtk_widget_get_first_child(gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander)));
-    GtkWidget *eye = gtk_widget_get_next_sibling(label);
-    gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), GTK_IS_TREE_LIST_ROW(what) ? what : NULL);
-    gtk_label_set_text(GTK_LABEL(label), row->name);
-    gtk_widget_set_tooltip_text(label, row->name);
-    g_object_set_data_full(G_OBJECT(eye), "row", row, g_object_unref);
-    show_eye(p, eye, row);
-}
-
-/* Eyes of the rows that are on the screen now. */
-static void refresh_eyes(parts *p, GtkWidget *widget)
-{
-    PartRow *row = GTK_IS_TOGGLE_BUTTON(widget) ? g_object_get_data(G_OBJECT(widget), "row") : NULL;
-    if (row)
-        show_eye(p, widget, row);
-    for (GtkWidget *c = gtk_widget_get_first_child(widget); c; c = gtk_widget_get_next_sibling(c))
-        refresh_eyes(p, c);
+    gpointer what = gtk_list_item_get_item(item);
+    PartRow *row = row_of(what);
+    show_eye(user, eye_row_bind(item, GTK_IS_TREE_LIST_ROW(what) ? what : NULL, row->name, row), row);
 }
 
 static void document_changed(document *d, unsigned changes, void *user)
@@ -281,7 +248,7 @@ static void document_changed(document *d, unsigned changes, void *user)
     if (changes & DOCUMENT_SCENE && document_scene(d) != p->shown)
         fill(p);
     if (changes & (DOCUMENT_PARTS | DOCUMENT_SCENE)) {
-        refresh_eyes(p, p->list);
+        eye_row_each(p->list, show_eye, p);
         show_count(p);
     }
     if (changes & (DOCUMENT_SELECTED | DOCUMENT_SCENE))

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "eye_row.h"
 #include "trace.h"
 #include "words.h"
 
@@ -152,8 +153,8 @@ static const solid_edit *edit_of(const solids *s, const SolidRow *row)
 static void eye_clicked(GtkToggleButton *eye, gpointer user)
 {
     solids   *s = user;
-    SolidRow *row = g_object_get_data(G_OBJECT(eye), "row");
-    if (!row || g_object_get_data(G_OBJECT(eye), "binds"))
+    SolidRow *row = eye_row_clicked(eye);
+    if (!row)
         return;
     const solid_edit *now = edit_of(s, row);
     solid_edit        edit = {.solid = row->solid, .node = row->node};
@@ -165,27 +166,12 @@ static void eye_clicked(GtkToggleButton *eye, gpointer user)
     trace_event("solid node=%u hidden=%d", row->node, edit.hidden);
 }
 
-static void show_eye(const solids *s, GtkWidget *eye, SolidRow *row)
+static void show_eye(gpointer user, GtkWidget *eye, gpointer of)
 {
+    const solids     *s = user;
+    const SolidRow   *row = of;
     const solid_edit *edit = edit_of(s, row);
-    bool              shown = !edit || !edit->hidden;
-    char             *name = g_strdup_printf(_("Show %s"), row->name);
-    g_object_set_data(G_OBJECT(eye), "binds", GINT_TO_POINTER(1));
-    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(eye), shown);
-    gtk_button_set_icon_name(GTK_BUTTON(eye), shown ? "view-reveal-symbolic" : "view-conceal-symbolic");
-    g_object_set_data(G_OBJECT(eye), "binds", NULL);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(eye), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-    g_free(name);
-}
-
-/* Eyes of the rows that are on the screen now. */
-static void refresh_eyes(const solids *s, GtkWidget *widget)
-{
-    SolidRow *row = GTK_IS_TOGGLE_BUTTON(widget) ? g_object_get_data(G_OBJECT(widget), "row") : NULL;
-    if (row)
-        show_eye(s, widget, row);
-    for (GtkWidget *c = gtk_widget_get_first_child(widget); c; c = gtk_widget_get_next_sibling(c))
-        refresh_eyes(s, c);
+    eye_row_show(eye, row->name, !edit || !edit->hidden);
 }
 
 /* --- the panel ------------------------------------------------------------------------------------------- */
@@ -223,18 +209,7 @@ static void fill(solids *s)
 static void row_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
 {
     (void)factory;
-    GtkWidget *expander = gtk_tree_expander_new(), *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
-    GtkWidget *label = gtk_label_new(NULL), *eye = gtk_toggle_button_new();
-    gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-    gtk_widget_set_hexpand(label, TRUE);
-    gtk_widget_add_css_class(eye, "flat");
-    gtk_widget_set_tooltip_text(eye, _("Show or hide"));
-    g_signal_connect(eye, "toggled", G_CALLBACK(eye_clicked), user);
-    gtk_box_append(GTK_BOX(box), label);
-    gtk_box_append(GTK_BOX(box), eye);
-    gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
-    gtk_list_item_set_child(item, expander);
+    eye_row_setup(item, PANGO_ELLIPSIZE_END, G_CALLBACK(eye_clicked), user);
 }
 
 static void row_bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user)
@@ -242,13 +217,7 @@ static void row_bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpoin
     (void)factory;
     GtkTreeListRow *row = gtk_list_item_get_item(item);
     SolidRow       *solid = gtk_tree_list_row_get_item(row);
-    GtkWidget      *expander = gtk_list_item_get_child(item);
-    GtkWidget      *label = gtk_widget_get_first_child(gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander)));
-    GtkWidget      *eye = gtk_widget_get_next_sibling(label);
-    gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), row);
-    gtk_label_set_text(GTK_LABEL(label), solid->name);
-    g_object_set_data_full(G_OBJECT(eye), "row", solid, g_object_unref);
-    show_eye(user, eye, solid);
+    show_eye(user, eye_row_bind(item, row, solid->name, solid), solid);
 }
 
 static void document_changed(document *d, unsigned changes, void *user)
@@ -258,7 +227,7 @@ static void document_changed(document *d, unsigned changes, void *user)
         fill(s);
     } else if (changes & DOCUMENT_SOLIDS) {
         put_handle(s);
-        refresh_eyes(s, s->list);
+        eye_row_each(s->list, show_eye, s);
     }
 }
 

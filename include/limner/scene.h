@@ -40,7 +40,7 @@ typedef struct lmn_importer {
 typedef struct lmn_load_desc {
     size_t struct_size; /* set by LMN_LOAD_DESC_INIT */
     lmn_up_axis
-        up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF, STEP and OpenSCAD +Z; of OBJ and PLY it is guessed */
+        up_axis; /* LMN_UP_AUTO: glTF, BVH are +Y up, STL, 3MF, STEP, IGES, IFC, OpenSCAD +Z; of OBJ and PLY guessed */
     lmn_progress_fn progress; /* NULL: silent */
     void           *progress_user;
     /* Of OpenSCAD programs (.scad) alone; refused with others. */
@@ -60,8 +60,8 @@ typedef struct lmn_load_desc {
     /* Of footprints alone; refused with others: how densely people, cars, lamps and trees are put along roads, 1 as in
      * an ordinary town, up to 4. 0: only those in the file. Since 0.1. */
     double populate;
-    /* Of models with curved surfaces (STEP) alone; refused with others: how far triangles and lines may lie off these,
-     * millimetres. 0: a 2000th of the diagonal of each part's box. Since 0.1. */
+    /* Of models with curved surfaces (STEP, IGES) alone; refused with others: how far triangles and lines may lie off
+     * them, millimetres. 0: a 2000th of the diagonal of each part's box. Since 0.1. */
     double deflection;
 } lmn_load_desc;
 #define LMN_LOAD_DESC_INIT                                                                                             \
@@ -116,8 +116,8 @@ LMN_API char *lmn_scene_info_json(const lmn_scene *scene);
  * the behaviour of a script is none that can be laid out. */
 LMN_API char *lmn_scene_dynamics_json(const lmn_scene *scene);
 
-/* The version of OpenCASCADE, which STEP files are read with; free with lmn_text_free. NULL when it is not installed,
- * or memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
+/* The version of OpenCASCADE, which STEP and IGES files are read with; free with lmn_text_free. NULL when it is not
+ * installed, or memory is gone. A child process loads it and is asked. Any thread. Since 0.1. */
 LMN_API char *lmn_step_version(void);
 
 /* Frees text that Limner returned. NULL is accepted. */

@@ -151,18 +151,52 @@ static void join_pieces(centres *c)
     }
 }
 
-static void draw_pieces(const centres *c, uint64_t *count)
+static void draw_piece(const centres *c, const centre_piece *p, double from, double to, bool middle, uint64_t *count)
+{
+    const double reach[2] = {from, to};
+    double       ends[2][2];
+    for (int k = 0; k < 2; k++) {
+        ends[k][0] = reach[k] * p->along[0] - p->offset * p->along[1];
+        ends[k][1] = reach[k] * p->along[1] + p->offset * p->along[0];
+    }
+    draft_chain_line(c->v, (const double(*)[2])ends, 2, c->v->narrow, middle);
+    ++*count;
+}
+
+/* How far a segment covers a piece's line; false: it does not lie on it. */
+static bool covers(const centre_piece *p, const double segment[2][2], double *from, double *to)
+{
+    double t[2];
+    for (int k = 0; k < 2; k++) {
+        if (fabs(segment[k][1] * p->along[0] - segment[k][0] * p->along[1] - p->offset) > same_place)
+            return false;
+        t[k] = segment[k][0] * p->along[0] + segment[k][1] * p->along[1];
+    }
+    *from = fmin(t[0], t[1]);
+    *to = fmax(t[0], t[1]);
+    return true;
+}
+
+/* What is left of each beside lines that come before it, in one piece on either side. */
+static void draw_pieces(const centres *c, draft_segments before, uint64_t *count)
 {
     for (size_t i = 0; i < c->piece_count; i++) {
         const centre_piece *p = &c->pieces[i];
-        double              longer = p->join > 0 ? beyond * c->v->narrow : 0, ends[2][2];
-        for (int k = 0; k < 2; k++) {
-            double t = k ? p->to + longer : p->from - longer;
-            ends[k][0] = t * p->along[0] - p->offset * p->along[1];
-            ends[k][1] = t * p->along[1] + p->offset * p->along[0];
+        double longer = p->join > 0 ? beyond * c->v->narrow : 0, from = p->from - longer, to = p->to + longer;
+        double covered[2] = {INFINITY, -INFINITY}, low, high, shortest = 2 * beyond * c->v->narrow;
+        for (size_t k = 0; k < before.count; k++)
+            if (covers(p, before.items[k], &low, &high) && low < to && high > from) {
+                covered[0] = fmin(covered[0], low);
+                covered[1] = fmax(covered[1], high);
+            }
+        if (!(covered[0] < covered[1])) {
+            draw_piece(c, p, from, to, p->middle, count);
+            continue;
         }
-        draft_chain_line(c->v, (const double(*)[2])ends, 2, c->v->narrow, p->middle);
-        ++*count;
+        if (covered[0] - from > shortest)
+            draw_piece(c, p, from, covered[0], false, count);
+        if (to - covered[1] > shortest)
+            draw_piece(c, p, covered[1], to, false, count);
     }
 }
 
@@ -213,7 +247,7 @@ static void draw_pitches(const draft_view *v, const draft_pitches *pitches, cons
 }
 
 lmn_status draft_centres(const draft_view *v, const draft_cylinders *cylinders, const draft_pitches *pitches,
-                         const bool *shown, uint64_t *count, lmn_error *error)
+                         const bool *shown, draft_segments before, uint64_t *count, lmn_error *error)
 {
     centres c = {.v = v};
     bool   *wanted = mem_calloc(pitches->count + 1, sizeof *wanted);
@@ -230,7 +264,7 @@ lmn_status draft_centres(const draft_view *v, const draft_cylinders *cylinders, 
         cross(&c, &c.rounds[i], pitches);
     join_pieces(&c);
     draw_pitches(v, pitches, wanted, count);
-    draw_pieces(&c, count);
+    draw_pieces(&c, before, count);
     mem_free(wanted);
     mem_free(c.pieces);
     mem_free(c.rounds);

@@ -6,9 +6,15 @@
 #include "draft/draw.h"
 #include "draft/pitch.h"
 
+/* Lines of the sheet that come before centre lines where both lie on each other: traces of cutting planes. */
+typedef struct draft_segments {
+    const double (*items)[2][2];
+    size_t count;
+} draft_segments;
+
 /* `shown`: per cylinder. Cylinders that lean have none, as in pictorial views. Adds up how many lines and circles.
  * Errors: LMN_MEMORY. */
 lmn_status draft_centres(const draft_view *v, const draft_cylinders *cylinders, const draft_pitches *pitches,
-                         const bool *shown, uint64_t *count, lmn_error *error);
+                         const bool *shown, draft_segments before, uint64_t *count, lmn_error *error);
 
 #endif

@@ -1,6 +1,6 @@
 /* From a pair of faces that turn a little, a cylinder grows over all faces around whose corners lie on it; it is
  * fitted to them, closer each time. Regions on one axis are one cylinder then, if they go round more than half of it.
- */
+ * From patches of what is left then, cones grow in the same way. */
 #include "draft/cylinders.h"
 
 #include <math.h>
@@ -14,12 +14,16 @@
 #include "draft/faces.h"
 #include "stroke/solid.h"
 
+enum { CYLINDER = 1, CONE };
 enum { BINS = 720, PATCH_MOST = 12, TRIES = 3, FAILED_MOST = 4 };
 static const double pi = 3.14159265358979323846;
+static const double turn_same = 0.05;    /* of a turn: what may be off of two steps of one cone */
 static const double flat_turn = 1e-3;    /* radians: what turns less is one plane in two triangles */
 static const double leaning_most = 0.25; /* cosine between the normal of a face and the axis */
+static const double bent_most = 0.01;    /* the same for the line from a cone's tip: of domes it is no line */
 static const double round_least = 0.9;   /* cosine between it and the radius there: half of what a step turns */
 static const double tolerances[TRIES] = {1e-2, 2e-3, 3e-4}; /* of the radius, from round to round */
+static const double tip_most = 1e-3;                        /* of the other corners' radius: this one is the tip */
 static const double arc_least = 0.8;                        /* radians: shorter regions say too little of their axis */
 static const double same_axis = 2e-3;                       /* of regions that may be one: radii, radians */
 static const double ring_most = 1.6; /* a ring no higher than so many of the ones beside it belongs to a bulge */
@@ -35,7 +39,7 @@ typedef struct region {
 typedef struct finder {
     const edge_mesh *mesh;
     draft_faces      faces;
-    uint8_t         *taken;     /* per face: part of a cylinder */
+    uint8_t         *taken;     /* per face: what it is part of */
     uint8_t         *failed_at; /* per face: how many growths it was in that came to nothing; so work stays in bounds */
     uint32_t        *mark;      /* per face: of the growth at hand */
     uint32_t         turn;
@@ -47,6 +51,7 @@ typedef struct finder {
     size_t         found_count, found_capacity;
     solid_trimmer *trimmer; /* of a solid */
     double         near;    /* what positions are exact to */
+    bool           cones;   /* those are looked for, not cylinders */
     bool           failed;
 } finder;
 
@@ -70,25 +75,34 @@ static void radius_at(const cylinder_fit *c, const double p[3], double out[3])
 static bool lies_on(const finder *f, const cylinder_fit *c, uint32_t face, double tolerance, double sign)
 {
     const double *normal = f->faces.normals[face];
-    double        most = tolerance * c->radius + f->near, middle[3] = {0}, radius[3];
-    if (fabs(vector3_dot(normal, c->axis)) > leaning_most)
+    double        most = tolerance * c->radius + f->near, middle[3] = {0}, radius[3], along;
+    if (c->slope == 0 && fabs(vector3_dot(normal, c->axis)) > leaning_most)
         return false;
     for (int k = 0; k < 3; k++) {
         double p[3];
         corner_of(f, face, k, p);
-        if (!(fabs(cylinder_distance(c, p, NULL, NULL) - c->radius) <= most))
+        double away = cylinder_distance(c, p, NULL, &along);
+        if (!(fabs(away - cylinder_radius(c, along)) <= most * sqrt(1 + c->slope * c->slope)))
             return false;
         vector3_add(middle, middle, 1.0 / 3, p);
     }
     radius_at(c, middle, radius);
+    double along_it = vector3_dot(normal, c->axis) + c->slope * vector3_dot(normal, radius);
+    if (c->slope != 0 && fabs(along_it) > bent_most * sqrt(1 + c->slope * c->slope))
+        return false;
+    vector3_add(radius, radius, -c->slope, c->axis);
+    vector3_normalise(radius);
     return sign * vector3_dot(normal, radius) > round_least;
 }
 
 static double side_of(const finder *f, const cylinder_fit *c, uint32_t face)
 {
-    double p[3], radius[3];
-    corner_of(f, face, 0, p);
-    radius_at(c, p, radius);
+    double p[3], radius[3], middle[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        corner_of(f, face, k, p);
+        vector3_add(middle, middle, 1.0 / 3, p);
+    }
+    radius_at(c, middle, radius);
     return vector3_dot(f->faces.normals[face], radius) > 0 ? 1 : -1;
 }
 
@@ -173,6 +187,31 @@ static bool start_at_patch(finder *f, cylinder_fit *c, uint32_t seed)
     return f->region_count >= 4 && cylinder_start(c, (const double(*)[3])f->points, f->point_count);
 }
 
+/* Around a seed, over edges that turn by as much as one of its own or not at all: the sides of a cone all do. */
+static bool start_cone(finder *f, cylinder_fit *c, uint32_t seed, double turn)
+{
+    double normals[PATCH_MOST][3];
+    f->turn++;
+    f->region_count = 0;
+    f->mark[seed] = f->turn;
+    f->region[f->region_count++] = seed;
+    for (size_t i = 0; i < f->region_count; i++)
+        for (int k = 0; k < 3 && f->region_count < PATCH_MOST; k++) {
+            uint32_t face = f->region[i], other = draft_faces_beside(&f->faces, face, k);
+            if (other == EDGE_NO_FACE || f->mark[other] == f->turn || f->taken[other])
+                continue;
+            double own = draft_faces_turn(&f->faces, face, other);
+            if (own >= flat_turn && fabs(own - turn) > turn_same * turn)
+                continue;
+            f->mark[other] = f->turn;
+            f->region[f->region_count++] = other;
+        }
+    put_corners(f);
+    for (size_t i = 0; i < f->region_count; i++)
+        vector3_copy(normals[i], f->faces.normals[f->region[i]]);
+    return cone_start(c, (const double(*)[3])normals, f->region_count, (const double(*)[3])f->points, f->point_count);
+}
+
 /* --- what was found ------------------------------------------------------------------------------------- */
 
 static double angle_between(double a, double b)
@@ -210,37 +249,58 @@ static void reach(region *r, double along)
     r->high = fmax(r->high, along);
 }
 
-/* A line along the axis through the middle of a face, cut at its edges; `at`, `t`: its corners around and along. */
-static bool line_across(const double at[3], const double t[3], double out[2])
+/* The line through the middle of a face that runs along the axis, of a cone to its tip, from edge to edge of it;
+ * `ends`: where that is along the axis. */
+static bool line_across(const finder *f, const cylinder_fit *c, uint32_t face, double lines[2][3], double ends[2])
 {
-    double middle = 0;
-    int    count = 0;
-    for (int k = 0; k < 3; k++)
-        middle += angle_between(at[0], at[k]) / 3;
+    double        p[3][3], middle[3] = {0}, radius[3], way[3], across[3];
+    const double *normal = f->faces.normals[face];
+    int           count = 0;
     for (int k = 0; k < 3; k++) {
-        double a = angle_between(at[0], at[k]) - middle, b = angle_between(at[0], at[(k + 1) % 3]) - middle;
-        if ((a < 0) != (b < 0) && count < 2)
-            out[count++] = t[k] + a / (a - b) * (t[(k + 1) % 3] - t[k]);
+        corner_of(f, face, k, p[k]);
+        vector3_add(middle, middle, 1.0 / 3, p[k]);
+    }
+    radius_at(c, middle, radius);
+    double lean = c->slope == 0 ? 0 : -vector3_dot(normal, c->axis) / vector3_dot(normal, radius);
+    vector3_add(way, c->axis, lean, radius);
+    vector3_cross(across, normal, way);
+    for (int k = 0; k < 3 && count < 2; k++) {
+        double to[2][3], sides[2];
+        for (int n = 0; n < 2; n++) {
+            vector3_add(to[n], p[(k + n) % 3], -1, middle);
+            sides[n] = vector3_dot(to[n], across);
+        }
+        if ((sides[0] < 0) == (sides[1] < 0))
+            continue;
+        vector3_mix(lines[count], p[k], p[(k + 1) % 3], sides[0] / (sides[0] - sides[1]));
+        cylinder_distance(c, lines[count], NULL, &ends[count]);
+        count++;
     }
     return count == 2;
 }
 
-/* Of a face of a solid: as much of it as bounds that. */
-static void take_bounding(finder *f, region *r, uint32_t face, const double angles[3], const double along[3])
+/* Around and along of a face's corners. The tip of a cone is anywhere around: in the middle of the other two. */
+static void around_and_along(const finder *f, const cylinder_fit *c, uint32_t face, double angles[3], double along[3])
 {
-    double             ends[2], lines[2][3], middle[3] = {0}, p[3];
+    double away[3];
+    for (int k = 0; k < 3; k++) {
+        double p[3];
+        corner_of(f, face, k, p);
+        away[k] = cylinder_distance(c, p, &angles[k], &along[k]);
+    }
+    for (int k = 0; k < 3; k++)
+        if (away[k] < tip_most * fmax(away[(k + 1) % 3], away[(k + 2) % 3]))
+            angles[k] = angles[(k + 1) % 3] + angle_between(angles[(k + 1) % 3], angles[(k + 2) % 3]) / 2;
+}
+
+/* Of a face of a solid: as much of it as bounds that. */
+static void take_bounding(finder *f, region *r, uint32_t face, const double angles[3])
+{
+    double             ends[2], lines[2][3];
     const solid_share *shares;
     size_t             count;
-    if (!line_across(angles, along, ends))
+    if (!line_across(f, &r->fit, face, lines, ends))
         return;
-    for (int k = 0; k < 3; k++) {
-        corner_of(f, face, k, p);
-        vector3_add(middle, middle, 1.0 / 3, p);
-    }
-    double at;
-    cylinder_distance(&r->fit, middle, NULL, &at);
-    for (int k = 0; k < 2; k++)
-        vector3_add(lines[k], middle, ends[k] - at, r->fit.axis);
     if (!solid_trim(f->trimmer, face, lines[0], lines[1], &shares, &count)) {
         f->failed = true;
         return;
@@ -258,13 +318,9 @@ static void measure(finder *f, region *r)
     r->high = -INFINITY;
     for (size_t i = 0; i < f->region_count && !f->failed; i++) {
         double angles[3], along[3];
-        for (int k = 0; k < 3; k++) {
-            double p[3];
-            corner_of(f, f->region[i], k, p);
-            cylinder_distance(&r->fit, p, &angles[k], &along[k]);
-        }
+        around_and_along(f, &r->fit, f->region[i], angles, along);
         if (f->trimmer) {
-            take_bounding(f, r, f->region[i], angles, along);
+            take_bounding(f, r, f->region[i], angles);
             continue;
         }
         take_angles(r, angles);
@@ -274,29 +330,33 @@ static void measure(finder *f, region *r)
 }
 
 /* Is it a ring of what bends along the axis, too, as a ball's equator is? Then it goes on smoothly on both sides, in
- * rings of about its own height. */
+ * rings of about its own height; a cone on one of them, if not into a cylinder, since a ball's last ring has a tip. */
 static bool is_of_bulge(const finder *f, const region *r)
 {
-    double beside[2] = {0, 0}, middle = (r->low + r->high) / 2;
+    const bool cone = r->fit.slope != 0;
+    double     beside[2] = {0, 0}, middle = (r->low + r->high) / 2;
+    double     length = (r->high - r->low) * sqrt(1 + r->fit.slope * r->fit.slope);
     for (size_t i = 0; i < f->region_count; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t face = f->region[i], other = draft_faces_beside(&f->faces, face, k);
             double   a[3], b[3], at, most = 0;
             if (other == EDGE_NO_FACE || f->mark[other] == f->turn ||
-                draft_faces_turn(&f->faces, face, other) < flat_turn)
+                draft_faces_turn(&f->faces, face, other) < flat_turn || (cone && f->taken[other] == CYLINDER))
                 continue;
             corner_of(f, face, k, a);
             corner_of(f, face, (k + 1) % 3, b);
             vector3_mix(a, a, b, 0.5);
-            cylinder_distance(&r->fit, a, NULL, &at);
+            double away = cylinder_distance(&r->fit, a, NULL, &at);
             for (int n = 0; n < 3; n++) {
                 double t;
                 corner_of(f, other, n, b);
-                cylinder_distance(&r->fit, b, NULL, &t);
-                most = fmax(most, fabs(t - at));
+                double out = cylinder_distance(&r->fit, b, NULL, &t);
+                most = fmax(most, cone ? hypot(t - at, out - away) : fabs(t - at));
             }
             beside[at > middle] = fmax(beside[at > middle], most);
         }
+    if (cone)
+        return length < ring_most * fmax(beside[0], beside[1]);
     return beside[0] > 0 && beside[1] > 0 && r->high - r->low < ring_most * fmax(beside[0], beside[1]);
 }
 
@@ -304,7 +364,7 @@ static void keep(finder *f, const cylinder_fit *c, uint32_t seed)
 {
     region r = {.fit = *c, .hollow = side_of(f, c, seed) < 0};
     for (size_t i = 0; i < f->region_count; i++)
-        f->taken[f->region[i]] = 1;
+        f->taken[f->region[i]] = f->cones ? CONE : CYLINDER;
     measure(f, &r);
     if (f->failed || !(r.high > r.low) || is_of_bulge(f, &r))
         return;
@@ -320,11 +380,8 @@ static double arc_of_growth(finder *f, const cylinder_fit *c)
 {
     region whole = {.fit = *c};
     for (size_t i = 0; i < f->region_count; i++) {
-        double angles[3], p[3];
-        for (int k = 0; k < 3; k++) {
-            corner_of(f, f->region[i], k, p);
-            cylinder_distance(c, p, &angles[k], NULL);
-        }
+        double angles[3], along[3];
+        around_and_along(f, c, f->region[i], angles, along);
         take_angles(&whole, angles);
     }
     return sweep_of(&whole);
@@ -360,9 +417,20 @@ static bool try_from(finder *f, cylinder_fit *c, uint32_t seed)
     return true;
 }
 
+static void search_cone(finder *f, uint32_t face)
+{
+    cylinder_fit c = {.slope = 0};
+    for (int k = 0; k < 3; k++) {
+        uint32_t other = draft_faces_beside(&f->faces, face, k);
+        double   turn = other == EDGE_NO_FACE ? 0 : draft_faces_turn(&f->faces, face, other);
+        if (turn >= flat_turn && !f->taken[other] && start_cone(f, &c, face, turn) && try_from(f, &c, face))
+            return;
+    }
+}
+
 static void search(finder *f, uint32_t face)
 {
-    cylinder_fit c;
+    cylinder_fit c = {.slope = 0};
     bool         turns = false;
     for (int k = 0; k < 3; k++) {
         uint32_t other = draft_faces_beside(&f->faces, face, k);
@@ -381,12 +449,15 @@ static void search(finder *f, uint32_t face)
 static bool are_one(const region *a, const region *b)
 {
     double along, apart;
-    if (a->hollow != b->hollow || fabs(a->fit.radius - b->fit.radius) > same_axis * a->fit.radius ||
+    apart = cylinder_distance(&a->fit, b->fit.centre, NULL, &along);
+    if (a->hollow != b->hollow ||
+        fabs(cylinder_radius(&a->fit, along) - b->fit.radius) > same_axis * fmin(a->fit.radius, b->fit.radius) ||
         fabs(vector3_dot(a->fit.axis, b->fit.axis)) < cos(same_axis))
         return false;
-    apart = cylinder_distance(&a->fit, b->fit.centre, NULL, &along);
     double way = vector3_dot(b->fit.axis, a->fit.axis), ends[2] = {along + way * b->low, along + way * b->high};
     double low = fmin(ends[0], ends[1]), high = fmax(ends[0], ends[1]);
+    if (fabs(a->fit.slope - (way < 0 ? -1 : 1) * b->fit.slope) > same_axis)
+        return false;
     double common = fmin(high, a->high) - fmax(low, a->low), shorter = fmin(high - low, a->high - a->low);
     return apart < same_axis * a->fit.radius && common > 0.5 * shorter;
 }
@@ -444,11 +515,15 @@ static lmn_status find_in_mesh(finder *f, const edge_mesh *m, lmn_error *error)
     f->failed = !f->taken || !f->failed_at || !f->mark || !f->region || !f->points || (m->solid && !f->trimmer);
     if (f->failed || draft_faces_make(&f->faces, m, error) != LMN_OK)
         return error_memory(error);
-    for (uint32_t i = 0; i < m->face_count && !f->failed; i++) {
-        if (i % 1024 == 0 && work_stopped())
-            return error_memory(error);
-        if (!f->taken[i] && f->failed_at[i] < FAILED_MOST)
-            search(f, i);
+    for (int kind = 0; kind < 2; kind++) {
+        f->cones = kind == 1;
+        memset(f->failed_at, 0, m->face_count);
+        for (uint32_t i = 0; i < m->face_count && !f->failed; i++) {
+            if (i % 1024 == 0 && work_stopped())
+                return error_memory(error);
+            if (!f->taken[i] && f->failed_at[i] < FAILED_MOST)
+                f->cones ? search_cone(f, i) : search(f, i);
+        }
     }
     join_regions(f);
     return f->failed ? error_memory(error) : LMN_OK;
@@ -490,8 +565,13 @@ static void to_world(double out[3], const mat4 *m, const double p[3], double pla
 static bool put_cylinder(draft_cylinders *out, const stroke_item *item, const region *r)
 {
     double         grown = growth_of(&item->world), sweep = sweep_of(r);
-    draft_cylinder c = {
-        .part = item->part_index + 1, .radius = r->fit.radius * grown, .sweep = sweep, .hollow = r->hollow};
+    double         low = fmax(cylinder_radius(&r->fit, r->low), 0), high = fmax(cylinder_radius(&r->fit, r->high), 0);
+    draft_cylinder c = {.part = item->part_index + 1,
+                        .radius = fmax(low, high) * grown,
+                        .radii = {low * grown, high * grown},
+                        .cone = r->fit.slope != 0,
+                        .sweep = sweep,
+                        .hollow = r->hollow};
     if (!(grown > 0) || sweep < DRAFT_SWEEP_LEAST)
         return true;
     to_world(c.axis, &item->world, r->fit.axis, 0);

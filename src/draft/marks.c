@@ -38,11 +38,9 @@ static void reach_of(box3 b, const double axis[3], double out[2])
     }
 }
 
-/* The trace as a polyline of the sheet, from the left of the section to its right; of a half section from its middle.
- */
-static size_t trace_of(const draft_view *v, const draft_extra *e, box3 bounds, double beyond, double (*out)[2])
+size_t draft_trace(const draft_view *v, const draft_extra *e, box3 bounds, double letter, double (*out)[2])
 {
-    double up[3], middle[3], reach[2], out_of_it[2], p[3], scale = draft_scale(v);
+    double up[3], middle[3], reach[2], out_of_it[2], p[3], scale = draft_scale(v), beyond = past * letter;
     size_t count = 0;
     draft_turn(v, e->axes[1], up);
     const double *along = fabs(up[2]) > 1 - seen_aside ? e->axes[0] : e->axes[1];
@@ -100,7 +98,7 @@ void draft_cutting_plane(const draft_view *v, const draft_extra *e, box3 bounds,
 {
     double     points[2 * DRAFT_DEPTHS_MOST][2], look[3], along[2];
     const char word[2] = {e->letter, '\0'};
-    size_t     count = trace_of(v, e, bounds, past * letter, points), last = count - 1;
+    size_t     count = draft_trace(v, e, bounds, letter, points), last = count - 1;
     draft_turn(v, e->axes[2], look);
     const double towards[2] = {-look[0], -look[1]};
     draft_chain_line(v, (const double(*)[2])points, count, v->narrow, false);

@@ -8,6 +8,9 @@
 
 /* Can the cutting plane of a section be told on this view? It has to be seen from the side there. */
 bool draft_shows_plane(const draft_view *v, const draft_extra *e);
+/* Where the trace runs: a polyline of the sheet of at most 2 · DRAFT_DEPTHS_MOST points, from the left of the section
+ * to its right; of a half section from its middle. */
+size_t draft_trace(const draft_view *v, const draft_extra *e, box3 bounds, double letter, double (*out)[2]);
 /* The trace of a cutting plane: a long-dashed dotted line, wide at its ends and where it turns, with arrows in the
  * direction of the view, and letters; of a half section from its middle on, with one arrow. `bounds`: of the model. */
 void draft_cutting_plane(const draft_view *v, const draft_extra *e, box3 bounds, double letter);

@@ -41,8 +41,9 @@ static bool are_alike(const draft_cylinder *a, const draft_cylinder *b)
     middle_of(b, q);
     vector3_add(p, p, -1, q);
     double height = vector3_distance(a->ends[0], a->ends[1]), other = vector3_distance(b->ends[0], b->ends[1]);
-    return a->part == b->part && a->hollow == b->hollow && fabs(a->radius - b->radius) < alike * a->radius &&
-           are_parallel(a, b) && fabs(vector3_dot(p, a->axis)) < 0.25 * (height + other);
+    return a->part == b->part && a->hollow == b->hollow && a->cone == b->cone &&
+           fabs(a->radius - b->radius) < alike * a->radius && are_parallel(a, b) &&
+           fabs(vector3_dot(p, a->axis)) < 0.25 * (height + other);
 }
 
 static void place(const search *s, const double p[3], double out[2])
@@ -200,7 +201,7 @@ lmn_status draft_pitches_find(draft_pitches *out, const draft_cylinders *cylinde
     for (size_t i = 0; i < cylinders->count; i++)
         out->of_cylinder[i] = -1;
     for (size_t i = 0; i < cylinders->count && status == LMN_OK; i++) {
-        if (out->of_cylinder[i] >= 0)
+        if (out->of_cylinder[i] >= 0 || cylinders->items[i].cone) /* what is round about a bore is its cylinder */
             continue;
         begin_group(&s, i);
         /* The fullest first: of six holes on a circle three are another one's, too. */

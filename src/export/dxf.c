@@ -81,7 +81,10 @@ static void append_words(text *out, const char *words)
         uint32_t code = length == 1 ? *at : *at & (0xFFu >> (length + 1));
         for (; seen < length && (at[seen] & 0xC0) == 0x80; seen++)
             code = code << 6 | (at[seen] & 0x3F);
-        if (*at >= 0x20 && *at < 0x7F)
+        /* Fonts of CAD programs have few letters: a dash that LibreCAD's lack is the one that all have. */
+        if (code == 0x2013)
+            text_append_bytes(out, "-", 1);
+        else if (*at >= 0x20 && *at < 0x7F)
             text_append_bytes(out, (const char *)at, 1);
         else
             text_append(out, *at >= 0x80 ? "\\U+%04X" : " ",

@@ -34,7 +34,7 @@ static lmn_status warn_of_others(const import_job *job, fence_reader *r, lmn_err
     return LMN_OK;
 }
 
-static lmn_status read_assimp(const import_job *job, lmn_error *error)
+lmn_status assimp_load(const import_job *job, lmn_error *error)
 {
     fence_bytes request = {0}, answer;
     put_request(&request, job);
@@ -60,8 +60,8 @@ static lmn_status read_assimp(const import_job *job, lmn_error *error)
 
 const import_format import_assimp = {
     "a format that assimp reads",
-    ".fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .ifc .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
+    ".fbx .dae .3ds .off .3mf .blend .x .ase .ac .lwo .dxf .b3d .md2 .md3 .md5mesh .ms3d .x3d .cob .amf .assbin",
     'y',
     false,
     NULL,
-    read_assimp};
+    assimp_load};

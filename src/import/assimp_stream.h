@@ -14,7 +14,10 @@ enum { STREAM_NORMALS = 1, STREAM_UV0 = 2, STREAM_UV1 = 4, STREAM_COLOURS = 8 };
  * for, then the model. */
 lmn_status assimp_read(const unsigned char *request, size_t size, fence_bytes *answer, lmn_error *error);
 
-/* Before it: checks the bytes and fills the scene. */
+/* Before it: the whole, from the job's file to its scene. */
+lmn_status assimp_load(const import_job *job, lmn_error *error);
+
+/* A part of that: checks the bytes and fills the scene. */
 lmn_status assimp_stream_read(const import_job *job, const unsigned char *bytes, size_t size, lmn_error *error);
 
 #endif

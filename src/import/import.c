@@ -13,9 +13,10 @@
 #include "import/up_axis.h"
 
 /* Asked in this order; the last takes every other ending. */
-static const import_format *const formats[] = {
-    &import_cityjson, &import_geojson, &import_citygml, &import_geodata, &import_step, &import_gltf,   &import_ply,
-    &import_stl,      &import_obj,     &import_bvh,     &import_csg,     &import_scad, &import_script, &import_assimp};
+static const import_format *const formats[] = {&import_cityjson, &import_geojson, &import_citygml, &import_geodata,
+                                               &import_step,     &import_iges,    &import_ifc,     &import_gltf,
+                                               &import_ply,      &import_stl,     &import_obj,     &import_bvh,
+                                               &import_csg,      &import_scad,    &import_script,  &import_assimp};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 lmn_status import_progress(const import_job *job, double fraction, const char *stage, lmn_error *error)
@@ -73,9 +74,8 @@ static lmn_status choose(const import_format **out, const char *path, const file
     if (*out)
         return LMN_OK;
     error_in_file(error, LMN_UNSUPPORTED, path, 0, "the format of this file is not known (ending \"%s\")", ending);
-    error_hint(
-        error,
-        "limner reads glTF, GLB, STL, PLY, OBJ, BVH, STEP, OpenSCAD's CSG and what docs/reference/formats.md lists");
+    error_hint(error, "limner reads glTF, GLB, STL, PLY, OBJ, BVH, STEP, IGES, OpenSCAD's CSG and what "
+                      "docs/reference/formats.md lists");
     return LMN_UNSUPPORTED;
 }
 
@@ -151,9 +151,10 @@ static lmn_status check_options(const import_format *format, const char *path, c
     if (desc->populate > 0 && !footprints)
         return error_in_file(error, LMN_USAGE, path, 0, "only footprints and roads are populated, and this is %s",
                              format->name);
-    if (desc->deflection > 0 && format != &import_step)
+    if (desc->deflection > 0 && !format->curved)
         return error_in_file(error, LMN_USAGE, path, 0,
-                             "a deflection is of models with curved surfaces (STEP), and this is %s", format->name);
+                             "a deflection is of models with curved surfaces (STEP, IGES), and this is %s",
+                             format->name);
     if (format == &import_scad || (!desc->define_count && !desc->strict))
         return LMN_OK;
     return error_in_file(error, LMN_USAGE, path, 0, "%s for OpenSCAD programs (.scad), and this is %s",

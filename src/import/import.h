@@ -21,10 +21,12 @@ typedef struct import_format {
     bool        up_guessed;                    /* which is no rule: files have either (up_axis.h) */
     bool (*recognises)(const file_data *file); /* by content; NULL: by ending only */
     lmn_status (*read)(const import_job *job, lmn_error *error);
+    bool curved; /* its surfaces become triangles here, as fine as a deflection says */
 } import_format;
 
 extern const import_format import_gltf, import_stl, import_ply, import_obj, import_bvh, import_csg, import_scad,
-    import_script, import_cityjson, import_citygml, import_geojson, import_geodata, import_step, import_assimp;
+    import_script, import_cityjson, import_citygml, import_geojson, import_geodata, import_step, import_iges,
+    import_ifc, import_assimp;
 
 /* Reads a file into a new finished scene (owned by the caller). The description is complete; LMN_UP_AUTO takes the
  * format's convention. Content decides the format first, the ending second; a mismatch is an error that says so. */

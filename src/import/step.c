@@ -1,5 +1,5 @@
-/* STEP: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the faces, with
- * their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
+/* STEP and IGES: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the
+ * faces, with their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
 #define _GNU_SOURCE /* memmem */
 #include "import/step.h"
 
@@ -19,8 +19,9 @@
 /* --- behind the fence ----------------------------------------------------------------------------------- */
 
 typedef struct request_head {
-    double   deflection;
-    uint64_t most_triangles;
+    double    deflection;
+    uint64_t  most_triangles;
+    step_kind kind;
 } request_head;
 
 static bool put(void *to, const void *bytes, size_t size)
@@ -32,7 +33,7 @@ static bool put(void *to, const void *bytes, size_t size)
 
 static lmn_status no_library(lmn_error *error)
 {
-    error_set(error, LMN_UNSUPPORTED, "STEP files are read with OpenCASCADE, which is not here");
+    error_set(error, LMN_UNSUPPORTED, "STEP and IGES files are read with OpenCASCADE, which is not here");
     error_hint(error, "`limner doctor` says what is missing; or convert the model to glTF");
     return LMN_UNSUPPORTED;
 }
@@ -49,7 +50,7 @@ static lmn_status answer_step(const unsigned char *request, size_t size, fence_b
     if (!from)
         return error_set(error, LMN_INTERNAL, "the request is cut off");
     memcpy(&head, from, sizeof head);
-    const step_request what = {r.at, (size_t)(r.end - r.at), head.deflection, head.most_triangles};
+    const step_request what = {r.at, (size_t)(r.end - r.at), head.kind, head.deflection, head.most_triangles};
     switch (module->read(&what, put, answer, message, sizeof message)) {
     case STEP_DONE: return LMN_OK;
     case STEP_TOO_MUCH_MEMORY:
@@ -82,7 +83,8 @@ char *step_version(void)
 {
     fence_bytes request = {0}, answer = {0};
     char       *text = NULL;
-    if (fence_call_prepared(&answer, answer_version, step_prepare, "the reader of STEP", &request, NULL) == LMN_OK) {
+    if (fence_call_prepared(&answer, answer_version, step_prepare, "the reader of CAD files", &request, NULL) ==
+        LMN_OK) {
         fence_reader r = fence_read(answer.bytes, answer.size);
         text = fence_take_text(&r);
     }
@@ -92,10 +94,13 @@ char *step_version(void)
 
 /* --- the answer ----------------------------------------------------------------------------------------- */
 
+enum { FACTS = 4 }; /* of the header */
+
 typedef struct step_reader {
     const import_job *job;
     fence_reader      r;
     lmn_error        *error;
+    step_kind         kind;
     step_losses       losses;
     lmn_status        status;
     int32_t           plain; /* the material of what has no colour; NONE: not needed yet */
@@ -105,7 +110,7 @@ typedef struct step_reader {
 static void broken(step_reader *s)
 {
     if (s->status == LMN_OK)
-        s->status = error_set(s->error, LMN_FORMAT, "the reader of STEP gave broken data");
+        s->status = error_set(s->error, LMN_FORMAT, "the reader of CAD files gave broken data");
 }
 
 static void out_of_memory(step_reader *s)
@@ -308,18 +313,43 @@ static void tell_unit(step_reader *s, const char *unit_name)
             out_of_memory(s);
 }
 
+/* What writers put when they have not been told, which is nothing. */
+static bool is_made_up(const char *fact)
+{
+    static const char *const words[] = {
+        "Author", "Unknown", "Organization", "Organisation", "Company", "UNSPECIFIED", "Not specified", "None",
+        "*",      "-"};
+    bool found = strncasecmp(fact, "Open CASCADE", 12) == 0 || !*fact;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        found = found || strcasecmp(fact, words[i]) == 0;
+    return found;
+}
+
+/* What the header says, of all that the file brings: as attributes of its uppermost nodes. */
+static void tell_header(step_reader *s, char *const *facts)
+{
+    static const char *const keys[FACTS] = {"file-title", "file-author", "file-organisation", "file-date"};
+    lmn_scene               *scene = s->job->scene;
+    for (size_t i = 0; i < scene->node_count; i++)
+        for (int k = 0; k < FACTS && s->status == LMN_OK; k++)
+            if (scene->nodes[i].parent == NONE && facts[k] && !is_made_up(facts[k]) &&
+                !build_attribute(&scene->nodes[i], keys[k], facts[k]))
+                out_of_memory(s);
+}
+
 static void tell_losses(const step_reader *s)
 {
     warnings   *list = &s->job->scene->warnings;
     step_losses is = s->losses;
+    char        sign = s->kind == STEP_KIND_IGES ? 'D' : '#';
     if (is.lost)
-        warnings_add(list, WARNING_BAD_GEOMETRY, "%u of %u faces could not be made and are missing, the first: #%u",
-                     (unsigned)is.lost, (unsigned)is.faces, (unsigned)is.first_lost);
+        warnings_add(list, WARNING_BAD_GEOMETRY, "%u of %u faces could not be made and are missing, the first: %c%u",
+                     (unsigned)is.lost, (unsigned)is.faces, sign, (unsigned)is.first_lost);
     if (is.damaged)
         warnings_add(list, WARNING_BAD_GEOMETRY,
-                     "%u entities are damaged or refer to what the file does not have, the first: #%u; "
+                     "%u entities are damaged or refer to what the file does not have, the first: %c%u; "
                      "parts or edges of them may be missing",
-                     (unsigned)is.damaged, (unsigned)is.first_damaged);
+                     (unsigned)is.damaged, sign, (unsigned)is.first_damaged);
 }
 
 static void read_nodes(step_reader *s)
@@ -331,10 +361,13 @@ static void read_nodes(step_reader *s)
         read_node(s, i);
 }
 
-lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, size_t size, lmn_error *error)
+lmn_status step_answer_read(const import_job *job, step_kind kind, const unsigned char *bytes, size_t size,
+                            lmn_error *error)
 {
-    step_reader s = {.job = job, .r = fence_read(bytes, size), .error = error, .plain = NONE};
-    char       *unit_name = take_name(&s);
+    step_reader s = {.job = job, .r = fence_read(bytes, size), .kind = kind, .error = error, .plain = NONE};
+    char       *unit_name = take_name(&s), *facts[FACTS];
+    for (int i = 0; i < FACTS; i++)
+        facts[i] = take_name(&s);
     const void *from = fence_take(&s.r, sizeof(float)), *losses = fence_take(&s.r, sizeof s.losses);
     float       coarser = 1;
     uint32_t    meshes = take_count(&s, 16);
@@ -347,7 +380,10 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
     if (s.status == LMN_OK)
         read_nodes(&s);
     tell_unit(&s, unit_name);
+    tell_header(&s, facts);
     mem_free(unit_name);
+    for (int i = 0; i < FACTS; i++)
+        mem_free(facts[i]);
     if (s.status == LMN_OK && (s.r.ended || s.r.at != s.r.end))
         broken(&s);
     if (s.status == LMN_OK && coarser > 1)
@@ -359,10 +395,10 @@ lmn_status step_answer_read(const import_job *job, const unsigned char *bytes, s
     return s.status;
 }
 
-/* --- the format ----------------------------------------------------------------------------------------- */
+/* --- the formats ---------------------------------------------------------------------------------------- */
 
 /* IFC is written in the same way; what it is of stands in the header. */
-static bool recognises(const file_data *file)
+static bool is_step(const file_data *file)
 {
     static const char first[] = "ISO-10303-21";
     const char       *at = (const char *)file->data, *end = at + (file->size < 65536 ? file->size : 65536);
@@ -375,29 +411,63 @@ static bool recognises(const file_data *file)
     return !quote || end - quote < 4 || strncasecmp(quote + 1, "IFC", 3) != 0;
 }
 
-static lmn_status read_step(const import_job *job, lmn_error *error)
+/* Lines of 80 letters, of which the 73rd says what they belong to and the last seven count: first the start section. */
+static bool is_iges(const file_data *file)
+{
+    enum { SECTION = 72, LINE = 80 };
+    const unsigned char *at = file->data;
+    if (file->size < 2 * LINE || at[SECTION] != 'S')
+        return false;
+    for (int i = 0; i < LINE; i++)
+        if (i < SECTION ? at[i] == '\n' || at[i] == '\r' : i > SECTION && at[i] != ' ' && !isdigit(at[i]))
+            return false;
+    return at[LINE - 1] == '1' && (at[LINE] == '\n' || at[LINE] == '\r');
+}
+
+static lmn_status read_kind(const import_job *job, step_kind kind, lmn_error *error)
 {
     fence_bytes        request = {0}, answer = {0};
     const uint64_t     most = work_limits().triangles;
-    const request_head head = {job->desc ? job->desc->deflection : 0, most ? most : LIMIT_TRIANGLES};
+    const request_head head = {job->desc ? job->desc->deflection : 0, most ? most : LIMIT_TRIANGLES, kind};
+    const char        *what = kind == STEP_KIND_IGES ? "the reader of IGES" : "the reader of STEP";
     fence_put(&request, &head, sizeof head);
     fence_put(&request, job->file->data, job->file->size);
-    lmn_status status = fence_call_prepared(&answer, answer_step, step_prepare, "the reader of STEP", &request, error);
+    lmn_status status = fence_call_prepared(&answer, answer_step, step_prepare, what, &request, error);
     mem_free(request.bytes);
     if (status == LMN_OK)
         status = import_progress(job, 0.7, "reading", error);
     if (status == LMN_OK)
-        status = step_answer_read(job, answer.bytes, answer.size, error);
+        status = step_answer_read(job, kind, answer.bytes, answer.size, error);
     mem_free(answer.bytes);
     if (status != LMN_OK)
         error_file(error, job->path);
     return status;
 }
 
+static lmn_status read_step(const import_job *job, lmn_error *error)
+{
+    return read_kind(job, STEP_KIND_STEP, error);
+}
+
+static lmn_status read_iges(const import_job *job, lmn_error *error)
+{
+    return read_kind(job, STEP_KIND_IGES, error);
+}
+
 const import_format import_step = {
     .name = "STEP",
     .endings = ".step .stp .p21",
     .up = 'z',
-    .recognises = recognises,
+    .recognises = is_step,
     .read = read_step,
+    .curved = true,
+};
+
+const import_format import_iges = {
+    .name = "IGES",
+    .endings = ".iges .igs",
+    .up = 'z',
+    .recognises = is_iges,
+    .read = read_iges,
+    .curved = true,
 };

@@ -1,15 +1,13 @@
-// OpenCASCADE for C: STEP to meshes, edges and a tree. No exception leaves this file, and nothing of it is linked with
-// the library: it is a module that the fenced child loads (step_library.c).
+// OpenCASCADE for C: STEP and IGES to meshes, edges and a tree. No exception leaves this file, and nothing of it is
+// linked with the library: it is a module that the fenced child loads (step_library.c).
 #include "import/step_module.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <istream>
 #include <map>
 #include <new>
-#include <streambuf>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -24,8 +22,6 @@
 #include <Bnd_Box.hxx>
 #include <GCPnts_TangentialDeflection.hxx>
 #include <GeomLib.hxx>
-#include <Interface_Check.hxx>
-#include <Interface_CheckIterator.hxx>
 #include <Message.hxx>
 #include <NCollection_DataMap.hxx>
 #include <Message_Messenger.hxx>
@@ -34,13 +30,9 @@
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <Quantity_ColorRGBA.hxx>
-#include <STEPCAFControl_Reader.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepShape_Face.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_OutOfMemory.hxx>
 #include <Standard_Version.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDF_Tool.hxx>
 #include <TDataStd_Name.hxx>
@@ -55,14 +47,12 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
-#include <Transfer_Binder.hxx>
-#include <Transfer_TransientProcess.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <XSControl_TransferReader.hxx>
-#include <XSControl_WorkSession.hxx>
+
+#include "import/cad_file.h"
 
 namespace
 {
@@ -83,10 +73,7 @@ constexpr double FAR = 16;
 constexpr double   NO_AREA = 1e-14;
 constexpr unsigned DEEPEST = 512;
 
-struct Failure {
-    step_result result;
-    const char *message;
-};
+using cad::Failure;
 
 struct Colour {
     bool  there = false;
@@ -659,12 +646,13 @@ void add(Tree &t, const TDF_Label &label, uint32_t parent, const Colour &above, 
     }
 }
 
-void put_tree(const Answer &a, const Tree &t, const std::string &unit, const step_losses &losses)
+void put_tree(const Answer &a, const Tree &t, const cad::File &file)
 {
     const auto coarser = static_cast<float>(t.mesher.coarser);
-    a.text(unit);
+    for (const std::string *text : {&file.unit, &file.title, &file.author, &file.organisation, &file.date})
+        a.text(*text);
     a.bytes(&coarser, sizeof coarser);
-    a.bytes(&losses, sizeof losses);
+    a.bytes(&file.losses, sizeof file.losses);
     a.number(static_cast<uint32_t>(t.meshes.size()));
     for (const Mesh &m : t.meshes)
         put_mesh(a, m);
@@ -675,87 +663,26 @@ void put_tree(const Answer &a, const Tree &t, const std::string &unit, const ste
 
 // --- the whole ---------------------------------------------------------------------------------------------
 
-// Bytes as a stream, without a copy.
-class Bytes : public std::streambuf
-{
-  public:
-    Bytes(const unsigned char *bytes, size_t size)
-    {
-        char *at = const_cast<char *>(reinterpret_cast<const char *>(bytes));
-        setg(at, at, at + size);
-    }
-};
-
-Handle(TDocStd_Document) new_document()
-{
-    Handle(TDocStd_Document) document;
-    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
-    return document;
-}
-
 void prepare()
 {
     try {
         Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-        new_document()->Close();
-        STEPCAFControl_Reader reader;
+        cad::new_document()->Close();
+        cad::prepare_step();
+        cad::prepare_iges();
     } catch (...) {
         // Reading will say so.
     }
 }
 
-std::string unit_of(STEPCAFControl_Reader &reader)
-{
-    TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
-    reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
-    return lengths.IsEmpty() ? "" : lengths.First().ToCString();
-}
-
-// What the file names and cannot be had: OpenCASCADE draws the rest without a word.
-step_losses losses_of(STEPCAFControl_Reader &reader)
-{
-    const Handle(XSControl_WorkSession) session = reader.Reader().WS();
-    const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
-    const Handle(Transfer_TransientProcess) transfer = session->TransferReader()->TransientProcess();
-    step_losses losses = {0, 0, 0, 0, 0};
-    if (model.IsNull() || transfer.IsNull())
-        return losses;
-    Interface_CheckIterator checks = session->ModelCheckList(Standard_False);
-    for (checks.Start(); checks.More(); checks.Next())
-        if (checks.Value()->HasFailed() && losses.damaged++ == 0 && checks.Number() > 0)
-            losses.first_damaged = static_cast<uint32_t>(model->IdentLabel(model->Value(checks.Number())));
-    for (int i = 1; i <= model->NbEntities(); i++) {
-        const Handle(Standard_Transient) entity = model->Value(i);
-        if (!entity->IsKind(STANDARD_TYPE(StepShape_Face)))
-            continue;
-        losses.faces++;
-        // A face that nothing uses has no binder; one that was tried has one, and a result if it came to something.
-        const Handle(Transfer_Binder) binder = transfer->Find(entity);
-        if (!binder.IsNull() && !binder->HasResult() && losses.lost++ == 0)
-            losses.first_lost = static_cast<uint32_t>(model->IdentLabel(entity));
-    }
-    return losses;
-}
-
 void read_all(const step_request &request, const Answer &answer)
 {
-    Bytes                 bytes(request.bytes, request.size);
-    std::istream          stream(&bytes);
-    STEPCAFControl_Reader reader;
-    Handle(TDocStd_Document) document = new_document();
-    reader.SetColorMode(true);
-    reader.SetNameMode(true);
-    reader.SetLayerMode(false);
-    if (reader.ChangeReader().ReadStream("model", stream) != IFSelect_RetDone)
-        throw Failure{STEP_DAMAGED, "this is no STEP data that can be read"};
-    const std::string unit = unit_of(reader);
-    if (!reader.Transfer(document))
-        throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
-    const step_losses losses = losses_of(reader);
+    const cad::File   file = request.kind == STEP_KIND_IGES ? cad::read_iges(request.bytes, request.size)
+                                                            : cad::read_step(request.bytes, request.size);
     TDF_LabelSequence roots;
     Tree              tree;
-    tree.shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-    tree.colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+    tree.shapes = XCAFDoc_DocumentTool::ShapeTool(file.document->Main());
+    tree.colours = XCAFDoc_DocumentTool::ColorTool(file.document->Main());
     tree.mesher.deflection = request.deflection;
     tree.mesher.left = request.most_triangles;
     tree.shapes->GetFreeShapes(roots);
@@ -763,7 +690,7 @@ void read_all(const step_request &request, const Answer &answer)
         add(tree, roots.Value(i), STEP_NONE, Colour(), 0);
     if (tree.meshes.empty())
         throw Failure{STEP_EMPTY, "nothing in the file can be drawn"};
-    put_tree(answer, tree, unit, losses);
+    put_tree(answer, tree, file);
 }
 
 step_result read(const step_request *request, step_put_fn put, void *to, char *message, size_t message_size)
@@ -788,6 +715,13 @@ step_result read(const step_request *request, step_put_fn put, void *to, char *m
 }
 
 } // namespace
+
+Handle(TDocStd_Document) cad::new_document()
+{
+    Handle(TDocStd_Document) document;
+    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
+    return document;
+}
 
 extern "C" __attribute__((visibility("default")))
 const step_module limner_step_module = {STEP_INTERFACE, OCC_VERSION_COMPLETE, prepare, read};

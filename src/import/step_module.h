@@ -1,7 +1,7 @@
 /* Inside the import folder: between OpenCASCADE, which is C++ and lies in a module of its own, and step.c. Numbers are
  * in the machine's order, texts are a length and bytes, lengths are millimetres; the reader trusts nothing. What the
  * module puts:
- *   - text: the file's unit of length, "" when it says none
+ *   - texts: the file's unit of length, its title, author, organisation and date, "" where it says none
  *   - float: by how much chords missed what was asked for (1: nothing)
  *   - step_losses
  *   - meshes: how many, and each: name; kinds of colours, how many, and each: flag and four floats (sRGB, straight
@@ -24,7 +24,10 @@ extern "C" {
 #define STEP_NONE 0xffffffffu
 
 /* Changes whenever what goes between the two does. */
-enum { STEP_INTERFACE = 3 };
+enum { STEP_INTERFACE = 4 };
+
+/* What the file is. */
+typedef enum step_kind { STEP_KIND_STEP, STEP_KIND_IGES } step_kind;
 
 /* What an edge of a triangle is: inside of a face, or along an edge of the solid that turns, or that does not. */
 typedef enum step_edge { STEP_INSIDE = 1, STEP_SHARP = 2 } step_edge;
@@ -37,7 +40,8 @@ typedef enum step_result {
     STEP_TOO_MANY, /* triangles */
 } step_result;
 
-/* What the file names and cannot be had. Firsts are the file's own numbers (#12), 0 when it has none. */
+/* What the file names and cannot be had. Firsts are the file's own numbers (#12; of IGES lines of
+ * its directory, D23), 0 when it has none. */
 typedef struct step_losses {
     uint32_t damaged, first_damaged;  /* entities that refer to nothing, or to what does not fit */
     uint32_t faces, lost, first_lost; /* of the file; of them, those whose surface or border could not be made */
@@ -49,6 +53,7 @@ typedef bool (*step_put_fn)(void *to, const void *bytes, size_t size);
 typedef struct step_request {
     const unsigned char *bytes;
     size_t               size;
+    step_kind            kind;
     double               deflection; /* millimetres; 0: a share of each part */
     uint64_t             most_triangles;
 } step_request;

@@ -90,14 +90,22 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
         for (uint32_t k = 0; k < m->edge_count && m->cap_count; k++) {
             mesh_edge      *e = &m->edges[k];
             const edge_cap *caps[2] = {cap_of(m, e->face[0]), cap_of(m, e->face[1])};
-            bool            turns = false;
-            for (int side = 0; side < 2; side++)
-                turns = turns || (caps[side] && fabs(vector3_dot(caps[side]->normal, extra->axes[2])) < 0.01);
-            if (!turns && !((caps[0] || caps[1]) && lies_in_turn(m, &scene->items[i].world, e, extra,
-                                                                 1e-6 * fmax(scene->reach, scene->extent))))
+            bool            turns = false, edge_on[2];
+            for (int side = 0; side < 2; side++) {
+                edge_on[side] = caps[side] && fabs(vector3_dot(caps[side]->normal, extra->axes[2])) < 0.01;
+                turns = turns || edge_on[side];
+            }
+            /* Where a cut face and what it cuts have other corners, each has a border. */
+            bool border = e->face[0] == EDGE_NO_FACE || e->face[1] == EDGE_NO_FACE;
+            if (!turns && !((caps[0] || caps[1] || border) && lies_in_turn(m, &scene->items[i].world, e, extra,
+                                                                           1e-6 * fmax(scene->reach, scene->extent))))
                 continue;
             e->flags = EDGE_QUIET;
-            e->face[1] = e->face[1] == EDGE_NO_FACE ? e->face[0] : e->face[1];
+            /* Nor an outline: whether what is seen edge-on faces the eye, is a matter of rounding. */
+            if (edge_on[0] && e->face[1] != EDGE_NO_FACE)
+                e->face[0] = e->face[1];
+            if (edge_on[1] || e->face[1] == EDGE_NO_FACE)
+                e->face[1] = e->face[0];
         }
     }
 }
@@ -188,7 +196,7 @@ lmn_status vector_find_axes(vector_job *j, lmn_error *error)
 
 enum { AROUND = 12, ALONG = 3, SAMPLES = AROUND * ALONG };
 
-/* Places on the surface of a cylinder, from one end to the other. */
+/* Places on the surface of a cylinder or cone, from one end to the other. */
 static void sample(const draft_cylinder *c, double (*out)[3])
 {
     cylinder_fit f = {.radius = c->radius};
@@ -197,8 +205,9 @@ static void sample(const draft_cylinder *c, double (*out)[3])
     for (int i = 0; i < SAMPLES; i++) {
         double angle = 2 * 3.14159265358979323846 * (i % AROUND) / AROUND, share = 0.02 + 0.48 * (i / AROUND);
         vector3_mix(out[i], c->ends[0], c->ends[1], share);
-        vector3_add(out[i], out[i], c->radius * cos(angle), f.across[0]);
-        vector3_add(out[i], out[i], c->radius * sin(angle), f.across[1]);
+        double radius = c->radii[0] + share * (c->radii[1] - c->radii[0]);
+        vector3_add(out[i], out[i], radius * cos(angle), f.across[0]);
+        vector3_add(out[i], out[i], radius * sin(angle), f.across[1]);
     }
 }
 
@@ -239,6 +248,37 @@ static bool draws_hidden(const vector_job *j, uint32_t part)
     return r && vector_rule_strokes(r, &options, &style) && style.hidden != HIDDEN_NONE;
 }
 
+/* The first view on which it can be told where a section is; NULL: there is none. */
+static const vector_view *origin_of(const vector_job *j, const draft_extra *e)
+{
+    for (size_t i = 0; i < j->out->view_count; i++) {
+        const vector_view *v = &j->out->views[i];
+        draft_view         d = vector_drafting_view(j, v, 0);
+        if (!v->apart && v->extra != e && v->direction != LMN_VIEW_ISO && draft_shows_plane(&d, e))
+            return v;
+    }
+    return NULL;
+}
+
+enum { TRACE_MOST = DRAFT_EXTRAS_MOST * 2 * DRAFT_DEPTHS_MOST };
+
+/* The traces of cutting planes on a view; `out` has room for all. */
+static size_t traces_on(const vector_job *j, const vector_view *v, double (*out)[2][2])
+{
+    draft_view d = vector_drafting_view(j, v, 0);
+    double     points[2 * DRAFT_DEPTHS_MOST][2];
+    size_t     count = 0;
+    for (size_t i = 0; i < j->out->view_count; i++) {
+        const draft_extra *e = j->out->views[i].extra;
+        if (!e || e->kind != DRAFT_SECTION || origin_of(j, e) != v)
+            continue;
+        size_t most = draft_trace(&d, e, j->plan.fit.box, letter_height(j), points);
+        for (size_t k = 1; k < most && count < TRACE_MOST; k++, count++)
+            memcpy(out[count], points[k - 1], sizeof out[count]);
+    }
+    return count;
+}
+
 lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
                               uint32_t group, lmn_error *error)
 {
@@ -255,7 +295,9 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
     }
     draft_view d =
         vector_drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
-    lmn_status status = draft_centres(&d, &j->cylinders, &j->pitches, shown, &j->out->centres, error);
+    double         traces[TRACE_MOST][2][2];
+    draft_segments before = {(const double(*)[2][2])traces, traces_on(j, v, traces)};
+    lmn_status     status = draft_centres(&d, &j->cylinders, &j->pitches, shown, before, &j->out->centres, error);
     mem_free(shown);
     return status;
 }

@@ -147,6 +147,8 @@ static lmn_status begin_page(vector_job *j, lmn_error *error)
     double     resolution = paper_pixels_per_mm(j->desc->width, j->desc->height, j->desc->dpi);
     double     size[2] = {j->desc->width / resolution, j->desc->height / resolution};
     lmn_status status = vector_check_fields(j->wanted, error);
+    if (status == LMN_OK)
+        status = vector_take_header(j, error);
     if (status == LMN_OK && j->wanted->page)
         status = vector_parse_page(j->wanted->page, size, error);
     if (status == LMN_OK && j->wanted->scale)
@@ -743,6 +745,7 @@ static void end_job(vector_job *j)
     pose_release(&j->pose);
     round_scene_release(&j->round);
     mem_free(j->stroked);
+    mem_free(j->fields);
 }
 
 lmn_status vector_draw(lmn_sheet **out, const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc,

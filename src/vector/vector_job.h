@@ -25,6 +25,9 @@ typedef struct vector_job {
     const lmn_look       *look;
     const lmn_draw_desc  *desc;
     const lmn_sheet_desc *wanted;
+    lmn_sheet_desc        filled; /* that, with what the files' headers say, of which the next two are */
+    char                 *fields;
+    char                  title[128];
     bool                  lines_only, pixels, usual_scale;
     double                scale; /* 0: as large as fits */
     double                unit_mm;
@@ -60,6 +63,8 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra);
 lmn_status vector_face_normal(const vector_job *j, const double at[3], double out[3], lmn_error *error);
 /* What sheets with sections and details cannot have. */
 lmn_status vector_check_drafting(const vector_job *j, lmn_error *error);
+/* Puts what the headers of the files say into a title block, where the caller says nothing. Errors: LMN_MEMORY. */
+lmn_status vector_take_header(vector_job *j, lmn_error *error);
 /* Finds cylinders when centre lines are wanted. Errors: LMN_MEMORY, LMN_CANCELLED. */
 lmn_status vector_find_axes(vector_job *j, lmn_error *error);
 /* Centre lines of a view. `cut`: what is not there in it. Errors: LMN_MEMORY. */

@@ -284,7 +284,7 @@ static lmn_status read_stream(const import_job *job, lmn_error *error)
 
 static lmn_status read_step_answer(const import_job *job, lmn_error *error)
 {
-    return step_answer_read(job, job->file->data, job->file->size, error);
+    return step_answer_read(job, STEP_KIND_STEP, job->file->data, job->file->size, error);
 }
 
 void fuzz_step(const uint8_t *bytes, size_t size)

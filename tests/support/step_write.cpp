@@ -4,6 +4,7 @@
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
@@ -13,11 +14,15 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <IGESCAFControl_Writer.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
@@ -52,10 +57,26 @@ struct Model {
     Model()
     {
         STEPControl_Controller::Init();
+        IGESControl_Controller::Init();
         XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
         XCAFDoc_DocumentTool::SetLengthUnit(document, 1.0, UnitsMethods_LengthUnit_Millimeter);
         shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
         colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+    }
+    bool write_iges(const char *path, const char *unit, bool solid)
+    {
+        Interface_Static::SetCVal("write.iges.unit", unit);
+        Interface_Static::SetIVal("write.iges.brep.mode", solid);
+        IGESCAFControl_Writer writer;
+        writer.SetColorMode(true);
+        writer.SetNameMode(true);
+        if (!writer.Transfer(document))
+            return false;
+        IGESData_GlobalSection header = writer.Model()->GlobalSection();
+        header.SetAuthorName(new TCollection_HAsciiString("A. Writer"));
+        header.SetCompanyName(new TCollection_HAsciiString("Works"));
+        writer.Model()->SetGlobalSection(header);
+        return writer.Write(path);
     }
     bool write(const char *path, const char *unit)
     {
@@ -124,9 +145,7 @@ bool is_at(const TopoDS_Edge &edge, double x, double z)
     return std::hypot(a.X() - x, a.Z() - z) < 1e-6 && std::hypot(b.X() - x, b.Z() - z) < 1e-6;
 }
 
-} // namespace
-
-bool step_write_bracket(const char *path, step_truth *out)
+void make_bracket(Model &m, step_truth *out)
 {
     const TopoDS_Shape foot = BRepPrimAPI_MakeBox(40.0, 30.0, 8.0).Shape();
     const TopoDS_Shape wall = BRepPrimAPI_MakeBox(8.0, 30.0, 40.0).Shape();
@@ -143,7 +162,6 @@ bool step_write_bracket(const char *path, step_truth *out)
             fillet.Add(4.0, TopoDS::Edge(at.Current()));
             break;
         }
-    Model           m;
     TopoDS_Shape    whole = TopExp_Explorer(fillet.Shape(), TopAbs_SOLID).Current();
     const TDF_Label label = m.shapes->AddShape(whole, false);
     TDataStd_Name::Set(label, "bracket");
@@ -154,7 +172,41 @@ bool step_write_bracket(const char *path, step_truth *out)
             m.colours->SetColor(m.shapes->AddSubShape(label, at.Current()), srgb(1, 0, 0), XCAFDoc_ColorSurf);
     }
     measure(whole, out);
+}
+
+} // namespace
+
+bool step_write_bracket(const char *path, step_truth *out)
+{
+    Model m;
+    make_bracket(m, out);
     return m.write(path, "MM");
+}
+
+bool iges_write_bracket(const char *path, const char *unit, bool solid, step_truth *out)
+{
+    Model m;
+    make_bracket(m, out);
+    return m.write_iges(path, unit, solid);
+}
+
+bool iges_write_loose(const char *path, bool open)
+{
+    Model m;
+    for (int box = 0; box < 2; box++) {
+        const TopoDS_Shape whole = moved(BRepPrimAPI_MakeBox(10.0, 20.0, 30.0).Shape(), 40 * box, 0, 0);
+        int                number = 0;
+        for (TopExp_Explorer at(whole, TopAbs_FACE); at.More(); at.Next()) {
+            if (box && open && ++number == 6)
+                continue;
+            BRepBuilderAPI_Copy copy(at.Current());
+            const TDF_Label     label = m.shapes->AddShape(copy.Shape(), false);
+            TDataStd_Name::Set(label, box ? "far" : "near");
+            m.colours->SetColor(label, box ? srgb(0, 0, 1) : srgb(0, 1, 0), XCAFDoc_ColorSurf);
+        }
+    }
+    m.shapes->AddShape(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(0, 0, 60), gp_Dir(0, 0, 1)), 8)).Edge(), false);
+    return m.write_iges(path, "MM", false);
 }
 
 bool step_write_assembly(const char *path)

@@ -1,4 +1,5 @@
-/* STEP files for tests, written by OpenCASCADE, and what it knows of them exactly: none of it comes from triangles. */
+/* STEP and IGES files for tests, written by OpenCASCADE, and what it knows of them exactly: none of it comes from
+ * triangles. */
 #ifndef TESTS_SUPPORT_STEP_WRITE_H
 #define TESTS_SUPPORT_STEP_WRITE_H
 
@@ -36,6 +37,13 @@ bool step_write_loose(const char *path);
 bool step_write_halves(const char *path, double height);
 /* `count` cylinders in one part. */
 bool step_write_many(const char *path, int count);
+
+/* The bracket as IGES, in a unit of OpenCASCADE's ("MM", "INCH"); as a solid, or else as faces that know nothing of
+ * each other. Its header says author "A. Writer" and organisation "Works". */
+bool iges_write_bracket(const char *path, const char *unit, bool solid, step_truth *out);
+/* Faces that know nothing of each other: of a green box "near" from (0, 0, 0) to (10, 20, 30) mm and of a blue one
+ * "far" from (40, 0, 0) to (50, 20, 30), without its lid if it is open; and a circle of radius 8 mm at z = 60. */
+bool iges_write_loose(const char *path, bool open);
 
 #ifdef __cplusplus
 }

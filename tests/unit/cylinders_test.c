@@ -272,15 +272,178 @@ static void test_none(void **state)
     }
     add_bar(s, (const double(*)[2])outline, count, 10);
     assert_none("an oval bar", s);
+}
+
+/* --- cones ---------------------------------------------------------------------------------------------- */
+
+/* A body turned around the axis: radii and heights from ring to ring; radius 0: a tip. */
+static void add_turned(lmn_scene *s, const double (*profile)[2], int count, int sides, double oval)
+{
     pieces  *p = mem_calloc(1, sizeof *p);
-    uint32_t a = ring(p, 6, 0, 40, 0), b = ring(p, 5.5, 10, 40, 0);
-    sew(p, a, 40, b, 40, false);
-    close_ring(p, a, 40, false);
-    close_ring(p, b, 40, true);
+    uint32_t rings[64];
+    int      sizes[64];
+    for (int i = 0; i < count; i++) {
+        sizes[i] = profile[i][0] > 0 ? sides : 1;
+        rings[i] = p->position_count;
+        for (int k = 0; k < sizes[i]; k++)
+            put(p, profile[i][0] * cos(2 * stroke_pi * k / sides),
+                oval * profile[i][0] * sin(2 * stroke_pi * k / sides), profile[i][1]);
+    }
+    for (int i = 0; i + 1 < count; i++)
+        for (int k = 0; k < sides; k++) {
+            uint32_t a = rings[i] + (uint32_t)(k % sizes[i]), b = rings[i] + (uint32_t)((k + 1) % sizes[i]),
+                     c = rings[i + 1] + (uint32_t)(k % sizes[i + 1]),
+                     d = rings[i + 1] + (uint32_t)((k + 1) % sizes[i + 1]);
+            if (a != b)
+                face(p, a, b, d);
+            if (c != d)
+                face(p, a, d, c);
+        }
+    if (sizes[0] > 1)
+        close_ring(p, rings[0], sides, false);
+    if (sizes[count - 1] > 1)
+        close_ring(p, rings[count - 1], sides, true);
+    add_pieces(s, p);
+    mem_free(p);
+}
+
+static void assert_cone(const draft_cylinder *c, double low_radius, double low, double high_radius, double high)
+{
+    double error = axis_error(c, origin, frame[2]), ends[2];
+    for (int k = 0; k < 2; k++) {
+        double d[3];
+        vector3_add(d, c->ends[k], -1, origin);
+        ends[k] = vector3_dot(d, frame[2]);
+    }
+    int first = ends[0] < ends[1] ? 0 : 1;
+    print_message("radii %.5f %.5f, axis off by %.1e radii, %.4f to %.4f, sweep %.3f\n", c->radii[first],
+                  c->radii[1 - first], error, ends[first], ends[1 - first], c->sweep);
+    double size = fmax(low_radius, high_radius);
+    assert_true(c->cone && error < 1e-3 && fabs(c->radius - size) < 1e-3 * size);
+    assert_true(fabs(c->radii[first] - low_radius) < 2e-3 * size &&
+                fabs(c->radii[1 - first] - high_radius) < 2e-3 * size);
+    assert_true(fabs(ends[first] - low) < 2e-3 * size && fabs(ends[1 - first] - high) < 2e-3 * size);
+    assert_true(c->sweep > 6.27);
+}
+
+static void test_cones(void **state)
+{
+    static const struct {
+        double low, high, height;
+        int    sides;
+    } cones[] = {{6, 5.5, 10, 40}, {6, 0, 9, 24},          {10, 4, 3, 64},    {2, 9, 20, 16},
+                 {8, 2, 2, 200},   {0.03, 0.01, 0.05, 32}, {20, 18, 60, 360}, {6, 0, 30, 12}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cones / sizeof *cones; i++) {
+        const double profile[2][2] = {{cones[i].low, 0}, {cones[i].high, cones[i].height}};
+        lmn_scene   *s = stroke_scene_begin();
+        add_turned(s, profile, 2, cones[i].sides, 1);
+        draft_cylinders found = find(s);
+        assert_int_equal(found.count, 1);
+        assert_cone(&found.items[0], cones[i].low, 0, cones[i].high, cones[i].height);
+        draft_cylinders_release(&found);
+    }
+}
+
+/* A spindle: a point of 60 degrees, a shaft, a taper that goes on smoothly from it, a chamfer of 45 degrees. */
+static void test_spindle(void **state)
+{
+    const double    profile[][2] = {{0, -5}, {5 * 0.57735, 0}, {5, 0}, {5, 20}, {8, 40}, {7, 41}};
+    lmn_scene      *s = stroke_scene_begin();
+    draft_cylinders found;
+    size_t          cones = 0;
+    (void)state;
+    add_turned(s, profile, 6, 48, 1);
+    found = find(s);
+    assert_int_equal(found.count, 4);
+    for (size_t i = 0; i < found.count; i++) {
+        const draft_cylinder *c = &found.items[i];
+        cones += c->cone;
+        if (!c->cone)
+            assert_drum(c, 5, 0, 20, false);
+        else if (c->radius < 3)
+            assert_cone(c, 0, -5, 5 * 0.57735, 0);
+        else if (fabs(c->radii[0] - 5) < 0.1 || fabs(c->radii[1] - 5) < 0.1)
+            assert_cone(c, 5, 20, 8, 40);
+        else
+            assert_cone(c, 8, 40, 7, 41);
+    }
+    assert_int_equal(cones, 3);
+    draft_cylinders_release(&found);
+}
+
+/* Domes, vases, lenses, tapers that are oval or have sides, springs and screws: whatever is no cone. */
+static void test_no_cones(void **state)
+{
+    double     profile[64][2];
+    lmn_scene *s;
+    (void)state;
+    for (int sides = 3; sides <= 8; sides++) {
+        const double taper[2][2] = {{5, 0}, {3, 10}};
+        s = stroke_scene_begin();
+        add_turned(s, taper, 2, sides, 1);
+        assert_none("a pyramid", s);
+    }
+    const double taper[2][2] = {{6, 0}, {4, 12}};
+    s = stroke_scene_begin();
+    add_turned(s, taper, 2, 48, 0.85);
+    assert_none("an oval taper", s);
+    for (int rings = 5; rings < 30; rings += 3) {
+        for (int i = 0; i <= rings; i++) {
+            profile[i][0] = i == rings ? 0 : 7 * cos(stroke_pi / 2 * i / rings);
+            profile[i][1] = 7 * sin(stroke_pi / 2 * i / rings);
+        }
+        s = stroke_scene_begin();
+        add_turned(s, (const double(*)[2])profile, rings + 1, 48, 1);
+        assert_none("a dome", s);
+        if (rings < 11) /* coarser ones have edges that are drawn around them, and are stacks of cones */
+            continue;
+        for (int i = 0; i <= rings; i++)
+            profile[i][1] *= 0.3;
+        s = stroke_scene_begin();
+        add_turned(s, (const double(*)[2])profile, rings + 1, 48, 1);
+        assert_none("a lens", s);
+    }
+    for (int i = 0; i <= 30; i++) {
+        profile[i][0] = 5 + 1.5 * sin(i * 0.4);
+        profile[i][1] = i;
+    }
+    s = stroke_scene_begin();
+    add_turned(s, (const double(*)[2])profile, 31, 48, 1);
+    assert_none("a vase", s);
+    pieces *p = mem_calloc(1, sizeof *p);
+    for (int i = 0; i < 240; i++) /* a spring: a tube of 8 sides along a helix of 5 turns */
+        for (int k = 0; k < 8; k++) {
+            double around = 2 * stroke_pi * i / 48, across = 2 * stroke_pi * k / 8, radius = 10 + 1.5 * cos(across);
+            put(p, radius * cos(around), radius * sin(around), i / 48.0 * 6 + 1.5 * sin(across));
+        }
+    for (uint32_t i = 0; i + 1 < 240; i++)
+        for (uint32_t k = 0; k < 8; k++) {
+            uint32_t a = 8 * i + k, b = 8 * i + (k + 1) % 8;
+            face(p, a, a + 8, b);
+            face(p, b, a + 8, b + 8);
+        }
+    s = stroke_scene_begin();
+    add_pieces(s, p);
+    memset(p, 0, sizeof *p);
+    assert_none("a spring", s);
+    for (int i = 0; i < 240; i++) /* a screw: crest and root run up together */
+        for (int k = 0; k < 2; k++) {
+            double around = 2 * stroke_pi * i / 48;
+            put(p, (k ? 6 : 5) * cos(around), (k ? 6 : 5) * sin(around), i / 48.0 * 2 + k);
+        }
+    for (uint32_t i = 0; i + 1 < 240; i++) {
+        face(p, 2 * i, 2 * i + 2, 2 * i + 1);
+        face(p, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+        if (i + 48 + 1 < 240) {
+            face(p, 2 * i + 1, 2 * i + 3, 2 * (i + 48));
+            face(p, 2 * i + 3, 2 * (i + 49), 2 * (i + 48));
+        }
+    }
     s = stroke_scene_begin();
     add_pieces(s, p);
     mem_free(p);
-    assert_none("a cone", s);
+    assert_none("a screw", s);
 }
 
 static void add_ring_body(lmn_scene *s, int columns, int rings)
@@ -499,8 +662,8 @@ static void test_pump(void **state)
     for (size_t i = 0; i < found.count; i++) {
         const draft_cylinder *c = &found.items[i];
         double                turn = atan2(fabs(c->ends[0][1]) - 0.0195, c->ends[0][0]) * 180 / stroke_pi;
-        bolts += !c->hollow && fabs(c->radius - 0.003) < 1e-6 && fabs(remainder(turn - 30, 60)) < 0.01;
-        bores += c->hollow && fabs(c->radius - 0.0045) < 1e-6 && fabs(fabs(c->ends[0][0]) - 0.046) < 1e-6;
+        bolts += !c->hollow && !c->cone && fabs(c->radius - 0.003) < 1e-6 && fabs(remainder(turn - 30, 60)) < 0.01;
+        bores += c->hollow && !c->cone && fabs(c->radius - 0.0045) < 1e-6 && fabs(fabs(c->ends[0][0]) - 0.046) < 1e-6;
     }
     assert_int_equal(bolts, 6);
     assert_int_equal(bores, 4);
@@ -511,8 +674,9 @@ static void test_pump(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_drums), cmocka_unit_test(test_sleeve), cmocka_unit_test(test_none),
-        cmocka_unit_test(test_torus), cmocka_unit_test(test_solid),  cmocka_unit_test(test_pitch),
+        cmocka_unit_test(test_drums),    cmocka_unit_test(test_sleeve), cmocka_unit_test(test_none),
+        cmocka_unit_test(test_torus),    cmocka_unit_test(test_cones),  cmocka_unit_test(test_spindle),
+        cmocka_unit_test(test_no_cones), cmocka_unit_test(test_solid),  cmocka_unit_test(test_pitch),
         cmocka_unit_test(test_pump),
 #ifdef LIMNER_HAVE_STEP
         cmocka_unit_test(test_step),

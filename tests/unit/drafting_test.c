@@ -1,5 +1,6 @@
 /* Sheets as draughtsmen make them: widths of lines, centre lines, sections, details and auxiliary views, against what
  * is known of the models. */
+#define _GNU_SOURCE /* memmem */
 #include <math.h>
 
 #include "csg_support.h"
@@ -304,6 +305,18 @@ static void measure(const sheet *s, const sheet_item *item, const sheet_path *pa
     }
 }
 
+/* The same of lines from left to right. */
+static void measure_lying(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    reach *r = user;
+    (void)item;
+    for (uint32_t i = 1; i < path->count; i++) {
+        const float *p = s->points[path->first + i];
+        if (fabs((double)p[1] - r->upright_at) < 0.01 && fabs((double)p[-1] - r->upright_at) < 0.01)
+            r->length += fabs((double)p[0] - (double)p[-2]);
+    }
+}
+
 static reach reach_of(const lmn_sheet *s, const char *in, const char *also, double upright_at)
 {
     reach r = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, upright_at, 0};
@@ -382,6 +395,53 @@ static void test_half_section(void **state)
     reach hatch = reach_of(s, "view-section-A", "hatch", 0), middle = reach_of(s, "view-section-A", "visible", at[0]);
     assert_true(hatch.low[0] > at[0] + 7.5 && hatch.high[0] < at[0] + 40.5); /* right of the bore alone */
     assert_true(middle.length == 0);
+    lmn_sheet_destroy(&s);
+}
+
+/* Of many bodies whose cut faces have other corners than what they cut: no line where the plane turns, either. */
+static void test_half_assembly(void **state)
+{
+    double         at[2];
+    lmn_sheet_desc d = usual();
+    lmn_scene     *kept = f.scene;
+    (void)state;
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/pump.glb");
+    d.views = "top";
+    d.sections = "front@half";
+    lmn_sheet *s = draw(&d);
+    project(view_named(s, "section-A"), 0, 0, 0, at);
+    reach middle = reach_of(s, "view-section-A", "visible", at[0]);
+    print_message("where the plane turns there are %.2f mm of lines\n", middle.length);
+    assert_true(middle.length < 0.5);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+
+/* What ISO 128-2 draws where two kinds of lines lie on each other is the one of the cutting plane. */
+static void test_axis_in_cutting_plane(void **state)
+{
+    double         at[2];
+    lmn_sheet_desc d = usual();
+    (void)state;
+    d.sections = "front";
+    d.centre_lines = true;
+    lmn_sheet *s = draw(&d);
+    project(view_named(s, "top"), 0, 0, 0, at);
+    reach lying = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, at[1], 0}, standing = lying;
+    standing.upright_at = at[0];
+    each_path(s, "view-top", "centre", measure_lying, &lying);
+    each_path(s, "view-top", "centre", measure, &standing);
+    print_message("in the cutting plane %.2f mm of centre lines, across it %.2f\n", lying.length, standing.length);
+    assert_true(lying.length == 0 && standing.length > 30);
+    lmn_sheet_destroy(&s);
+    d.sections = NULL;
+    s = draw(&d);
+    project(view_named(s, "top"), 0, 0, 0, at);
+    lying.length = 0;
+    lying.upright_at = at[1];
+    each_path(s, "view-top", "centre", measure_lying, &lying);
+    assert_true(lying.length > 30);
     lmn_sheet_destroy(&s);
 }
 
@@ -517,6 +577,66 @@ static void test_title_block(void **state)
     lmn_sheet_destroy(&s);
 }
 
+static size_t count_texts(const lmn_sheet *s, const char *words)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < s->page.item_count; k++)
+        count += s->page.items[k].text && strcmp(s->page.items[k].text, words) == 0;
+    return count;
+}
+
+/* A STEP file whose header says who made it: that stands in the block where the caller says nothing. */
+static void test_header(void **state)
+{
+    (void)state;
+#ifndef LIMNER_HAVE_STEP
+    print_message("skipped: built without OpenCASCADE\n");
+    skip();
+#else
+    char       path[256];
+    file_data  file = {0};
+    lmn_scene *kept = f.scene;
+    assert_int_equal(file_load(&file, LIMNER_SOURCE_DIR "/examples/bracket.step", NULL), LMN_OK);
+    const char *old = memmem(file.data, file.size, "FILE_NAME(", 10),
+               *behind = memmem(file.data, file.size, "FILE_SCHEMA", 11);
+    snprintf(path, sizeof path, "%s/header.step", temp_folder());
+    FILE *out = fopen(path, "wb");
+    fwrite(file.data, 1, (size_t)((const unsigned char *)old - file.data), out);
+    fputs("FILE_NAME('C:\\\\parts\\\\Angle 7.stp','2026-03-04T05:06:07',('Zo\\X2\\00EB\\X0\\ M; "
+          "N.'),('Works'),'','','');\n",
+          out);
+    fwrite(behind, 1, file.size - (size_t)((const unsigned char *)behind - file.data), out);
+    fclose(out);
+    f.scene = load_or_fail(path);
+    lmn_sheet_desc d = usual();
+    d.frame = true;
+    lmn_sheet *s = draw(&d);
+    assert_int_equal(count_texts(s, "Angle 7"), 1);
+    assert_int_equal(count_texts(s, "Zo\xC3\xAB M, N."), 1);
+    assert_int_equal(count_texts(s, "Works"), 1);
+    assert_int_equal(count_texts(s, "2026-03-04"), 1);
+    lmn_sheet_destroy(&s);
+    d.fields = "creator=A. Writer;date=today";
+    d.title = "Plate";
+    s = draw(&d);
+    assert_int_equal(count_texts(s, "Plate") + count_texts(s, "A. Writer") + count_texts(s, "today"), 3);
+    assert_int_equal(count_texts(s, "Works"), 1);
+    assert_int_equal(count_texts(s, "Angle 7") + count_texts(s, "Zo\xC3\xAB M, N.") + count_texts(s, "2026-03-04"), 0);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    /* What a writer puts when nobody has told it anything says nothing. */
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/bracket.step");
+    d = usual();
+    d.frame = true;
+    s = draw(&d);
+    assert_int_equal(count_texts(s, "Author") + count_texts(s, "Open CASCADE Shape Model"), 0);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    file_data_release(&file);
+    f.scene = kept;
+#endif
+}
+
 static void refuse(const lmn_sheet_desc *d, lmn_status status, const char *words)
 {
     lmn_draw_desc how = LMN_DRAW_DESC_INIT;
@@ -602,10 +722,18 @@ int main(void)
 #ifdef LIMNER_HAVE_STEP
                                        cmocka_unit_test(test_tangent_edges),
 #endif
-                                       cmocka_unit_test(test_centre_lines),  cmocka_unit_test(test_section_in_steps),
-                                       cmocka_unit_test(test_half_section),  cmocka_unit_test(test_revolved),
-                                       cmocka_unit_test(test_apart),         cmocka_unit_test(test_detail),
-                                       cmocka_unit_test(test_auxiliary),     cmocka_unit_test(test_title_block),
-                                       cmocka_unit_test(test_refused),       cmocka_unit_test(test_out_of_memory)};
+                                       cmocka_unit_test(test_centre_lines),
+                                       cmocka_unit_test(test_section_in_steps),
+                                       cmocka_unit_test(test_half_section),
+                                       cmocka_unit_test(test_revolved),
+                                       cmocka_unit_test(test_apart),
+                                       cmocka_unit_test(test_detail),
+                                       cmocka_unit_test(test_auxiliary),
+                                       cmocka_unit_test(test_half_assembly),
+                                       cmocka_unit_test(test_axis_in_cutting_plane),
+                                       cmocka_unit_test(test_title_block),
+                                       cmocka_unit_test(test_header),
+                                       cmocka_unit_test(test_refused),
+                                       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

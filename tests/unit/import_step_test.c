@@ -46,7 +46,9 @@ static answer make_answer(answer_numbers n)
     const float       one = 1, colour[4] = {1, 0, 0, 1}, at[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const float       up[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     const double      identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    add_u32(&a, 2), add(&a, "MM", 2), add(&a, &one, 4), add(&a, &none, sizeof none);
+    add_u32(&a, 2), add(&a, "MM", 2);
+    add_u32(&a, 1), add(&a, "t", 1), add_u32(&a, 0), add_u32(&a, 0), add_u32(&a, 0);
+    add(&a, &one, 4), add(&a, &none, sizeof none);
     add_u32(&a, 1), add_u32(&a, 1), add(&a, "m", 1), add_u32(&a, 1);
     add_u32(&a, 1), add(&a, colour, sizeof colour), add_u32(&a, 3), add_u32(&a, 3);
     add(&a, at, sizeof at), add(&a, up, sizeof up);
@@ -65,7 +67,7 @@ static lmn_status read_answer(const unsigned char *bytes, size_t size)
     lmn_scene          *scene = scene_new();
     const lmn_load_desc standard = LMN_LOAD_DESC_INIT;
     import_job          job = {.path = "x.step", .model = "x.step", .scene = scene, .desc = &standard};
-    lmn_status          status = step_answer_read(&job, bytes, size, &error);
+    lmn_status          status = step_answer_read(&job, STEP_KIND_STEP, bytes, size, &error);
     if (status == LMN_OK)
         status = scene_finish(scene, "x.step", &error);
     scene_free(scene);

@@ -79,7 +79,7 @@ class Scene(Handle):
     def add(self, path: Path, *, up_axis: str | None = None, lod: str | float | None = None, terrain: Path | None = None,
             populate: float = 0, deflection: float = 0, progress: Progress | None = None) -> None:
         """Reads a model file and adds it; when it cannot be read the scene is as before. Of city models `lod` is the level of detail that is not
-        exceeded and `terrain` a raster of heights below it; of footprints `populate` is how densely people, cars and trees are put along roads. Of STEP
+        exceeded and `terrain` a raster of heights below it; of footprints `populate` is how densely people, cars and trees are put along roads. Of STEP and IGES
         files `deflection` is how far triangles may lie off curved surfaces, millimetres."""
         self._check()
         with Watch(progress) as watch:
