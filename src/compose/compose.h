@@ -50,7 +50,7 @@ typedef struct layer_style {
 #define LAYER_READS                                                                                                    \
     {                                                                                                                  \
         TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_DASH, TARGET_ID, TARGET_GROUND, TARGET_EDGE_BEFORE,            \
-            TARGET_NEARER, TARGET_NORMAL_DEPTH, TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES                   \
+            TARGET_NEARER, TARGET_NORMAL_DEPTH, TARGET_UNCERTAINTY, TARGET_OVERSHOOT, TARGET_STROKES, TARGET_MEETING   \
     }
 /* A picture that compositions of layers keep for themselves: nearer lines, on the way to TARGET_NEARER. */
 #define LAYER_NEARER_ROW TARGET_OWN(0)

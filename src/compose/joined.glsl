@@ -57,9 +57,17 @@ vec4 ink_of_copies(inout float depth)
 {
     float fill_depth = depth;
     int inked = 0;
+#ifdef HAS_MEETING
+    float met_at = 1.0;
+#endif
     for (int i = 0; i < LINE_COPIES; i++) {
         vec4 own = averaged_at(line_position(i), i);
         inked = is_outline(own) ? i : inked;
+#ifdef HAS_MEETING
+        int met = max(max(own.x, own.y), max(own.z, own.w)) > 0.0 ? 1 : 0;
+        for (int once = 0; once < met; once++)
+            met_at = min(met_at, met_depth(line_position(i), own_depth(pixel_at(line_position(i)))));
+#endif
         join_copy(own, i);
     }
     vec4 ink = joined_ink();
@@ -75,5 +83,8 @@ vec4 ink_of_copies(inout float depth)
 #endif
         depth = min(depth, nearest);
     }
+#ifdef HAS_MEETING
+    depth = ink.a > 0.0 ? min(depth, met_at) : depth;
+#endif
     return ink;
 }

@@ -110,6 +110,11 @@ void main()
         int search = line_depth >= 1.0 && own_ink.a > 0.0 ? 1 : 0;
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(position));
+#ifdef HAS_MEETING
+        int inked = own_ink.a > 0.0 ? 1 : 0;
+        for (int once = 0; once < inked; once++)
+            line_depth = met_depth(position, line_depth);
+#endif
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);
 #endif
@@ -117,6 +122,10 @@ void main()
         ink = over(own_ink, ink);
     }
 #endif
+#endif
+#if defined(HAS_MEETING) && defined(HAS_LINES)
+    /* Ink alone lies on the other surface, too. */
+    fill = surface > other_depth(pixel) && depth < surface ? vec4(0.0) : fill;
 #endif
     vec4 colour = ink + fill * (fill_fraction() * (1.0 - ink.a));
 #ifdef SEEN_DEPTH

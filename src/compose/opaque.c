@@ -7,7 +7,7 @@ static const pass passes[] = {
     {.name = "sprite",
      .shader = "compose/sprite.frag",
      .reads = {TARGET_SHADE, TARGET_DEPTH, TARGET_EDGE, TARGET_ID, TARGET_DASH, TARGET_GROUND, TARGET_UNCERTAINTY,
-               TARGET_OVERSHOOT, TARGET_STROKES},
+               TARGET_OVERSHOOT, TARGET_STROKES, TARGET_MEETING},
      .writes = TARGET_PAGE,
      .blend = BLEND_OVER,
      .depth = true},

@@ -92,6 +92,11 @@ vec4 sprite_at(ivec2 pixel, out float depth)
 #endif
         for (int once = 0; once < search; once++)
             line_depth = neighbour_depth(pixel_at(position));
+#ifdef HAS_MEETING
+        int inked = own_ink.a > 0.0 ? 1 : 0;
+        for (int once = 0; once < inked; once++)
+            line_depth = met_depth(position, line_depth);
+#endif
 #ifdef HAS_FOCUS
         own_ink *= in_focus_of_window(line_depth);
 #endif
@@ -104,6 +109,10 @@ vec4 sprite_at(ivec2 pixel, out float depth)
 #ifndef FILL_STAYS
     fill = mix(fallback_of(fill.a), fill, fill_fraction());
 #endif
+#endif
+#if defined(HAS_MEETING) && defined(HAS_LINES)
+    /* Ink alone lies on the other surface, too. */
+    fill = fill_depth > other_depth(pixel) && depth < fill_depth ? vec4(0.0) : fill;
 #endif
     return u_filled ? ink + fill * (1.0 - ink.a) : ink;
 }

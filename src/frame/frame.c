@@ -87,6 +87,7 @@ void frame_draw_figure(frame *f, const figure *fig)
         raster_direct(f, &s);
     } else {
         raster_figure(f, &s);
+        raster_meeting(f, &s);
         figure_finish(f, &s);
     }
     figure_release(f, &s);

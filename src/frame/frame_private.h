@@ -191,6 +191,8 @@ void raster_lists(frame *f, layer_stack *stack, int node_vectors, unsigned node_
 void raster_depth(frame *f, gpu_texture *depth);
 /* The same of some parts. */
 void raster_depth_of(frame *f, gpu_texture *depth, bool *parts);
+/* Depth of the parts that may run through the figure's, where lines are wanted there and some may. */
+void raster_meeting(frame *f, figure_state *s);
 /* The depth of some parts alone. */
 void raster_mask(frame *f, layer_stack *stack, const bool *parts);
 

@@ -72,8 +72,10 @@ static void forget_lines(frame *f, layer_stack *stack)
 static void stack_close(frame *f, layer_stack *stack)
 {
     forget_lines(f, stack);
-    for (int i = 0; i < stack->count; i++)
+    for (int i = 0; i < stack->count; i++) {
+        gpu_target_release(f->g, stack->states[i].targets[TARGET_MEETING]);
         mem_free(stack->states[i].edges);
+    }
     for (int t = 0; t < TARGET_COUNT; t++)
         gpu_target_release(f->g, stack->targets[t]);
     gpu_target_release(f->g, stack->before_depth);
@@ -422,6 +424,8 @@ void layered_draw(frame *f, const figure *figures, int count)
     stack_open(f, &stack, figures, count);
     if (stack.count && !gpu_failed(f->g)) {
         draw_mask(f, &stack);
+        for (int i = 0; i < stack.count && !gpu_failed(f->g); i++)
+            raster_meeting(f, &stack.states[i]);
         clear_sum(f, &stack);
         draw_bands(f, &stack);
     }

@@ -50,11 +50,6 @@ int lists_build(frame *f, layer_stack *stack, size_t capacity)
     return wanted <= limit || gpu_failed(f->g) ? 1 : (int)((wanted + (limit - 1)) / limit);
 }
 
-static int kept_of(const layer_stack *stack)
-{
-    return stack->limit < KEPT_MAX ? stack->limit : KEPT_MAX;
-}
-
 /* One figure that asks for it is enough: they are sorted together. */
 static bool settles_ties(const layer_stack *stack)
 {
@@ -62,6 +57,13 @@ static bool settles_ties(const layer_stack *stack)
     for (int i = 0; i < stack->count; i++)
         settles = settles || stack->states[i].figure->layering.settle_ties;
     return settles;
+}
+
+/* A round settles nothing about its last one, so that it has one more than are wanted. */
+static int kept_of(const layer_stack *stack)
+{
+    int wanted = stack->limit + (settles_ties(stack) ? 1 : 0);
+    return wanted < KEPT_MAX ? wanted : KEPT_MAX;
 }
 
 /* The next round of layers: their nodes. */

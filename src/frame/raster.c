@@ -2,6 +2,7 @@
 #include "frame/raster_material.h"
 #include "base/memory.h"
 #include "layer/layer.h"
+#include "plan/meetings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -341,7 +342,7 @@ static const figure_state *shared_owner(const frame *f, const raster_job *job, c
 /* Whose item it is in this run; NULL: nobody's, it is not drawn. */
 static const figure_state *owner_of(const frame *f, const raster_job *job, const draw_item *item)
 {
-    if (job->only && !job->only[item->part_index])
+    if (job->only && (!job->only[item->part_index] || (f->mirror && f->mirror->designated[item->part_index])))
         return NULL;
     if (job->states)
         return shared_owner(f, job, item);
@@ -819,6 +820,21 @@ void raster_depth_of(frame *f, gpu_texture *depth, bool *parts)
     solid_layers solids = {.ready = false};
     draw_parts(f, &pass, &(raster_job){.state = &s, .solids = &solids, .at = no_outputs, .only = parts});
     solids_release(f->g, &solids);
+}
+
+void raster_meeting(frame *f, figure_state *s)
+{
+    bool any = false, *parts = s->figure->meets ? mem_calloc(f->plan->part_count + 1, sizeof *parts) : NULL;
+    if (s->figure->meets && (!parts || !plan_find_meetings(f->plan, s->figure, parts, &any)))
+        gpu_fail(f->g, LMN_MEMORY, "out of memory");
+    if (any && !gpu_failed(f->g)) {
+        stopwatch w = watch_start(&f->profile);
+        s->targets[TARGET_MEETING] = frame_acquire(f, TARGET_MEETING);
+        if (!gpu_failed(f->g))
+            raster_depth_of(f, s->targets[TARGET_MEETING], parts);
+        watch_stop(&f->profile, w, "", "meetings");
+    }
+    mem_free(parts);
 }
 
 void raster_mask(frame *f, layer_stack *stack, const bool *parts)

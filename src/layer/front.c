@@ -13,8 +13,8 @@ static const char *const shading_names[] = {"forward", "deferred", NULL};
 static const param params[] = {
     PARAM_BOOL_ROW(front_values, complement, .def = 1, .cpu_only = true,
                    .doc = "Parts that other rules draw take part in edge detection, so that lines appear where they "
-                          "meet this rule's parts. Not where the rule is perturbed: a sketch looks beside a pixel for "
-                          "what it shows there, and must not find others; a warning names parts that meet."),
+                          "meet this rule's parts. Where the rule is perturbed or seen through only the lines in which "
+                          "surfaces cross, which are found by their depths."),
     PARAM_ENUM_ROW(front_values, shading, .names = shading_names, .cpu_only = true,
                    .doc = "forward: shaded while the geometry is drawn; deferred: from the G-buffer afterwards, unless "
                           "the surface technique needs its geometry."),

@@ -60,7 +60,8 @@ vec3 model_normal()
     vec3 up_normal = cross(up, normal), normal_across = cross(normal, across);
     vec3 tangent = up_normal * uv_across.x + normal_across * uv_up.x;
     vec3 bitangent = up_normal * uv_across.y + normal_across * uv_up.y;
-    float scale = inversesqrt(max(max(dot(tangent, tangent), dot(bitangent, bitangent)), 1e-30));
+    /* Seen from behind, the picture shows the surface mirrored. */
+    float scale = (dot(across, up_normal) < 0.0 ? -1.0 : 1.0) * inversesqrt(max(max(dot(tangent, tangent), dot(bitangent, bitangent)), 1e-30));
     /* glTF's v runs down the picture, so the bitangent of its maps is minus the direction of growing v. */
     normal = normalize(tangent * scale * texel.x - bitangent * scale * texel.y + normal * texel.z);
 #endif

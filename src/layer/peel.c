@@ -54,7 +54,8 @@ static const param params[] = {
 static void peel_layering(layering *out, const void *values)
 {
     const peel_values *v = values;
-    *out = (layering){.evaluation = v->evaluation,
+    *out = (layering){.complement = true,
+                      .evaluation = v->evaluation,
                       .several = true,
                       .count = v->count,
                       .producer = v->producer,

@@ -32,8 +32,8 @@ float depth_step(ivec2 pixel, ivec2 axis, float own, bool only_before, bool only
 /* Of the flat surface, towards the viewer. */
 vec3 normal_at(ivec2 pixel, float own, vec3 eye)
 {
-    vec2 steps = vec2(depth_step(pixel, ivec2(1, 0), own, pixel.x > last.x - 2, pixel.x < 2),
-                      depth_step(pixel, ivec2(0, 1), own, pixel.y > last.y - 2, pixel.y < 2)) * u_slope;
+    vec2 steps = vec2(depth_step(pixel, ivec2(1, 0), own, pixel.x > last.x - 1, pixel.x < 1),
+                      depth_step(pixel, ivec2(0, 1), own, pixel.y > last.y - 1, pixel.y < 1)) * u_slope;
     return normalize(vec3(-steps, u_perspective > 0.5 ? -1.0 / eye.z - dot(steps, eye.xy) / -eye.z : 1.0));
 }
 

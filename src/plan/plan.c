@@ -197,12 +197,21 @@ bool shades_with_geometry(const technique_use *surface)
                                                                                 t->param_count, surface->values));
 }
 
+/* Lines with geometry find those of other rules themselves. Row nienhaus E18. */
+static bool finds_meetings(const figure *f)
+{
+    const technique_use *lines = rule_use(f->rule, KIND_LINES);
+    return f->layering.complement && lines && !technique_draws_strokes(lines->technique) && !f->mover &&
+           (f->layered || rule_use(f->rule, KIND_PERTURB));
+}
+
 static void settle_figure(figure *f, const plan *p, bool as_sprites)
 {
     const rule          *r = f->rule;
     const technique_use *surface = rule_use(r, KIND_SURFACE);
     f->layering = layering_of(rule_use(r, KIND_LAYERS));
     f->layered = is_seen_through(r);
+    f->meets = finds_meetings(f);
     if (f->layered) {
         settle_layers(f, p, as_sprites);
         return;
@@ -635,53 +644,6 @@ void plan_settle(plan *p, bool as_sprites)
     order_figures(p);
 }
 
-/* A part of the figure and an opaque one of other rules whose boxes overlap; false when there are none. */
-static bool find_meeting(const plan *p, const figure *f, size_t out[2])
-{
-    const box3 *boxes = p->pose->part_boxes;
-    for (size_t other = 0; other < p->part_count; other++) {
-        if (!p->opaque[other] || f->designated[other] || p->scene->parts[other].ghost ||
-            !box3_overlap(f->box, boxes[other]))
-            continue;
-        for (size_t own = 0; own < p->part_count; own++)
-            if (f->designated[own] && !p->scene->parts[own].ghost && box3_overlap(boxes[own], boxes[other])) {
-                out[0] = own;
-                out[1] = other;
-                return true;
-            }
-    }
-    return false;
-}
-
-/* Lines with geometry, which find those of other rules themselves. */
-static bool draws_strokes(const technique *t)
-{
-    bool out = false;
-    for (size_t i = 0; i < t->pass_count; i++)
-        out = out || t->passes[i].strokes;
-    return out;
-}
-
-/* Edges of pictures are found where a figure's parts run through those of other rules, but not where it is perturbed or
- * seen through (settle_figure). Row nienhaus E18. */
-static void warn_of_meetings(const plan *p, warnings *warnings)
-{
-    for (size_t i = 0; i < p->figure_count; i++) {
-        const figure        *f = &p->figures[i];
-        bool                 perturbed = rule_use(f->rule, KIND_PERTURB) != NULL;
-        const technique_use *lines = rule_use(f->rule, KIND_LINES);
-        size_t               parts[2];
-        if (!lines || draws_strokes(lines->technique) || f->mover || (!f->layered && !perturbed) ||
-            (!f->layered && !f->layering.complement) || !find_meeting(p, f, parts))
-            continue;
-        warnings_add(
-            warnings, WARNING_UNUSED,
-            "where parts of a rule that is %s run through those of another ('%.100s', '%.100s') there is no line; "
-            "one rule for both has it",
-            f->layered ? "seen through" : "perturbed", p->scene->parts[parts[0]].name, p->scene->parts[parts[1]].name);
-    }
-}
-
 static lmn_status plan_figures(plan *p, const plan_options *options, warnings *warnings, lmn_error *error)
 {
     lmn_status status = make_figures(p, options, warnings, error);
@@ -692,8 +654,6 @@ static lmn_status plan_figures(plan *p, const plan_options *options, warnings *w
     if (status != LMN_OK)
         return status;
     plan_settle(p, options->as_sprites);
-    if (!options->on_sheet)
-        warn_of_meetings(p, warnings);
     return LMN_OK;
 }
 

@@ -20,6 +20,7 @@ typedef struct figure {
     box3                          box;        /* of the designated parts, world axes */
     unsigned                      channels;
     bool                          complement; /* other figures' parts take part in edge detection */
+    bool                          meets;      /* instead: lines where it runs through those, found by depth */
     bool                          deferred;
     bool                          direct; /* drawn straight onto the page */
     bool                          reflects;

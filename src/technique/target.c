@@ -16,6 +16,9 @@ const target_row target_rows[TARGET_COUNT] = {
     /* The area that a mover sweeps: pixels moved right and up, window depth, part id; all 0: nothing. */
     [TARGET_STRETCHED] = {"t_stretched", TEXEL_RGBA32F, .owner = OWNER_FIGURE},
     [TARGET_DEPTH] = {"t_depth", TEXEL_DEPTH32F, .owner = OWNER_LAYER},
+    /* Of opaque parts of other rules that may run through the figure's; there where these are not among the figure's
+     * complement. From the first layer to the last. */
+    [TARGET_MEETING] = {"t_meeting", TEXEL_DEPTH32F, .owner = OWNER_FRAME},
 
     /* The edge map: r = profile, g = inner, b = combined, a = id; 1 = no edge. That of the layer in front of this
      * one. */

@@ -20,7 +20,7 @@ typedef enum channel {
     CHANNEL_DETAIL = 1 << 6        /* what the surface technique's detail shader tells of the geometry */
 } channel;
 
-enum { PASS_READS_MAX = 12, NUMBERS_MAX = 96 };
+enum { PASS_READS_MAX = 13, NUMBERS_MAX = 96 };
 
 typedef enum pass_blend { BLEND_NONE, BLEND_MIN, BLEND_OVER, BLEND_UNDER } pass_blend;
 

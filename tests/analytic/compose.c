@@ -1,5 +1,6 @@
 /* How figures meet: depth sprites against the real visibility, the other forms of drawing lines, complements,
  * mirrors, and where the lines lie on both sides of a boundary. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -274,51 +275,6 @@ static void per_object(void)
     }
 }
 
-/* Perturbed and seen through, a figure has no line where it runs through those of other rules: that is said, and what
- * has it. */
-static void missing_meetings_are_told(void)
-{
-#define POST "\"surface\":{\"technique\":\"flat\",\"colour\":\"#eeeeee\"},\"lines\":{\"operator\":\"discontinuity\"}"
-#define BLOCK                                                                                                          \
-    "{\"select\":\"plain*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#dddddd\"}},{\"select\":\"lined*\","
-    static const char sketched[] = ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":2}";
-    static const struct {
-        const char *begin, *end, *complement;
-        double      apart;
-        bool        told, seam;
-    } cases[] = {
-        {BLOCK, "", "true", 0, false, true},
-        {BLOCK, sketched, "true", 0, true, false},
-        {BLOCK, sketched, "false", 0, false, false},
-        {BLOCK, sketched, "true", 3, false, false},
-        {"{\"select\":\"*\",", sketched, "true", 0, false, true},
-        {BLOCK, ",\"layers\":{\"technique\":\"peel\",\"count\":0},\"compose\":\"blueprint\"", NULL, 0, true, false},
-    };
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        const char *changes[] = {cases[c].complement ? "layers.complement" : NULL, cases[c].complement, NULL};
-        char        look[1024];
-        shape       s = {0};
-        shot        drawing;
-        int         seam = 0;
-        snprintf(look, sizeof look, LOOK("%s" POST "%s}"), cases[c].begin, cases[c].end);
-        shape_box(&s, "plain block", dvec_of(-1, -1, -1), dvec_of(1, 0, 1));
-        shape_box(&s, "lined post", dvec_of(-0.3, -0.5 + cases[c].apart, -0.3),
-                  dvec_of(0.3, 0.8 + cases[c].apart, 0.3));
-        if (shot_of_shape(&drawing, &s, "meetings.glb", look, changes, &views[0])) {
-            for (int i = 6; i < 45; i++)
-                seam += dark_near(&drawing, shot_project(&drawing, dvec_of(-0.3 + 0.6 * i / 50.0, 0, 0.3)), 4) > 0;
-            check_that("E18", shot_has_warning(&drawing, "unused") == cases[c].told,
-                       "case %zu: %s that a line is missing", c, cases[c].told ? "it is told" : "nothing tells");
-            if (cases[c].seam)
-                check_at_least("E18", seam, 37, "  of 39 places of the intersection with a line");
-            else
-                check_at_most("E18", seam, 8, "  of 39 places of the intersection with a line");
-        }
-        shot_release(&drawing);
-        shape_release(&s);
-    }
-}
-
 /* A figure drawn by ids alone is an outline; the background beside it keeps all its lines. */
 static void id_only(void)
 {
@@ -393,6 +349,106 @@ static void widths(void)
                 shot_release(&drawing);
                 shape_release(&s);
             }
+}
+
+/* Lines are where they are, whatever their colour: outlines lie half beyond what has a depth of its own. */
+static void ink_of_any_colour(void)
+{
+    static const char *const colours[] = {"#000000", "#ff0000", "#00ff00", "#0000ff"};
+    static const char *const looks[] = {LOOK("{\"surface\":{\"technique\":\"flat\",\"colour\":\"#808080\"},\"lines\":{"
+                                             "\"operator\":\"four-tap\",\"width\":3}}"),
+                                        LOOK("{\"surface\":{\"technique\":\"flat\",\"colour\":\"#808080\"},\"lines\":{"
+                                             "\"operator\":\"four-tap\",\"width\":3},"
+                                             "\"perturb\":{\"technique\":\"uncertainty\",\"amount\":3}}")};
+    for (int l = 0; l < 2; l++) {
+        int covered[4] = {0};
+        for (int c = 0; c < 4; c++) {
+            const char *changes[] = {"lines.colour", colours[c], NULL};
+            shape       s = {0};
+            shot        drawing;
+            shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 32, 64, true);
+            if (shot_of_shape(&drawing, &s, "coloured.glb", looks[l], changes, &views[0]))
+                for (int i = 0; i < drawing.width * drawing.height; i++) {
+                    const uint8_t *p = &drawing.picture[4 * i];
+                    covered[c] += p[0] < 230 || p[1] < 230 || p[2] < 230;
+                }
+            shot_release(&drawing);
+            shape_release(&s);
+        }
+        check_at_least("E20", covered[0], 1000, "%s: pixels of a ball and its lines", l ? "sketch" : "sprite");
+        for (int c = 1; c < 4; c++)
+            check_near("E20", covered[c], covered[0], 0.003 * covered[0], "  the same, lines %s", colours[c]);
+    }
+}
+
+/* What other rules draw elsewhere on the page takes nothing away from outlines. */
+static void outlines_beside_others(void)
+{
+    static const char look[] = LOOK("{\"select\":\"plate\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ffffff\"},"
+                                    "\"lines\":{\"operator\":\"four-tap\","
+                                    "\"width\":\"4px\",\"colour\":\"#000000\"}},{\"select\":\"other\",\"surface\":{"
+                                    "\"technique\":\"flat\",\"colour\":\"#ffffff\"}}");
+    const shot_view   view = {.width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+    for (int turned = 0; turned < 2; turned++) {
+        shape s = {0};
+        shot  drawing;
+        int   outside = 0, inside = 0;
+        shape_box(&s, "plate", turned ? dvec_of(-2, 0, -1) : dvec_of(0, -2, -1), dvec_of(2, 2, 0));
+        shape_box(&s, "other", dvec_of(-2, -2, -1), dvec_of(-1.8, -1.8, 0));
+        if (shot_of_shape(&drawing, &s, "beside.glb", look, NULL, &view)) {
+            /* The plate begins in the middle of the picture. */
+            const dvec origin = shot_project(&drawing, dvec_of(0, 0, 0));
+            for (int k = 1; k <= 4; k++) {
+                const int middle = (int)(turned ? origin.y : origin.x),
+                          across = (int)(turned ? origin.x : origin.y) - 40;
+                const int off[2] = {turned ? middle + k - 1 : middle - k, turned ? middle - k : middle + k - 1};
+                outside += turned ? pixel(&drawing, across, off[0])[0] < 128 : pixel(&drawing, off[0], across)[0] < 128;
+                inside += turned ? pixel(&drawing, across, off[1])[0] < 128 : pixel(&drawing, off[1], across)[0] < 128;
+            }
+        }
+        check_near("E20", outside, 2, 0, "%s outline beside another rule: dark pixels outside",
+                   turned ? "level" : "upright");
+        check_near("E20", inside, 2, 0, "  and inside");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
+/* A sketch's fill is as deep as the pixels that it is mixed of: between its plates others stand in front of the farther
+ * one, up to the nearer one's border. */
+static void fills_are_as_deep_as_their_pixels(void)
+{
+    static const char look[] = LOOK(
+        "{\"select\":\"plate*\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#ff0000\"},\"perturb\":{\"technique\":"
+        "\"uncertainty\",\"amount\":0.002}},{\"select\":\"other\",\"surface\":{\"technique\":\"flat\",\"colour\":\"#"
+        "0000ff\"}}");
+    const shot_view view = {.width = 128, .height = 128, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true};
+    for (int side = 0; side < 4; side++) {
+        const double x = side == 0 ? 1 : side == 1 ? -1 : 0, y = side == 2 ? 1 : side == 3 ? -1 : 0;
+        shape        s = {0};
+        shot         drawing;
+        int          rows = 0;
+        shape_box(&s, "plate far", dvec_of(-2, -2, -1), dvec_of(2, 2, -0.9));
+        shape_box(&s, "plate near", dvec_of(fmin(0, 2 * x) - 2 * fabs(y), fmin(0, 2 * y) - 2 * fabs(x), 0.9),
+                  dvec_of(fmax(0, 2 * x) + 2 * fabs(y), fmax(0, 2 * y) + 2 * fabs(x), 1));
+        shape_box(&s, "other", dvec_of(-2, -2, 0), dvec_of(2, 2, 0.1));
+        if (shot_of_shape(&drawing, &s, "plates.glb", look, NULL, &view)) {
+            /* From the middle of the page to the side that has no near plate. */
+            const dvec origin = shot_project(&drawing, dvec_of(0, 0, 0));
+            for (int along = -40; along <= 40; along++) {
+                int found = 0;
+                for (int k = 0; k < 6; k++) {
+                    const int at_x = (int)floor(origin.x - x * (k + 0.5)) + (y != 0 ? along : 0),
+                              at_y = (int)floor(origin.y + y * (k + 0.5)) + (x != 0 ? along : 0);
+                    found += is_colour(pixel(&drawing, at_x, at_y), 255, 0, 0, 60);
+                }
+                rows = found > rows ? found : rows;
+            }
+        }
+        check_at_most("S06", rows, 1, "side %d: pixels beyond the nearer plate that are as near", side);
+        shot_release(&drawing);
+        shape_release(&s);
+    }
 }
 
 /* A slanted outline is antialiased when samples are asked for, and its width does not change. */
@@ -587,9 +643,11 @@ int main(int argc, char **argv)
         {"forms", forms_agree},
         {"colours", superimposed_colours},
         {"objects", per_object},
-        {"meetings", missing_meetings_are_told},
         {"abstract", id_only},
         {"widths", widths},
+        {"colours-of-ink", ink_of_any_colour},
+        {"beside", outlines_beside_others},
+        {"plates", fills_are_as_deep_as_their_pixels},
         {"slanted", slanted_width},
         {"mirror", mirror},
         {"mirror-light", mirrored_light},

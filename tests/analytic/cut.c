@@ -232,6 +232,69 @@ static void cut_faces_are_nearly_solid(void)
     }
 }
 
+/* Of a solid's faces those of the section alone have the section's colour. */
+static void solids_are_coloured_where_they_are_cut(void)
+{
+    const shot_view   view = {.width = 200, .height = 200, .eye = {3, 4, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const char *const changes[] = {"scene.cut", "z=0.25", "scene.cut_hatch", "0px", "scene.cut_fill", "#3060c0", NULL};
+    const char       *path = check_path("solid.csg");
+    FILE             *file = fopen(path, "w");
+    shot              cut;
+    int               face = 0, others = 0, wrong = 0;
+    if (!check_that("cut", file != NULL, "a file can be written"))
+        return;
+    fputs("difference() { cube(size = [2, 2, 2], center = true); cube(size = [1, 1, 3], center = true); }\n", file);
+    fclose(file);
+    if (shot_take(&cut, path, plain_look, changes, &view)) {
+        for (int i = 0; i < cut.width * cut.height; i++) {
+            const uint8_t *p = &cut.picture[4 * i];
+            const bool     blue = p[0] == 0x30 && p[1] == 0x60 && p[2] == 0xC0;
+            if (isinf(cut.depth[i]))
+                continue;
+            dvec from, along;
+            shot_ray(&cut, i % cut.width + 0.5, i / cut.width + 0.5, &from, &along);
+            const double z = from.z + along.z * (double)cut.depth[i] / fabs(shot_to_eye(&cut, along, 0).z);
+            if (fabs(z - 0.25) < 0.005)
+                face++;
+            else
+                others += z < 0.22;
+            wrong += fabs(z - 0.25) < 0.005 ? !blue : z < 0.22 && blue;
+        }
+        check_at_least("cut", face, 1000, "pixels of a solid's cut face");
+        check_at_least("cut", others, 1000, "pixels of its other faces");
+        check_at_most("cut", wrong, 0.02 * (face + others), "of all these in the colour of the other kind");
+    }
+    shot_release(&cut);
+}
+
+/* In layers the hatch is ink, once, however often lines are repeated, and whatever else the layer shows. */
+static void layers_are_hatched_once(void)
+{
+    static const char *const perturbs[] = {"",
+                                           ",\"perturb\":{\"technique\":\"uncertainty\",\"amount\":0.01,\"repeat\":3}"};
+    const shot_view   view = {.width = 400, .height = 400, .eye = {0, 0, 6}, .up = {0, 1, 0}, .orthographic = true};
+    const char *const changes[] = {
+        "scene.cut", "z", "scene.cut_hatch", "10px", "scene.cut_width", "2px", "scene.cut_angle", "30", NULL};
+    for (int k = 0; k < 2; k++) {
+        char  look[512];
+        shape s = {0};
+        shot  cut;
+        snprintf(look, sizeof look,
+                 "{\"version\":1,\"name\":\"x\",\"rules\":[{\"surface\":\"flat\",\"layers\":{\"technique\":\"peel\","
+                 "\"count\":1},"
+                 "\"lines\":{\"operator\":\"four-tap\",\"colour\":\"#000000\"},\"compose\":{\"technique\":"
+                 "\"blueprint\",\"tint\":"
+                 "\"#00000000\"}%s}],\"finish\":{\"ground\":\"#ffffff\"}}",
+                 perturbs[k]);
+        shape_box(&s, "cube", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        if (shot_of_shape(&cut, &s, "layers.glb", look, changes, &view))
+            check_near("cut", darkness(&cut), 0.2, 0.02, "dark share of a blueprint's cut face%s",
+                       k ? ", lines repeated" : "");
+        shot_release(&cut);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
@@ -239,6 +302,8 @@ int main(int argc, char **argv)
         {"a_corner_is_open", a_corner_is_open},
         {"hatch_covers_its_fraction", hatch_covers_its_fraction},
         {"cut_faces_are_nearly_solid", cut_faces_are_nearly_solid},
+        {"solids_are_coloured_where_they_are_cut", solids_are_coloured_where_they_are_cut},
+        {"layers_are_hatched_once", layers_are_hatched_once},
         {"outlines_are_lines", outlines_are_lines},
         {"dialects_agree", dialects_agree},
         {"open_parts_are_told", open_parts_are_told},

@@ -1,5 +1,6 @@
 /* hatch from frame to frame, from path to path and on unusual models: strokes stay on the surface, nothing pops,
  * all ways of drawing give one picture. Seed 001, rows EX-09, IM-06, IM-26, IM-27. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -525,14 +526,83 @@ static void patches_leave_no_holes(void)
     shot_release(&whole);
 }
 
+/* The way of strokes in a square of pixels, from how its tones change; false: there are too few strokes. */
+static bool way_of_strokes(const shot *s, int left, int top, int side, double *angle)
+{
+    double xx = 0, xy = 0, yy = 0;
+    for (int y = top; y < top + side; y++)
+        for (int x = left; x < left + side; x++) {
+            const uint8_t *p = &s->picture[4 * (y * s->width + x)];
+            if (isinf(s->depth[y * s->width + x]) || isinf(s->depth[y * s->width + x + 1]))
+                return false;
+            const double across = p[4] - p[0], down = p[4 * s->width] - p[0];
+            xx += across * across;
+            xy += across * down;
+            yy += down * down;
+        }
+    *angle = 0.5 * atan2(2 * xy, xx - yy);
+    return xx + yy > 2e4 && hypot(xx - yy, 2 * xy) > 0.4 * (xx + yy);
+}
+
+/* Strokes along the way in which surfaces bend lie on a body that its node turns as on one whose corners are turned. */
+static void turned_by_node_or_corner(void)
+{
+    static const char look[] = "{\"version\":1,\"name\":\"t\",\"rules\":[{\"surface\":{\"technique\":\"tonal-art-map\","
+                               "\"coordinates\":\"curvature\"}}]}";
+    enum { SIDE = 20 };
+    const shot_view view = {.width = 360, .height = 360, .eye = {2, 1.5, 4}, .up = {0, 1, 0}};
+    shot            shots[2];
+    bool            drawn = true;
+    for (int baked = 0; baked < 2; baked++) {
+        shape s = {0};
+        shape_torus(&s, "ring", 1, 0.4, 96, 48);
+        shape_place(&s, dvec_of(1, 0.4, 0.2), 70, dvec_of(0.1, 0, 0));
+        shape_part *p = &s.parts[0];
+        for (uint32_t v = 0; v < p->vertex_count && baked; v++) {
+            const dvec   at = shape_point(p, v), normal = p->normals ? shape_normal(p, v) : at;
+            const double values[6] = {at.x, at.y, at.z, normal.x, normal.y, normal.z};
+            for (int a = 0; a < 3; a++) {
+                p->positions[v][a] = (float)values[a];
+                if (p->normals)
+                    p->normals[v][a] = (float)values[3 + a];
+            }
+        }
+        p->has_matrix = p->has_matrix && !baked;
+        drawn = shot_of_shape(&shots[baked], &s, "ring.glb", look, NULL, &view) && drawn;
+        shape_release(&s);
+    }
+    double sum = 0;
+    int    count = 0;
+    for (int y = 0; y + SIDE < view.height - 1 && drawn; y += SIDE / 2)
+        for (int x = 0; x + SIDE < view.width - 1; x += SIDE / 2) {
+            double a, b;
+            if (!way_of_strokes(&shots[0], x, y, SIDE, &a) || !way_of_strokes(&shots[1], x, y, SIDE, &b))
+                continue;
+            const double off = fabs(remainder(a - b, 3.14159265358979323846));
+            sum += off * (180 / 3.14159265358979323846);
+            count++;
+        }
+    check_at_least("IM-22", count, 30, "squares of a ring with strokes that follow it");
+    check_at_most("IM-22", sum / (count ? count : 1), 12,
+                  "degrees by which they lie otherwise where the node turns it, mean");
+    for (int k = 0; k < 2; k++)
+        shot_release(&shots[k]);
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"frames", frames},       {"door", shower_door},
-        {"octaves", octaves},     {"fixed", fixed},
-        {"paths", paths},         {"samples", samples},
-        {"parts", parts},         {"meshes", meshes},
-        {"instances", instances}, {"patches", patches_leave_no_holes},
+        {"frames", frames},
+        {"door", shower_door},
+        {"octaves", octaves},
+        {"fixed", fixed},
+        {"paths", paths},
+        {"samples", samples},
+        {"parts", parts},
+        {"meshes", meshes},
+        {"instances", instances},
+        {"patches", patches_leave_no_holes},
+        {"turned", turned_by_node_or_corner},
     };
     int status = check_main(argc, argv, "hatch_coherence", cases, sizeof cases / sizeof *cases);
     shot_end();

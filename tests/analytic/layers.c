@@ -285,30 +285,101 @@ static void count_specks(const shot *s, const int parts[2], int *judged, int *sp
 }
 
 /* A box stands on a floor whose triangles are others, so that rounding puts now one, now the other in front. Lists know
- * both as one place: the order is that of the parts at every pixel. */
+ * both as one place: the order is that of the parts at every pixel, though they be the last that are wanted. */
 static void what_stands_on_another(void)
+{
+    static const char *const counts[] = {"5", "3"};
+    for (int c = 0; c < 2; c++) {
+        shape s = {0};
+        int   judged = 0, specks = 0;
+        char  layers[80];
+        snprintf(layers, sizeof layers, "\"count\":%s,\"producer\":\"lists\",\"settle_ties\":true", counts[c]);
+        shape_box(&s, "floor", dvec_of(-2.9, -3.1, -0.2), dvec_of(3.3, 2.7, 0));
+        shape_box(&s, "block", dvec_of(-0.9, -0.7, 0), dvec_of(1.1, 0.8, 0.5));
+        for (int angle = 0; angle < 12; angle++) {
+            double    turn = 0.137 + 0.5236 * angle;
+            shot_view view = {.width = 160,
+                              .height = 160,
+                              .eye = {5 * cos(turn), 5 * sin(turn), 4.3},
+                              .target = {0, 0, 0},
+                              .up = {0, 0, 1},
+                              .orthographic = angle % 2 == 1};
+            shot      drawing;
+            if (!shot_of_shape(&drawing, &s, "stands.glb", layered_look(layers, NULL), NULL, &view))
+                break;
+            count_specks(&drawing, (const int[]){1, 2}, &judged, &specks);
+            shot_release(&drawing);
+        }
+        check_at_least("B01", judged, 10000, "a box on a floor, %s layers: pixels judged", counts[c]);
+        check_at_most("B01", specks, 0, "a box on a floor: specks");
+        shape_release(&s);
+    }
+}
+
+/* The same of three: of a pad in the floor, too. */
+static void three_in_one_plane(void)
 {
     shape s = {0};
     int   judged = 0, specks = 0;
-    shape_box(&s, "floor", dvec_of(-2.9, -3.1, -0.2), dvec_of(3.3, 2.7, 0));
+    shape_box(&s, "floor", dvec_of(-2.9, -3.1, -0.4), dvec_of(3.3, 2.7, 0));
     shape_box(&s, "block", dvec_of(-0.9, -0.7, 0), dvec_of(1.1, 0.8, 0.5));
-    for (int angle = 0; angle < 12; angle++) {
-        double    turn = 0.137 + 0.5236 * angle;
+    shape_box(&s, "pad", dvec_of(-1.7, -1.5, -0.2), dvec_of(1.6, 1.9, 0));
+    for (int angle = 0; angle < 6; angle++) {
+        double    turn = 0.137 + 1.0472 * angle;
         shot_view view = {.width = 160,
                           .height = 160,
                           .eye = {5 * cos(turn), 5 * sin(turn), 4.3},
-                          .target = {0, 0, 0},
                           .up = {0, 0, 1},
                           .orthographic = angle % 2 == 1};
         shot      drawing;
-        if (!shot_of_shape(&drawing, &s, "stands.glb",
-                           layered_look("\"count\":5,\"producer\":\"lists\",\"settle_ties\":true", NULL), NULL, &view))
+        if (!shot_of_shape(&drawing, &s, "pad.glb",
+                           layered_look("\"count\":8,\"producer\":\"lists\",\"settle_ties\":true", NULL), NULL, &view))
             break;
-        count_specks(&drawing, (const int[]){1, 2}, &judged, &specks);
+        for (int i = 0; i < 160 * 160 && drawing.layer_count > 3; i++) {
+            const double first = drawing.layers[1].depth[i], last = drawing.layers[3].depth[i];
+            if (isinf(last) || !(fabs(last - first) < 3e-5) || first - (double)drawing.layers[0].depth[i] < 1e-3)
+                continue;
+            judged++;
+            for (int k = 0; k < 3; k++)
+                specks += drawing.layers[1 + k].id[i] != k + 1;
+        }
         shot_release(&drawing);
     }
-    check_at_least("B01", judged, 10000, "a box on a floor: pixels judged");
-    check_at_most("B01", specks, 0, "a box on a floor: specks");
+    check_at_least("B01", judged, 5000, "three parts in one plane: pixels judged");
+    check_at_most("B01", specks, 0, "three parts in one plane: specks");
+    shape_release(&s);
+}
+
+/* What coincides where one round of sorting ends and the next begins comes once all the same. */
+static void rounds_repeat_nothing(void)
+{
+    shape s = {0};
+    int   judged = 0, wrong = 0;
+    shape_box(&s, "floor", dvec_of(-2.9, -3.1, -0.4), dvec_of(3.3, 2.7, 0));
+    shape_box(&s, "pad", dvec_of(-1.7, -1.5, -0.2), dvec_of(1.6, 1.9, 0));
+    for (int k = 0; k < 3; k++)
+        shape_box(&s, "plate", dvec_of(-4, -4, 0.5 + 0.4 * k), dvec_of(4, 4, 0.6 + 0.4 * k));
+    for (int angle = 0; angle < 6; angle++) {
+        double    turn = 0.137 + 1.0472 * angle;
+        shot_view view = {.width = 120, .height = 120, .eye = {3 * cos(turn), 3 * sin(turn), 6.3}, .up = {0, 0, 1}};
+        shot      drawing;
+        if (!shot_of_shape(&drawing, &s, "rounds.glb",
+                           layered_look("\"count\":12,\"producer\":\"lists\",\"settle_ties\":true", NULL), NULL, &view))
+            break;
+        for (int i = 0; i < 120 * 120 && drawing.layer_count > 9; i++) {
+            int    of_part[6] = {0};
+            double sixth = drawing.layers[6].depth[i], seventh = drawing.layers[7].depth[i];
+            if (isinf(sixth) || isinf(seventh) || !(fabs(seventh - sixth) < 3e-5) || drawing.layers[5].id[i] != 3)
+                continue;
+            for (int k = 0; k < drawing.layer_count; k++)
+                of_part[drawing.layers[k].id[i]] += !isinf(drawing.layers[k].depth[i]);
+            judged++;
+            wrong += of_part[1] != 2 || of_part[2] != 2;
+        }
+        shot_release(&drawing);
+    }
+    check_at_least("B01", judged, 3000, "ten layers in two rounds: pixels judged");
+    check_at_most("B01", wrong, 0, "ten layers in two rounds: pixels that have one twice, or lack one");
     shape_release(&s);
 }
 
@@ -771,6 +842,8 @@ int main(int argc, char **argv)
         {"dialects", dialects},
         {"coincident", what_coincides},
         {"stands", what_stands_on_another},
+        {"rounds", rounds_repeat_nothing},
+        {"three", three_in_one_plane},
         {"counts", counts},
         {"fractions", fractions},
         {"masks", masks},

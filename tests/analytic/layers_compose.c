@@ -943,9 +943,45 @@ static void plan_views(void)
     plan_view(LMN_VIEW_RIGHT, "from the right");
 }
 
+/* Lines of a beam that runs over the page are at its borders what they are in its middle, behind others, too. */
+static void borders_of_the_page(void)
+{
+    static const char look[] =
+        LOOK("{\"surface\":{\"technique\":\"flat\"},\"lines\":{\"operator\":\"four-tap\",\"width\":\"2px\",\"colour\":"
+             "\"#000000\"}," ALL_LAYERS ",\"compose\":{\"technique\":\"blueprint\",\"tint\":\"#00000000\"}}");
+    for (int upright = 0; upright < 2; upright++) {
+        const shot_view view = {.width = 96,
+                                .height = 96,
+                                .eye = upright ? dvec_of(2, 0, 5) : dvec_of(0, 2, 5),
+                                .up = {0, 1, 0},
+                                .orthographic = true,
+                                .fov_deg = 40};
+        shape           s = {0};
+        shot            drawing;
+        int             least = 1000000, most = 0, columns[4] = {0, 1, 94, 95};
+        shape_box(&s, "beam", dvec_of(upright ? -0.3 : -20, upright ? -20 : -0.3, -0.5),
+                  dvec_of(upright ? 0.3 : 20, upright ? 20 : 0.3, 0.5));
+        shape_box(&s, "stud", dvec_of(-0.1, -0.1, -0.1), dvec_of(0.1, 0.1, 0.1));
+        if (shot_of_shape(&drawing, &s, "beam.glb", look, NULL, &view))
+            for (int i = 0; i < 5; i++) {
+                int sum = 0, column = i < 4 ? columns[i] : 30;
+                for (int k = 0; k < 96; k++)
+                    sum += ground[1] - pixel(&drawing, upright ? k : column, upright ? column : k)[1];
+                least = sum < least ? sum : least;
+                most = sum > most ? sum : most;
+            }
+        check_at_least("B02", least, 10 * ground[1], "%s beam: ink of six lines across it, at the least place",
+                       upright ? "upright" : "level");
+        check_at_most("B02", most - least, 64, "  less than at the most");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
+        {"borders", borders_of_the_page},
         {"sorted", sorted},
         {"order", any_order},
         {"figures", two_figures},

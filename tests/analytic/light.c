@@ -129,14 +129,19 @@ static double unevenness(const light_map *m, bool rightwards)
 
 static void light_is_even_between_samples(void)
 {
-    for (int k = 0; k < 2; k++) {
-        light_scene l = {
-            .file = "even.glb",
-            .towards = k ? (dvec){-1, 1, 0} : (dvec){0, 1, -1},
-            .softness = 20,
-            .view = {.width = 320, .height = 320, .eye = {0, 8, 0}, .up = {0, 0, -1}, .orthographic = true}};
-        shot      with, without;
-        light_map m;
+    for (int i = 0; i < 4; i++) {
+        const int    k = i % 2, slanted = i / 2; /* the way light changes in is the one in which depth does */
+        const double far = slanted ? 5.7 : 0;
+        light_scene  l = {.file = "even.glb",
+                          .towards = k ? (dvec){-1, 1, 0} : (dvec){0, 1, -1},
+                          .softness = 20,
+                          .view = {.width = 320,
+                                   .height = 320,
+                                   .eye = {k ? far : 0, slanted ? 5.7 : 8, k ? 0 : far},
+                                   .up = {0, 0, -1},
+                                   .orthographic = true}};
+        shot         with, without;
+        light_map    m;
         shape_box(&l.s, "floor", dvec_of(-4, -0.1, -4), dvec_of(4, 0, 4));
         shape_box(&l.s, "plate", k ? dvec_of(-6, 1.198, -4) : dvec_of(-4, 1.198, -6),
                   k ? dvec_of(-1.2, 1.2, 4) : dvec_of(4, 1.2, -1.2));
@@ -144,8 +149,83 @@ static void light_is_even_between_samples(void)
             if (light_shot(&without, &l, false)) {
                 light_map_drawn(&m, &with, &without);
                 check_at_most("P30", unevenness(&m, k), 0.3,
-                              "steps of light across a penumbra that runs %s: how uneven they are",
-                              k ? "to the right" : "down");
+                              "steps of light across a penumbra that runs %s%s: how uneven they are",
+                              k ? "to the right" : "down", slanted ? ", on a floor that leans" : "");
+                light_map_release(&m);
+                shot_release(&without);
+            }
+            shot_release(&with);
+        }
+        shape_release(&l.s);
+    }
+}
+
+/* The least light on what has none of it kept off. */
+static void check_all_light(const light_scene *l, const char *what, int side)
+{
+    shot      with, without;
+    light_map m;
+    if (!light_shot(&with, l, true))
+        return;
+    if (light_shot(&without, l, false)) {
+        double least = 1;
+        light_map_drawn(&m, &with, &without);
+        for (int i = 0; i < m.width * m.height; i++)
+            least = m.drawn[i] >= 0 ? fmin(least, (double)m.drawn[i]) : least;
+        check_at_least("P31", least, 0.9999, "%s, side %d: least light", what, side);
+        light_map_release(&m);
+        shot_release(&without);
+    }
+    shot_release(&with);
+}
+
+/* At the borders of the page, where there is nothing beside a pixel to tell how a surface leans, what goes on beyond
+ * them is as light as elsewhere. */
+static void borders_of_the_page_are_light(void)
+{
+    for (int side = 0; side < 4; side++) {
+        const double x = side == 0 ? 1 : side == 1 ? -1 : 0, y = side == 2 ? 1 : side == 3 ? -1 : 0;
+        light_scene  l = {
+             .file = "borders.glb",
+             .towards = {0.3 * x, 0.3 * y, 1},
+             .softness = 5,
+             .occlusion = 1,
+             .radius = 0.02,
+             .view = {.width = 128, .height = 128, .eye = {4 * x, 4 * y, 4}, .up = {y != 0 ? 1 : 0, y != 0 ? 0 : 1, 0}}};
+        shape_box(&l.s, "floor", dvec_of(-9, -9, -0.1), dvec_of(9, 9, 0));
+        check_all_light(&l, "a slanted plane that is all of the page", side);
+        shape_release(&l.s);
+    }
+}
+
+/* A face that is in full light is so up to its ridge with another one that is turned away. */
+static void ridges_are_light(void)
+{
+    for (int side = 0; side < 8; side++) {
+        const double turn = side * pi / 4 + 0.1;
+        light_scene  l = {.file = "ridge.glb",
+                          .towards = {-1, 0.6, 0},
+                          .softness = 4,
+                          .view = {.width = 160,
+                                   .height = 160,
+                                   .eye = {5, 4, 1},
+                                   .up = {sin(turn), cos(turn), 0.7 * sin(2 * turn)},
+                                   .orthographic = true}};
+        shot         with, without;
+        light_map    m;
+        shape_box(&l.s, "block", dvec_of(-1, -1, -1), dvec_of(1, 1, 1));
+        if (light_shot(&with, &l, true)) {
+            if (light_shot(&without, &l, false)) {
+                double missing = 0, count = 0;
+                light_map_drawn(&m, &with, &without);
+                for (int i = 0; i < m.width * m.height; i++)
+                    if (m.drawn[i] >= 0) {
+                        missing += 1 - (double)m.drawn[i];
+                        count++;
+                    }
+                check_at_least("P30", count, 5000, "turned by %g degrees: pixels of faces in the light",
+                               turn * 180 / pi);
+                check_at_most("P30", missing, 25, "  light that they lack, pixels");
                 light_map_release(&m);
                 shot_release(&without);
             }
@@ -1086,6 +1166,8 @@ int main(int argc, char **argv)
     static const check_case cases[] = {
         {"penumbra", penumbras_grow},
         {"even", light_is_even_between_samples},
+        {"borders", borders_of_the_page_are_light},
+        {"ridges", ridges_are_light},
         {"grazing", floors_are_dark_at_a_grazing_view},
         {"mirrored", shadows_are_mirrored},
         {"shadows", shadows_are_a_discs},

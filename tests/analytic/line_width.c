@@ -2,6 +2,7 @@
  * the area of a band of the line's width in the pixel, counted on a fine lattice; and all of its ink together. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
@@ -194,10 +195,51 @@ static void run_creases(void)
                "  one that runs to the right (above %.2f, below %.2f)", ink[1][0], ink[1][1]);
 }
 
+/* Broad lines of a solid, of which pixels alone are known, end alike on all sides: a picture of what is turned by a
+ * quarter is the picture, turned. */
+static void run_turned(void)
+{
+    enum { SIDE = 200 };
+    static const dvec ups[] = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}, {-1, 0, 0}};
+    const char       *path = check_path("square.csg");
+    FILE             *file = fopen(path, "w");
+    shot              first;
+    if (!check_that("E21", file != NULL, "a file can be written"))
+        return;
+    fputs("multmatrix([[0.9563, -0.2924, 0, 0.1], [0.2924, 0.9563, 0, 0.2], [0, 0, 1, 0], [0, 0, 0, 1]]) { cube(size = "
+          "[2.2, 1.6, 1], center = true); }\n",
+          file);
+    fclose(file);
+    for (int k = 0; k < 4; k++) {
+        const shot_view   view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 8}, .up = ups[k], .orthographic = true};
+        const char *const changes[] = {"lines.width", "12px", "lines.colour", "#000000", "lines.cover", "1", NULL};
+        shot              drawing;
+        const bool        drawn =
+            shot_take(&drawing, path, shot_line_look("{\"operator\":\"discontinuity\"}"), changes, &view);
+        double apart = 0, ink = 0;
+        for (int y = 0; y < SIDE && drawn && k; y++)
+            for (int x = 0; x < SIDE; x++) {
+                const int turned[4][2] = {{x, y}, {y, SIDE - 1 - x}, {SIDE - 1 - x, SIDE - 1 - y}, {SIDE - 1 - y, x}};
+                const int own = shot_ink(&drawing, turned[k][0], turned[k][1]), other = shot_ink(&first, x, y);
+                apart += abs(own - other);
+                ink += 255 - other;
+            }
+        if (k) {
+            check_at_most("E21", apart / fmax(ink, 1), 0.0012,
+                          "a solid square, turned by %d quarters: ink that is elsewhere", k);
+            shot_release(&drawing);
+        } else {
+            first = drawing;
+        }
+    }
+    shot_release(&first);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"profiles", run_profiles}, {"corners", run_corners}, {"creases", run_creases}};
-    int                     status = check_main(argc, argv, "line_width", cases, 3);
+    static const check_case cases[] = {
+        {"profiles", run_profiles}, {"corners", run_corners}, {"creases", run_creases}, {"turned", run_turned}};
+    int status = check_main(argc, argv, "line_width", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }

@@ -126,6 +126,51 @@ static void made_normals(void)
     }
 }
 
+/* A normal map of one slant: its x is the way in which u grows, its y that in which v falls, however the map lies and
+ * from whichever side it is seen. */
+static void normal_maps_know_their_axes(void)
+{
+    enum { SIDE = 4 };
+    static const uint8_t texel[4] = {208, 160, 218, 255};
+    static const double  uvs[][2][2] = {
+         {{1, 0}, {0, -1}}, {{0, 1}, {1, 0}}, {{-1, 0}, {0, -1}}, {{0.8, 0.6}, {0.6, -0.8}}};
+    static const dvec eyes[] = {{1.5, 1, 4}, {-1, 2, -4}};
+    for (size_t i = 0; i < 2 * sizeof uvs / sizeof *uvs; i++) {
+        const double(*uv)[2] = uvs[i / 2]; /* of u and v: how they grow to the right and up */
+        const shot_view view = {.width = 96, .height = 96, .eye = eyes[i % 2], .up = {0, 1, 0}};
+        shape           s = {0};
+        shot            drawing;
+        double          worst = 0;
+        int             judged = 0;
+        shape_quad(&s, "wall", 1, 0);
+        shape_part *wall = &s.parts[0];
+        for (int k = 0; k < 4; k++)
+            for (int a = 0; a < 2; a++)
+                wall->uvs[k][a] = (float)(0.5 + 0.3 * (uv[a][0] * (double)wall->positions[k][0] +
+                                                       uv[a][1] * (double)wall->positions[k][1]));
+        wall->texture_size = SIDE;
+        wall->normal_map = check_alloc(SIDE * SIDE, 4);
+        for (int k = 0; k < SIDE * SIDE; k++)
+            memcpy(&wall->normal_map[4 * k], texel, 4);
+        const double x = texel[0] / 127.5 - 1, y = texel[1] / 127.5 - 1, z = texel[2] / 127.5 - 1;
+        const dvec   slanted = dvec_unit(dvec_of(x * uv[0][0] - y * uv[1][0], x * uv[0][1] - y * uv[1][1], z));
+        if (shot_of_shape(&drawing, &s, "slanted.glb", shot_line_look(NULL), NULL, &view)) {
+            const dvec wanted = shot_to_eye(&drawing, slanted, 0);
+            for (int k = 0; k < drawing.width * drawing.height; k++) {
+                if (isinf(drawing.depth[k]))
+                    continue;
+                const dvec found = dvec_from(drawing.normal[k]);
+                judged++;
+                worst = fmax(worst, fmin(dvec_length(dvec_sub(found, wanted)), dvec_length(dvec_add(found, wanted))));
+            }
+        }
+        check_at_least("maps", judged, 500, "normal map %zu from %s: pixels", i / 2, i % 2 ? "behind" : "the front");
+        check_at_most("maps", worst, 0.01, "  normals off by");
+        shot_release(&drawing);
+        shape_release(&s);
+    }
+}
+
 static double normalised(const shot *s, int x, int y)
 {
     return ((double)s->depth[y * s->width + x] - s->near_depth) / (s->far_depth - s->near_depth);
@@ -286,10 +331,15 @@ static void one_pass(void)
 int main(int argc, char **argv)
 {
     static const check_case cases[] = {
-        {"smooth", smooth_shapes},       {"parts", parts_and_placements},
-        {"normals", made_normals},       {"linear", depth_is_linear},
-        {"sphere", sphere_normals},      {"background", background_and_coarse},
-        {"capture", capture_and_report}, {"pass", one_pass},
+        {"smooth", smooth_shapes},
+        {"parts", parts_and_placements},
+        {"normals", made_normals},
+        {"linear", depth_is_linear},
+        {"bumps", normal_maps_know_their_axes},
+        {"sphere", sphere_normals},
+        {"background", background_and_coarse},
+        {"capture", capture_and_report},
+        {"pass", one_pass},
     };
     int status = check_main(argc, argv, "maps", cases, sizeof cases / sizeof *cases);
     shot_end();

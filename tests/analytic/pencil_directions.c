@@ -257,6 +257,38 @@ static void directions_on_smooth_bodies(void)
         }
 }
 
+/* At the page's borders fewer neighbours tell, down to its corners. */
+static void directions_at_the_corners(void)
+{
+    const turn      t = turn_of(0.2, 0.5);
+    const body     *cylinder = &bodies[2];
+    const shot_view view = {
+        .width = 560, .height = 420, .eye = {0, 0, 6}, .up = {0, 1, 0}, .fov_deg = 7, .orthographic = true};
+    shape s = {0};
+    shot  got;
+    add_body(&s, cylinder, &t);
+    if (shot_of_shape(&got, &s, "corners.glb", form_look, NULL, &view) &&
+        check_that("P25", got.direction != NULL, "there is a map of directions")) {
+        double least = 1, most = 0;
+        for (int k = 0; k < 4; k++) {
+            const int    x = k & 1 ? got.width - 2 : 2, y = k & 2 ? got.height - 3 : 1;
+            const float *v = got.direction[(size_t)y * (size_t)got.width + (size_t)x];
+            dvec         p, direction = {0, 0, 0};
+            if (check_that("P25", point_seen(&got, cylinder, &t, x, y, &p) && greatest(cylinder, p, &direction),
+                           "a cylinder is at the corner %d, %d", x, y)) {
+                check_at_most("P25",
+                              off_by(0.5 * atan2((double)v[1], (double)v[0]), seen_angle(&got, &t, p, direction)), 2,
+                              "  degrees by which strokes are off there");
+                least = fmin(least, hypot((double)v[0], (double)v[1]));
+                most = fmax(most, hypot((double)v[0], (double)v[1]));
+            }
+        }
+        check_at_least("P25", least / most, 0.85, "how sure they are at the one corner, over the other");
+    }
+    shot_release(&got);
+    shape_release(&s);
+}
+
 /* --- no direction of their own -------------------------------------------------------------------------------- */
 
 /* A ball, a box and a plane have no greatest curvature; on walls strokes run up, on level roofs along the house,
@@ -392,6 +424,7 @@ static void directions_on_thin_tubes(void)
 
 static const check_case cases[] = {
     {"directions_on_smooth_bodies", directions_on_smooth_bodies},
+    {"directions_at_the_corners", directions_at_the_corners},
     {"directions_where_nothing_bends", directions_where_nothing_bends},
     {"directions_on_a_ball", directions_on_a_ball},
     {"directions_on_thin_tubes", directions_on_thin_tubes},

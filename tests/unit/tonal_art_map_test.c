@@ -412,6 +412,36 @@ static void strokes_are_evenly_spread(void **state)
     }
 }
 
+/* Where strokes that let through lie over each other, the last gaps are looked for along their middles, which are as
+ * wide as strokes are: the darkest tone is even, mean of some seeds. */
+static void the_last_gaps_are_filled(void **state)
+{
+    (void)state;
+    static const float  opacities[] = {0.35f, 0.6f};
+    static const double uneven[] = {0.0235, 0.0435};
+    for (int k = 0; k < 2; k++) {
+        double deviation = 0;
+        for (uint32_t seed = 1; seed <= 3; seed++) {
+            tam_options w = usual(TAM_STRIPS);
+            mip_chain   m;
+            w.opacity = opacities[k];
+            w.seed = seed;
+            assert_int_equal(tonal_art_map(&m, NULL, &w, NULL), LMN_OK);
+            const uint8_t *t = mip_layer(&m, 0, TONES - 1);
+            double         sum = 0, squares = 0;
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                sum += t[i] / 255.0;
+                squares += t[i] / 255.0 * t[i] / 255.0;
+            }
+            sum /= SIDE * SIDE;
+            deviation += sqrt(squares / (SIDE * SIDE) - sum * sum) / 3;
+            mip_chain_release(&m);
+        }
+        printf("    opacity %.2f: tones deviate by %.4f in the darkest\n", (double)opacities[k], deviation);
+        assert_true(deviation < uneven[k]);
+    }
+}
+
 /* How far the steps across a border of 2 x 2 copies are off those inside, in deviations of all lines of one copy.
  * `square`: large steps count more. */
 static double seam_off(const uint8_t *t, int side, bool across, bool square)
@@ -953,6 +983,7 @@ int main(void)
         cmocka_unit_test(lengths_are_what_they_may_be),
         cmocka_unit_test(strokes_have_grain),
         cmocka_unit_test(strokes_are_evenly_spread),
+        cmocka_unit_test(the_last_gaps_are_filled),
         cmocka_unit_test(borders_are_like_the_inside),
         cmocka_unit_test(crosses_from_the_middle),
         cmocka_unit_test(overlaps_darken_less_and_less),

@@ -21,7 +21,10 @@ static const pass passes[] = {
      .shader = "lines/edge/filterable.frag",
      .reads = {TARGET_NORMAL_DEPTH},
      .writes = LINES_FILTERED},
-    {.name = "edges", .shader = "lines/edge/denormal.frag", .reads = {LINES_FILTERED}, .writes = TARGET_EDGE},
+    {.name = "edges",
+     .shader = "lines/edge/denormal.frag",
+     .reads = {LINES_FILTERED, TARGET_DEPTH, TARGET_MEETING},
+     .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
 

@@ -1,5 +1,6 @@
 /* One filtered sample, half a texel off centre so that four normals weigh the same: N·N = cos²(θ/2) for two that differ by θ;
  * out = 1 − 4 (1 − N·N − ε). */
+#define FINDS_MEETINGS
 #include "lines/edge/edge.glsl"
 
 void main()

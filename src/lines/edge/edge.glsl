@@ -27,11 +27,30 @@ float narrowed(float intensity)
 #endif
 }
 
+#include "lines/meeting.glsl"
+
+#if defined(FINDS_MEETINGS) && defined(HAS_MEETING)
+/* Intensity of the two pixels that a surface crosses another between, as wide as operators find lines. */
+float met_intensity()
+{
+    bool met = meets(vec2(1.0, 0.0)) || meets(vec2(-1.0, 0.0)) || meets(vec2(0.0, 1.0)) || meets(vec2(0.0, -1.0));
+    return met ? 1.0 - min(0.5 * u_line_width, 1.0) : 1.0;
+}
+#else
+#define met_intensity() 1.0
+#endif
+
 void write_edges(float profile, float inner, float id)
 {
     profile = narrowed(emphasised(profile));
     inner = narrowed(emphasised(inner));
-    out_edge = vec4(profile, inner, profile * inner, narrowed(emphasised(id)));
+    id = narrowed(emphasised(id));
+#ifdef MEETINGS_ARE_BORDERS
+    id = min(id, met_intensity());
+#else
+    inner = min(inner, met_intensity());
+#endif
+    out_edge = vec4(profile, inner, profile * inner, id);
 }
 
 /* The texel `off` pixels from this one, clamped at the border by the sampler, which costs less than fetching by index. */

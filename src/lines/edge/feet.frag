@@ -23,6 +23,16 @@ vec4 crossing(vec2 side, float depth, float next, vec4 normal_depth)
     return between ? vec4(bend / size, -difference / size, 1.0) : vec4(0.0);
 }
 
+#ifdef HAS_MEETING
+/* The same of the plane of another rule's surface. */
+vec4 crossing_of_meeting(float depth, vec4 normal_depth)
+{
+    vec2 bend = slope_of(normal_depth, gl_FragCoord.xy) - meeting_slope();
+    float size = max(length(bend), 1e-20);
+    return vec4(bend / size, (meeting_depths(vec2(0.0)).y - depth) / size, 1.0);
+}
+#endif
+
 /* Is the pixel on the same side of the boundary as this one? */
 bool is_beside(vec2 off, bool by_depth, float middle, bool own_nearer, uint piece)
 {
@@ -95,6 +105,10 @@ vec4 foot_of(vec4 steps, vec4 creases, vec4 borders, float depth, vec4 beside, v
         float next = dot(one, beside);
         left -= one;
         vec4 crossed = stepped ? vec4(0.0) : crossing(side, depth, next, normal_depth);
+#ifdef HAS_MEETING
+        bool met = !stepped && meets(side);
+        crossed = met ? crossing_of_meeting(depth, normal_depth) : crossed;
+#endif
         bool better = crossed.w > 0.0 && (longest < 1000.0 || abs(crossed.z) < abs(found.z));
         found = better ? crossed : found;
         longest = better ? 1000.0 : longest;

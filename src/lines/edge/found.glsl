@@ -51,12 +51,22 @@ found_edges find_edges()
     for (int once = 0; once < bordered; once++)
         borders *= apart(steps, neighbour(t_normal_depth, vec2(0.0)).xyz, texelFetch(t_id, ivec2(gl_FragCoord.xy), 0).rg);
 #endif
+#ifdef HAS_MEETING
+    int creased = creases != vec4(0.0) ? 1 : 0;
+    bool met = false;
+    for (int once = 0; once < creased; once++)
+        met = meets(vec2(1.0, 0.0)) || meets(vec2(-1.0, 0.0)) || meets(vec2(0.0, 1.0)) || meets(vec2(0.0, -1.0));
+#endif
     vec2 inks = vec2(max(max(creases.x, creases.y), max(creases.z, creases.w)), max(max(borders.x, borders.y), max(borders.z, borders.w)));
 #ifdef HAS_BARE
     /* Records have drawn it already. */
     vec2 bare = texelFetch(t_bare, ivec2(gl_FragCoord.xy), 0).rg;
     profile *= bare.x;
     inks *= bare.y;
+#ifdef HAS_MEETING
+    /* No record has where others' surfaces come through, however near to an edge. */
+    inks.x = met ? 1.0 : inks.x;
+#endif
 #endif
     return found_edges(profile, inks, steps, creases, borders);
 }

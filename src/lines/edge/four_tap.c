@@ -16,7 +16,7 @@ static const pass passes[] = {
     LINES_PASSES_BEFORE,
     {.name = "edges",
      .shader = "lines/edge/four_tap.glsl+lines/edge/detect.frag",
-     .reads = {TARGET_NORMAL_DEPTH},
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_DEPTH, TARGET_MEETING},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };

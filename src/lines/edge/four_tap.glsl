@@ -1,6 +1,7 @@
 /* I_Z = (1 − ½|A−H|)² (1 − ½|C−F|)², I_N = ½ (n(A)·n(H) + n(C)·n(F)). Samples lie half the width off centre: whole offsets
  * need one texel each, others are bilinear, which is what smooths the line. */
 #define OWN_WIDTH
+#define FINDS_MEETINGS
 #include "lines/edge/edge.glsl"
 
 vec4 tap(vec2 off)

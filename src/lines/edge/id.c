@@ -17,7 +17,7 @@ static const param params[] = {
 static const pass passes[] = {
     {.name = "edges",
      .shader = "lines/edge/id.glsl+lines/edge/detect.frag",
-     .reads = {TARGET_ID},
+     .reads = {TARGET_ID, TARGET_DEPTH, TARGET_MEETING},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };

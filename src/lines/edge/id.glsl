@@ -1,4 +1,6 @@
 /* Ink where any of the four diagonal and four straight neighbours inside the width has another id. Ids are never filtered. */
+#define FINDS_MEETINGS
+#define MEETINGS_ARE_BORDERS
 #include "lines/edge/edge.glsl"
 #include "light/piece.glsl"
 

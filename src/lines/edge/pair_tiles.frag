@@ -16,7 +16,11 @@ void main()
             vec4 pairs = texelFetch(t_pairs, ivec2(x, y), 0);
             vec2 ink = pairs.xz + pairs.yw;
 #ifdef HAS_BARE
-            ink = ink.x + ink.y > 0.0 ? ink * texelFetch(t_bare, ivec2(x, y), 0).rg : vec2(0.0);
+            vec2 bare = texelFetch(t_bare, ivec2(x, y), 0).rg;
+#ifdef HAS_MEETING
+            bare.g = 1.0; /* some of these nobody has drawn: found.glsl */
+#endif
+            ink = ink.x + ink.y > 0.0 ? ink * bare : vec2(0.0);
 #endif
             most += ink.x + ink.y;
         }

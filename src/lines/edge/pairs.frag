@@ -34,7 +34,7 @@ struct depth_row {
 };
 
 /* Does depth go on evenly over this pixel and its neighbour? Faces may be only two pixels wide: then as it does on a plane, from there on or before. */
-bool goes_on(depth_row row)
+bool continues(depth_row row)
 {
     vec3 slopes = vec3(row.here, row.next, row.behind) - vec3(row.before, row.here, row.next);
     bool both = even(slopes.x, slopes.y, EVEN) && even(slopes.y, slopes.z, EVEN) && even(slopes.x, slopes.z, EVEN);
@@ -47,7 +47,7 @@ vec2 inner_and_id(vec2 side, vec3 normal, vec3 other, bool turned, vec3 ray, uve
     bool other_turned = dot(other, ray) > 0.0;
     float cosine = dot(normal, other) * (other_turned ? -1.0 : 1.0);
     /* Interpolated normals may pass the rim of what is seen within a face: turned to the viewer, neighbours are opposite there. */
-    cosine *= turned != other_turned && cosine < -GOES_ON && goes_on(row) ? -1.0 : 1.0;
+    cosine *= turned != other_turned && cosine < -GOES_ON && continues(row) ? -1.0 : 1.0;
     float between = 0.0, faint = u_line_faint, crease = u_line_crease;
 #ifdef HAS_ID
     uvec2 other_id = textureLod(t_id, (gl_FragCoord.xy + side) * u_texel, 0.0).rg;
@@ -102,6 +102,10 @@ void main()
 #endif
     vec2 to_right = inner_and_id(vec2(1.0, 0.0), normal, right.xyz, turned, ray, id, across);
     vec2 to_up = inner_and_id(vec2(0.0, 1.0), normal, up.xyz, turned, ray, id, upwards);
+#ifdef HAS_MEETING
+    to_right.x = meets(vec2(1.0, 0.0)) ? 1.0 : to_right.x;
+    to_up.x = meets(vec2(0.0, 1.0)) ? 1.0 : to_up.x;
+#endif
     /* A step exceeds the slope before it by the bend of depth at most: where depth hardly bends there is no profile. */
     float bend = max(abs(across.before + across.next - 2.0 * across.here), abs(upwards.before + upwards.next - 2.0 * upwards.here));
     bool bent = bend > 0.5 * tolerance || max(across.here, max(across.next, upwards.next)) >= 1.0;

@@ -20,7 +20,7 @@ static const pass plain_passes[] = {
     LINES_PASSES_BEFORE,
     {.name = "edges",
      .shader = "lines/edge/saito.glsl+lines/edge/detect.frag",
-     .reads = {TARGET_NORMAL_DEPTH},
+     .reads = {TARGET_NORMAL_DEPTH, TARGET_DEPTH, TARGET_MEETING},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };
@@ -60,7 +60,7 @@ static const pass normalised_passes[] = {
      .writes = LINES_GRADIENT},
     {.name = "normalise",
      .shader = "lines/edge/saito_normalise.frag",
-     .reads = {LINES_GRADIENT, TARGET_NORMAL_DEPTH},
+     .reads = {LINES_GRADIENT, TARGET_NORMAL_DEPTH, TARGET_DEPTH, TARGET_MEETING},
      .writes = TARGET_EDGE},
     LINES_PASSES_BEHIND,
 };

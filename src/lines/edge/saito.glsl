@@ -1,5 +1,6 @@
 /* I0 = 1/8 (|A+2B+C−F−2G−H| + |C+2E+H−A−2D−F|), I1 = 1/3 (8X − A − … − H), on normalised linear depth; 1 − |I| is the map.
  * The pencil weights are equation 3 of Müller: sums of absolute differences to the centre. */
+#define FINDS_MEETINGS
 #include "lines/edge/edge.glsl"
 
 float depth_at(int x, int y)

@@ -1,6 +1,7 @@
 /* The non-linear normalisation that Nienhaus 2005 (4.1) names without a formula: with the neighbourhood's least and greatest gradient
  * the profile becomes max·(1 − min/max)-like: a large jump saturates at one line instead of growing with its height, and inner
  * lines are left out where a jump of the gradient is a profile already, which is what doubles lines. */
+#define FINDS_MEETINGS
 #include "lines/edge/edge.glsl"
 
 void main()

@@ -2,6 +2,7 @@
  * does the sums, on depth and the three normal components at once.
  * five:  means of 2x2 blocks at the corners; Gx = 4 (TR + BR − TL − BL), Gy = 4 (TL + TR − BL − BR) hold exactly.
  * eight: p' = 2 (t2 + t3 − t0 − t1) with samples between two texels, once for each direction. */
+#define FINDS_MEETINGS
 #include "lines/edge/edge.glsl"
 
 vec4 at(vec2 off)
