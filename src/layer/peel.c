@@ -6,6 +6,7 @@
 #include "layer/layer.h"
 
 typedef struct peel_values {
+    bool        complement;
     int32_t     count, producer, memory, evaluation;
     float       fraction;
     param_words focus;
@@ -17,6 +18,8 @@ typedef struct peel_values {
 static const char *const producers[] = {"auto", "peeling", "lists", NULL};
 
 static const param params[] = {
+    PARAM_BOOL_ROW(peel_values, complement, .def = 1, .cpu_only = true,
+                   .doc = "Lines where surfaces of parts that other rules draw cross this rule's, found by their depths."),
     PARAM_INT_ROW(peel_values, count, .def = 5, .min = 0, .max = LAYERS_MAX, .soft_max = 16, .unit = UNIT_COUNT,
                   .cpu_only = true, .doc = "Layers that are drawn at most; 0: all there are, up to 256."),
     PARAM_FLOAT_ROW(
@@ -54,7 +57,7 @@ static const param params[] = {
 static void peel_layering(layering *out, const void *values)
 {
     const peel_values *v = values;
-    *out = (layering){.complement = true,
+    *out = (layering){.complement = v->complement,
                       .evaluation = v->evaluation,
                       .several = true,
                       .count = v->count,

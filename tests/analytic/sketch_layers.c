@@ -340,7 +340,8 @@ static void opaque_amid(void)
         shape               s = {0};
         shot                both, layers, core;
         snprintf(look, sizeof look,
-                 LOOK("{\"select\":\"closed*\",\"surface\":\"flat\"," INK "," ALL_LAYERS
+                 LOOK("{\"select\":\"closed*\",\"surface\":\"flat\"," INK
+                      ",\"layers\":{\"technique\":\"peel\",\"count\":0,\"complement\":false}"
                       ",\"compose\":%s,\"perturb\":%s},"
                       "{\"select\":\"core\",\"layers\":{\"complement\":false},\"surface\":{\"technique\":\"flat\","
                       "\"colour\":\"#ff2010\"}}"),
