@@ -19,7 +19,8 @@ static const char *const producers[] = {"auto", "peeling", "lists", NULL};
 
 static const param params[] = {
     PARAM_BOOL_ROW(peel_values, complement, .def = 1, .cpu_only = true,
-                   .doc = "Lines where surfaces of parts that other rules draw cross this rule's, found by their depths."),
+                   .doc =
+                       "Lines where surfaces of parts that other rules draw cross this rule's, found by their depths."),
     PARAM_INT_ROW(peel_values, count, .def = 5, .min = 0, .max = LAYERS_MAX, .soft_max = 16, .unit = UNIT_COUNT,
                   .cpu_only = true, .doc = "Layers that are drawn at most; 0: all there are, up to 256."),
     PARAM_FLOAT_ROW(

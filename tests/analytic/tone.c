@@ -50,6 +50,27 @@ static double wall(const char *look, double tone)
     return good ? sum : NAN;
 }
 
+/* Each ink has the curve of its own rows of dots: these lie otherwise to the pixels than those of the others, and as
+ * small as here that is a thirtieth of the page. Light tones are of the second ink alone, which covers twice as much as
+ * the tone is dark. */
+static void inks_have_their_own_curves(void)
+{
+    static const char *const angles[] = {"0", "7.5", "45"};
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
+        for (int k = 1; k < 5; k++) {
+            char look[512];
+            snprintf(look, sizeof look,
+                     "{\"version\":2,\"name\":\"two\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
+                     "\"technique\":"
+                     "\"screen\",\"screen\":\"dots\",\"coordinates\":\"screen\",\"inks\":\"two\",\"angle\":%s,"
+                     "\"uneven\":0,\"scale\":"
+                     "2.2,\"ink\":\"#000000\",\"second_ink\":\"#000000\"}}]}",
+                     angles[i]);
+            check_near("tone", wall(look, 0.5 + 0.1 * k), 0.2 * k, 0.01, "second ink at %s degrees, %d fifths bare",
+                       angles[i], k);
+        }
+}
+
 /* From the medium's black to its paper in even steps. */
 static void wedges_are_even(void)
 {
@@ -129,8 +150,9 @@ static void models_have_all_tones(void)
 
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"wedges", wedges_are_even}, {"models", models_have_all_tones}};
-    int                     status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
+    static const check_case cases[] = {
+        {"wedges", wedges_are_even}, {"inks", inks_have_their_own_curves}, {"models", models_have_all_tones}};
+    int status = check_main(argc, argv, "tone", cases, sizeof cases / sizeof *cases);
     shot_end();
     return status;
 }
