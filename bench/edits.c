@@ -4,32 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "limner/limner.h"
+#include "measure.h"
 
 enum { FRAMES = 12, WARM = 2 };
-
-static double ms(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static void must(lmn_status status, const lmn_error *error)
-{
-    if (status == LMN_OK)
-        return;
-    fprintf(stderr, "edits: %s %s\n", error->file, error->message);
-    exit(1);
-}
-
-static int compare(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
 
 static uint32_t first_leaf(const lmn_scene *scene, uint32_t solid, lmn_solid_info *info)
 {
@@ -52,21 +30,21 @@ static void measure(lmn_scene *scene, lmn_renderer *renderer, const char *name, 
     desc.samples = 1;
     for (int i = -WARM; i < FRAMES; i++) {
         lmn_drawing *drawing = NULL;
-        double       matrix[16], cpu_before = ms(CLOCK_PROCESS_CPUTIME_ID), before = ms(CLOCK_MONOTONIC);
+        double matrix[16], cpu_before = measure_ms(CLOCK_PROCESS_CPUTIME_ID), before = measure_ms(CLOCK_MONOTONIC);
         for (int k = 0; k < 16; k++)
             matrix[k] = info.matrix[k];
         matrix[12] += 2 * sin(0.4 * i);
         must(lmn_solid_set_matrix(scene, solid, leaf, matrix, &error), &error);
         must(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error);
         if (i >= 0) {
-            cpu[i] = ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_before;
-            wall[i] = ms(CLOCK_MONOTONIC) - before;
+            cpu[i] = measure_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_before;
+            wall[i] = measure_ms(CLOCK_MONOTONIC) - before;
         }
         lmn_drawing_destroy(&drawing);
     }
     must(lmn_solid_set_matrix(scene, solid, leaf, info.matrix, &error), &error);
-    qsort(cpu, FRAMES, sizeof *cpu, compare);
-    qsort(wall, FRAMES, sizeof *wall, compare);
+    qsort(cpu, FRAMES, sizeof *cpu, measure_compare);
+    qsort(wall, FRAMES, sizeof *wall, measure_compare);
     printf("  %-18s %7.1f %7.1f %7.1f %7.1f\n", name, cpu[0], cpu[FRAMES / 2], wall[FRAMES / 2],
            1e3 / wall[FRAMES / 2]);
     lmn_look_destroy(&look);

@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "limner/limner.h"
+#include "measure.h"
 
 enum { FRAMES = 15, WARM = 2, SETTINGS = 4 };
 
@@ -31,27 +30,6 @@ static const way ways[] = {
     {"hiding: discard", {{"surface.hiding", "discard"}, {"surface.cull", "false"}}},
     {"hiding: alpha", {{"surface.hiding", "alpha"}, {"surface.cull", "false"}}},
 };
-
-static double cpu_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static void must(lmn_status status, const lmn_error *error)
-{
-    if (status == LMN_OK)
-        return;
-    fprintf(stderr, "marks: %s %s\n", error->file, error->message);
-    exit(1);
-}
-
-static int compare(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
 
 /* The first number behind a key in what the report says of marks. */
 static double number_of(const char *json, const char *key)
@@ -79,17 +57,17 @@ static double measure(lmn_scene *scene, lmn_renderer *renderer, const way *w, in
     desc.samples = 1;
     for (int i = -WARM; i < FRAMES; i++) {
         lmn_drawing *drawing = NULL;
-        double       before = cpu_ms();
+        double       before = measure_ms(CLOCK_PROCESS_CPUTIME_ID);
         must(lmn_draw(&drawing, renderer, scene, look, &desc, &error), &error);
         if (i >= 0)
-            cpu[i] = cpu_ms() - before;
+            cpu[i] = measure_ms(CLOCK_PROCESS_CPUTIME_ID) - before;
         char *report = lmn_drawing_report_json(drawing);
         drawn = number_of(report, "\"drawn\":");
         bytes = number_of(report, "\"bytes\":");
         lmn_text_free(report);
         lmn_drawing_destroy(&drawing);
     }
-    qsort(cpu, FRAMES, sizeof *cpu, compare);
+    qsort(cpu, FRAMES, sizeof *cpu, measure_compare);
     printf("  %-18s %7.1f %7.1f %9.0f %7.1f\n", w->name, cpu[0] - without, cpu[FRAMES / 2] - without, drawn,
            1e-6 * bytes);
     lmn_look_destroy(&look);

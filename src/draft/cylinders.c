@@ -114,24 +114,33 @@ static void put_corners(finder *f)
             corner_of(f, f->region[i], k, f->points[f->point_count++]);
 }
 
+static void begin_region(finder *f)
+{
+    f->turn++;
+    f->region_count = 0;
+}
+
+static void add_to_region(finder *f, uint32_t face)
+{
+    f->mark[face] = f->turn;
+    f->region[f->region_count++] = face;
+}
+
 /* Collects the faces around `seed` that lie on the cylinder. */
 static void grow(finder *f, const cylinder_fit *c, uint32_t seed, double tolerance)
 {
     double sign = side_of(f, c, seed);
-    f->turn++;
-    f->region_count = 0;
+    begin_region(f);
     if (!lies_on(f, c, seed, tolerance, sign))
         return;
-    f->mark[seed] = f->turn;
-    f->region[f->region_count++] = seed;
+    add_to_region(f, seed);
     for (size_t i = 0; i < f->region_count; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t other = draft_faces_beside(&f->faces, f->region[i], k);
             if (other == EDGE_NO_FACE || f->mark[other] == f->turn || f->taken[other])
                 continue;
             if (lies_on(f, c, other, tolerance, sign)) {
-                f->mark[other] = f->turn;
-                f->region[f->region_count++] = other;
+                add_to_region(f, other);
             }
         }
     put_corners(f);
@@ -140,18 +149,15 @@ static void grow(finder *f, const cylinder_fit *c, uint32_t seed, double toleran
 /* The faces nearest to a seed, as many as say where an axis is. */
 static void take_patch(finder *f, uint32_t seed, const double *axis)
 {
-    f->turn++;
-    f->region_count = 0;
-    f->mark[seed] = f->turn;
-    f->region[f->region_count++] = seed;
+    begin_region(f);
+    add_to_region(f, seed);
     for (size_t i = 0; i < f->region_count; i++)
         for (int k = 0; k < 3 && f->region_count < PATCH_MOST; k++) {
             uint32_t other = draft_faces_beside(&f->faces, f->region[i], k);
             if (other == EDGE_NO_FACE || f->mark[other] == f->turn || f->taken[other] ||
                 (axis && fabs(vector3_dot(f->faces.normals[other], axis)) > leaning_most))
                 continue;
-            f->mark[other] = f->turn;
-            f->region[f->region_count++] = other;
+            add_to_region(f, other);
         }
     put_corners(f);
 }
@@ -191,10 +197,8 @@ static bool start_at_patch(finder *f, cylinder_fit *c, uint32_t seed)
 static bool start_cone(finder *f, cylinder_fit *c, uint32_t seed, double turn)
 {
     double normals[PATCH_MOST][3];
-    f->turn++;
-    f->region_count = 0;
-    f->mark[seed] = f->turn;
-    f->region[f->region_count++] = seed;
+    begin_region(f);
+    add_to_region(f, seed);
     for (size_t i = 0; i < f->region_count; i++)
         for (int k = 0; k < 3 && f->region_count < PATCH_MOST; k++) {
             uint32_t face = f->region[i], other = draft_faces_beside(&f->faces, face, k);
@@ -203,8 +207,7 @@ static bool start_cone(finder *f, cylinder_fit *c, uint32_t seed, double turn)
             double own = draft_faces_turn(&f->faces, face, other);
             if (own >= flat_turn && fabs(own - turn) > turn_same * turn)
                 continue;
-            f->mark[other] = f->turn;
-            f->region[f->region_count++] = other;
+            add_to_region(f, other);
         }
     put_corners(f);
     for (size_t i = 0; i < f->region_count; i++)

@@ -1,7 +1,5 @@
 /* IFC: assimp makes the shapes, in metres and with openings taken out of what they are in; names, classes and what is
  * missing come from the file's own words (ifc_text.h). */
-#define _GNU_SOURCE /* memmem */
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,6 +7,7 @@
 #include "base/text.h"
 #include "import/assimp_stream.h"
 #include "import/build.h"
+#include "import/exchange_file.h"
 #include "import/ifc_text.h"
 #include "import/stitch.h"
 
@@ -16,15 +15,7 @@ static const double near = 2e-6; /* of a mesh's size: what is one place, after m
 
 static bool recognises(const file_data *file)
 {
-    static const char first[] = "ISO-10303-21";
-    const char       *at = (const char *)file->data, *end = at + (file->size < 65536 ? file->size : 65536);
-    while (at < end && isspace((unsigned char)*at))
-        at++;
-    if ((size_t)(end - at) < sizeof first || memcmp(at, first, sizeof first - 1) != 0)
-        return false;
-    const char *schema = memmem(at, (size_t)(end - at), "FILE_SCHEMA", 11);
-    const char *quote = schema ? memchr(schema, '\'', (size_t)(end - schema)) : NULL;
-    return quote && end - quote >= 4 && strncasecmp(quote + 1, "IFC", 3) == 0;
+    return exchange_file_kind(file) == EXCHANGE_IFC;
 }
 
 /* --- names ---------------------------------------------------------------------------------------------- */

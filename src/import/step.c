@@ -1,6 +1,5 @@
 /* STEP and IGES: a child with OpenCASCADE in it gets the file's bytes and nothing else. It makes triangles of the
  * faces, with their own normals, and lines of the edges; what it answers is checked as if a stranger had sent it. */
-#define _GNU_SOURCE /* memmem */
 #include "import/step.h"
 
 #include <ctype.h>
@@ -14,6 +13,7 @@
 #include "base/work.h"
 #include "fence/fence.h"
 #include "import/build.h"
+#include "import/exchange_file.h"
 #include "import/step_library.h"
 
 /* --- behind the fence ----------------------------------------------------------------------------------- */
@@ -397,18 +397,9 @@ lmn_status step_answer_read(const import_job *job, step_kind kind, const unsigne
 
 /* --- the formats ---------------------------------------------------------------------------------------- */
 
-/* IFC is written in the same way; what it is of stands in the header. */
 static bool is_step(const file_data *file)
 {
-    static const char first[] = "ISO-10303-21";
-    const char       *at = (const char *)file->data, *end = at + (file->size < 65536 ? file->size : 65536);
-    while (at < end && isspace((unsigned char)*at))
-        at++;
-    if ((size_t)(end - at) < sizeof first || memcmp(at, first, sizeof first - 1) != 0)
-        return false;
-    const char *schema = memmem(at, (size_t)(end - at), "FILE_SCHEMA", 11);
-    const char *quote = schema ? memchr(schema, '\'', (size_t)(end - schema)) : NULL;
-    return !quote || end - quote < 4 || strncasecmp(quote + 1, "IFC", 3) != 0;
+    return exchange_file_kind(file) == EXCHANGE_STEP;
 }
 
 /* Lines of 80 letters, of which the 73rd says what they belong to and the last seven count: first the start section. */

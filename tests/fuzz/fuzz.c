@@ -30,6 +30,7 @@ static const fuzz_target targets[] = {
     {"dxf", fuzz_dxf, NULL},
     {"stream", fuzz_stream, NULL},
     {"step", fuzz_step, NULL},
+    {"ifc", fuzz_ifc, NULL},
     {"image", fuzz_image, NULL},
     {"draco", fuzz_draco, NULL},
     {"stx", fuzz_stx, NULL},

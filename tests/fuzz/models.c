@@ -18,6 +18,7 @@
 #include "import/step.h"
 #include "import/footprint.h"
 #include "import/gunzip.h"
+#include "import/ifc_text.h"
 #include "import/obj.h"
 #include "import/retarget.h"
 #include "import/terrain.h"
@@ -290,6 +291,23 @@ static lmn_status read_step_answer(const import_job *job, lmn_error *error)
 void fuzz_step(const uint8_t *bytes, size_t size)
 {
     use(fuzz_read_model(read_step_answer, 'z', bytes, size));
+}
+
+/* What an IFC file says in words; its shapes are read by a library in a process of its own. */
+void fuzz_ifc(const uint8_t *bytes, size_t size)
+{
+    ifc_text text;
+    char    *copy = mem_copy(bytes, size); /* nothing stands behind it */
+    if (copy && ifc_text_read(&text, copy, size, NULL) == LMN_OK) {
+        char name[IFC_GUID + 1] = {0};
+        for (size_t i = 0; i < text.count; i++) {
+            memcpy(name, text.things[i].guid, IFC_GUID);
+            if (!memchr(name, 0, IFC_GUID) && !ifc_text_find(&text, name))
+                abort();
+        }
+        ifc_text_release(&text);
+    }
+    mem_free(copy);
 }
 
 void fuzz_stream(const uint8_t *bytes, size_t size)
