@@ -25,6 +25,9 @@ enum {
  * do, those of what was modelled, whatever triangles it has, less than half as much again. */
 static const double rough_from = 1.9;
 
+static const double DIRECTED = 0.2; /* difference of curvatures over their mean from which one is the greater */
+static const double UNLIKE = 0.2; /* fraction of directions that lie another way over wider discs, of uneven surfaces */
+
 /* Curvature times the model's diagonal: below the first number the surface counts as flat, from ten times that on
  * as bent. */
 static const double flat_below = 0.02;
@@ -228,6 +231,35 @@ static bool choose_scales(const field_surface *s, tensor *values, tensor *flow, 
     return good;
 }
 
+/* Does a bend have a direction at all: is it not the same all around? */
+static bool has_direction(const field_surface *s, size_t e, const tensor *bend)
+{
+    point3 u, v;
+    double a, b;
+    tangents(s->normals[e], &u, &v);
+    tensor_traceless(bend, u, v, &a, &b);
+    return hypot(a, b) > DIRECTED * fabs(tensor_apply(bend, u, u) + tensor_apply(bend, v, v)) / 2;
+}
+
+/* Facets that were rounded and dents turn directions, too: where so many lie another way over a wider disc, the wider
+ * ones are taken everywhere, so that there is no seam between both. */
+static bool calm_down(const field_surface *s, tensor *values, tensor *flow, int more)
+{
+    size_t  count = s->element_count, directed = 0, unlike = 0;
+    tensor *narrow = mem_copy(values, count * sizeof *values);
+    for (int i = 0; i < more && narrow && !work_stopped(); i++)
+        field_smooth(s, values, flow, NULL);
+    for (size_t e = 0; e < count && narrow; e++) {
+        bool counts = has_direction(s, e, &narrow[e]);
+        directed += counts;
+        unlike += counts && !same_cross(s, e, &narrow[e], &values[e]);
+    }
+    if (narrow && count && (double)unlike <= UNLIKE * (double)directed)
+        memcpy(values, narrow, count * sizeof *values);
+    mem_free(narrow);
+    return narrow && !work_stopped();
+}
+
 /* Curvature over discs; *rough: the surface is a scan, or as uneven as one. False when memory is gone. */
 static bool make_bends(const field_surface *s, curvature_job *job, int steps, bool *rough)
 {
@@ -259,7 +291,7 @@ static bool smooth_normals(field_surface *s)
     return sums != NULL;
 }
 
-static lmn_status make_tensors(field_surface *s, double radius, field_values *v, lmn_error *error)
+static lmn_status make_tensors(field_surface *s, double radius, double calm, field_values *v, lmn_error *error)
 {
     curvature_job job = {.surface = s, .triangles = v->flow, .elements = v->tensors, .flat = v->flat};
     int           steps = smoothing_steps(s, radius);
@@ -270,6 +302,9 @@ static lmn_status make_tensors(field_surface *s, double radius, field_values *v,
     if (v->rough && s->cut)
         return LMN_OK;
     if (v->rough && (!choose_scales(s, v->tensors, v->flow, steps) || !smooth_normals(s)))
+        return error_memory(error);
+    int more = calm > 0 ? smoothing_steps(s, calm) - steps : 0;
+    if (!v->rough && more > 0 && !calm_down(s, v->tensors, v->flow, more))
         return error_memory(error);
     threads_for(s->element_count, PIECE, make_directions, &job);
     for (int i = 0; i < STEPS_OF_DIRECTION; i++)
@@ -369,8 +404,8 @@ static bool hand_out(direction_field *out, const primitive *p, const field_surfa
     return out->tensors != NULL;
 }
 
-static lmn_status make_field(direction_field *out, const primitive *p, double feature_angle, double radius, bool *again,
-                             lmn_error *error)
+static lmn_status make_field(direction_field *out, const primitive *p, double feature_angle, double radius, double calm,
+                             bool *again, lmn_error *error)
 {
     field_surface s;
     lmn_status    status = field_surface_make(&s, p, feature_angle, error);
@@ -380,7 +415,7 @@ static lmn_status make_field(direction_field *out, const primitive *p, double fe
     field_values v = {.tensors = mem_alloc(s.element_count * sizeof *v.tensors),
                       .flow = mem_alloc(s.triangle_count * sizeof *v.flow),
                       .flat = mem_calloc(s.element_count, sizeof *v.flat)};
-    status = v.tensors && v.flow && v.flat ? make_tensors(&s, radius, &v, error) : error_memory(error);
+    status = v.tensors && v.flow && v.flat ? make_tensors(&s, radius, calm, &v, error) : error_memory(error);
     *again = status == LMN_OK && v.rough && s.cut;
     field_planes planes = {0};
     if (status == LMN_OK && !*again) {
@@ -398,15 +433,15 @@ static lmn_status make_field(direction_field *out, const primitive *p, double fe
 }
 
 lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,
-                                lmn_error *error)
+                                double calm, lmn_error *error)
 {
     const double none = 4; /* radians */
     bool         again;
     memset(out, 0, sizeof *out);
-    lmn_status status = make_field(out, p, feature_angle, radius, &again, error);
+    lmn_status status = make_field(out, p, feature_angle, radius, calm, &again, error);
     /* What look like features of a scan is noise. */
     if (again)
-        status = make_field(out, p, none, radius, &again, error);
+        status = make_field(out, p, none, radius, calm, &again, error);
     return status;
 }
 

@@ -21,15 +21,16 @@ typedef struct direction_field {
  * than `feature_angle` (radians) lie between; up to 60 degrees these only count where the primitive's normals, if it
  * has any, differ on their two sides). Curvature is measured over discs of about `radius` (model units; 0: three edges,
  * wherever they are short or long; at most about nine mean edges); of scans, which are rough as far as their noise
- * goes, over the smallest of three discs that the next one agrees with, and without features. Over the whole surface
- * crosses are laid that are as smooth as what is sure allows, turn no more often than they must, and stand along
- * features; of the two arms that of the greater bend is taken, else the level one (y is up). Where nothing is sure, the
- * sureness stays below 0.1. A flat piece has one direction: that of what bends around it, else that of its border,
- * along its longer side. Robust on open, non-manifold, degenerate and tiny meshes: never a NaN; vertices that no
- * triangle uses have zeros. Size and position of the model do not matter. One million triangles take less than 3 s on
- * two cores. Errors: LMN_MEMORY. Free with direction_field_release. */
+ * goes, over the smallest of three discs that the next one agrees with, and without features; and of surfaces on which
+ * more than a fifth of all directions lie another way over discs of `calm` (0: nobody asks) over these, everywhere.
+ * Over the whole surface crosses are laid that are as smooth as what is sure allows, turn no more often than they must,
+ * and stand along features; of the two arms that of the greater bend is taken, else the level one (y is up). Where
+ * nothing is sure, the sureness stays below 0.1. A flat piece has one direction: that of what bends around it, else
+ * that of its border, along its longer side. Robust on open, non-manifold, degenerate and tiny meshes: never a NaN;
+ * vertices that no triangle uses have zeros. Size and position of the model do not matter. One million triangles take
+ * less than 3 s on two cores. Errors: LMN_MEMORY. Free with direction_field_release. */
 lmn_status direction_field_make(direction_field *out, const primitive *p, double feature_angle, double radius,
-                                lmn_error *error);
+                                double calm, lmn_error *error);
 void       direction_field_release(direction_field *f);
 
 /* The tensor of a corner (an index of the primitive's indices). */

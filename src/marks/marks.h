@@ -19,6 +19,10 @@ typedef struct mark_surface {
     const uint32_t *indices;             /* three a triangle */
     uint32_t        vertex_count, triangle_count;
     vec3            up; /* of the scene, unit; 0: nobody knows */
+    /* How bright the surface itself is at a place of a triangle, linear, 0 … 1: the mean over so much around it.
+     * NULL: 1 everywhere. */
+    double (*brightness)(const void *of, uint32_t triangle, vec3 at, double around);
+    const void *brightness_of;
 } mark_surface;
 
 /* A dot. It has one priority for light and distance together (EX-31). */
@@ -39,9 +43,12 @@ enum { FLOW_SPACES = 4, FLOW_POINTS_MAX = 8000000 };
 /* An end of a piece of a line that flows. */
 typedef struct flow_end {
     vec3  normal;
-    float drawn;  /* fraction of a grouped stroke that was drawn up to here; one half without groups */
-    float shift;  /* how far the hand is off the line, in its largest errors: −1 … 1, to the left of a to b */
-    float to_end; /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
+    float drawn;   /* fraction of a grouped stroke that was drawn up to here; one half without groups */
+    float bright;  /* of what the line lies on, 0 … 1, linear */
+    float shade;   /* how dark the place is among those of its flat face, −1 … 1; elsewhere 0 */
+    float to_edge; /* along the line to where the surface or its field ends, model units; FLOW_ENDLESS: nowhere */
+    float shift;   /* how far the hand is off the line, in its largest errors: −1 … 1, to the left of a to b */
+    float to_end;  /* along the line to where it runs out, model units; FLOW_ENDLESS: it does not */
     float spaces[FLOW_SPACES]; /* how wide its strip is once its level, and the ones after it, are whole: fractions of
                                   what it would be if all were even; later ones are about 1 */
 } flow_end;
@@ -59,7 +66,7 @@ typedef struct mark_line {
     float    from, to; /* along the stroke, model units, from its beginning */
     float    length;   /* of the whole stroke, model units */
     float    density;  /* length of all strokes there to a unit of area */
-    float    bright;   /* as a dot's */
+    float    bright;   /* as a dot's; of lines that flow, their ends have it */
     uint32_t triangle, stroke;
     flow_end ends[2]; /* of lines that flow: these decide about themselves all along */
     float    rank;    /* the level at which it comes, 0 … */
@@ -279,6 +286,8 @@ float mark_ink_of_strokes(float cover, float darkest, float span, float crowded)
  * the page are as far apart everywhere; their ranks differ by FLOW_UNEVEN, so that ends do not line up. */
 #define FLOW_RAMP   0.5
 #define FLOW_UNEVEN 0.3
+/* How far the longest lines go into what is bare, distances of lines. */
+#define FLOW_SPARSE 14.0
 
 /* How much of the page the lines of a set cover, for a position to be this dark: the first carries it alone up to
  * `crossed`, and what it leaves bare later ones cover alike. `steady`: each but the last goes up to `crossed` only, and
@@ -291,6 +300,12 @@ double mark_flow_swell(const mark_line *line, double uneven);
 /* What a hand makes of it: firm where strokes of a group begin, `pressure` (0 … 1) less where they end, and some groups
  * darker than others, by `patchy` (0 … 1). The mean is 1. */
 double mark_flow_hand(const mark_line *line, const flow_end *end, double pressure, double patchy);
+/* How much of a place lines shall cover on a flat face that gets darker from one side to the other, by `gradient` of
+ * itself: of what is dark, between lines that are white, or they themselves. */
+double mark_flow_gradient(double cover, const flow_end *end, double gradient, bool white);
+/* What is covered where light leaves the page bare: of `sparse` (0 … 1) of all lines so much as the least of them
+ * have, next to edges. `distances`: of lines on the page, to the edge. */
+double mark_flow_sparse(const mark_line *line, double distances, double sparse, double least);
 /* How much is left on a face that has room for so few distances of lines: nothing below half of `room`. */
 double mark_flow_room(double distances, double room);
 /* How much of the width is left so many distances from where a line runs out, which takes `taper`: all where so much is
@@ -328,6 +343,8 @@ typedef struct mark_style {
                                                          which lines run out; most width, in distances; how pointed
                                                          ends are, and the cover from which they are not; unevenness
                                                          of widths. `taper` is in distances of lines */
+    float gradient, sparse, black;       /* mark_flow_gradient, mark_flow_sparse; darkness from which faces without room
+                                            for lines are black; 0: never */
     float pressure, patchy, stray, room; /* mark_flow_hand; how far strokes leave their lines, in distances;
                                             mark_flow_room */
     int32_t series;

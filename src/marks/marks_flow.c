@@ -53,6 +53,20 @@ double mark_flow_hand(const mark_line *line, const flow_end *end, double pressur
     return (1 + pressure * (1 - 2 * (double)end->drawn)) * (1 + patchy * (double)line->group);
 }
 
+double mark_flow_gradient(double cover, const flow_end *end, double gradient, bool white)
+{
+    double by = 1 + gradient * (double)end->shade;
+    return clamped(white ? 1 - (1 - cover) * by : cover * by);
+}
+
+double mark_flow_sparse(const mark_line *line, double distances, double sparse, double least)
+{
+    double whole = (double)line->rank * 61 + line->level * 0.73 + 0.5, own = whole - floor(whole);
+    /* Each of them has another length, and most are short. */
+    double reach = FLOW_SPARSE * own * own / fmax(sparse * sparse, 1e-6);
+    return own < sparse ? 1.6 * least * clamped(1.5 * (1 - distances / fmax(reach, 1e-6))) : 0;
+}
+
 double mark_flow_room(double distances, double room)
 {
     double t = room > 0 ? clamped(2 * distances / room - 1) : 1;

@@ -272,6 +272,12 @@ static vec3 strayed(const pager *g, const mark_line *l, int end)
     return (vec3){at.x + (float)(by * aside[0]), at.y + (float)(by * aside[1]), at.z + (float)(by * aside[2])};
 }
 
+/* Is a face without room for lines black where lines shall cover so much? */
+static bool is_black(const mark_style *style, double cover)
+{
+    return (style->white ? 1 - cover : cover) >= (double)style->black;
+}
+
 /* How wide a line that flows is at an end of a piece, pixels: surface/marks_lines.vert in doubles. */
 static float flow_width(const pager *g, const marks *m, const mark_line *l, int end)
 {
@@ -283,17 +289,24 @@ static float flow_width(const pager *g, const marks *m, const mark_line *l, int 
     double least = (double)g->style->least;
     double across = across_at(g, l, &p, direction), scale = (double)g->style->scale,
            level = log2(fmax(m->apart * across / scale, 1e-6));
-    double cover = mark_cover_of_set((double)darkness_at(g, &p, l->bright), (double)g->style->crossed, l->set,
-                                     g->style->series, g->style->steady) *
+    double dark =
+        mark_flow_gradient((double)darkness_at(g, &p, e->bright), e, (double)g->style->gradient, g->style->white);
+    double cover = mark_cover_of_set(dark, (double)g->style->crossed, l->set, g->style->series, g->style->steady) *
                    mark_flow_swell(l, (double)g->style->swell) *
-                   mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy) *
-                   mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+                   mark_flow_hand(l, e, (double)g->style->pressure, (double)g->style->patchy);
+    double sparse = g->style->sparse > 0 && l->set == 0
+                        ? mark_flow_sparse(l, (double)e->to_edge * across / scale, (double)g->style->sparse, least)
+                        : 0;
+    cover = g->style->white ? fmin(cover, 1 - sparse) : fmax(cover, sparse);
+    double roomy = mark_flow_room((double)l->room * across / scale, (double)g->style->room);
+    cover = roomy * cover + (1 - roomy) * (is_black(g->style, dark) != g->style->white && g->style->black > 0 ? 1 : 0);
     double low = least / (1 + 5 * (double)g->style->fade),
            thin = least > 0 ? fmin(fmax((cover - low) / (least - low), 0), 1) : 1;
     double to_end = (double)e->to_end * across / scale;
     cover *= thin * thin * (3 - 2 * thin);
     double width = mark_flow_width(l, e->spaces, m->apart, m->levels, level, cover) * across;
     double most = g->style->widest < FLOW_ANY_WIDTH ? (double)g->style->widest * scale : INFINITY;
+    most = g->style->black > 0 ? fmin(most, (double)l->room * across) : most;
     return (float)(fmin(width, most) * mark_flow_tip(to_end, (double)g->style->taper, (double)g->style->tip, cover,
                                                      (double)g->style->join));
 }

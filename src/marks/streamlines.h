@@ -24,22 +24,37 @@ static inline d3 d3_unit(d3 v)
 
 /* --- walking over a surface (streamlines_walk.c) -------------------------------------------------------- */
 
+/* A flat face: lines get darker along its way, which is unit, as far as it reaches from its middle. */
+typedef struct flow_plane {
+    d3     middle, way;
+    double reach;
+    double sure; /* 0 … 1: much less where it goes over into what is round */
+} flow_plane;
+
 /* A surface with its field, and how its triangles hang together. */
 typedef struct flow_surface {
     const mark_surface *surface;
-    primitive           mesh;   /* the surface, for who knows only these */
-    uint32_t           *across; /* mesh_adjacency */
-    uint32_t           *bodies; /* per triangle: the first one of those that it hangs together with */
-    float              *rooms;  /* per triangle: how broad its face is, between creases (streamlines_rooms.c) */
+    primitive           mesh;     /* the surface, for who knows only these */
+    uint32_t           *across;   /* mesh_adjacency */
+    uint32_t           *bodies;   /* per triangle: the first one of those that it hangs together with */
+    float              *rooms;    /* per triangle: how broad its face is, between creases (streamlines_rooms.c) */
+    uint32_t           *plane_of; /* per triangle: its flat face, which is at the number of one of its triangles */
+    flow_plane         *planes;
     direction_field     field;
     double              slant; /* by which directions of flat faces are turned, radians */
 } flow_surface;
 
-/* Errors: LMN_MEMORY. Release also after one. */
-lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error *error);
+/* Errors: LMN_MEMORY.
+ * Release also after one. */
+/* `apart`: of lines of level 0, which decides which bends are too small for them; 0: none is. */
+lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, double apart, lmn_error *error);
 void       flow_surface_release(flow_surface *f);
 /* False when memory is gone. */
 bool flow_rooms_make(flow_surface *f);
+bool flow_planes_make(flow_surface *f);
+/* How dark a place is among those of its flat face, −1 … 1, with mean 0; 0 where that is small for lines so far `apart`
+ * (streamlines_planes.c). */
+double flow_shade_at(const flow_surface *f, uint32_t triangle, vec3 at, double apart);
 
 /* A position on a triangle, and which way a walk goes there (unit, in the triangle's plane). */
 typedef struct flow_position {
@@ -98,6 +113,11 @@ void flow_lines_release(flow_lines *l);
 /* Lines of a set: of as many levels as are asked for, each half as far from each other as those of the level before,
  * among which they lie. Errors: LMN_MEMORY, LMN_LIMIT. */
 lmn_status flow_lines_make(flow_lines *out, const flow_surface *f, const flow_options *w, int set, lmn_error *error);
+
+/* Does the edge of its triangle that a point lies on, next to the others, end a face? */
+bool flow_is_at_crease(const flow_surface *f, const flow_point *p);
+/* The triangle that a line lies on from one of its points to the next. */
+uint32_t flow_triangle_between(const flow_surface *f, const flow_point *a, const flow_point *b);
 
 /* --- groups of strokes (streamlines_groups.c) ------------------------------------------------------------ */
 

@@ -13,11 +13,20 @@ enum { POINTS = 256 /* of a piece at most */ };
 
 static const double BENT = 0.966; /* cosine of 15 degrees: normals of a piece differ by no more */
 static const double PIECE = 5;    /* distances of the finest lines that a piece is long at most */
+static const double SHADE = 0.04; /* brightness, as the eye counts it, that pieces may be off */
 /* Of groups, in lengths of strokes. */
 static const double ASKED = 0.03;    /* how often along a line its group is asked for */
 static const double SHORTEST = 0.35; /* of what a border cuts off */
 static const double RAGGED = 0.06;   /* how far beginnings are from their common border */
 static const double FIRM = 5;        /* so many times as fast as it ends, a stroke begins */
+
+/* A point of a stroke, and how bright what it lies on is, as the eye counts it: before it and after it, since it may
+ * lie where one material ends. */
+typedef struct stroke_point {
+    flow_point p;
+    float      before, after;
+    float      shades[2]; /* of its flat face, before and after */
+} stroke_point;
 
 typedef struct flow_cutter {
     marks              *out;
@@ -26,6 +35,8 @@ typedef struct flow_cutter {
     const flow_surface *surface;
     int                 set;
     random_source       random;
+    stroke_point       *points; /* of the stroke that is being cut */
+    size_t              count, capacity;
 } flow_cutter;
 
 /* What a group makes of one of its strokes. */
@@ -42,12 +53,12 @@ static double product(vec3 a, vec3 b)
 }
 
 /* How far the points between two are from the chord, at most. */
-static bool is_straight(const flow_point *p, uint32_t first, uint32_t last, double most)
+static bool is_straight(const stroke_point *p, size_t first, size_t last, double most)
 {
-    d3     a = of(p[first].at), chord = minus(of(p[last].at), a);
+    d3     a = of(p[first].p.at), chord = minus(of(p[last].p.at), a);
     double square = dot(chord, chord);
-    for (uint32_t i = first + 1; i < last; i++) {
-        d3     to = minus(of(p[i].at), a);
+    for (size_t i = first + 1; i < last; i++) {
+        d3     to = minus(of(p[i].p.at), a);
         double part = square > 0 ? dot(to, chord) / square : 0;
         d3     away = minus(to, (d3){part * chord.x, part * chord.y, part * chord.z});
         if (dot(away, away) > most * most)
@@ -56,27 +67,114 @@ static bool is_straight(const flow_point *p, uint32_t first, uint32_t last, doub
     return true;
 }
 
-/* The last point that a piece from `first` may go to. What lies beyond where a line runs out are pieces of their own.
- */
-static uint32_t end_of_piece(const flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t first,
-                             uint32_t end)
+/* Do brightness and shade change evenly from one point to another? */
+static bool is_even(const stroke_point *p, size_t first, size_t last)
 {
-    uint32_t last = first + 1;
-    double   most = c->options->whole ? INFINITY : PIECE * c->options->apart;
-    while (last < end && last - first < POINTS && last != line->ends[0] && last != line->ends[1] &&
-           (double)p[last + 1].arc - (double)p[first].arc < most &&
-           (c->options->whole || product(p[first].normal, p[last + 1].normal) > BENT) &&
-           is_straight(p, first, last + 1, c->options->sag))
+    double from = (double)p[first].after, to = (double)p[last].before, begin = (double)p[first].p.arc,
+           length = (double)p[last].p.arc - begin;
+    for (size_t i = first + 1; i < last; i++) {
+        double even = length > 0 ? from + (to - from) * ((double)p[i].p.arc - begin) / length : from;
+        if (fabs((double)p[i].before - even) > SHADE || fabs((double)p[i].after - even) > SHADE ||
+            fabs((double)p[i].shades[0] - (double)p[i].shades[1]) > SHADE)
+            return false;
+    }
+    return true;
+}
+
+/* The last point that a piece from `first` may go to. What lies beyond where a line runs out (`ends`) are pieces of
+ * their own. */
+static size_t end_of_piece(const flow_cutter *c, const double ends[2], size_t first)
+{
+    const stroke_point *p = c->points;
+    size_t              last = first + 1;
+    double              most = c->options->whole ? INFINITY : PIECE * c->options->apart;
+    while (last + 1 < c->count && last - first < POINTS && (double)p[last].p.arc != ends[0] &&
+           (double)p[last].p.arc != ends[1] && (double)p[last + 1].p.arc - (double)p[first].p.arc < most &&
+           (c->options->whole || product(p[first].p.normal, p[last + 1].p.normal) > BENT) &&
+           is_straight(p, first, last + 1, c->options->sag) && (c->options->whole || is_even(p, first, last + 1)))
         last++;
     return last;
 }
 
-static flow_end end_at(const flow_cutter *c, const flow_line *line, const flow_point *p, double to_end)
+/* As the eye counts it, about. */
+static float seen_brightness(const flow_cutter *c, uint32_t triangle, vec3 at)
 {
-    flow_end e = {.normal = p->normal, .to_end = (float)to_end, .drawn = 0.5f};
+    const mark_surface *s = c->surface->surface;
+    return s->brightness ? (float)sqrt(fmax(s->brightness(s->brightness_of, triangle, at, c->options->apart), 0)) : 1;
+}
+
+static vec3 mixed(vec3 a, vec3 b, float part)
+{
+    return (vec3){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
+}
+
+static bool add_stroke_point(flow_cutter *c, const flow_point *p, uint32_t triangle)
+{
+    if (!mem_grow((void **)&c->points, &c->capacity, c->count + 1, sizeof *c->points))
+        return false;
+    float before = c->count ? seen_brightness(c, triangle, p->at) : 1,
+          shade = (float)flow_shade_at(c->surface, triangle, p->at, c->options->apart);
+    c->points[c->count++] = (stroke_point){*p, before, before, {shade, shade}};
+    return true;
+}
+
+/* The points of a stroke, with so many in between that lines that are far from each other, whose own points are, too,
+ * know the brightness and the light of what they go over. */
+static bool lay_points(flow_cutter *c, const flow_point *p, uint32_t first, uint32_t last)
+{
+    const mark_surface *s = c->surface->surface;
+    double              apart = c->options->apart * (s->brightness ? 1 : PIECE);
+    c->count = 0;
+    if (!add_stroke_point(c, &p[first], p[first].triangle))
+        return false;
+    for (uint32_t i = first; i < last; i++) {
+        const flow_point *a = &p[i], *b = &p[i + 1];
+        uint32_t          triangle = flow_triangle_between(c->surface, a, b);
+        double            steps = c->options->whole ? 1 : ceil(((double)b->arc - (double)a->arc) / apart);
+        c->points[c->count - 1].after = seen_brightness(c, triangle, a->at);
+        c->points[c->count - 1].shades[1] = (float)flow_shade_at(c->surface, triangle, a->at, c->options->apart);
+        for (double k = 1; k <= steps; k++) {
+            float      part = (float)(k / steps);
+            flow_point q = *b;
+            if (k < steps) {
+                q.at = mixed(a->at, b->at, part);
+                q.normal = mixed(a->normal, b->normal, part);
+                q.arc = a->arc + part * (b->arc - a->arc);
+                q.triangle = triangle;
+                for (int n = 0; n < FLOW_SPACES; n++)
+                    q.spaces[n] = a->spaces[n] + part * (b->spaces[n] - a->spaces[n]);
+            }
+            if (!add_stroke_point(c, &q, triangle))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* An end of a piece at a point, after which the piece lies, or before which. */
+static flow_end end_at(const flow_cutter *c, const flow_line *line, const stroke_point *q, double to_end, bool after)
+{
+    const flow_point *p = &q->p;
+    float             seen = after ? q->after : q->before;
+    flow_end          e = {
+                 .normal = p->normal, .to_end = (float)to_end, .drawn = 0.5f, .bright = seen * seen, .shade = q->shades[after]};
     for (int k = 0; k < FLOW_SPACES; k++)
         e.spaces[k] = (float)((double)p->spaces[k] / ldexp(c->lines->apart, -line->level - k));
     return e;
+}
+
+/* How far a point is from the nearer end of its line at which there is no other line in the way; never 0 where the face
+ * goes on, though its field does not, so that nothing is drawn beyond. */
+static double to_edge_of(const flow_cutter *c, const flow_line *line, const flow_point *p, double arc)
+{
+    const flow_point *ends[2] = {&p[0], &p[line->count - 1]};
+    double            away = (double)FLOW_ENDLESS;
+    for (int k = 0; k < 2; k++) {
+        double to_end = fabs((double)ends[k]->arc - arc);
+        if (line->bounded[k] && !line->closed)
+            away = fmin(away, to_end > 0 || flow_is_at_crease(c->surface, ends[k]) ? to_end : 0.01 * c->options->apart);
+    }
+    return away;
 }
 
 /* `part`: of the stroke, along the line. */
@@ -102,6 +200,13 @@ static double to_end_of(const flow_line *line, const flow_point *p, double arc, 
     return away;
 }
 
+/* How broad the face is; and a line from edge to edge has no more room than it is long. */
+static float room_of(const flow_cutter *c, const flow_line *line, const flow_point *p, uint32_t at)
+{
+    float room = c->surface->rooms[p[at].triangle];
+    return line->bounded[0] && line->bounded[1] && !line->closed ? fminf(room, p[line->count - 1].arc) : room;
+}
+
 /* A stroke: the points first … last of a line. */
 static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, uint32_t last, const bool cut[2],
                        const grouped_stroke *g)
@@ -125,26 +230,33 @@ static bool add_stroke(flow_cutter *c, const flow_line *line, uint32_t first, ui
                    .density = (float)(1 / c->options->apart),
                    .bright = 1,
                    .rank = (float)rank,
-                   .room = c->surface->rooms[p[middle].triangle],
+                   .room = room_of(c, line, p, middle),
                    .group = g->tone,
                    .level = line->level,
                    .set = (uint8_t)c->set,
                    .stroke = (uint32_t)m->stroke_count++};
     /* Of those that flow, enough must be looked at for the ones that grow; whole ones get their share later. */
     l.perspective = (float)(1 - exp2(rank - finest - 0.2));
-    size_t begun = m->line_count;
-    for (uint32_t i = first, end; i < last; i = end) {
-        end = end_of_piece(c, line, p, i, last);
+    size_t       begun = m->line_count;
+    const double ends[2] = {(double)p[line->ends[0]].arc, (double)p[line->ends[1]].arc};
+    if (!lay_points(c, p, first, last))
+        return false;
+    for (size_t i = 0, end; i + 1 < c->count; i = end) {
+        end = end_of_piece(c, ends, i);
         if (!mem_grow((void **)&m->lines, &m->line_capacity, m->line_count + 1, sizeof *m->lines))
             return false;
-        l.a = p[i].at;
-        l.b = p[end].at;
-        l.triangle = p[(i + end + 1) / 2].triangle;
-        l.normal = p[(i + end + 1) / 2].normal;
-        l.from = p[i].arc - (float)from;
-        l.to = p[end].arc - (float)from;
-        l.ends[0] = end_at(c, line, &p[i], to_end_of(line, p, (double)p[i].arc, from, to, cut, g));
-        l.ends[1] = end_at(c, line, &p[end], to_end_of(line, p, (double)p[end].arc, from, to, cut, g));
+        const stroke_point *q = c->points, *between = &q[(i + end + 1) / 2];
+        l.a = q[i].p.at;
+        l.b = q[end].p.at;
+        l.triangle = between->p.triangle;
+        l.normal = between->p.normal;
+        l.from = q[i].p.arc - (float)from;
+        l.to = q[end].p.arc - (float)from;
+        for (int k = 0; k < 2; k++) {
+            const stroke_point *at = &q[k ? end : i];
+            l.ends[k] = end_at(c, line, at, to_end_of(line, p, (double)at->p.arc, from, to, cut, g), k == 0);
+            l.ends[k].to_edge = (float)to_edge_of(c, line, p, (double)at->p.arc);
+        }
         for (int k = 0; k < 2 && g->grouped; k++)
             draw_in_group(&l.ends[k], g, (double)(k ? l.to : l.from) / (to - from));
         m->lines[m->line_count++] = l;
@@ -311,6 +423,7 @@ static lmn_status add_set(marks *out, const flow_surface *f, const flow_options 
     }
     if (status == LMN_OK && w->whole && !share_priorities(out, first))
         status = error_memory(error);
+    mem_free(c.points);
     flow_lines_release(&lines);
     return status;
 }
@@ -326,7 +439,7 @@ lmn_status marks_streamlines(marks *out, const mark_surface *s, const flow_optio
     out->sag = w->sag;
     if (!(out->area > 0) || !(w->apart > 0))
         return LMN_OK;
-    lmn_status status = flow_surface_make(&f, s, error);
+    lmn_status status = flow_surface_make(&f, s, w->whole ? 0 : out->apart, error);
     f.slant = (double)w->slant;
     for (int set = 0; set < w->series && status == LMN_OK; set++)
         status = add_set(out, &f, w, set, error);

@@ -11,6 +11,8 @@
 static const double FEATURE = 0.7;     /* radians: edges over which directions do not go on */
 static const double TURNED = 0.64;     /* cosine of 50 degrees: more is another arm */
 static const double BENT_ASIDE = 0.26; /* radians: 15 degrees */
+static const double FOLLOWED = 0.375;  /* distances of the first lines: a hand follows no bend that is smaller */
+static const double SHARP = 0.94;      /* cosine of 20 degrees: edges that are seen */
 static const double HALF_PI = 1.57079632679489662;
 
 /* A triangle laid flat. */
@@ -284,9 +286,43 @@ d3 flow_normal(const flow_surface *f, const flow_position *p)
     return length > 1e-6 ? d3_unit(sum) : t.normal;
 }
 
+/* The least part that a corner of a triangle has in a position. */
+static double least_part(const flow_surface *f, uint32_t triangle, d3 at)
+{
+    flat_triangle t;
+    double        part[3];
+    if (!lay_flat(f, triangle, &t))
+        return -INFINITY;
+    d3 from = minus(at, t.origin);
+    fractions_at(&t, dot(from, t.u), dot(from, t.v), part);
+    /* What lies off its plane is not on it. */
+    return fmin(fmin(part[0], part[1]), part[2]) - fabs(dot(from, t.normal)) / t.x[1];
+}
+
+bool flow_is_at_crease(const flow_surface *f, const flow_point *p)
+{
+    flat_triangle t;
+    double        part[3];
+    if (!lay_flat(f, p->triangle, &t))
+        return false;
+    d3 from = minus(of(p->at), t.origin);
+    fractions_at(&t, dot(from, t.u), dot(from, t.v), part);
+    uint32_t far = part[0] <= part[1] && part[0] <= part[2] ? 0 : part[1] <= part[2] ? 1 : 2;
+    uint32_t other = f->across[3 * p->triangle + (far + 1) % 3];
+    return other == UINT32_MAX || dot(t.normal, flow_face_normal(f, other / 3)) < SHARP;
+}
+
+uint32_t flow_triangle_between(const flow_surface *f, const flow_point *a, const flow_point *b)
+{
+    d3 middle = d3_along(of(a->at), minus(of(b->at), of(a->at)), 0.5);
+    if (a->triangle == b->triangle)
+        return a->triangle;
+    return least_part(f, a->triangle, middle) >= least_part(f, b->triangle, middle) ? a->triangle : b->triangle;
+}
+
 /* --- the surface ---------------------------------------------------------------------------------------- */
 
-lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error *error)
+lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, double apart, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     out->surface = s;
@@ -307,9 +343,9 @@ lmn_status flow_surface_make(flow_surface *out, const mark_surface *s, lmn_error
             group_join(out->bodies, h / 3, out->across[h] / 3);
     for (uint32_t t = 0; t < s->triangle_count; t++)
         out->bodies[t] = group_root(out->bodies, t);
-    if (!flow_rooms_make(out))
+    if (!flow_rooms_make(out) || !flow_planes_make(out))
         return error_memory(error);
-    return direction_field_make(&out->field, &out->mesh, FEATURE, 0, error);
+    return direction_field_make(&out->field, &out->mesh, FEATURE, 0, FOLLOWED * apart, error);
 }
 
 void flow_surface_release(flow_surface *f)
@@ -318,5 +354,7 @@ void flow_surface_release(flow_surface *f)
     mem_free(f->across);
     mem_free(f->bodies);
     mem_free(f->rooms);
+    mem_free(f->plane_of);
+    mem_free(f->planes);
     memset(f, 0, sizeof *f);
 }

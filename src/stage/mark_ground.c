@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "stage/mark_brightness.h"
 #include "stage/mark_ground.h"
 #include "pose/posed_mesh.h"
 
@@ -11,8 +12,9 @@ typedef struct ground_job {
     const pose      *pose;
     const lmn_scene *scene;
     double           crease_angle;
-    size_t           vertex_capacity, normal_capacity, uv_capacity, index_capacity, part_capacity, brightness_capacity;
-    bool             laid_out; /* some part has texture coordinates */
+    size_t           vertex_capacity, normal_capacity, uv_capacity, index_capacity, part_capacity, picture_capacity,
+        tint_capacity, pictured_capacity;
+    bool laid_out; /* some part has texture coordinates */
 } ground_job;
 
 void mark_ground_release(mark_ground *g)
@@ -22,7 +24,9 @@ void mark_ground_release(mark_ground *g)
     mem_free(g->uvs);
     mem_free(g->indices);
     mem_free(g->parts);
-    mem_free(g->brightness);
+    mem_free(g->picture_uvs);
+    mem_free(g->tints);
+    mem_free(g->pictured);
     memset(g, 0, sizeof *g);
 }
 
@@ -36,7 +40,9 @@ static bool make_room(ground_job *j, size_t vertices, size_t triangles)
            mem_grow((void **)&g->uvs, &j->uv_capacity, v, sizeof *g->uvs) &&
            mem_grow((void **)&g->indices, &j->index_capacity, 3 * t, sizeof *g->indices) &&
            mem_grow((void **)&g->parts, &j->part_capacity, t, sizeof *g->parts) &&
-           mem_grow((void **)&g->brightness, &j->brightness_capacity, 3 * t, sizeof *g->brightness);
+           mem_grow((void **)&g->picture_uvs, &j->picture_capacity, v, sizeof *g->picture_uvs) &&
+           mem_grow((void **)&g->tints, &j->tint_capacity, v, sizeof *g->tints) &&
+           mem_grow((void **)&g->pictured, &j->pictured_capacity, t, sizeof *g->pictured);
 }
 
 static double luminance(double r, double g, double b)
@@ -44,39 +50,21 @@ static double luminance(double r, double g, double b)
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 
-/* Of a texture where the picture's own rows count downwards; as shaders look it up, without a filter. */
-static double picture_at(const lmn_scene *scene, const texture_use *use, vec2 uv)
+/* How bright each vertex is but for pictures, and where these are looked up; formats without materials are a light
+ * neutral grey. Returns whether a picture lies on them. */
+static bool add_colours(ground_job *j, const primitive *p, const vertex_arrays *data, uint32_t first)
 {
-    const image *i = use->image >= 0 ? &scene->images[use->image] : NULL;
-    if (!i || !i->pixels)
-        return 1;
-    double c = cos((double)use->rotation), s = sin((double)use->rotation);
-    double x = (double)use->scale[0] * (double)uv.x, y = (double)use->scale[1] * (double)uv.y;
-    double u = c * x + s * y + (double)use->offset[0], v = c * y - s * x + (double)use->offset[1];
-    if (!isfinite(u) || !isfinite(v))
-        return 1;
-    uint32_t column = (uint32_t)((u - floor(u)) * i->width) % i->width,
-             row = (uint32_t)((v - floor(v)) * i->height) % i->height;
-    const uint8_t *p = &i->pixels[4 * ((size_t)row * i->width + column)];
-    return luminance((double)colour_to_linear(p[0] / 255.0f), (double)colour_to_linear(p[1] / 255.0f),
-                     (double)colour_to_linear(p[2] / 255.0f));
-}
-
-/* Of a corner; formats without materials are a light neutral grey. */
-static float brightness_at(const ground_job *j, const primitive *p, const vertex_arrays *data, uint32_t vertex)
-{
-    const material *m = p->material >= 0 ? &j->scene->materials[p->material] : NULL;
+    const material    *m = p->material >= 0 ? &j->scene->materials[p->material] : NULL;
+    const texture_use *use = m && m->base_texture.image >= 0 ? &m->base_texture : NULL;
+    const float       *uvs = use ? data->uvs[use->uv_set ? 1 : 0] : NULL;
     double own = m ? luminance((double)m->base_colour.x, (double)m->base_colour.y, (double)m->base_colour.z) : 0.6;
-    const texture_use *use = m ? &m->base_texture : NULL;
-    if (use && use->image >= 0 && data->uvs[use->uv_set ? 1 : 0]) {
-        const float *uv = &data->uvs[use->uv_set ? 1 : 0][2 * (size_t)vertex];
-        own *= picture_at(j->scene, use, (vec2){uv[0], uv[1]});
+    for (uint32_t i = 0; i < data->vertex_count; i++) {
+        const float *c = data->colours ? &data->colours[4 * (size_t)i] : NULL;
+        double       tint = c ? own * luminance((double)c[0], (double)c[1], (double)c[2]) : own;
+        j->out->tints[first + i] = (float)fmin(fmax(tint, 0), 1);
+        j->out->picture_uvs[first + i] = uvs ? (vec2){uvs[2 * (size_t)i], uvs[2 * (size_t)i + 1]} : (vec2){0, 0};
     }
-    if (data->colours) {
-        const float *c = &data->colours[4 * (size_t)vertex];
-        own *= luminance((double)c[0], (double)c[1], (double)c[2]);
-    }
-    return (float)fmin(fmax(own, 0), 1);
+    return uvs != NULL;
 }
 
 static void add_vertices(ground_job *j, const vertex_arrays *data, const mat4 *world)
@@ -115,13 +103,14 @@ static bool add_primitive(ground_job *j, const primitive *p, const vertex_arrays
     mark_ground *g = j->out;
     double       cofactors[9];
     bool         mirrored = mat4_cofactors(world, cofactors) < 0;
+    bool         pictured = add_colours(j, p, data, first);
     add_vertices(j, data, world);
     for (uint32_t t = 0; t < count; t++, triangle++) {
         g->parts[triangle] = part;
+        g->pictured[triangle] = pictured ? p->material : NONE;
         for (uint32_t c = 0; c < 3; c++) {
             uint32_t vertex = data->indices[3 * (size_t)t + (mirrored && c > 0 ? 3 - c : c)];
             g->indices[3 * (size_t)triangle + c] = first + vertex;
-            g->brightness[3 * (size_t)triangle + c] = brightness_at(j, p, data, vertex);
         }
     }
     g->surface.triangle_count = triangle;
@@ -155,7 +144,7 @@ static lmn_status add_part(ground_job *j, size_t part, lmn_error *error)
 lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *parts, size_t part_count,
                               double crease_angle, lmn_error *error)
 {
-    memset(out, 0, sizeof *out);
+    *out = (mark_ground){.scene = pose->scene};
     ground_job j = {.out = out, .pose = pose, .scene = pose->scene, .crease_angle = crease_angle};
     box3       box = box3_empty();
     for (size_t i = 0; i < part_count; i++)
@@ -179,21 +168,39 @@ lmn_status mark_ground_create(mark_ground *out, const pose *pose, const bool *pa
     return status;
 }
 
+/* Of dots, and of strokes that are drawn whole: the mean along each. Lines that flow have theirs already. */
+static void set_brightness(marks *m, const mark_surface *s)
+{
+    double around = m->dot_count ? sqrt(m->area / (double)m->dot_count) : 0;
+    for (size_t i = 0; i < m->dot_count; i++)
+        m->dots[i].bright = (float)s->brightness(s->brightness_of, m->dots[i].triangle, m->dots[i].position, around);
+    for (size_t i = 0, end; i < m->line_count && !m->flow; i = end) {
+        double sum = 0, length = 0;
+        for (end = i; end < m->line_count && m->lines[end].stroke == m->lines[i].stroke; end++) {
+            const mark_line *l = &m->lines[end];
+            vec3             middle = {(l->a.x + l->b.x) / 2, (l->a.y + l->b.y) / 2, (l->a.z + l->b.z) / 2};
+            double           own = fmax((double)l->to - (double)l->from, 1e-30);
+            sum += own * s->brightness(s->brightness_of, l->triangle, middle, own);
+            length += own;
+        }
+        for (size_t k = i; k < end; k++)
+            m->lines[k].bright = (float)(sum / length);
+    }
+}
+
 lmn_status mark_ground_marks(marks *out, const mark_ground *g, const technique_use *surface, lmn_error *error)
 {
-    lmn_status status = surface->technique->surface->marks->make(out, &g->surface, g->extent, surface->values, error);
-    for (size_t i = 0; status == LMN_OK && i < out->dot_count; i++) {
-        mark_dot    *d = &out->dots[i];
-        const float *b = &g->brightness[3 * (size_t)d->triangle];
-        d->bright = (1 - d->fraction[0] - d->fraction[1]) * b[0] + d->fraction[0] * b[1] + d->fraction[1] * b[2];
-    }
-    for (size_t i = 0; status == LMN_OK && i < out->line_count; i++) {
-        /* A stroke has one brightness, of its first piece; lines that flow have their own all along. */
-        mark_line   *l = &out->lines[i];
-        const float *b = &g->brightness[3 * (size_t)l->triangle];
-        bool         goes_on = i > 0 && l[-1].stroke == l->stroke && !out->flow;
-        l->bright = goes_on ? l[-1].bright : (b[0] + b[1] + b[2]) / 3;
-    }
+    mark_brightness b;
+    mark_surface    s = g->surface;
+    *out = (marks){.dots = NULL};
+    lmn_status status = mark_brightness_make(&b, g, error);
+    s.brightness = mark_brightness_at;
+    s.brightness_of = &b;
+    if (status == LMN_OK)
+        status = surface->technique->surface->marks->make(out, &s, g->extent, surface->values, error);
+    if (status == LMN_OK)
+        set_brightness(out, &s);
+    mark_brightness_release(&b);
     return status;
 }
 

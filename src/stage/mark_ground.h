@@ -11,15 +11,18 @@
 
 /* The triangles of some parts as one surface, in the world's axes, measured from `origin`. */
 typedef struct mark_ground {
-    mark_surface surface;
-    double       origin[3];
-    double       extent; /* diagonal of it all */
-    vec3        *positions, *normals;
-    vec2        *uvs; /* v upwards; 0 in parts that have none */
-    uint32_t    *indices;
-    uint32_t    *parts;      /* per triangle: index of its part */
-    bool         holed;      /* some material has transparent places */
-    float       *brightness; /* per corner of each triangle: of its material, linear, 0 … 1 */
+    mark_surface     surface;
+    double           origin[3];
+    double           extent; /* diagonal of it all */
+    vec3            *positions, *normals;
+    vec2            *uvs; /* v upwards; 0 in parts that have none */
+    uint32_t        *indices;
+    uint32_t        *parts;       /* per triangle: index of its part */
+    bool             holed;       /* some material has transparent places */
+    vec2            *picture_uvs; /* per vertex: where the picture of its material is looked up */
+    float           *tints;       /* per vertex: how bright its own colour is, linear */
+    int32_t         *pictured;    /* per triangle: the material whose picture lies on it; NONE */
+    const lmn_scene *scene;       /* whose materials these are; borrowed */
 } mark_ground;
 
 /* Of the parts with `parts[index]` (NULL: all) in their pose; solids have no triangles. Errors: LMN_MEMORY. */

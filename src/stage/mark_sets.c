@@ -170,7 +170,27 @@ static float packed_group(const mark_line *l)
     return roundf(31 * fminf(fmaxf(l->group, -1), 1)) + 31;
 }
 
-static void write_flow(float (*r)[4], const mark_line *l, float lean)
+/* Numbers of both ends, 0 … 1: twelve bits each, as one number that floats have exactly. */
+static float packed_two(float a, float b)
+{
+    const float most = 4095;
+    return roundf(most * fminf(fmaxf(a, 0), 1)) + (most + 1) * roundf(most * fminf(fmaxf(b, 0), 1));
+}
+
+/* The same of −1 … 1; 0 stays what it is. */
+static float packed_signed(float a, float b)
+{
+    const float half = 2047.0f / 4095;
+    return packed_two(half * (1 + a), half * (1 + b));
+}
+
+/* How far from an edge, of distances of the finest lines: in 256ths of an octave. */
+static float packed_distance(double to_edge, double apart)
+{
+    return (float)(256 * log2(1 + to_edge / apart) / 4095);
+}
+
+static void write_flow(float (*r)[4], const mark_line *l, float lean, double apart)
 {
     const flow_end *a = &l->ends[0], *b = &l->ends[1];
     memcpy(r[0], (float[]){l->a.x, l->a.y, l->a.z, l->rank}, sizeof *r);
@@ -178,8 +198,14 @@ static void write_flow(float (*r)[4], const mark_line *l, float lean)
     put_normal(r[2], a->normal, lean);
     r[2][3] = packed_spaces(a);
     memcpy(r[3], (float[]){b->normal.x, b->normal.y, b->normal.z, packed_spaces(b)}, sizeof *r);
-    memcpy(r[4], (float[]){a->to_end, b->to_end, l->bright, l->room}, sizeof *r);
-    memcpy(r[5], (float[]){a->drawn, b->drawn, a->shift, b->shift}, sizeof *r);
+    memcpy(r[4],
+           (float[]){a->to_end, b->to_end, packed_two(sqrtf(fmaxf(a->bright, 0)), sqrtf(fmaxf(b->bright, 0))), l->room},
+           sizeof *r);
+    memcpy(
+        r[5],
+        (float[]){packed_two(a->drawn, b->drawn), packed_signed(a->shift, b->shift), packed_signed(a->shade, b->shade),
+                  packed_two(packed_distance((double)a->to_edge, apart), packed_distance((double)b->to_edge, apart))},
+        sizeof *r);
 }
 
 static void write_records(char *out, size_t size, const marks *m, const mark_clusters *c, bool packed)
@@ -190,7 +216,7 @@ static void write_records(char *out, size_t size, const marks *m, const mark_clu
         if (packed)
             pack_line(record, l, c->leans[i]);
         else if (m->flow)
-            write_flow(record, l, c->leans[i]);
+            write_flow(record, l, c->leans[i], ldexp(m->apart, 1 - m->levels));
         else
             write_line(record, l, c->leans[i]);
     }

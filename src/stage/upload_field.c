@@ -162,7 +162,7 @@ lmn_status upload_with_field(const upload *u, gpu *g, const upload_part_job *job
     primitive       p = primitive_of(v);
     direction_field field = {0};
     lapped_mesh     patches = {0};
-    lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, error);
+    lmn_status      status = direction_field_make(&field, &p, u->crease_angle > 0 ? u->crease_angle : 0.5, 0, 0, error);
     float(*tensors)[6] = status == LMN_OK ? tensors_of(&field, &p) : NULL;
     if (status == LMN_OK && (!tensors || (v->at_rest && !carry_tensors(tensors, &p, v->now))))
         status = error_memory(error);

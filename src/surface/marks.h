@@ -64,7 +64,7 @@ typedef struct surface_lines_values {
     int32_t     series;
     bool        steady;
     float scale, length, uneven, groups, overlap, pressure, patchy, stray, turn, slant, crossed, room, least, widest,
-        taper, tip, join, swell, solid;
+        taper, tip, join, swell, solid, gradient, sparse, black;
 } surface_lines_values;
 
 typedef enum stroke_placing { PLACED_FORM, PLACED_PLANES, PLACED_UV, PLACED_GRASS } stroke_placing;

@@ -47,6 +47,15 @@ static const param params[] = {
     PARAM_FLOAT_ROW(surface_lines_values, room, .toggles = true, .def = 0, .min = 0, .max = 20, .soft_max = 6,
                     .doc = "Faces that are narrower than this, in distances of lines, have fewer, and none below half "
                            "of it; 0: however narrow they are."),
+    PARAM_FLOAT_ROW(surface_lines_values, black, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .only_if = "room>0",
+                    .doc = "Darkness from which faces without room for lines are black instead of bare; 0: never."),
+    PARAM_FLOAT_ROW(
+        surface_lines_values, gradient, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+        .doc = "How much flat faces, which light alone leaves even, are darker on one side, upwards if they "
+               "stand, and lighter on the other."),
+    PARAM_FLOAT_ROW(surface_lines_values, sparse, .toggles = true, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
+                    .doc = "Fraction of lines that go a little way from edges into what is bare."),
     PARAM_FLOAT_ROW(surface_lines_values, least, .def = 0.08, .min = 0, .max = 0.5, .unit = UNIT_FRACTION,
                     .doc = "Width, fraction of their distance, below which lines run out."),
     PARAM_FLOAT_ROW(surface_lines_values, widest, .def = 2, .min = 0.05, .max = 2, .soft_max = 1, .unit = UNIT_FRACTION,

@@ -1,8 +1,10 @@
 /* A piece of an engraved line. Whether it is hidden is asked at its axis, so that its own surface does not cut its sides off. Pieces end straight across, so that where two meet nothing is inked twice. */
 
 flat in vec3 v_normal;
-flat in vec4 v_ends, v_depths;
+flat in vec4 v_ends, v_depths; /* as in marks_lines.vert */
 in float v_half_width;
+
+const float ANOTHER_FACE = 0.5; /* cosine between normals below which it is one */
 
 layout(location = 0) out vec4 out_shade;
 
@@ -20,23 +22,34 @@ float depth_beside(float depth, vec2 axis, vec2 middle)
     return depth + dot(v_normal.xy, beside.xy - ray.xy) / max(v_normal.z, 0.02);
 }
 
-void main()
+/* Is the line's surface seen at its axis, and beside it here? Its sides end where something else begins, and where its face does. */
+float seen_of(float at, float half_width)
 {
-    vec2 chord = v_ends.zw - v_ends.xy, from = gl_FragCoord.xy - v_ends.xy;
-    float size = max(length(chord), 1e-3), along = dot(from, chord) / size, off = abs(from.x * chord.y - from.y * chord.x) / size;
-    float at = clamp(along / size, 0.0, 1.0), depth = mix(v_depths.x, v_depths.y, at), tolerance = v_depths.z;
+    vec2 axis = mix(v_ends.xy, v_ends.zw, at), pixel = clamp(floor(axis), vec2(0.0), u_size - 1.0); /* of lines whose axis is off the page, the nearest one on it */
+    float depth = mix(v_depths.x, v_depths.y, at), tolerance = v_depths.z;
     if (u_perspective > 0.5) {
         depth = 1.0 / depth;
         tolerance *= depth;
     }
-    vec2 axis = v_ends.xy + at * chord, pixel = clamp(floor(axis), vec2(0.0), u_size - 1.0); /* of lines whose axis is off the page, the nearest one on it */
-    vec4 seen = texelFetch(t_normal_depth, ivec2(pixel), 0);
-    depth = depth_beside(depth, axis, pixel + 0.5);
+    vec4 seen = texelFetch(t_normal_depth, ivec2(pixel), 0), here = texelFetch(t_normal_depth, ivec2(gl_FragCoord.xy), 0);
+    /* Far from its own depth only what is turned as it is can be its surface. */
+    float like = dot(seen.xyz, v_normal), there = step(abs(seen.w - depth_beside(depth, axis, pixel + 0.5)), tolerance * clamp(2.0 * like, 0.15, 1.0));
+    float beside = step(abs(here.w - depth_beside(depth, axis, gl_FragCoord.xy)), (2.0 + half_width) * tolerance);
+    return there * beside * step(ANOTHER_FACE, dot(here.xyz, v_normal));
+}
+
+void main()
+{
+    vec2 chord = v_ends.zw - v_ends.xy, from = gl_FragCoord.xy - v_ends.xy;
+    float size = max(length(chord), 1e-3), along = dot(from, chord) / size, off = abs(from.x * chord.y - from.y * chord.x) / size;
     float half_width = max(v_half_width, 0.0);
     float reach = clamp(half_width - 0.25, 0.0, 0.5); /* where two wide pieces meet no seam is left, where thin ones do nothing is inked twice */
-    float cover = clamp(min(along, size - along) + reach + 0.5, 0.0, 1.0) * clamp(half_width + 0.5 - off, 0.0, min(2.0 * half_width, 1.0));
-    /* Far from its own depth only what is turned as it is can be its surface. */
-    float like = dot(seen.xyz, v_normal);
-    cover *= step(abs(seen.w - depth), tolerance * clamp(2.0 * like, 0.15, 1.0));
+    /* A line that ends at an edge goes on as far as the edge, which the pixels tell: its axis is asked a little before. */
+    vec2 edges = vec2(mod(v_depths.w, 2.0), step(1.5, v_depths.w)), before = edges * min(0.75 / size, 0.5);
+    vec2 ends = vec2(along, size - along) + mix(vec2(reach), vec2(half_width + 0.5), edges);
+    float cover = clamp(min(ends.x, ends.y) + 0.5, 0.0, 1.0) * clamp(half_width + 0.5 - off, 0.0, min(2.0 * half_width, 1.0));
+    int wanted = cover > 0.0 ? 1 : 0; /* looking things up takes most of the time */
+    for (int once = 0; once < wanted; once++)
+        cover *= seen_of(clamp(along / size, before.x, 1.0 - before.y), half_width);
     out_shade = vec4(u_ink.rgb, 1.0) * (u_ink.a * cover);
 }

@@ -5,17 +5,17 @@ layout(location = 0) in vec4 a_from;        /* the level at which it comes */
 layout(location = 1) in vec4 a_to;          /* its own level + 32 times the number of its set + 128 times how dark its group is, 0 ... 62 */
 layout(location = 2) in vec4 a_from_normal; /* how wide its strip is at four levels, packed */
 layout(location = 3) in vec4 a_to_normal;
-layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model, how broad its face is */
-layout(location = 5) in vec4 a_group;       /* fractions of the stroke drawn up to both ends, how far they are off the line */
+layout(location = 4) in vec4 a_along;       /* how far both ends are from where the line runs out, brightness of the model at both, packed, how broad its face is */
+layout(location = 5) in vec4 a_group;       /* of both ends, packed: fraction of the stroke drawn, how far off the line, shade on a flat face, how far from an edge */
 
 uniform float u_near_plane, u_levels, u_apart, u_sag; /* distance of the first level; how far pieces leave the surface */
 
 flat out vec3 v_normal; /* of its surface, towards the viewer */
 flat out vec4 v_ends;    /* of the piece, pixels */
-flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth) */
+flat out vec4 v_depths;  /* 1 / depth of both ends (or depth), tolerance as fraction of the depth (or as depth), which ends lie on an edge: 1 the first + 2 the second */
 out float v_half_width;
 
-const float RAMP = 0.5, UNEVEN = 0.3;
+const float RAMP = 0.5, UNEVEN = 0.3, SPARSE = 14.0;
 
 vec4 spaces_of(float packed_spaces)
 {
@@ -74,8 +74,45 @@ float tip_at(float to_end, float cover)
     return mix(left, 1.0, smoothstep(0.5 * u_join, u_join, cover));
 }
 
+/* One of two numbers, 0 ... 1, that belong to the piece's ends. */
+float of_end(float packed_numbers, bool at_end)
+{
+    float second = floor(packed_numbers / 4096.0);
+    return (at_end ? second : packed_numbers - 4096.0 * second) / 4095.0;
+}
+
+/* The same, −1 ... 1. */
+float signed_of_end(float packed_numbers, bool at_end)
+{
+    return of_end(packed_numbers, at_end) * (4095.0 / 2047.0) - 1.0;
+}
+
+/* Distances of the finest lines from the edge. */
+float to_edge_of(bool at_end)
+{
+    return exp2(of_end(a_group.w, at_end) * 4095.0 / 256.0) - 1.0;
+}
+
+/* Darker by so much where strokes are dark; where they are light, it is the dark between them that changes. */
+float graded(float cover, float by)
+{
+    return clamp(strokes_are_light() ? 1.0 - (1.0 - cover) * by : cover * by, 0.0, 1.0);
+}
+
+float with_sparse(float cover, float ink)
+{
+    return strokes_are_light() ? min(cover, 1.0 - ink) : max(cover, ink);
+}
+
+/* What is covered next to edges where light leaves the page bare: marks/marks_flow.c. */
+float sparse_at(float distances, float own)
+{
+    float line = fract(a_from.w * 61.0 + own * 0.73 + 0.5), reach = SPARSE * line * line / max(u_sparse * u_sparse, 1e-6);
+    return line < u_sparse ? 1.6 * u_least * clamp(1.5 * (1.0 - distances / max(reach, 1e-6)), 0.0, 1.0) : 0.0;
+}
+
 /* Half the width of the line at an end, pixels. */
-float half_width_at(mark_position m, vec3 direction, float spaces, float to_end, float drawn)
+float half_width_at(mark_position m, vec3 direction, float spaces, float to_end, bool at_end)
 {
     float group = floor(a_to.w / 128.0), set = floor(a_to.w / 32.0) - 4.0 * group, own = a_to.w - 128.0 * group - 32.0 * set;
     float across = across_on_page(m, direction), level = log2(max(u_apart * across / u_scale, 1e-6));
@@ -83,13 +120,27 @@ float half_width_at(mark_position m, vec3 direction, float spaces, float to_end,
         return 0.0;
     float strip = strip_of(own, a_from.w, spaces_of(spaces), level) * u_apart * across;
     float swell = fract(a_from.w * 97.0 + own * 0.37) - 0.5;
-    float cover = cover_of_set(darkness_at(m, a_along.z), set) * (1.0 + u_swell * swell);
-    cover *= (1.0 + u_pressure * (1.0 - 2.0 * drawn)) * (1.0 + u_patchy * (group / 31.0 - 1.0));
+    float bright = of_end(a_along.z, at_end), dark = darkness_at(m, bright * bright);
+#ifdef WITH_GRADIENT
+    dark = graded(dark, 1.0 + u_gradient * signed_of_end(a_group.z, at_end));
+#endif
+    float cover = cover_of_set(dark, set) * (1.0 + u_swell * swell);
+    cover *= (1.0 + u_pressure * (1.0 - 2.0 * of_end(a_group.x, at_end))) * (1.0 + u_patchy * (group / 31.0 - 1.0));
+#ifdef WITH_SPARSE
+    if (set < 0.5)
+        cover = with_sparse(cover, sparse_at(to_edge_of(at_end) * exp2(1.0 - u_levels) * u_apart * across / u_scale, own));
+#endif
+    float most = u_widest < 2.0 ? u_widest * u_scale : 1e9;
 #ifdef WITH_ROOM
-    cover *= smoothstep(0.5 * u_room, u_room, a_along.w * across / u_scale);
+    float roomy = smoothstep(0.5 * u_room, u_room, a_along.w * across / u_scale);
+    cover *= roomy;
+#ifdef WITH_BLACK
+    cover += (1.0 - roomy) * (strokes_are_light() ? step(1.0 - dark, u_black) : step(u_black, dark));
+    most = min(most, a_along.w * across);
+#endif
 #endif
     cover *= smoothstep(u_least / (1.0 + 5.0 * u_fade), u_least, cover);
-    return 0.5 * min(strip * cover, u_widest < 2.0 ? u_widest * u_scale : 1e9) * tip_at(to_end * across / u_scale, cover);
+    return 0.5 * min(strip * cover, most) * tip_at(to_end * across / u_scale, cover);
 }
 
 /* Where the hand puts an end: beside the line, by so many distances; marks/marks_page.c. */
@@ -128,11 +179,11 @@ bool is_back(mark_position m)
 
 void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
 {
-    float half_width = half_width_at(m, normalize(to - from + vec3(1e-30)), at_end ? a_to_normal.w : a_from_normal.w, at_end ? a_along.y : a_along.x, at_end ? a_group.y : a_group.x);
+    float half_width = half_width_at(m, normalize(to - from + vec3(1e-30)), at_end ? a_to_normal.w : a_from_normal.w, at_end ? a_along.y : a_along.x, at_end);
 #ifdef WITH_STRAY
     vec3 before = from;
-    from = strayed(from, a_from_normal.xyz, to - before, a_group.z);
-    to = strayed(to, a_to_normal.xyz, to - before, a_group.w);
+    from = strayed(from, a_from_normal.xyz, to - before, signed_of_end(a_group.y, false));
+    to = strayed(to, a_to_normal.xyz, to - before, signed_of_end(a_group.y, true));
 #endif
     if (u_perspective > 0.5 && !clip_near(from, to))
         return;
@@ -143,10 +194,13 @@ void put_corner(mark_position m, vec3 from, vec3 to, bool at_end)
     float tolerance = max(0.75, 0.5 + sag) + max(0.5, sag) * steepness(m);
     v_normal = m.facing < 0.0 ? -m.normal : m.normal;
     v_ends = vec4(a, b);
-    v_depths = vec4(u_perspective > 0.5 ? -1.0 / from.z : -from.z, u_perspective > 0.5 ? -1.0 / to.z : -to.z, tolerance / u_focal, 0.0);
+    v_depths = vec4(u_perspective > 0.5 ? -1.0 / from.z : -from.z, u_perspective > 0.5 ? -1.0 / to.z : -to.z, tolerance / u_focal,
+                    (to_edge_of(false) > 0.0 ? 0.0 : 1.0) + (to_edge_of(true) > 0.0 ? 0.0 : 2.0));
     v_half_width = half_width;
     vec2 corner = vec2(float(gl_VertexID & 1), float((gl_VertexID >> 1) & 1)) * 2.0 - 1.0;
-    vec2 at = (at_end ? b : a) + direction * corner.x + aside * corner.y * (max(half_width, 0.5) + 0.75);
+    float aside_by = half_width > 0.0 ? max(half_width, 0.5) + 0.75 : 0.0; /* of pieces without any width nothing is drawn */
+    float past = to_edge_of(at_end) > 0.0 ? 1.0 : max(half_width, 1.0); /* up to the edge, which may lie askew */
+    vec2 at = (at_end ? b : a) + direction * (corner.x * past) + aside * (corner.y * aside_by);
     gl_Position = vec4(at / u_size * 2.0 - 1.0, 0.0, 1.0);
 }
 

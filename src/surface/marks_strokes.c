@@ -389,6 +389,9 @@ bool surface_mark_style(mark_style *out, const technique_use *use)
         out->patchy = l->patchy;
         out->stray = l->stray;
         out->room = l->room;
+        out->gradient = l->gradient;
+        out->sparse = l->sparse;
+        out->black = l->room > 0 ? l->black : 0;
         out->series = l->series;
         out->steady = l->steady;
     } else {

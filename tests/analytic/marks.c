@@ -9,6 +9,7 @@
 #include "check.h"
 #include "halftone_scenes.h"
 #include "picture.h"
+#include "shape.h"
 
 enum { SIDE = 288, CELLS = 12, STROKES = CELLS * CELLS };
 
@@ -692,12 +693,64 @@ static void rims(void)
     shot_release(&without);
 }
 
+/* How near to a pixel another part is seen: 1 beside it, 3 within three pixels, 9: neither. */
+static int other_part_near(const shot *s, int x, int y)
+{
+    uint16_t own = s->id[y * s->width + x];
+    for (int reach = 1; reach <= 3; reach += 2)
+        for (int k = 0; k < (2 * reach + 1) * (2 * reach + 1); k++) {
+            int nx = x + k % (2 * reach + 1) - reach, ny = y + k / (2 * reach + 1) - reach;
+            if (nx >= 0 && ny >= 0 && nx < s->width && ny < s->height && s->id[ny * s->width + nx] != own)
+                return reach;
+        }
+    return 9;
+}
+
+/* Wide lines of a dark wall end where a white plate, which stands askew before it, begins: none lies over the plate,
+ * and none ends before. */
+static void sides(void)
+{
+    static const char *const look =
+        "{\"version\":2,\"name\":\"sides\",\"finish\":{\"ground\":\"#ffffff\"},\"rules\":[{\"surface\":{"
+        "\"technique\":\"lines\",\"scale\":7,\"series\":1,\"ink\":\"#000000\",\"shadow\":1,\"light\":1,"
+        "\"texture\":1}}]}";
+    shape     model = {0};
+    shot      s;
+    double    over = 0, near = 0, far = 0;
+    int       inside = 0, nears = 0, fars = 0;
+    shot_view view = {.width = SIDE, .height = SIDE, .eye = {0, 0, 5}, .up = {0, 1, 0}, .orthographic = true};
+    shape_quad(&model, "wall", 2, 0);
+    model.parts[0].colour[0] = model.parts[0].colour[1] = model.parts[0].colour[2] = 0.2f;
+    shape_quad(&model, "plate", 0.9, 0);
+    shape_place(&model, (dvec){0, 0, 1}, 27, (dvec){0, 0, 1});
+    model.parts[1].colour[0] = model.parts[1].colour[1] = model.parts[1].colour[2] = 1;
+    if (shot_of_shape(&s, &model, "sides.glb", look, NULL, &view)) {
+        for (int y = 8; y < SIDE - 8; y++)
+            for (int x = 8; x < SIDE - 8; x++) {
+                int    part = s.id[y * SIDE + x], where = other_part_near(&s, x, y);
+                double ink = halftone_ink(&s, x, y);
+                inside += part == 2 && where > 1;
+                over += part == 2 && where > 1 ? ink : 0;
+                nears += part == 1 && where == 3;
+                near += part == 1 && where == 3 ? ink : 0;
+                fars += part == 1 && where == 9;
+                far += part == 1 && where == 9 ? ink : 0;
+            }
+        check_that("EX-12", inside > 5000 && nears > 300 && fars > 5000, "%d, %d, %d pixels", inside, nears, fars);
+        check_at_most("EX-12", over, 0.5, "pixels of ink over what stands before a wall");
+        check_near("EX-12", near / nears, far / fars, 0.03, "covered of the wall beside it, and farther on");
+        shot_release(&s);
+    }
+    shape_release(&model);
+}
+
 int main(int argc, char **argv)
 {
-    static const check_case cases[] = {{"light", light},           {"vectors", vectors},       {"white", white},
-                                       {"distance", distance},     {"darkest", darkest},       {"uncut", uncut},
-                                       {"whole", whole},           {"around", around},         {"joints", joints},
-                                       {"near-plane", near_plane}, {"indication", indication}, {"rims", rims}};
+    static const check_case cases[] = {
+        {"light", light},     {"vectors", vectors},       {"white", white},           {"distance", distance},
+        {"darkest", darkest}, {"uncut", uncut},           {"whole", whole},           {"around", around},
+        {"joints", joints},   {"near-plane", near_plane}, {"indication", indication}, {"rims", rims},
+        {"sides", sides}};
     halftone_begin_kept("marks");
     int status = check_main(argc, argv, "marks", cases, sizeof cases / sizeof *cases);
     shot_end();

@@ -9,7 +9,7 @@
 static direction_field make_field(const primitive *p)
 {
     direction_field f;
-    assert_int_equal(direction_field_make(&f, p, 0.8, 0, NULL), LMN_OK);
+    assert_int_equal(direction_field_make(&f, p, 0.8, 0, 0, NULL), LMN_OK);
     return f;
 }
 
@@ -216,7 +216,7 @@ static void check_anything(primitive p)
     for (int i = 0; i < 3; i++) {
         const double    features[3] = {0, 0.8, 4}, radii[3] = {0, 1e9, 1e-9};
         direction_field f;
-        assert_int_equal(direction_field_make(&f, &p, features[i], radii[i], NULL), LMN_OK);
+        assert_int_equal(direction_field_make(&f, &p, features[i], radii[i], 0, NULL), LMN_OK);
         check_tensors(&p, &f, false);
         direction_field_release(&f);
     }
@@ -545,6 +545,36 @@ static void noise_is_looked_through(void **state)
     }
 }
 
+/* Facets that were rounded, and dents: ripples eight edges long, as steep as the form itself bends. Over wide discs the
+ * form is seen through them; and what has none stays as it is, to the last bit. */
+static void ripples_are_looked_through(void **state)
+{
+    (void)state;
+    const place3    axes = {3, 2, 1};
+    primitive       p = ball(60, 0, axes);
+    double          median[2], most[2];
+    direction_field even[2];
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(direction_field_make(&even[i], &p, 0.8, 0, i ? 1 : 0, NULL), LMN_OK);
+    assert_memory_equal(even[0].tensors, even[1].tensors, even[0].tensor_count * sizeof *even[0].tensors);
+    for (uint32_t v = 0; v < p.vertex_count; v++) {
+        vec3  at = p.positions[v];
+        float by = 1 + 0.015f * sinf(8 * at.x + 1) * sinf(8 * at.y + 2) * sinf(8 * at.z + 3);
+        p.positions[v] = (vec3){by * at.x, by * at.y, by * at.z};
+    }
+    for (int i = 0; i < 2; i++) {
+        direction_field f;
+        assert_int_equal(direction_field_make(&f, &p, 0.8, 0, i ? 1 : 0, NULL), LMN_OK);
+        measure_field(&p, &f, ellipsoid_truth, false, false, &median[i], &most[i]);
+        direction_field_release(&f);
+        direction_field_release(&even[i]);
+    }
+    printf("ellipsoid with ripples: median %.2f, 95 %% %.2f degrees; calm %.2f, %.2f\n", median[0], most[0], median[1],
+           most[1]);
+    assert_true(median[1] < 0.5 * median[0] && most[1] < 0.7 * most[0]);
+    primitive_release(&p);
+}
+
 /* A bar of an L's section whose inner corner is rounded off, as machined parts are: columns around, then both ends. */
 static primitive machined_bar(void)
 {
@@ -699,11 +729,11 @@ static void shading_says_what_is_an_edge(void **state)
         primitive       coarse = icosahedron(normals), cube = shared_cube();
         direction_field field;
         coarse.normals = shaded ? normals : NULL;
-        assert_int_equal(direction_field_make(&field, &coarse, 0.7, 0, NULL), LMN_OK);
+        assert_int_equal(direction_field_make(&field, &coarse, 0.7, 0, 0, NULL), LMN_OK);
         assert_true((field.corners == NULL) == shaded); /* not parted */
         direction_field_release(&field);
         cube.normals = shaded ? same : NULL;
-        assert_int_equal(direction_field_make(&field, &cube, 0.7, 0, NULL), LMN_OK);
+        assert_int_equal(direction_field_make(&field, &cube, 0.7, 0, 0, NULL), LMN_OK);
         assert_true(field.corners != NULL);
         direction_field_release(&field);
         coarse.normals = cube.normals = NULL;
@@ -865,7 +895,7 @@ static void memory_may_run_out(void **state)
         lmn_error       error = {0};
         direction_field f;
         mem_fail_at(n);
-        lmn_status status = direction_field_make(&f, &p, 0.8, 0, &error);
+        lmn_status status = direction_field_make(&f, &p, 0.8, 0, 0, &error);
         mem_fail_at(0);
         if (status == LMN_OK) {
             direction_field_release(&f);
@@ -930,6 +960,7 @@ int main(void)
         cmocka_unit_test(walls_that_turn_a_little_are_drawn_one_way),
         cmocka_unit_test(crosses_turn_no_more_than_they_must),
         cmocka_unit_test(noise_is_looked_through),
+        cmocka_unit_test(ripples_are_looked_through),
         cmocka_unit_test(crosses_stand_along_creases),
         cmocka_unit_test(shading_says_what_is_an_edge),
         cmocka_unit_test(islands_of_arms_join_what_surrounds_them),

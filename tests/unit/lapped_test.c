@@ -146,7 +146,7 @@ static lapped_mesh lap(const primitive *p, double radius, uint32_t seed)
 {
     direction_field f;
     lapped_mesh     m;
-    assert_int_equal(direction_field_make(&f, p, 0.8, 0, NULL), LMN_OK);
+    assert_int_equal(direction_field_make(&f, p, 0.8, 0, 0, NULL), LMN_OK);
     assert_int_equal(lapped_make(&m, p, &f, radius, seed, NULL), LMN_OK);
     direction_field_release(&f);
     return m;
@@ -247,7 +247,7 @@ static void check_direction(const char *name, primitive p, double radius, double
 {
     direction_field f;
     lapped_mesh     m;
-    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
+    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, 0, NULL), LMN_OK);
     assert_int_equal(lapped_make(&m, &p, &f, radius, 3, NULL), LMN_OK);
     origins o = find_origins(&p, &m);
     double  sum = 0, sure = 0;
@@ -409,7 +409,7 @@ static void memory_may_run_out(void **state)
     (void)state;
     primitive       p = grid_surface(torus_at, 12, 8, true, true, 0);
     direction_field f;
-    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
+    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, 0, NULL), LMN_OK);
     long n = 1;
     for (; n < 100000; n++) {
         lmn_error   error = {0};
@@ -436,7 +436,7 @@ static void large_surfaces(void **state)
     primitive       p = grid_surface(torus_at, 500, 200, true, true, 0.4);
     direction_field f;
     lapped_mesh     m;
-    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, NULL), LMN_OK);
+    assert_int_equal(direction_field_make(&f, &p, 0.8, 0, 0, NULL), LMN_OK);
     double before = seconds_now();
     assert_int_equal(lapped_make(&m, &p, &f, 0.7, 1, NULL), LMN_OK);
     printf("torus of %u triangles: %.2f s, %u patches, %.2f times, stretch %.3f\n", p.index_count / 3,

@@ -635,6 +635,133 @@ static void memory_may_run_out(void **state)
     release_shape(&s);
 }
 
+/* --- what flat faces are like --------------------------------------------------------------------------- */
+
+/* A wall two wide and one high, upright, with lines along it. */
+static place3 wall_at(double u, double v)
+{
+    return (place3){2 * u, v, 0};
+}
+
+/* Light alone leaves a wall even. Its lines are dark above and light below, as evenly as the wall is high, and no more
+ * of one than of the other; on what is round none are. */
+static void flat_faces_fade(void **state)
+{
+    (void)state;
+    shape wall = with_normals(grid_surface(wall_at, 2, 2, false, false, 0));
+    wall.surface.up = (vec3){0, 1, 0};
+    shape  ring = with_normals(grid_surface(torus_at, 64, 32, true, true, 0));
+    marks  flat = make_lines(&wall, 0.02, 3, 1), round = make_lines(&ring, 0.05, 2, 1);
+    double sum = 0, length = 0, above = 0, below = 0, most = 0, high = 0, low = 0;
+    for (size_t i = 0; i < flat.line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const mark_line *l = &flat.lines[i];
+            double           own = (double)l->to - (double)l->from, shade = (double)l->ends[end].shade;
+            sum += own * shade;
+            length += own;
+            above += (end ? l->b.y : l->a.y) > 0.75f ? own * shade : 0;
+            high += (end ? l->b.y : l->a.y) > 0.75f ? own : 0;
+            below += (end ? l->b.y : l->a.y) < 0.25f ? own * shade : 0;
+            low += (end ? l->b.y : l->a.y) < 0.25f ? own : 0;
+        }
+    for (size_t i = 0; i < round.line_count; i++)
+        most = fmax(most, fabs((double)round.lines[i].ends[0].shade));
+    printf("wall: shade %.3f above, %.3f below, %.4f on the mean; at most %.3f on a ring\n", above / high, below / low,
+           sum / length, most);
+    assert_true(above / high > 0.35 && below / low < -0.35 && fabs(sum / length) < 0.02 && most == 0);
+    surface_marks_release(&flat);
+    surface_marks_release(&round);
+    release_shape(&wall);
+    release_shape(&ring);
+}
+
+/* Half of the wall is dark, up to a line that lies aslant in its triangles. */
+static double two_tones(const void *of, uint32_t triangle, vec3 at, double around)
+{
+    (void)of, (void)triangle, (void)around;
+    return at.x + 0.3f * at.y < 1.1f ? 0.04 : 0.81;
+}
+
+/* Lines know the brightness of what is below them, also within triangles that are larger by far than lines are apart.
+ */
+static void lines_know_what_they_lie_on(void **state)
+{
+    (void)state;
+    shape wall = with_normals(grid_surface(wall_at, 1, 1, false, false, 0));
+    wall.surface.brightness = two_tones;
+    marks  m = make_lines(&wall, 0.02, 6, 1);
+    double wrong = 0, length = 0;
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        for (int k = 0; k < 8; k++) {
+            float  t = ((float)k + 0.5f) / 8;
+            vec3   at = {l->a.x + t * (l->b.x - l->a.x), l->a.y + t * (l->b.y - l->a.y), 0};
+            double seen =
+                (double)l->ends[0].bright + (double)t * ((double)l->ends[1].bright - (double)l->ends[0].bright);
+            double own = ((double)l->to - (double)l->from) / 8;
+            wrong += fabs(sqrt(seen) - sqrt(two_tones(NULL, 0, at, 0))) > 0.1 ? own : 0;
+            length += own;
+        }
+    }
+    printf("wall of two tones: %.4f of all lines have the wrong one\n", wrong / length);
+    assert_true(wrong / length < 0.005);
+    surface_marks_release(&m);
+    release_shape(&wall);
+}
+
+/* A level strip, a narrow round edge, and a wall below it, without a crease: lines that lie across the edge alone have
+ * no more room than they are long, though the face goes on. */
+static place3 edged_at(double u, double v)
+{
+    const double r = 0.05, turn = 1.5707963267948966 * fmin(fmax((v - 0.4) / 0.2, 0), 1);
+    double       y = v > 0.6 ? -r - (v - 0.6) * 2 : r * cos(turn) - r, z = v < 0.4 ? v * 2 - 0.8 : r * sin(turn);
+    return (place3){2 * u, y, z};
+}
+
+static void short_lines_have_no_room(void **state)
+{
+    (void)state;
+    shape  edge = with_normals(grid_surface(edged_at, 8, 40, false, false, 0));
+    marks  m = make_lines(&edge, 0.01, 3, 2);
+    size_t bounded = 0, tight = 0;
+    for (size_t i = 0; i < m.line_count; i++) {
+        const mark_line *l = &m.lines[i];
+        bool             first = i == 0 || m.lines[i - 1].stroke != l->stroke;
+        const mark_line *last = l;
+        while (first && last + 1 < m.lines + m.line_count && last[1].stroke == l->stroke)
+            last++;
+        if (!first || l->ends[0].to_edge > 0 || last->ends[1].to_edge > 0)
+            continue;
+        bounded++;
+        tight += l->length < 0.3f;
+        assert_true(l->room <= l->length * 1.0001f);
+    }
+    printf("round edge: %zu lines from edge to edge, %zu of them short\n", bounded, tight);
+    assert_true(bounded > 20 && tight > 0);
+    surface_marks_release(&m);
+    release_shape(&edge);
+}
+
+/* So many of all lines are there where light leaves the page bare, at edges most and nowhere far from them. */
+static void few_lines_are_sparse(void **state)
+{
+    (void)state;
+    enum { LINES = 2000 };
+    for (double sparse = 0.1; sparse < 0.95; sparse += 0.4) {
+        int    at_edge = 0, half_way = 0, beyond = 0;
+        double least = 0.1;
+        for (int i = 0; i < LINES; i++) {
+            mark_line l = {.rank = (float)i / LINES * 3.7f, .level = (uint8_t)(i % 4)};
+            at_edge += mark_flow_sparse(&l, 0, sparse, least) > least;
+            half_way += mark_flow_sparse(&l, FLOW_SPARSE / 2, sparse, least) > 0;
+            beyond += mark_flow_sparse(&l, FLOW_SPARSE, sparse, least) > 0;
+        }
+        assert_true(fabs((double)at_edge / LINES - sparse) < 0.03 && beyond == 0);
+        /* Reaches grow with the square of a number that is spread evenly. */
+        assert_true(fabs((double)half_way / at_edge - (1 - sqrt(0.5))) < 0.05);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -653,6 +780,10 @@ int main(void)
         cmocka_unit_test(the_same_lines_twice),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(slanted_lines_lean_on_flat_faces_alone),
+        cmocka_unit_test(flat_faces_fade),
+        cmocka_unit_test(lines_know_what_they_lie_on),
+        cmocka_unit_test(short_lines_have_no_room),
+        cmocka_unit_test(few_lines_are_sparse),
     };
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
