@@ -925,6 +925,13 @@ group_depict() {
     row 0 '' out.png depict "$motion" $small -o out.png --explain -q
     out '"because"'
     out '"path"'
+    # People: who walks has a way and was elsewhere, who crouches before he leaps does not go back where he came from.
+    row 0 '' out.png depict "$examples/captured-walk.bvh" $small -o out.png --explain -q
+    out '"path"'
+    out '"still"'
+    row 0 '' out.png depict "$examples/captured-jump.bvh" $small -o out.png --explain -q
+    out '"path"'
+    ! grep -q '"aside"' .stdout || complain "a jump is told as going back"
     # What is not told is said, unless nobody wants to hear it.
     row 0 'warning: nothing in the scene is animated' out.png depict "$examples/box.glb" $small -o out.png
     row 0 '' out.png depict "$examples/box.glb" $small -q -o out.png --explain

@@ -277,6 +277,14 @@ static void ways_that_go_back_lie_beside_each_other(void **state)
     assert_null(json_object_get(expression_of(told, "path", "lift"), "aside"));
     json_decref(told);
     lmn_scene_destroy(&s);
+    /* What sways for long where it waits goes on all the same: lengths count, not times. */
+    s = scene_of(CRATE("lift"),
+                 "{\"target\": \"lift\", \"linear\": [[0, 0, 0], [0.1, 0, 0], [0, 0, 0], [0.1, 0, 0], [0, 0, 0], "
+                 "[0.1, 0, 0], [0, 0, 0], [0.1, 0, 0], [0, 0, 0], [6, 0, 0]], \"duration\": 4}");
+    told = told_of(s, NULL, 2);
+    assert_null(json_object_get(expression_of(told, "path", "lift"), "aside"));
+    json_decref(told);
+    lmn_scene_destroy(&s);
 }
 
 /* A gear in its housing is told before it; one beside it where it is. */
