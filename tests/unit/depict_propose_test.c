@@ -491,6 +491,12 @@ static void shapes_are_told_by_their_shape(void **state)
         {"{\"name\": \"headLight_left\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
         {"{\"name\": \"door_handle\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
         {"{\"name\": \"head\", \"box\": {\"size\": [1, 1, 1]}}", "head"},
+        {"{\"name\": \"armour\", \"box\": {\"size\": [1, 1, 1]}}",
+         NULL}, /* a word of its own, not letters of another */
+        {"{\"name\": \"alarm\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
+        {"{\"name\": \"Left Arm 2\", \"box\": {\"size\": [1, 1, 1]}}", "arm"},
+        {"{\"name\": \"carDoor\", \"box\": {\"size\": [1, 1, 1]}}", "door"}, /* the last noun says what it is */
+        {"{\"name\": \"truck_wheel_l\", \"box\": {\"size\": [1, 1, 1]}}", "wheel"},
         {"{\"name\": \"thing\", \"semantics\": \"ball\", \"box\": {\"size\": [1, 1, 1]}}", "ball"}, /* who says so */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -522,6 +528,16 @@ static void round_limbs_are_no_balls(void **state)
     }
     assert_true(balls > 0);
     assert_int_equal(balls, named);
+    lmn_scene_destroy(&s);
+    /* Nor is anything round of what has a skin. */
+    s = scene_of("{\"name\": \"thing\", \"sphere\": {\"radius\": 1}}, " CRATE("crate"), "");
+    for (size_t i = 0; i < s->node_count; i++)
+        if (s->nodes[i].name && strcmp(s->nodes[i].name, "thing") == 0) {
+            assert_string_equal(semantics_of(s, (int32_t)i), "ball");
+            s->nodes[s->nodes[i].parent].skin = 0;
+            assert_null(semantics_of(s, (int32_t)i));
+            s->nodes[s->nodes[i].parent].skin = NONE;
+        }
     lmn_scene_destroy(&s);
 }
 
