@@ -267,7 +267,7 @@ static view_measures measure(const try_picture *t, uint32_t *counts, bool *seen,
 /* Right, up and to the eye. The first direction is that of the view "iso"; front lies at azimuth 0. */
 static void axes_of(double out[3][3], int index, char up_axis)
 {
-    static const double heights[HEIGHTS] = {35.26, 15};
+    static const double heights[HEIGHTS] = {35.264389682754654, 15};
     const double degree = 3.14159265358979323846 / 180, azimuth = (45 + index / HEIGHTS * 360.0 / AZIMUTHS) * degree,
                  height = heights[index % HEIGHTS] * degree;
     const double across = cos(height) * sin(azimuth), rise = sin(height), front = cos(height) * cos(azimuth);
