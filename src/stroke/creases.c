@@ -223,36 +223,68 @@ static uint32_t leave_face(const edge_mesh *m, uint32_t entered, vector from, ve
     return found;
 }
 
-/* Goes straight away from an edge over the faces beside it and finds the next ones that turn. Returns how many of
- * `most`. */
-static int find_steps(const judge *j, uint32_t half, double own, step out[STEPS_MOST], int most)
+/* A way straight on from an edge over the faces beside it. */
+typedef struct strip_walk {
+    uint32_t half; /* that was passed last */
+    vector   at, direction;
+    double   least; /* what turns by less is part of a face */
+    int      faces;
+} strip_walk;
+
+static strip_walk walk_from(const edge_mesh *m, uint32_t half, double own)
+{
+    vector a = position(m, half), b = position(m, half_next(half)), edge = unit(minus(b, a));
+    return (strip_walk){half, along(a, 0.5, minus(b, a)), cross(face_normal(m, half / 3), edge),
+                        FLAT_FRACTION * fabs(own), 0};
+}
+
+/* Does the surface turn by less than that? As turn_over says, but most edges on the way do not need an arc. */
+static bool is_flat(const edge_mesh *m, uint32_t half, uint32_t other, double least)
+{
+    vector n = face_normal(m, half / 3), o = face_normal(m, other / 3), c = cross(n, o);
+    double cosine = dot(n, o), most = 0.999 * least * cosine; /* no arc is longer than its tangent */
+    return cosine > 0 && dot(c, c) < most * most;
+}
+
+/* The next edge that turns, and how far away it is; false where the way ends before. */
+static bool next_step(const judge *j, strip_walk *w, step *out)
 {
     const edge_mesh *m = j->m;
-    vector           a = position(m, half), b = position(m, half_next(half)), edge = unit(minus(b, a)),
-           at = along(a, 0.5, minus(b, a)), direction = cross(face_normal(m, half / 3), edge);
-    double width = 0;
-    int    count = 0;
-    for (int faces = 0; faces < FACES_MOST && count < most; faces++) {
+    double           width = 0;
+    for (; w->faces < FACES_MOST; w->faces++) {
         double   distance;
-        uint32_t left = leave_face(m, half, at, direction, &distance);
+        uint32_t left = leave_face(m, w->half, w->at, w->direction, &distance);
         if (left == EDGE_NO_FACE || j->facts->opposite[left] == EDGE_NO_FACE)
-            break;
+            return false;
         vector rim = unit(minus(position(m, half_next(left)), position(m, left))),
                out_of = cross(rim, face_normal(m, left / 3));
         width += distance;
-        at = along(at, distance, direction);
-        half = j->facts->opposite[left];
-        double lengthways = dot(direction, rim), across = dot(direction, out_of), turn = turn_over(m, left, half);
-        if (fabs(turn) >= FLAT_FRACTION * fabs(own)) {
-            if (across < ACROSS) /* bent along the way, too: no strip */
-                break;
-            out[count++] = (step){width, turn};
-            width = 0;
+        w->at = along(w->at, distance, w->direction);
+        w->half = j->facts->opposite[left];
+        double lengthways = dot(w->direction, rim), across = dot(w->direction, out_of),
+               turn = is_flat(m, left, w->half, w->least) ? 0 : turn_over(m, left, w->half);
+        bool turns = fabs(turn) >= w->least;
+        if (turns && across < ACROSS) /* bent along the way, too: no strip */
+            return false;
+        vector into = cross(rim, face_normal(m, w->half / 3));
+        w->direction = (vector){lengthways * rim.x + across * into.x, lengthways * rim.y + across * into.y,
+                                lengthways * rim.z + across * into.z};
+        if (turns) {
+            w->faces++;
+            *out = (step){width, turn};
+            return true;
         }
-        vector into = cross(rim, face_normal(m, half / 3));
-        direction = (vector){lengthways * rim.x + across * into.x, lengthways * rim.y + across * into.y,
-                             lengthways * rim.z + across * into.z};
     }
+    return false;
+}
+
+/* The next edges that turn, at most so many. */
+static int find_steps(const judge *j, uint32_t half, double own, step *out, int most)
+{
+    strip_walk w = walk_from(j->m, half, own);
+    int        count = 0;
+    while (count < most && next_step(j, &w, &out[count]))
+        count++;
     return count;
 }
 
@@ -299,21 +331,22 @@ typedef struct turning {
 
 static turning turn_within(const judge *j, uint32_t half, double own, double width)
 {
-    step    steps[STEPS_MOST];
-    turning out = {0, 0, INFINITY, 0};
-    int     found = find_steps(j, half, own, steps, STEPS_MOST);
-    for (int i = 0; i < found; i++) {
-        width -= steps[i].width;
-        if (width < 0 || (steps[i].turn < 0) != (own < 0)) {
-            out.beyond = (steps[i].turn < 0) != (own < 0) ? INFINITY : steps[i].width;
+    strip_walk w = walk_from(j->m, half, own);
+    turning    out = {0, 0, INFINITY, 0};
+    step       next;
+    while (next_step(j, &w, &next)) { /* no farther than is asked for */
+        width -= next.width;
+        if (width < 0 || (next.turn < 0) != (own < 0)) {
+            out.beyond = (next.turn < 0) != (own < 0) ? INFINITY : next.width;
             return out;
         }
-        out.turn += fabs(steps[i].turn);
-        out.widest = fmax(out.widest, steps[i].width);
-        out.count++;
+        out.turn += fabs(next.turn);
+        out.widest = fmax(out.widest, next.width);
+        if (++out.count == STEPS_MOST) {
+            out.beyond = 0;
+            return out;
+        }
     }
-    if (found == STEPS_MOST)
-        out.beyond = 0;
     return out;
 }
 
