@@ -6,6 +6,7 @@
 #include "stroke/scene_cut.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
+#include "stroke/planes.h"
 #include "stroke/solid.h"
 #include "stroke/stroke_private.h"
 
@@ -127,7 +128,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
 }
 
 /* The largest coordinate of a box. */
-static double farthest(box3 box)
+double box_farthest(box3 box)
 {
     return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))),
                 fmax(fabs(box.min.z), fabs(box.max.z)));
@@ -147,7 +148,7 @@ static void widen_box(scene_builder *b, const edge_mesh *m, const mat4 *world)
     double grown = mat4_growth(world);
     for (uint32_t k = 0; k < m->piece_count; k++) {
         b->box = box3_union(b->box, box3_transform(m->boxes[k], world));
-        b->out->reach = fmax(b->out->reach, grown * farthest(m->boxes[k]));
+        b->out->reach = fmax(b->out->reach, grown * box_farthest(m->boxes[k]));
     }
 }
 
@@ -292,6 +293,8 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
             status = add_part(b, i, error);
     }
     mem_free(b->shared);
+    for (size_t i = 0; i < out->mesh_count && status == LMN_OK; i++)
+        status = planes_find(&out->meshes[i]) ? LMN_OK : error_memory(error);
     out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);

@@ -33,7 +33,8 @@ typedef struct span_block {
 typedef struct span_job {
     const stroke_view    *v;
     const window_segment *segments;
-    size_t                count;
+    const uint32_t       *order; /* segments as they are looked at: those side by side ask for the same triangles */
+    size_t                count; /* of these */
     span_block           *blocks;
     uint32_t             *lengths; /* spans per segment */
     atomic_bool           failed;
@@ -58,7 +59,8 @@ typedef struct worker {
     const window_segment *segment;
     float                 far_z; /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
-    uint32_t             *stamps; /* per triangle: the last segment that it was compared with */
+    uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
+    uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
     position_slot        *table; /* of places where covers begin or end, found by their bits */
     size_t                table_size;
@@ -242,6 +244,13 @@ static bool runs_along(const worker *w, const window_point p[3], const int64_t s
     return near == 2 && to > 0 && from < x * x + y * y;
 }
 
+/* Does a face lie in a plane of the segment's? Then it hides nothing of it. */
+static bool is_in_plane(const worker *w, uint32_t face)
+{
+    uint32_t plane = w->v->planes[face];
+    return plane && (plane == w->planes[0] || plane == w->planes[1]);
+}
+
 static void compare(worker *w, uint32_t number)
 {
     const stroke_view *v = w->v;
@@ -252,6 +261,8 @@ static void compare(worker *w, uint32_t number)
         return;
     const window_triangle *t = &v->triangles[number];
     const window_segment  *s = w->segment;
+    if (v->planes && is_in_plane(w, t->face))
+        return;
     w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
     int64_t            sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
@@ -300,9 +311,8 @@ static void compare(worker *w, uint32_t number)
         cover_nearer(w, from, to, before, after, same);
 }
 
-static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
+static void visit_run(worker *w, const uint32_t *entries, size_t count, bool alone)
 {
-    worker *w = user;
     for (size_t i = 0; i < count; i++) {
         if (!alone) {
             if (w->stamps[entries[i]] == w->stamp)
@@ -311,6 +321,36 @@ static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
         }
         compare(w, entries[i]);
     }
+}
+
+/* The first entry of a crowd whose plane is this one, or behind it. */
+static size_t first_in_plane(const stroke_view *v, const uint32_t *entries, size_t count, uint32_t plane)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (v->planes[v->triangles[entries[middle]].face] < plane)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Of a crowd, what lies in the segment's own planes is passed by. */
+static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
+{
+    worker *w = user;
+    size_t  begin = 0;
+    for (int k = 0; k < 2 && count > GRID_CROWD && w->v->planes; k++) {
+        if (!w->planes[k])
+            continue;
+        size_t end = first_in_plane(w->v, entries, count, w->planes[k]);
+        if (end > begin)
+            visit_run(w, entries + begin, end - begin, alone);
+        begin = first_in_plane(w->v, entries, count, w->planes[k] + 1);
+    }
+    visit_run(w, entries + begin, count - begin, alone);
 }
 
 /* By insertion with gaps: few are left where the segment is short. */
@@ -384,6 +424,18 @@ static void put_solid_step(void *user, double at, int32_t step)
     put_step(user, at, step);
 }
 
+static void take_planes(worker *w)
+{
+    const window_segment *s = w->segment;
+    for (int k = 0; k < 2 && w->v->planes; k++)
+        w->planes[k] = s->faces[k] == EDGE_NO_FACE ? 0 : w->v->planes[s->faces[k]];
+    if (w->planes[0] > w->planes[1]) {
+        uint32_t other = w->planes[0];
+        w->planes[0] = w->planes[1];
+        w->planes[1] = other;
+    }
+}
+
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
     double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
@@ -398,6 +450,7 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
     w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
     w->covers.count = 0;
+    take_planes(w);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
     if (!w->failed && w->covers.count)
         w->failed = !solid_covers_count(&w->covers, w->v, put_solid_step, w);
@@ -495,11 +548,12 @@ static void find_blocks(size_t begin, size_t end, void *user)
         span_block *block = &job->blocks[b];
         size_t      last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
         for (size_t i = b * BLOCK; i < last && !w.failed; i++) {
-            size_t before = block->count;
-            find_spans(&w, block, &job->segments[i]);
+            size_t                before = block->count;
+            const window_segment *s = &job->segments[job->order[i]];
+            find_spans(&w, block, s);
             if (w.grazed && !w.failed && is_seen(block, before))
-                look_beside(&w, block, &job->segments[i], before);
-            job->lengths[i] = (uint32_t)(block->count - before);
+                look_beside(&w, block, s, before);
+            job->lengths[job->order[i]] = (uint32_t)(block->count - before);
         }
         block->pairs = w.pairs;
         w.pairs = 0;
@@ -516,7 +570,37 @@ static void find_blocks(size_t begin, size_t end, void *user)
     mem_free(w.merged.spans);
 }
 
-/* The blocks' spans one after the other. */
+enum { ORDER_SIDE = 128 };
+
+/* The field of the page that the middle of a segment lies in; every second row of fields runs back. */
+static size_t field_of(const stroke_view *v, const window_segment *s)
+{
+    double  width = v->camera.width * v->units, height = v->camera.height * v->units;
+    int32_t at[2] = {(int32_t)((0.5 * ((double)s->a.x + s->b.x) / width + 0.5) * ORDER_SIDE),
+                     (int32_t)((0.5 * ((double)s->a.y + s->b.y) / height + 0.5) * ORDER_SIDE)};
+    for (int k = 0; k < 2; k++)
+        at[k] = at[k] < 0 ? 0 : at[k] < ORDER_SIDE ? at[k] : ORDER_SIDE - 1;
+    return (size_t)(at[1] * ORDER_SIDE + (at[1] & 1 ? ORDER_SIDE - 1 - at[0] : at[0]));
+}
+
+/* All segments, field by field; NULL when memory is gone. */
+static uint32_t *order_segments(const stroke_view *v, const window_segment *segments, size_t count)
+{
+    uint32_t *order = mem_alloc((count + 1) * sizeof *order), *starts = mem_calloc(ORDER_SIDE * ORDER_SIDE + 1, 4);
+    for (size_t i = 0; i < count && order && starts; i++)
+        starts[field_of(v, &segments[i]) + 1]++;
+    for (size_t k = 0; k < ORDER_SIDE * ORDER_SIDE && starts; k++)
+        starts[k + 1] += starts[k];
+    for (size_t i = 0; i < count && order && starts; i++)
+        order[starts[field_of(v, &segments[i])]++] = (uint32_t)i;
+    bool good = order && starts;
+    mem_free(starts);
+    if (!good)
+        mem_free(order);
+    return good ? order : NULL;
+}
+
+/* The blocks' spans, each segment's where it belongs. */
 static lmn_status join_blocks(visibility *out, const span_job *job, size_t block_count, lmn_error *error)
 {
     size_t total = 0;
@@ -526,16 +610,19 @@ static lmn_status join_blocks(visibility *out, const span_job *job, size_t block
     out->starts = mem_alloc((job->count + 1) * sizeof *out->starts);
     if (!out->spans || !out->starts)
         return error_memory(error);
-    size_t at = 0;
-    for (size_t b = 0; b < block_count; b++) {
-        if (job->blocks[b].count)
-            memcpy(out->spans + at, job->blocks[b].spans, job->blocks[b].count * sizeof *out->spans);
-        at += job->blocks[b].count;
-        out->pairs += job->blocks[b].pairs;
-    }
     out->starts[0] = 0;
     for (size_t i = 0; i < job->count; i++)
         out->starts[i + 1] = out->starts[i] + job->lengths[i];
+    for (size_t b = 0; b < block_count; b++) {
+        const visibility_span *from = job->blocks[b].spans;
+        size_t                 last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
+        for (size_t i = b * BLOCK; i < last; i++) {
+            uint32_t segment = job->order[i], length = job->lengths[segment];
+            memcpy(out->spans + out->starts[segment], from, length * sizeof *from); /* one at least */
+            from += length;
+        }
+        out->pairs += job->blocks[b].pairs;
+    }
     return LMN_OK;
 }
 
@@ -543,11 +630,12 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
                            lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    size_t   block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
-    span_job job = {.v = v, .segments = segments, .count = count};
+    size_t    block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
+    uint32_t *order = order_segments(v, segments, count);
+    span_job  job = {.v = v, .segments = segments, .order = order, .count = count};
     job.blocks = mem_calloc(block_count + 1, sizeof *job.blocks);
     job.lengths = mem_alloc((count + 1) * sizeof *job.lengths);
-    lmn_status status = job.blocks && job.lengths ? LMN_OK : error_memory(error);
+    lmn_status status = job.blocks && job.lengths && order ? LMN_OK : error_memory(error);
     span_job   part = job;
     for (size_t b = 0; b < block_count && status == LMN_OK; b += portion) {
         if (progress && !progress((double)b / (double)block_count, "finding what is hidden", user)) {
@@ -556,8 +644,7 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
         }
         size_t blocks = block_count - b < portion || !progress ? block_count - b : portion;
         part.blocks = job.blocks + b;
-        part.segments = segments + b * BLOCK;
-        part.lengths = job.lengths + b * BLOCK;
+        part.order = order + b * BLOCK;
         part.count = count - b * BLOCK;
         threads_for(blocks, 1, find_blocks, &part);
         if (atomic_load(&part.failed))
@@ -571,6 +658,7 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
         mem_free(job.blocks[b].spans);
     mem_free(job.blocks);
     mem_free(job.lengths);
+    mem_free(order);
     if (status != LMN_OK)
         visibility_release(out);
     return status;
