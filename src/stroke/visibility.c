@@ -21,7 +21,7 @@
 #define CRUMB 0.02
 /* Gaps between bodies are no wider than twice this where it is roundings that make them, pixels. */
 #define GAP 0.01
-enum { BLOCK = 512 };
+enum { BLOCK = 512, RUN_MOST = 256 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -253,12 +253,8 @@ static bool is_in_plane(const worker *w, uint32_t face)
 
 static void compare(worker *w, uint32_t number)
 {
-    const stroke_view *v = w->v;
-    const window_box  *box = &v->boxes[number];
-    /* Without short cuts: which of these fails cannot be foretold. */
-    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) |
-        (box->near_z > w->far_z))
-        return;
+    const stroke_view     *v = w->v;
+    const window_box      *box = &v->boxes[number];
     const window_triangle *t = &v->triangles[number];
     const window_segment  *s = w->segment;
     if (v->planes && is_in_plane(w, t->face))
@@ -311,15 +307,36 @@ static void compare(worker *w, uint32_t number)
         cover_nearer(w, from, to, before, after, same);
 }
 
+/* The entries whose boxes meet the segment's, and which begin in front of its end. Without a branch: which of them do
+ * cannot be foretold. */
+static size_t find_meeting(const worker *w, const uint32_t *entries, size_t count, uint32_t *out)
+{
+    const window_box *boxes = w->v->boxes;
+    const int32_t     low_x = w->low_x, low_y = w->low_y, high_x = w->high_x, high_y = w->high_y;
+    const float       far_z = w->far_z;
+    size_t            found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const window_box *box = &boxes[entries[i]];
+        out[found] = entries[i];
+        found += (box->low_x <= high_x) & (box->high_x >= low_x) & (box->low_y <= high_y) & (box->high_y >= low_y) &
+                 (box->near_z <= far_z);
+    }
+    return found;
+}
+
 static void visit_run(worker *w, const uint32_t *entries, size_t count, bool alone)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (!alone) {
-            if (w->stamps[entries[i]] == w->stamp)
-                continue;
-            w->stamps[entries[i]] = w->stamp;
+    uint32_t meeting[RUN_MOST];
+    for (size_t begin = 0; begin < count; begin += RUN_MOST) {
+        size_t found = find_meeting(w, entries + begin, count - begin < RUN_MOST ? count - begin : RUN_MOST, meeting);
+        for (size_t i = 0; i < found; i++) {
+            if (!alone) {
+                if (w->stamps[meeting[i]] == w->stamp)
+                    continue;
+                w->stamps[meeting[i]] = w->stamp;
+            }
+            compare(w, meeting[i]);
         }
-        compare(w, entries[i]);
     }
 }
 
