@@ -355,7 +355,10 @@ static turning turn_within(const judge *j, uint32_t half, double own, double wid
 static bool is_narrow_middle(const judge *j, uint32_t half, double own)
 {
     double  width = NARROW * j->size;
-    turning before = turn_within(j, j->facts->opposite[half], own, width), after = turn_within(j, half, own, width);
+    turning before = turn_within(j, j->facts->opposite[half], own, width);
+    if (!(before.beyond > ENDS_IN_FACE * before.widest)) /* whatever there is on the other side */
+        return false;
+    turning after = turn_within(j, half, own, width);
     double  whole = before.turn + fabs(own) + after.turn, middle = (0.5 + MIDDLE_SLACK) * whole,
            face = ENDS_IN_FACE * fmax(before.widest, after.widest);
     return before.count + after.count > 0 && whole > fmax(NARROW_TURN, j->facts->angle) && before.turn <= middle &&
@@ -406,16 +409,18 @@ static float unrest_at(const judge *j, uint32_t half)
 static bool measure_noise(judge *j)
 {
     const edge_mesh *m = j->m;
-    const size_t     halves = (size_t)m->face_count * 3, most = 20000, stride = halves / most + 1;
-    float           *unrests = mem_alloc((halves / stride + 2) * sizeof *unrests);
-    size_t           count = 0, asked = 0;
-    double           length = 0;
+    const size_t     halves = (size_t)m->face_count * 3, most = 20000, stride = halves / most + 1,
+                 wanted = (size_t)(SAMPLED_FRACTION * (double)((halves + stride - 1) / stride));
+    float *unrests = mem_alloc((halves / stride + 2) * sizeof *unrests);
+    size_t count = 0, asked = 0;
+    double length = 0;
     j->noise = -1;
     for (size_t h = 0; unrests && h < halves; h += stride) {
         vector edge = minus(position(m, half_next((uint32_t)h)), position(m, (uint32_t)h));
         length += sqrt(dot(edge, edge));
         asked++;
-        float own = j->facts->opposite[h] == EDGE_NO_FACE ? -1 : unrest_at(j, (uint32_t)h);
+        bool  hopeless = count + (halves - h) / stride + 1 < wanted; /* too many had no rest already */
+        float own = hopeless || j->facts->opposite[h] == EDGE_NO_FACE ? -1 : unrest_at(j, (uint32_t)h);
         if (own >= 0)
             unrests[count++] = own;
     }
@@ -699,8 +704,11 @@ static bool is_round(const judge *j, uint32_t half, double own)
 
 static crease_verdict judge_edge(judge *j, const mesh_edge *e, uint32_t half)
 {
+    bool sharp = (e->flags & EDGE_CREASE) != 0;
+    if (!sharp && is_flat(j->m, half, j->facts->opposite[half], fmin(0.5 * j->facts->angle, NARROW_STEP)))
+        return NO_CREASE;
     double own = turn_over(j->m, half, j->facts->opposite[half]);
-    bool   sharp = (e->flags & EDGE_CREASE) != 0, weak = !sharp && fabs(own) < 0.5 * j->facts->angle;
+    bool   weak = !sharp && fabs(own) < 0.5 * j->facts->angle;
     if (j->noise >= 0 && (weak || is_round(j, half, own) || !is_sampled_crease(j, half, own)))
         return NO_CREASE;
     if (j->noise < 0 && (weak || is_round(j, half, own)))
