@@ -1,6 +1,6 @@
 /* Writes models that a search over pairs would take too long for: make_cases CASE COUNT OUT
- * A case and twice of it, measured by bench/growth, tell how the line step grows. All but `split` make their own
- * triangles; `split IN.stl OUT.stl` cuts each triangle of a binary STL into nine. */
+ * bench/growth draws each at three sizes. All but `split` make their own triangles; `split IN.stl OUT.stl` cuts each
+ * triangle of a binary STL into nine. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -44,8 +44,7 @@ static void star(writer *w, long count)
     }
 }
 
-/* Triangles anywhere in a cube, a tenth of it large, whatever their number: each runs through many others … of a size
- * that keeps the number of others. */
+/* Triangles anywhere in a cube, the smaller the more there are: each runs through about as many others. */
 static void soup(writer *w, long count)
 {
     uint64_t state = 1;
@@ -84,12 +83,15 @@ static void torus(writer *w, place middle, double ring, double tube, int upright
         }
 }
 
-/* A net of rings, each of which runs through its neighbours. */
+/* Rings anywhere in a cube that grows with their number: each runs through some neighbours. */
 static void tori(writer *w, long count)
 {
-    long side = lround(sqrt((double)count));
-    for (long i = 0; i < count; i++)
-        torus(w, (place){(double)(i % side), (double)(i / side), 0}, 0.55, 0.12, (int)((i % side + i / side) % 2));
+    uint64_t state = 1;
+    double   side = cbrt((double)count);
+    for (long i = 0; i < count; i++) {
+        place middle = {side * next(&state), side * next(&state), side * next(&state)};
+        torus(w, middle, 0.8, 0.15, (int)(i % 2));
+    }
 }
 
 /* A plane of quads, of which every second row is cut once more: so its rim has a T-junction at each quad. */
@@ -114,13 +116,19 @@ static void junctions(writer *w, long count)
         }
 }
 
-/* Needles whose tips all lie in one place of the page, one behind the other. */
-static void ends(writer *w, long count)
+/* Small triangles that are all in one pixel, and one that is as large as the page. */
+static void speck(writer *w, long count)
 {
-    for (long i = 0; i < count; i++) {
-        double turn = TURN * 0.618033988749895 * (double)i, z = 1e-4 * (double)i;
-        place  tip = {1e-4 * cos(turn), 1e-4 * sin(turn), z};
-        put(w, tip, (place){cos(turn), sin(turn), z}, (place){cos(turn + 1e-3), sin(turn + 1e-3), z});
+    uint64_t state = 1;
+    put(w, (place){1, 0, 0}, (place){0, 1, 0}, (place){0, 0, 1});
+    for (long i = 1; i < count; i++) {
+        place p[3], middle = {next(&state), next(&state), next(&state)};
+        for (int k = 0; k < 3; k++) {
+            p[k].x = 1e-3 * (middle.x + 0.03 * next(&state));
+            p[k].y = 1e-3 * (middle.y + 0.03 * next(&state));
+            p[k].z = 1e-3 * (middle.z + 0.03 * next(&state));
+        }
+        put(w, p[0], p[1], p[2]);
     }
 }
 
@@ -180,10 +188,10 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*make)(writer *w, long count);
-    } cases[] = {{"star", star}, {"soup", soup}, {"tori", tori}, {"junctions", junctions}, {"ends", ends}};
+    } cases[] = {{"star", star}, {"soup", soup}, {"tori", tori}, {"junctions", junctions}, {"speck", speck}};
     if (argc != 4)
         return fprintf(stderr,
-                       "usage: make_cases star|soup|tori|junctions|ends|parts COUNT OUT, or split IN.stl OUT.stl\n"),
+                       "usage: make_cases star|soup|tori|junctions|speck|parts COUNT OUT, or split IN.stl OUT.stl\n"),
                1;
     writer w = {fopen(argv[3], "wb"), 0};
     int    good = w.file != NULL;
