@@ -51,8 +51,8 @@ typedef struct crossing_search {
     size_t              face_count, face_capacity, box_capacity, kin_capacity, plane_capacity;
     size_t              overlaps; /* pairs of pieces whose boxes do */
     bool                crowded;  /* these are so many that all faces are looked at instead */
-    double              same;
-    float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
+    double              same;     /* of the two faces that are compared */
+    float             **turns;    /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     face_touch         *touches;
     size_t              touch_count, touch_capacity;
     solid_trimmer     **trimmers; /* per item that is a solid; NULL: not needed yet */
@@ -504,6 +504,7 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     const near_face *n = &s->faces[first], *m = &s->faces[second];
     if (!asks_for(s, s->pieces[first], s->pieces[second]))
         return true;
+    s->same = SAME_POSITION * fmax(s->scene->items[n->item].reach, s->scene->items[m->item].reach);
     if (n->item == m->item && s->still[n->item]) {
         const edge_mesh *own = &s->scene->meshes[s->scene->items[n->item].mesh];
         if (is_clear(s, own, n->face, m->face) || is_clear(s, own, m->face, n->face))
@@ -601,14 +602,9 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
                           void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    crossing_search s = {.scene = scene,
-                         .out = out,
-                         .parts = parts,
-                         .region = box3_empty(),
-                         .progress = progress,
-                         .user = user,
-                         .same = SAME_POSITION * scene->reach};
-    lmn_status      status = search(&s, error);
+    crossing_search s = {
+        .scene = scene, .out = out, .parts = parts, .region = box3_empty(), .progress = progress, .user = user};
+    lmn_status status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
     mem_free(s.piece_boxes);

@@ -73,9 +73,9 @@ double view_depth(const stroke_view *v, double z)
     return v->camera.orthographic ? z : -1 / z;
 }
 
-double view_tolerance(const stroke_view *v, double z)
+double view_tolerance(const stroke_view *v, double same, double z)
 {
-    return v->camera.orthographic ? v->same : v->same * z * z;
+    return v->camera.orthographic ? same : same * z * z;
 }
 
 bool view_position(const stroke_view *v, double3 world, window_point *out)
@@ -324,6 +324,23 @@ static bool mark_planes(stroke_view *v)
     return v->planes != NULL;
 }
 
+/* Items that reach about as far are alike: so are most. */
+#define REACH_ALIKE 4
+
+/* How exact positions are is each item's own matter. */
+static bool mark_sames(stroke_view *v)
+{
+    const stroke_scene *s = v->scene;
+    bool                alike = true;
+    for (size_t i = 0; i < s->item_count; i++)
+        alike = alike && REACH_ALIKE * s->items[i].reach >= s->reach;
+    v->sames = alike ? NULL : mem_alloc((size_t)v->piece_count * sizeof *v->sames);
+    for (size_t i = 0; i < s->item_count && v->sames; i++)
+        for (uint32_t k = v->items[i].first_piece; k < v->items[i + 1].first_piece; k++)
+            v->sames[k] = (float)(SAME_POSITION * s->items[i].reach);
+    return alike || v->sames;
+}
+
 static lmn_status number_items(stroke_view *v, lmn_error *error)
 {
     const stroke_scene *s = v->scene;
@@ -360,7 +377,7 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
         for (uint32_t f = 0; f < m->face_count; f++)
             v->face_pieces[v->items[i].first_face + f] = v->items[i].first_piece + m->pieces[f];
     }
-    return mark_solids(v) && (!planes || mark_planes(v)) ? LMN_OK : error_memory(error);
+    return mark_solids(v) && (!planes || mark_planes(v)) && mark_sames(v) ? LMN_OK : error_memory(error);
 }
 
 static double units_of(const stroke_camera *c)
@@ -423,6 +440,7 @@ void stroke_view_destroy(stroke_view **view)
     mem_free(v->fronts);
     mem_free(v->face_pieces);
     mem_free(v->planes);
+    mem_free(v->sames);
     mem_free(v->solids);
     mem_free(v->around);
     mem_free(v->triangles);

@@ -83,7 +83,8 @@ struct stroke_view {
     stroke_camera       camera; /* the same on paper; see paper.c */
     mat4                whole;  /* world to clip space */
     double              units;  /* window units in a unit of paper */
-    double              same;   /* SAME_POSITION in file units */
+    double              same;   /* SAME_POSITION in file units, of the item that reaches farthest */
+    float              *sames;  /* per piece: its item's; NULL: they are alike */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
@@ -132,8 +133,8 @@ bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
 /* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
 bool    view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_position(const stroke_item *item, vec3 p);
-double  view_depth(const stroke_view *v, double z);     /* eye depth */
-double  view_tolerance(const stroke_view *v, double z); /* of z */
+double  view_depth(const stroke_view *v, double z);                  /* eye depth */
+double  view_tolerance(const stroke_view *v, double same, double z); /* of z */
 /* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye
  * outside, what faces away lies behind what faces the eye, so that it need not be counted. Free with mem_free; NULL
  * when memory is gone. */

@@ -57,6 +57,7 @@ typedef struct position_slot {
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
+    double                same;  /* of the segment's piece, where these differ */
     float                 far_z; /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
     uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
@@ -295,7 +296,9 @@ static void compare(worker *w, uint32_t number)
     if (own || (to == 1 && has_corner(t, s->ends[1])))
         after = 0;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
-    double same = view_tolerance(v, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
+    double exact = v->sames ? fmax(w->same, v->sames[v->face_pieces[t->face]]) : v->same;
+    double same =
+        view_tolerance(v, exact, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
     if (s->ignored_count && is_ignored(s, t->face))
         return;
     uint32_t solid = view_solid(v, t->face);
@@ -441,9 +444,12 @@ static void put_solid_step(void *user, double at, int32_t step)
     put_step(user, at, step);
 }
 
-static void take_planes(worker *w)
+/* What is known of the segment by its faces. */
+static void take_faces(worker *w)
 {
     const window_segment *s = w->segment;
+    if (w->v->sames)
+        w->same = s->faces[0] == EDGE_NO_FACE ? w->v->same : w->v->sames[w->v->face_pieces[s->faces[0]]];
     for (int k = 0; k < 2 && w->v->planes; k++)
         w->planes[k] = s->faces[k] == EDGE_NO_FACE ? 0 : w->v->planes[s->faces[k]];
     if (w->planes[0] > w->planes[1]) {
@@ -467,7 +473,7 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
     w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
     w->covers.count = 0;
-    take_planes(w);
+    take_faces(w);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
     if (!w->failed && w->covers.count)
         w->failed = !solid_covers_count(&w->covers, w->v, put_solid_step, w);
@@ -730,7 +736,7 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
         double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole,
                b = window_side(p[2], p[0], c->at) / whole;
         double   z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
-        bool     nearer = c->at.z - z > view_tolerance(v, z) + box->slope;
+        bool     nearer = c->at.z - z > view_tolerance(v, v->same, z) + box->slope;
         uint32_t solid = view_solid(v, t->face);
         if (!solid) {
             c->count += nearer;
