@@ -215,7 +215,8 @@ static int32_t driver_by_rule(const schedule *c, size_t property, double t)
         if (c->spans[i].property == (int32_t)property && span_is_alive(&c->spans[i], t))
             best = (int32_t)i;
     for (size_t i = 0; best == NONE && i < c->span_count; i++)
-        if (c->spans[i].property == (int32_t)property && c->spans[i].to < t)
+        if (c->spans[i].property == (int32_t)property &&
+            (c->spans[i].to < t || (c->spans[i].to == t && c->spans[i].open_to)))
             ended = fmax(ended, c->spans[i].to);
     for (size_t i = 0; ended >= 0 && i < c->span_count; i++) {
         const behaviour_span *span = &c->spans[i];
@@ -229,6 +230,7 @@ static int32_t driver_by_rule(const schedule *c, size_t property, double t)
 static void test_drivers_are_those_of_the_rule(void **state)
 {
     (void)state;
+    size_t owned = 0;
     for (uint32_t seed = 0; seed < 300; seed++) {
         random_source r = random_start(seed, 2);
         lmn_scene    *s = scene_of_nodes(3);
@@ -241,9 +243,20 @@ static void test_drivers_are_those_of_the_rule(void **state)
                 double t = (c.duration + 1) * random_unit(&r) - 0.2;
                 assert_int_equal(schedule_driver(&c, &c.properties[p], t, SIDE_AT), driver_by_rule(&c, p, t));
             }
+        /* And where one ends as the next begins, which of them owns that instant. */
+        for (size_t i = 0; i < 2 * c.span_count; i++) {
+            const behaviour_span *span = &c.spans[i / 2];
+            const double          t = i % 2 ? span->to : span->from;
+            if (span->property == NONE)
+                continue;
+            const size_t p = (size_t)span->property;
+            assert_int_equal(schedule_driver(&c, &c.properties[p], t, SIDE_AT), driver_by_rule(&c, p, t));
+            owned += span->open_to && t == span->to;
+        }
         schedule_release(&c);
         scene_free(s);
     }
+    assert_true(owned > 100);
 }
 
 static void test_shared_ends_have_one_owner(void **state)
