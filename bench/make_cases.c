@@ -120,13 +120,14 @@ static void junctions(writer *w, long count)
 static void speck(writer *w, long count)
 {
     uint64_t state = 1;
+    double   size = 1 / cbrt((double)count);
     put(w, (place){1, 0, 0}, (place){0, 1, 0}, (place){0, 0, 1});
     for (long i = 1; i < count; i++) {
         place p[3], middle = {next(&state), next(&state), next(&state)};
         for (int k = 0; k < 3; k++) {
-            p[k].x = 1e-3 * (middle.x + 0.03 * next(&state));
-            p[k].y = 1e-3 * (middle.y + 0.03 * next(&state));
-            p[k].z = 1e-3 * (middle.z + 0.03 * next(&state));
+            p[k].x = 1e-3 * (middle.x + size * next(&state));
+            p[k].y = 1e-3 * (middle.y + size * next(&state));
+            p[k].z = 1e-3 * (middle.z + size * next(&state));
         }
         put(w, p[0], p[1], p[2]);
     }
