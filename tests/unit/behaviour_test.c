@@ -519,6 +519,15 @@ static void test_trajectory_is_the_parabola(void **state)
     /* The corner is there: what arrives leaves with half of it. */
     assert_true(before < -1 && fabs(behind + 0.5 * before) < 1e-5);
     trajectory_release(&t);
+    /* Of a part of the time it begins and ends with that, wherever nothing breaks. */
+    assert_int_equal(schedule_trajectory(&t, &c, 0, NULL, 0.3, 0.6, 0.01, NULL), LMN_OK);
+    assert_true(t.count >= 2 && t.samples[0].seconds == 0.3 && t.samples[t.count - 1].seconds == 0.6);
+    for (size_t i = 0; i < t.count; i++) {
+        const double since = t.samples[i].seconds;
+        assert_true(i == 0 || since > t.samples[i - 1].seconds);
+        assert_true(fabs(t.samples[i].position[1] - (3 + since - 9.81 * since * since / 2)) < 1e-9);
+    }
+    trajectory_release(&t);
     schedule_release(&c);
     scene_free(s);
 }
@@ -541,6 +550,10 @@ static void test_impacts_are_those_of_the_ball(void **state)
         assert_true(fabs(found[0].normal[1] - 1) < 1e-6);
         assert_true(fabs(found[0].place[1] - 0.5) < 1e-9 && fabs(found[0].place[0] - 2 * falls) < 1e-9);
         assert_true(fabs(found[1].seconds - falls - 1.4 * arrives / 9.81) < 1e-9);
+        assert_true(found[0].thrown_back && !found[0].sets_off && !found[0].stops);
+        assert_true(fabs(found[0].since - falls) < 1e-9); /* smoothly from the beginning to the next impact */
+        assert_true(fabs(found[0].until - (found[1].seconds - found[0].seconds)) < 1e-9);
+        assert_true(fabs(found[1].since - found[0].until) < 1e-9);
         mem_free(found);
     }
     assert_true(count > 0);

@@ -513,6 +513,29 @@ static void shapes_are_told_by_their_shape(void **state)
     }
 }
 
+/* What is called a plane flies, unless it is a sheet, whichever way that lies. */
+static void sheets_do_not_fly(void **state)
+{
+    (void)state;
+    for (int axis = -1; axis < 3; axis++) {
+        lmn_scene *s = scene_of("{\"name\": \"plane\", \"box\": {\"size\": [3, 1, 2]}}, " CRATE("crate"), "");
+        for (size_t i = 0; i < s->node_count; i++) {
+            if (!s->nodes[i].name || strcmp(s->nodes[i].name, "plane") != 0 || s->nodes[i].mesh == NONE)
+                continue;
+            primitive *p = &s->meshes[s->nodes[i].mesh].primitives[0];
+            float     *flattened[3][2] = {{&p->bounds.min.x, &p->bounds.max.x},
+                                          {&p->bounds.min.y, &p->bounds.max.y},
+                                          {&p->bounds.min.z, &p->bounds.max.z}};
+            for (int k = 0; k < 2 && axis >= 0; k++)
+                *flattened[axis][k] = 0;
+            const char *told = semantics_of(s, (int32_t)i);
+            if ((told && strcmp(told, "plane") == 0) != (axis < 0))
+                fail_msg("flat along %d: %s", axis, told ? told : "nothing");
+        }
+        lmn_scene_destroy(&s);
+    }
+}
+
 /* What is round of a figure is no ball: sleeves, caps, trunks. What somebody throws is one. */
 static void round_limbs_are_no_balls(void **state)
 {
@@ -638,6 +661,7 @@ int main(void)
         cmocka_unit_test(faces_are_told),
         cmocka_unit_test(shapes_are_told_by_their_shape),
         cmocka_unit_test(round_limbs_are_no_balls),
+        cmocka_unit_test(sheets_do_not_fly),
         cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
         cmocka_unit_test(reasons_name_their_time),
