@@ -50,19 +50,26 @@ static double length_of(const sheet *s, const sheet_path *path)
     return sum;
 }
 
+/* How many lengths say it all: of a line that ends with its second dash, and whose second dash is no longer than the
+ * first, the first dash and its gap. */
+static uint32_t count_of(const sheet *s, const sheet_path *path)
+{
+    const float *lengths = s->dashes + path->first_dash;
+    bool         two = path->dash_count == 4 && path->phase == 0 && lengths[2] <= lengths[0] && !path->closed;
+    return two && length_of(s, path) < (double)(lengths[0] + lengths[1] + lengths[2]) + 0.01 ? 2 : path->dash_count;
+}
+
 /* The unit that lengths are whole multiples of, thousandths. */
 static long long unit_of(const sheet *s, const sheet_path *path)
 {
     const float *lengths = s->dashes + path->first_dash;
     double       period = 0;
-    long long    coarse = 0;
-    for (uint32_t i = 0; i < path->dash_count; i++)
+    for (uint32_t i = 0; i < path->dash_count; i++) {
         period += (double)lengths[i];
-    for (uint32_t i = 0; i < path->dash_count; i++)
         if (lengths[i] > 0 && lengths[i] < 0.1f)
             return 1; /* dots are all ink that there is */
-    coarse = 10 * llround(100 * period);
-    double drift = fabs(period - (double)coarse / 1000) * floor(length_of(s, path) / period);
+    }
+    double drift = fabs(period - round(100 * period) / 100) * floor(length_of(s, path) / period);
     return period > 0 && drift + 0.005 <= DASH_MOVED ? 10 : 1;
 }
 
@@ -77,7 +84,7 @@ static char *print_lengths(const sheet *s, const sheet_path *path)
     text      out = {0};
     double    sum = 0;
     long long before = 0, unit = unit_of(s, path);
-    for (uint32_t i = 0; i < path->dash_count; i++) {
+    for (uint32_t i = 0, count = count_of(s, path); i < count; i++) {
         char digits[32] = " ";
         sum += (double)s->dashes[path->first_dash + i];
         long long at = unit * llround((double)svg_thousandths(sum) / (double)unit);

@@ -160,14 +160,8 @@ static bool is_near(float a, float b)
  * parts of one. `pattern` gets dash, gap and the phase. */
 static bool is_regular(const float (*dashes)[2], size_t count, float pattern[3])
 {
-    if (count < 2)
-        return false;
-    if (count == 2) { /* whatever they are: the line ends before the second one is as long as the first */
-        pattern[0] = dashes[0][1] - dashes[0][0];
-        pattern[1] = dashes[1][0] - dashes[0][1];
-        pattern[2] = 0;
-        return dashes[1][1] - dashes[1][0] <= pattern[0];
-    }
+    if (count < 3)
+        return false; /* two may be anything */
     float dash = dashes[1][1] - dashes[1][0], gap = dashes[1][0] - dashes[0][1], first = dashes[0][1],
           last = dashes[count - 1][1] - dashes[count - 1][0];
     for (size_t i = 1; i < count; i++)

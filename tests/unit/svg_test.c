@@ -186,26 +186,28 @@ static void test_round(void **state)
 static void test_few_bytes(void **state)
 {
     const float bent[5][2] = {{1, 2}, {4, 2}, {6, 2}, {6, 1}, {5, 0}}, straight[2][2] = {{10, 10}, {110, 10}};
-    const float pattern[2] = {1.591f, 1.06f}, others[4] = {0.365f, 1.061f, 1.592f, 1.061f};
-    sheet       s;
+    const float pattern[2] = {1.591f, 1.06f}, others[4] = {0.365f, 1.061f, 1.592f, 1.061f},
+                ended[4] = {5, 1, 2.414f, 1};
+    sheet s;
     (void)state;
     sheet_begin(&s, 120, 80, 4);
     uint32_t group = sheet_add_group(&s, -1, "lines", NULL, 0);
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 6; i++) {
         sheet_add_item(&s, SHEET_PATH, group, black, 0);
         sheet_add_path(&s, &(sheet_path){.width = 0.5f}, i == 3 ? straight : bent, i == 3 ? 2 : 5);
-        if (i == 4)
-            sheet_dash_path(&s, others, 4, 0);
+        if (i >= 4)
+            sheet_dash_path(&s, i == 4 ? others : ended, 4, 0);
         else
             sheet_dash_path(&s, pattern, 2, i == 1 ? 0.5041f : 0);
     }
     export_bytes bytes = bytes_of(&s, export_svg);
     xmlDocPtr    document = parse(&bytes);
-    assert_int_equal(count_of(document, "//s:path[@d='M1 2h3 2v-1l-1-1']"), 4);
+    assert_int_equal(count_of(document, "//s:path[@d='M1 2h3 2v-1l-1-1']"), 5);
     assert_int_equal(count_of(document, "//s:path[@d='M10 10h100'][@stroke-dasharray='1.591 1.06']"), 1);
     assert_int_equal(count_of(document, "//s:path[@class='d0'][not(@stroke-dasharray)]"), 3);
     assert_int_equal(count_of(document, "//s:path[@class='d0'][@stroke-dashoffset='.5']"), 1);
     assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='.37 1.06 1.59 1.06']"), 1);
+    assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='5 1']"), 1); /* the line ends with the second */
     assert_int_equal(count_of(document, "//s:style[contains(.,'.d0{stroke-dasharray:1.59 1.06}')]"), 1);
     xmlFreeDoc(document);
     mem_free(bytes.data);
