@@ -94,7 +94,7 @@ static int lay_page(draw_session *s)
 }
 
 /* Target and up that were not given come from the scene; frames are fitted to its clips if it has any. */
-static void place_view(draw_session *s, const lmn_scene *scene)
+static int place_view(draw_session *s, const lmn_scene *scene)
 {
     const draw_values *v = s->values;
     lmn_scene_info     info = lmn_scene_info_of(scene);
@@ -103,7 +103,7 @@ static void place_view(draw_session *s, const lmn_scene *scene)
         s->desc.time_s = clip_end(scene, v->clip);
         s->desc.time_given = info.animations > 0;
     }
-    viewpoint_fill(&s->desc, &v->viewpoint, &info);
+    return viewpoint_fill(&s->desc, &v->viewpoint, scene);
 }
 
 /* --- one picture ---------------------------------------------------------------------------------------- */
@@ -435,7 +435,8 @@ static int draw_scene(draw_session *s, const char *const *paths, size_t count)
         if (lmn_renderer_create(&s->renderer, &desc, &error) != LMN_OK)
             status = message_error(&error);
     }
-    place_view(s, scene);
+    if (status == EXIT_DONE)
+        status = place_view(s, scene);
     if (status == EXIT_DONE && s->depicts)
         status = depict_scene(scene, &s->desc, s->values->expressions, s->values->interval, s->values->explain,
                               s->values->quiet);

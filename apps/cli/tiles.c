@@ -172,12 +172,11 @@ static bool report(double fraction, const char *stage, void *user)
     return progress_report(((double)t->done + fraction) / all, stage, &t->bar);
 }
 
-static void fill_desc(tiles_run *t)
+static int fill_desc(tiles_run *t)
 {
     enum { SCREEN_DPI = 96 };
     const tiles_values *v = t->values;
     lmn_draw_desc       d = LMN_DRAW_DESC_INIT;
-    lmn_scene_info      info = lmn_scene_info_of(t->scene);
     d.time_s = v->time.given ? v->time.value : d.time_s;
     d.time_given = v->time.given;
     d.seed = v->seed.given ? (uint32_t)v->seed.value : d.seed;
@@ -188,8 +187,9 @@ static void fill_desc(tiles_run *t)
     d.lenient = v->lenient;
     d.progress = report;
     d.progress_user = t;
-    viewpoint_fill(&d, &v->viewpoint, &info);
+    const int status = viewpoint_fill(&d, &v->viewpoint, t->scene);
     t->desc = d;
+    return status;
 }
 
 static void print_warnings(tiles_run *t, const lmn_drawing *drawing)
@@ -284,9 +284,10 @@ static int draw_all(tiles_run *t, const word_list *inputs)
     int status = scene_of_programs(&t->scene, inputs->items, inputs->count, up_axis_of(v->up_axis), &programs, &t->bar);
     if (status != EXIT_DONE)
         return status;
-    fill_desc(t);
-    status =
-        tile_facts_make(&t->facts, &t->pyramid, &(tile_drawing){t->look, &t->desc, inputs, &v->defines, v->up_axis});
+    status = fill_desc(t);
+    if (status == EXIT_DONE)
+        status = tile_facts_make(&t->facts, &t->pyramid,
+                                 &(tile_drawing){t->look, &t->desc, inputs, &v->defines, v->up_axis});
     if (status == EXIT_DONE)
         status = make_folders(t->folder);
     if (status == EXIT_DONE)

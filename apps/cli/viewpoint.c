@@ -2,7 +2,7 @@
 
 #include "message.h"
 
-const char *const viewpoint_names[] = {"iso", "front", "back", "left", "right", "top", "bottom", NULL};
+const char *const viewpoint_names[] = {"iso", "front", "back", "left", "right", "top", "bottom", "best", NULL};
 
 bool viewpoint_given(const viewpoint_values *v)
 {
@@ -26,9 +26,11 @@ int viewpoint_check(const viewpoint_values *v)
     return EXIT_DONE;
 }
 
-void viewpoint_fill(lmn_draw_desc *desc, const viewpoint_values *v, const lmn_scene_info *scene)
+int viewpoint_fill(lmn_draw_desc *desc, const viewpoint_values *v, const lmn_scene *scene)
 {
-    if (v->view >= 0)
+    const lmn_scene_info info = lmn_scene_info_of(scene);
+    lmn_error            error = {0};
+    if (v->view >= 0 && v->view <= LMN_VIEW_BOTTOM)
         desc->view = (lmn_view)v->view;
     desc->camera = v->camera;
     desc->orthographic = v->orthographic;
@@ -38,7 +40,10 @@ void viewpoint_fill(lmn_draw_desc *desc, const viewpoint_values *v, const lmn_sc
     desc->fit_direction = v->eye.given && v->fit.given;
     for (int i = 0; i < 3; i++) {
         desc->eye[i] = v->eye.value[i];
-        desc->target[i] = v->target.given ? v->target.value[i] : (scene->bounds_min[i] + scene->bounds_max[i]) / 2;
-        desc->up[i] = v->up.given ? v->up.value[i] : i == (scene->up == 'z' ? 2 : 1) ? 1 : 0;
+        desc->target[i] = v->target.given ? v->target.value[i] : (info.bounds_min[i] + info.bounds_max[i]) / 2;
+        desc->up[i] = v->up.given ? v->up.value[i] : i == (info.up == 'z' ? 2 : 1) ? 1 : 0;
     }
+    if (v->view > LMN_VIEW_BOTTOM && lmn_scene_best_view(scene, desc, &error) != LMN_OK)
+        return message_error(&error);
+    return EXIT_DONE;
 }

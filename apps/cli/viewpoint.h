@@ -13,7 +13,7 @@ typedef struct viewpoint_values {
     bool          orthographic;
 } viewpoint_values;
 
-/* Of --view, in the order of lmn_view; NULL at the end. */
+/* Of --view, in the order of lmn_view, and behind these "best"; NULL at the end. */
 extern const char *const viewpoint_names[];
 
 /* Rows for a command whose values have a `viewpoint_values viewpoint`. */
@@ -23,7 +23,7 @@ extern const char *const viewpoint_names[];
      OPTION_CHOICE,                                                                                                    \
      offsetof(values, viewpoint.view),                                                                                 \
      "VIEW",                                                                                                           \
-     "iso, front, back, left, right, top or bottom. Default: iso.",                                                    \
+     "iso, front, back, left, right, top, bottom, or best: from where most is seen. Default: iso.",                    \
      .choices = viewpoint_names},                                                                                      \
         {"eye",         0,                                                                                             \
          OPTION_VECTOR, offsetof(values, viewpoint.eye),                                                               \
@@ -51,7 +51,8 @@ int viewpoint_check(const viewpoint_values *v);
 /* Is it said where from? */
 bool viewpoint_given(const viewpoint_values *v);
 
-/* Puts them into the description. Target and up that were not given come from the scene. */
-void viewpoint_fill(lmn_draw_desc *desc, const viewpoint_values *v, const lmn_scene_info *scene);
+/* Puts them into the description, which says what is selected and when. Target and up that were not given come from the
+ * scene. Prints what is wrong; exit status. */
+int viewpoint_fill(lmn_draw_desc *desc, const viewpoint_values *v, const lmn_scene *scene);
 
 #endif

@@ -25,6 +25,7 @@ typedef struct camera_job {
     scene_ref  *scene;
     view_state *state;
     char       *name;          /* NULL: fits */
+    bool        best;          /* from where most is seen, instead of from the same side */
     int         width, height; /* of a small picture */
     const char *what;
     double      view[16], projection[16];
@@ -49,6 +50,8 @@ static lmn_status ask_camera(artist_job *base, lmn_renderer *renderer, lmn_error
     desc.progress = artist_goes_on;
     desc.progress_user = base;
     lmn_status status = scene_ref_edit(j->scene, j->state->edits, error);
+    if (status == LMN_OK && j->best)
+        status = lmn_scene_best_view(j->scene->scene, &desc, error);
     if (status == LMN_OK)
         status = lmn_draw(&drawing, renderer, j->scene->scene, j->state->look->look, &desc, error);
     if (status == LMN_OK)
@@ -88,7 +91,7 @@ static void camera_told(artist_job *base, lmn_status status, const lmn_error *er
         document_fit_view(d, &j->state->view, &o);
         return;
     }
-    if (j->name)
+    if (j->name || j->best)
         document_end_step(d);
     document_set_view(d, &o, j->what);
 }
@@ -118,8 +121,9 @@ void cameras_go(GObject *owner, document *(*document_of)(GObject *owner), artist
     artist_ask(a, &j->job);
 }
 
-void cameras_fit(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
-                 const view_state *state, int width, int height, const char *what)
+/* Asks for the camera of a picture of this size that is filled by what is drawn. */
+static void ask_fit(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                    const view_state *state, int width, int height, bool best, const char *what)
 {
     enum { SIDE = 256 }; /* its shape matters, not its size */
     camera_job *j = g_new0(camera_job, 1);
@@ -131,6 +135,19 @@ void cameras_fit(GObject *owner, document *(*document_of)(GObject *owner), artis
     j->state = state_copy(state);
     j->width = MAX(1, SIDE * width / longer);
     j->height = MAX(1, SIDE * height / longer);
+    j->best = best;
     j->what = what;
     artist_ask(a, &j->job);
+}
+
+void cameras_fit(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                 const view_state *state, int width, int height, const char *what)
+{
+    ask_fit(owner, document_of, a, scene, state, width, height, false, what);
+}
+
+void cameras_best(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                  const view_state *state, int width, int height)
+{
+    ask_fit(owner, document_of, a, scene, state, width, height, true, "View");
 }

@@ -15,6 +15,10 @@ GMenu *cameras_menu(const scene_ref *scene);
 void cameras_fit(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
                  const view_state *state, int width, int height, const char *what);
 
+/* The same from where most is seen of what is shown. */
+void cameras_best(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
+                  const view_state *state, int width, int height);
+
 /* Looks through one. `owner` is held until it is done; `document` is asked for then, and may be NULL by that time. */
 void cameras_go(GObject *owner, document *(*document_of)(GObject *owner), artist *a, scene_ref *scene,
                 const view_state *state, const char *name);

@@ -26,6 +26,7 @@ static const struct {
     {NULL, "win.view('top')", {"<Control>5"}, N_("From above")},
     {NULL, "win.view('bottom')", {"<Control>6"}, N_("From below")},
     {NULL, "win.view('iso')", {"<Control>7"}, N_("Isometric")},
+    {NULL, "win.view('best')", {"<Control>8"}, N_("Where most is seen")},
     {NULL, "win.parallel", {"<Control>p"}, N_("Parallel projection")},
     {NULL, "win.walk", {"<Control>g"}, N_("Walk")},
     {NULL, "win.turntable", {"<Control>t"}, N_("Turntable")},

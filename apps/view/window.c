@@ -71,10 +71,11 @@ static GMenuModel *make_menu(ViewWindow *w)
 {
     GMenu *menu = g_menu_new(), *views = g_menu_new(), *look = g_menu_new(), *copy = g_menu_new(), *end = g_menu_new();
     GMenu *section = g_menu_new();
-    static const char *const names[][2] = {{N_("Front"), "win.view('front')"},  {N_("Back"), "win.view('back')"},
-                                           {N_("Left"), "win.view('left')"},    {N_("Right"), "win.view('right')"},
-                                           {N_("Top"), "win.view('top')"},      {N_("Bottom"), "win.view('bottom')"},
-                                           {N_("Isometric"), "win.view('iso')"}};
+    static const char *const names[][2] = {
+        {N_("Front"), "win.view('front')"},   {N_("Back"), "win.view('back')"},
+        {N_("Left"), "win.view('left')"},     {N_("Right"), "win.view('right')"},
+        {N_("Top"), "win.view('top')"},       {N_("Bottom"), "win.view('bottom')"},
+        {N_("Isometric"), "win.view('iso')"}, {N_("Where most is seen"), "win.view('best')"}};
     for (size_t i = 0; i < G_N_ELEMENTS(names); i++)
         g_menu_append(views, _(names[i][0]), names[i][1]);
     static const char *const cuts[][2] = {

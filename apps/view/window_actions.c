@@ -72,10 +72,15 @@ ACTION(do_view)
     const scene_ref *scene = document_scene(w->document);
     orbit            o = document_state(w->document)->view;
     int              width, height;
+    view_window_picture_size(w, &width, &height);
+    if (scene && g_strcmp0(g_variant_get_string(value, NULL), "best") == 0) {
+        cameras_best(G_OBJECT(w->picture), document_of, w->artist, (scene_ref *)scene, document_state(w->document),
+                     width, height);
+        return;
+    }
     for (size_t i = 0; i < G_N_ELEMENTS(names); i++)
         if (g_strcmp0(names[i], g_variant_get_string(value, NULL)) == 0)
             orbit_turn_to(&o, (lmn_view)i);
-    view_window_picture_size(w, &width, &height);
     if (scene)
         orbit_fit(&o, scene->info.bounds_min, scene->info.bounds_max, width, height);
     document_end_step(w->document);

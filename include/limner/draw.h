@@ -117,6 +117,12 @@ LMN_API void lmn_renderer_destroy(lmn_renderer **renderer);
 /* The driver as JSON: versions, limits, paths, extensions used. Free with lmn_text_free. NULL when memory is gone. */
 LMN_API char *lmn_renderer_json(const lmn_renderer *renderer);
 
+/* Points `desc` at where the scene shows most of what it selects, at its time: eye, target and up, fitted by direction.
+ * Two dozen directions from a little above are compared by the area, the silhouette and the parts that they show, and
+ * by how evenly they show what there is (Secord et al. 2011; Vázquez et al. 2001). A film keeps what was found once.
+ * Errors: LMN_USAGE (`select`, `clip`), LMN_MEMORY, LMN_CANCELLED. No GL context needed. Since 0.1. */
+LMN_API lmn_status lmn_scene_best_view(const lmn_scene *scene, lmn_draw_desc *desc, lmn_error *error);
+
 /* Would drawing these be refused, as far as that can be told without drawing? `vectors`: by lmn_draw_sheet. For
  * those who draw many pictures. Errors: LMN_USAGE. */
 LMN_API lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lmn_draw_desc *desc, bool vectors,

@@ -14,10 +14,11 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "draw/maps.h"
-#include "plan/refuse.h"
-#include "plan/time.h"
 #include "export/export.h"
 #include "limner/version.h"
+#include "plan/best_view.h"
+#include "plan/refuse.h"
+#include "plan/time.h"
 
 static lmn_status missing(const char *caller, const char *what, lmn_error *error)
 {
@@ -137,6 +138,26 @@ lmn_status lmn_draw_check(const lmn_scene *scene, const lmn_look *look, const lm
     if (status == LMN_OK)
         status = time_moment(&when, scene, &full, NULL, error);
     return status == LMN_OK ? refuse_time(&r, look, full.time_s, !vectors) : status;
+}
+
+lmn_status lmn_scene_best_view(const lmn_scene *scene, lmn_draw_desc *desc, lmn_error *error)
+{
+    lmn_draw_desc full;
+    if (!scene || !desc)
+        return error_set(error, LMN_USAGE, "lmn_scene_best_view: `%s` is NULL", scene ? "desc" : "scene");
+    lmn_status status = check_draw_desc(&full, desc, error);
+    if (status != LMN_OK)
+        return status;
+    work w;
+    work_begin(&w, full.progress, full.progress_user);
+    status = best_view_find(&full, scene, error);
+    status = work_end(&w, status, error);
+    if (status == LMN_OK) { /* as much of it as the caller knows */
+        const size_t known = desc->struct_size;
+        memcpy(desc, &full, known);
+        desc->struct_size = known;
+    }
+    return status;
 }
 
 /* Textures are of use where the caller's calls of OpenGL are. */

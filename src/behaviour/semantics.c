@@ -14,10 +14,10 @@ static const char *attribute_of(const node *n, const char *key)
     return NULL;
 }
 
-/* Is the word in the name, as a word of its own ("door_left", "Left Door 2", "carDoor")? */
-static bool has_word(const char *name, const char *word)
+/* Where the word ends in the name, as a word of its own ("door_left", "Left Door 2", "carDoor"); 0: it is not there. */
+static size_t end_of_word(const char *name, const char *word)
 {
-    size_t length = strlen(word);
+    size_t length = strlen(word), end = 0;
     for (size_t i = 0; name[i]; i++) {
         size_t k = 0;
         while (k < length && (name[i + k] | 0x20) == word[k])
@@ -26,9 +26,14 @@ static bool has_word(const char *name, const char *word)
         bool begins = !((before | 0x20) >= 'a' && (before | 0x20) <= 'z') || (name[i] < 'a' && before >= 'a');
         bool ends = !(behind >= 'a' && behind <= 'z');
         if (k == length && begins && ends)
-            return true;
+            end = i + k;
     }
-    return false;
+    return end;
+}
+
+static bool has_word(const char *name, const char *word)
+{
+    return end_of_word(name, word) > 0;
 }
 
 static bool is_skinned_model(const lmn_scene *scene, int32_t index)
@@ -124,13 +129,19 @@ static bool is_of_another(const char *name)
     return false;
 }
 
-/* What its name says, where its shape does not deny it; NULL: nothing. */
+/* What its name says, where its shape does not deny it, by the last word that says something; NULL: nothing. */
 static const char *meaning_of_name(const lmn_scene *scene, const node *n)
 {
-    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings && !is_of_another(n->name); i++)
-        if (has_word(n->name, meanings[i].word) && has_its_shape(scene, n, meanings[i].semantics))
-            return meanings[i].semantics;
-    return NULL;
+    const char *last = NULL;
+    size_t      behind = 0;
+    for (size_t i = 0; n->name && i < sizeof meanings / sizeof *meanings && !is_of_another(n->name); i++) {
+        const size_t end = end_of_word(n->name, meanings[i].word);
+        if (end > behind && has_its_shape(scene, n, meanings[i].semantics)) {
+            last = meanings[i].semantics;
+            behind = end;
+        }
+    }
+    return last;
 }
 
 /* Does it belong to something that is known? What is round of a figure or a car is no ball. */

@@ -126,21 +126,25 @@ static void find_growth(mover *m, const double *sizes, int steps, span all, doub
     m->growth = fmin(fmax(sizes[end] / fmax(sizes[first], 1e-2 * high), 1e-2), 1e2);
 }
 
-/* Is a third of a way and more gone back within a quarter of the radius? */
+/* Is half of a way's length and more gone back within a quarter of the radius? Of its length, not of its time: what
+ * sways where it waits goes nowhere. */
 static bool goes_back(const double (*at)[3], double radius)
 {
-    int back = 0;
-    for (int i = 1; i < STEPS; i++)
+    double all = 0, back = 0;
+    for (int i = 1; i < STEPS; i++) {
+        double here[3], there[3];
+        vector3_add(here, at[i + 1], -1, at[i - 1]);
+        all += vector3_length(here);
         for (int k = i + 2; k < STEPS; k++) {
-            double here[3], there[3];
-            vector3_add(here, at[i + 1], -1, at[i - 1]);
             vector3_add(there, at[k + 1], -1, at[k - 1]);
-            if (vector3_distance(at[i], at[k]) < 0.25 * radius && vector3_dot(here, there) < 0) {
-                back += 2;
+            if (vector3_distance(at[i], at[k]) < 0.25 * radius &&
+                vector3_dot(here, there) < -0.8 * vector3_length(here) * vector3_length(there)) {
+                back += 2 * vector3_length(here);
                 break;
             }
         }
-    return back * 3 > STEPS;
+    }
+    return 2 * back > all;
 }
 
 static void measure_way(mover *m, const depict_target *t, span all, double now)

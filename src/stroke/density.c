@@ -349,7 +349,7 @@ lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_op
     for (size_t i = 0; i < set->stroke_count && sizes; i++)
         set->strokes[i].size = sizes[set->strokes[i].piece];
     chain *chains = sizes && gone && open_density(&d, v) ? find_chains(&d, &count) : NULL;
-    bool   good = chains && choose(&d, chains, count, gone);
+    bool   good = chains && choose(&d, chains, count, gone) && strokes_close_corners(set, gone);
     for (size_t i = 0; i < set->stroke_count && good; i++)
         if (!gone[i])
             set->strokes[kept++] = set->strokes[i];

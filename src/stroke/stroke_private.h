@@ -300,6 +300,9 @@ static inline double stroke_width_on_piece(const stroke *s, double width)
 }
 /* Leaves out the chains that say least where lines crowd, by the options' detail. */
 lmn_status strokes_choose(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
+/* Of strokes that are gone (a flag each), brings back short ones without which a line that is drawn would end in the
+ * open. False: out of memory. */
+bool strokes_close_corners(const stroke_set *set, uint8_t *gone);
 
 /* --- crowd.c --- */
 /* Leaves out strokes that run all their length within about this many units of more important ones; the page's

@@ -261,6 +261,12 @@ group_draw() {
     row 2 "^limner: $examples/csg/widget.csg: surface 'stipple' lies on meshes" '' draw "$examples/csg/widget.csg" $small --look stipple --set lines.operator=none
     row 0 'warning: lines of form' 'x.png' draw "$examples/csg/widget.csg" $small --look line --set lines.suggestive=0.5 --lenient -o x.png
     # Poses at telling moments, on one plate or as contours; the time is the end of the clip.
+    # Where most is seen: of pictures and vectors, of what is selected; not beside another viewpoint, nor on sheets of views.
+    row 0 '' 'x.png' draw "$examples/pump.glb" $small --view best -o x.png
+    row 0 '' 'x.svg' draw "$examples/pump.glb" --view best --look technical -o x.svg --select '*gear'
+    row 2 'exclude each other' '' draw "$examples/pump.glb" --view best --eye 1,2,3 -o x.png
+    row 2 'allowed is iso, front' '' draw "$examples/pump.glb" --views front,best --look technical -o x.svg
+    row 2 "selection|select" '' draw "$examples/pump.glb" --view best --select '[' -o x.png
     row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
     grep -q '"reason": "turn"' r.json || complain "no turn is told"
     row 0 '' 'x.svg' draw "$examples/walker.bvh" $small --view right -o x.svg --look line --poses auto --motion ghosts
@@ -925,6 +931,13 @@ group_depict() {
     row 0 '' out.png depict "$motion" $small -o out.png --explain -q
     out '"because"'
     out '"path"'
+    # People: who walks has a way and was elsewhere, who crouches before he leaps does not go back where he came from.
+    row 0 '' out.png depict "$examples/captured-walk.bvh" $small -o out.png --explain -q
+    out '"path"'
+    out '"still"'
+    row 0 '' out.png depict "$examples/captured-jump.bvh" $small -o out.png --explain -q
+    out '"path"'
+    ! grep -q '"aside"' .stdout || complain "a jump is told as going back"
     # What is not told is said, unless nobody wants to hear it.
     row 0 'warning: nothing in the scene is animated' out.png depict "$examples/box.glb" $small -o out.png
     row 0 '' out.png depict "$examples/box.glb" $small -q -o out.png --explain

@@ -215,7 +215,8 @@ static int32_t driver_by_rule(const schedule *c, size_t property, double t)
         if (c->spans[i].property == (int32_t)property && span_is_alive(&c->spans[i], t))
             best = (int32_t)i;
     for (size_t i = 0; best == NONE && i < c->span_count; i++)
-        if (c->spans[i].property == (int32_t)property && c->spans[i].to < t)
+        if (c->spans[i].property == (int32_t)property &&
+            (c->spans[i].to < t || (c->spans[i].to == t && c->spans[i].open_to)))
             ended = fmax(ended, c->spans[i].to);
     for (size_t i = 0; ended >= 0 && i < c->span_count; i++) {
         const behaviour_span *span = &c->spans[i];
@@ -229,6 +230,7 @@ static int32_t driver_by_rule(const schedule *c, size_t property, double t)
 static void test_drivers_are_those_of_the_rule(void **state)
 {
     (void)state;
+    size_t owned = 0;
     for (uint32_t seed = 0; seed < 300; seed++) {
         random_source r = random_start(seed, 2);
         lmn_scene    *s = scene_of_nodes(3);
@@ -241,9 +243,20 @@ static void test_drivers_are_those_of_the_rule(void **state)
                 double t = (c.duration + 1) * random_unit(&r) - 0.2;
                 assert_int_equal(schedule_driver(&c, &c.properties[p], t, SIDE_AT), driver_by_rule(&c, p, t));
             }
+        /* And where one ends as the next begins, which of them owns that instant. */
+        for (size_t i = 0; i < 2 * c.span_count; i++) {
+            const behaviour_span *span = &c.spans[i / 2];
+            const double          t = i % 2 ? span->to : span->from;
+            if (span->property == NONE)
+                continue;
+            const size_t p = (size_t)span->property;
+            assert_int_equal(schedule_driver(&c, &c.properties[p], t, SIDE_AT), driver_by_rule(&c, p, t));
+            owned += span->open_to && t == span->to;
+        }
         schedule_release(&c);
         scene_free(s);
     }
+    assert_true(owned > 100);
 }
 
 static void test_shared_ends_have_one_owner(void **state)
@@ -506,6 +519,15 @@ static void test_trajectory_is_the_parabola(void **state)
     /* The corner is there: what arrives leaves with half of it. */
     assert_true(before < -1 && fabs(behind + 0.5 * before) < 1e-5);
     trajectory_release(&t);
+    /* Of a part of the time it begins and ends with that, wherever nothing breaks. */
+    assert_int_equal(schedule_trajectory(&t, &c, 0, NULL, 0.3, 0.6, 0.01, NULL), LMN_OK);
+    assert_true(t.count >= 2 && t.samples[0].seconds == 0.3 && t.samples[t.count - 1].seconds == 0.6);
+    for (size_t i = 0; i < t.count; i++) {
+        const double since = t.samples[i].seconds;
+        assert_true(i == 0 || since > t.samples[i - 1].seconds);
+        assert_true(fabs(t.samples[i].position[1] - (3 + since - 9.81 * since * since / 2)) < 1e-9);
+    }
+    trajectory_release(&t);
     schedule_release(&c);
     scene_free(s);
 }
@@ -528,6 +550,10 @@ static void test_impacts_are_those_of_the_ball(void **state)
         assert_true(fabs(found[0].normal[1] - 1) < 1e-6);
         assert_true(fabs(found[0].place[1] - 0.5) < 1e-9 && fabs(found[0].place[0] - 2 * falls) < 1e-9);
         assert_true(fabs(found[1].seconds - falls - 1.4 * arrives / 9.81) < 1e-9);
+        assert_true(found[0].thrown_back && !found[0].sets_off && !found[0].stops);
+        assert_true(fabs(found[0].since - falls) < 1e-9); /* smoothly from the beginning to the next impact */
+        assert_true(fabs(found[0].until - (found[1].seconds - found[0].seconds)) < 1e-9);
+        assert_true(fabs(found[1].since - found[0].until) < 1e-9);
         mem_free(found);
     }
     assert_true(count > 0);

@@ -1,8 +1,10 @@
 /* Where cylinders and cones meet something, against what is known of these shapes: to 1e-4, as spheres are. */
 #include <math.h>
+#include <string.h>
 
 #include "base/vector3.h"
 #include "contact/contact.h"
+#include "contact/sphere.h"
 #include "import_support.h"
 
 static const double PI = 3.141592653589793;
@@ -235,6 +237,37 @@ static void boxes_are_no_cylinders(void **state)
     expect_touch("a box", &f, (const double[]){0.5 * (sin(e) - cos(e)) + 0, 0, 0}, UP);
 }
 
+/* A ball whose rings crowd at one pole, and which leans: no sum over its vertices vanishes by symmetry. */
+static void uneven_balls_are_found(void **state)
+{
+    (void)state;
+    enum { RINGS = 14, SIDES = 20 };
+    const double centre[3] = {3, -1, 2}, radius = 0.7, lean = 0.6;
+    vec3         positions[(RINGS + 1) * SIDES];
+    uint32_t     indices[6 * RINGS * SIDES];
+    primitive    p = {.positions = positions, .indices = indices, .bounds = box3_empty()};
+    for (uint32_t i = 0; i < (RINGS + 1) * SIDES; i++) {
+        const double along = (double)(i / SIDES) / RINGS, down = PI * along * along,
+                     around = 2 * PI * (i % SIDES) / SIDES;
+        const double x = sin(down) * cos(around), y = cos(down), z = sin(down) * sin(around);
+        positions[i] =
+            (vec3){(float)(centre[0] + radius * (x * cos(lean) - y * sin(lean))),
+                   (float)(centre[1] + radius * (x * sin(lean) + y * cos(lean))), (float)(centre[2] + radius * z)};
+        p.bounds = box3_with_point(p.bounds, positions[i]);
+    }
+    for (uint32_t i = 0; i < RINGS * SIDES; i++) {
+        const uint32_t next = i % SIDES == SIDES - 1 ? i + 1 - SIDES : i + 1;
+        const uint32_t two[] = {i, next, next + SIDES, i, next + SIDES, i + SIDES};
+        memcpy(indices + 6 * i, two, sizeof two);
+    }
+    p.vertex_count = (RINGS + 1) * SIDES;
+    p.index_count = 6 * RINGS * SIDES;
+    sphere found;
+    assert_true(sphere_of(&found, &p));
+    assert_true(fabs(found.radius - radius) < 1e-5);
+    assert_true(vector3_distance(found.centre, centre) < 1e-5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +279,7 @@ int main(void)
         cmocka_unit_test(parallel_ones_touch_beside_each_other),
         cmocka_unit_test(balls_corners_and_edges_touch_the_side),
         cmocka_unit_test(boxes_are_no_cylinders),
+        cmocka_unit_test(uneven_balls_are_found),
         cmocka_unit_test(what_is_thrown_back_touches_with_what_is_outermost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

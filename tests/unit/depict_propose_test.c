@@ -277,6 +277,14 @@ static void ways_that_go_back_lie_beside_each_other(void **state)
     assert_null(json_object_get(expression_of(told, "path", "lift"), "aside"));
     json_decref(told);
     lmn_scene_destroy(&s);
+    /* What sways for long where it waits goes on all the same: lengths count, not times. */
+    s = scene_of(CRATE("lift"),
+                 "{\"target\": \"lift\", \"linear\": [[0, 0, 0], [0.1, 0, 0], [0, 0, 0], [0.1, 0, 0], [0, 0, 0], "
+                 "[0.1, 0, 0], [0, 0, 0], [0.1, 0, 0], [0, 0, 0], [6, 0, 0]], \"duration\": 4}");
+    told = told_of(s, NULL, 2);
+    assert_null(json_object_get(expression_of(told, "path", "lift"), "aside"));
+    json_decref(told);
+    lmn_scene_destroy(&s);
 }
 
 /* A gear in its housing is told before it; one beside it where it is. */
@@ -483,6 +491,12 @@ static void shapes_are_told_by_their_shape(void **state)
         {"{\"name\": \"headLight_left\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
         {"{\"name\": \"door_handle\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
         {"{\"name\": \"head\", \"box\": {\"size\": [1, 1, 1]}}", "head"},
+        {"{\"name\": \"armour\", \"box\": {\"size\": [1, 1, 1]}}",
+         NULL}, /* a word of its own, not letters of another */
+        {"{\"name\": \"alarm\", \"box\": {\"size\": [1, 1, 1]}}", NULL},
+        {"{\"name\": \"Left Arm 2\", \"box\": {\"size\": [1, 1, 1]}}", "arm"},
+        {"{\"name\": \"carDoor\", \"box\": {\"size\": [1, 1, 1]}}", "door"}, /* the last noun says what it is */
+        {"{\"name\": \"truck_wheel_l\", \"box\": {\"size\": [1, 1, 1]}}", "wheel"},
         {"{\"name\": \"thing\", \"semantics\": \"ball\", \"box\": {\"size\": [1, 1, 1]}}", "ball"}, /* who says so */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -495,6 +509,29 @@ static void shapes_are_told_by_their_shape(void **state)
         const char *told = semantics_of(s, at == NONE ? 0 : at);
         if (rows[i].told ? !told || strcmp(told, rows[i].told) != 0 : told != NULL)
             fail_msg("%s is a %s", rows[i].node, told ? told : "thing");
+        lmn_scene_destroy(&s);
+    }
+}
+
+/* What is called a plane flies, unless it is a sheet, whichever way that lies. */
+static void sheets_do_not_fly(void **state)
+{
+    (void)state;
+    for (int axis = -1; axis < 3; axis++) {
+        lmn_scene *s = scene_of("{\"name\": \"plane\", \"box\": {\"size\": [3, 1, 2]}}, " CRATE("crate"), "");
+        for (size_t i = 0; i < s->node_count; i++) {
+            if (!s->nodes[i].name || strcmp(s->nodes[i].name, "plane") != 0 || s->nodes[i].mesh == NONE)
+                continue;
+            primitive *p = &s->meshes[s->nodes[i].mesh].primitives[0];
+            float     *flattened[3][2] = {{&p->bounds.min.x, &p->bounds.max.x},
+                                          {&p->bounds.min.y, &p->bounds.max.y},
+                                          {&p->bounds.min.z, &p->bounds.max.z}};
+            for (int k = 0; k < 2 && axis >= 0; k++)
+                *flattened[axis][k] = 0;
+            const char *told = semantics_of(s, (int32_t)i);
+            if ((told && strcmp(told, "plane") == 0) != (axis < 0))
+                fail_msg("flat along %d: %s", axis, told ? told : "nothing");
+        }
         lmn_scene_destroy(&s);
     }
 }
@@ -514,6 +551,16 @@ static void round_limbs_are_no_balls(void **state)
     }
     assert_true(balls > 0);
     assert_int_equal(balls, named);
+    lmn_scene_destroy(&s);
+    /* Nor is anything round of what has a skin. */
+    s = scene_of("{\"name\": \"thing\", \"sphere\": {\"radius\": 1}}, " CRATE("crate"), "");
+    for (size_t i = 0; i < s->node_count; i++)
+        if (s->nodes[i].name && strcmp(s->nodes[i].name, "thing") == 0) {
+            assert_string_equal(semantics_of(s, (int32_t)i), "ball");
+            s->nodes[s->nodes[i].parent].skin = 0;
+            assert_null(semantics_of(s, (int32_t)i));
+            s->nodes[s->nodes[i].parent].skin = NONE;
+        }
     lmn_scene_destroy(&s);
 }
 
@@ -614,6 +661,7 @@ int main(void)
         cmocka_unit_test(faces_are_told),
         cmocka_unit_test(shapes_are_told_by_their_shape),
         cmocka_unit_test(round_limbs_are_no_balls),
+        cmocka_unit_test(sheets_do_not_fly),
         cmocka_unit_test(one_hit_is_told_once),
         cmocka_unit_test(boxes_are_no_balls),
         cmocka_unit_test(reasons_name_their_time),

@@ -192,6 +192,10 @@ CALL(lmn_draw_check)
 {
     return lmn_draw_check(P(0, w->scene), P(1, w->look), P(2, w->desc[0]), false, P(3, &w->error));
 }
+CALL(lmn_scene_best_view)
+{
+    return lmn_scene_best_view(P(0, w->scene), P(1, w->desc[0]), P(2, &w->error));
+}
 CALL(lmn_draw)
 {
     lmn_drawing *made = NULL;

@@ -53,6 +53,14 @@ def undone(v):
     check("the view is undone and redone", True)
 
 
+def seen_best(v):
+    since = v.mark()
+    xdo("key", "ctrl+8")
+    v.wait("drawn .*whole=1", since=since)
+    v.rests(since)
+    check("the view from where most is seen is looked for, and drawn", True)
+
+
 def look_chosen(v):
     since = v.mark()
     v.click("toon", "push button")
@@ -411,7 +419,7 @@ def main():
     try:
         shutil.copy(os.path.join(SOURCE, "examples", "pump.glb"), MODEL)
         v = Viewer(VIEWER, [MODEL])
-        for step in (opened_and_turned, undone, look_dropped, look_chosen, part_hidden, section_cut, section_dragged, parameter_changed, huge_texts_typed, time_scrubbed, motion_drawn, copied_and_exported, exported_meanwhile, picture_copied, watched, file_opened, ends):
+        for step in (opened_and_turned, undone, seen_best, look_dropped, look_chosen, part_hidden, section_cut, section_dragged, parameter_changed, huge_texts_typed, time_scrubbed, motion_drawn, copied_and_exported, exported_meanwhile, picture_copied, watched, file_opened, ends):
             try:
                 step(v)
             except Failure as e:

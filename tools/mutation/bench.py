@@ -29,7 +29,7 @@ RED = re.compile(rb"^(FAIL |\[  FAILED  \])", re.MULTILINE)
 # GLSL that does not compile is no program.
 NO_PROGRAM = re.compile(rb"src/\S+\.(?:glsl|frag|vert|comp):\d+[(:].*error")
 # As the preset `dev` builds, so that ccache knows what has no mutants.
-CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DLIMNER_WERROR=ON", "-DLIMNER_VIEWER=OFF", "-DLIMNER_INSTALL=OFF", "-DLIMNER_STATIC=OFF"]
+CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DLIMNER_WERROR=OFF", "-DLIMNER_VIEWER=OFF", "-DLIMNER_INSTALL=OFF", "-DLIMNER_STATIC=OFF"]
 # Row of the table that is no room: tests that take names of cases as arguments, and list them when they are called with `--cases`.
 CASES = "cases"
 

@@ -323,13 +323,16 @@ def _describe(scene: Scene, size: tuple[int, int], view: str, eye: Vector | None
               background: str | None, select: str | None, dpi: float, lenient: bool) -> c.lmn_draw_desc:
     desc: c.lmn_draw_desc = c.STANDARDS[c.lmn_draw_desc]()
     desc.width, desc.height = size
-    desc.view, desc.camera = _choice("view", view, _VIEWS), encode(camera)
+    best = view == "best" and eye is None and camera is None
+    desc.view, desc.camera = c.LMN_VIEW_ISO if view == "best" else _choice("view", view, _VIEWS), encode(camera)
     _place(desc, scene, eye, target, up)
     desc.orthographic, desc.fov_deg, desc.fit = ortho, fov, fit
     desc.time_given, desc.time_s = time is not None, time or 0
     desc.clip, desc.fit_time = encode(clip), fit_time
     desc.seed, desc.samples, desc.dpi, desc.lenient = seed, samples, dpi, lenient
     desc.background, desc.select = encode(background), encode(select)
+    if best:
+        call("lmn_scene_best_view", scene, ctypes.byref(desc))
     return desc
 
 

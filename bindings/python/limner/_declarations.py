@@ -869,6 +869,7 @@ FUNCTIONS = {
     "lmn_renderer_create": (c_int, [POINTER(c_void_p), POINTER(lmn_renderer_desc), POINTER(lmn_error)]),
     "lmn_renderer_destroy": (None, [POINTER(c_void_p)]),
     "lmn_renderer_json": (c_void_p, [c_void_p]),
+    "lmn_scene_best_view": (c_int, [c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_error)]),
     "lmn_draw_check": (c_int, [c_void_p, c_void_p, POINTER(lmn_draw_desc), c_bool, POINTER(lmn_error)]),
     "lmn_draw": (c_int, [POINTER(c_void_p), c_void_p, c_void_p, c_void_p, POINTER(lmn_draw_desc), POINTER(lmn_error)]),
     "lmn_drawing_destroy": (None, [POINTER(c_void_p)]),

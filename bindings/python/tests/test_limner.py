@@ -1,6 +1,7 @@
 """Tests of the package. Environment: LIMNER_LIBRARY, the library; CC, a C compiler (else cc)."""
 import array
 import ctypes
+import math
 import os
 import pathlib
 import subprocess
@@ -96,6 +97,15 @@ class Pictures(unittest.TestCase):
         self.assertEqual(first, limner.draw([str(BOX)], "line", settings={"lines.width": "3px"}, view="front", **SMALL).png())
         self.assertNotEqual(first, limner.draw(scene, look, view="iso", **SMALL).png())
         self.assertNotEqual(first, limner.draw(scene, "line", view="front", **SMALL).png())
+
+    def test_best_view(self):
+        """A box shows most from where three of its sides are seen as much, which is the first direction that is tried."""
+        camera = limner.draw(BOX, view="best", **SMALL).report["camera"]
+        to_eye = [at - middle for at, middle in zip(camera["eye"], camera["target"])]
+        for number in to_eye:
+            self.assertAlmostEqual(number / math.hypot(*to_eye), 3 ** -0.5, 4)
+        with self.assertRaises(limner.UsageError):
+            limner.draw(BOX, view="best", select="[", **SMALL)
 
     def test_without_numpy(self):
         code = ("import sys; sys.modules['numpy'] = None; import limner; a = limner.draw(sys.argv[1], size=(32, 16), dpi=96).array;"

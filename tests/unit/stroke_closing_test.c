@@ -1,0 +1,106 @@
+/* What comes back of lines that were left out: what closes a corner, and nothing else. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "stroke/stroke_private.h"
+
+enum { STROKES_MOST = 12 };
+
+/* Straight strokes in millimetres on paper. */
+typedef struct drawing {
+    stroke       strokes[STROKES_MOST];
+    stroke_point points[2 * STROKES_MOST];
+    uint8_t      gone[STROKES_MOST];
+    stroke_set   set;
+} drawing;
+
+static size_t add(drawing *d, double x0, double y0, double x1, double y1, bool gone)
+{
+    const size_t   i = d->set.stroke_count++;
+    const float    mm = (float)PAPER_UNITS_PER_MM;
+    const uint32_t first = (uint32_t)(2 * i);
+    d->strokes[i] = (stroke){.chain = (uint32_t)i, .first = first, .count = 2};
+    d->points[first] = (stroke_point){.x = (float)x0 * mm, .y = (float)y0 * mm};
+    d->points[first + 1] = (stroke_point){.x = (float)x1 * mm, .y = (float)y1 * mm};
+    d->gone[i] = gone;
+    d->set.strokes = d->strokes;
+    d->set.points = d->points;
+    d->set.point_count += 2;
+    return i;
+}
+
+/* Three sides of a box are drawn, the short fourth one was left out. */
+static void test_short_sides_come_back(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 10, 30, 10, false);
+    add(&d, 10, 10, 10, 12, false);
+    add(&d, 10, 12, 30, 12, false);
+    const size_t side = add(&d, 30, 10, 30, 12, true);
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    assert_false(d.gone[side]);
+}
+
+/* … or in two pieces that meet where nothing is drawn. */
+static void test_ways_of_two_come_back(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 10, 30, 10, false);
+    add(&d, 10, 12, 32, 12, false);
+    const size_t first = add(&d, 30, 10, 32, 10, true), second = add(&d, 32, 10, 32, 12, true);
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    assert_false(d.gone[first] || d.gone[second]);
+}
+
+static void test_others_stay_away(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 10, 30, 10, false);
+    add(&d, 30, 10, 30, 30, false);
+    add(&d, 29, 10, 29, 11, false);
+    add(&d, 29, 11, 30, 11, false);
+    const size_t beside = add(&d, 20, 10, 21, 10.5, true), /* leads nowhere */
+        corner = add(&d, 30, 10, 29, 11, true),            /* the corner is closed already */
+        across = add(&d, 10, 10, 30, 28, true),            /* long */
+        alone = add(&d, 50, 50, 51, 50, true),             /* touches nothing */
+        out = add(&d, 10, 10, 9, 9, true);                 /* leads an end on to nothing that is drawn */
+    const size_t all[] = {beside, corner, across, alone, out};
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (!d.gone[all[i]])
+            fail_msg("stroke %zu came back", all[i]);
+}
+
+/* What is hidden neither closes a corner nor has one. */
+static void test_hidden_lines_do_not_count(void **state)
+{
+    (void)state;
+    drawing d = {.set = {0}};
+    add(&d, 10, 10, 30, 10, false);
+    const size_t hidden = add(&d, 30, 12, 10, 12, false), side = add(&d, 30, 10, 30, 12, true);
+    d.strokes[hidden].hidden_by = 1;
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    assert_true(d.gone[side]);
+    d.strokes[hidden].hidden_by = 0;
+    assert_true(strokes_close_corners(&d.set, d.gone));
+    assert_false(d.gone[side]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_short_sides_come_back),
+        cmocka_unit_test(test_ways_of_two_come_back),
+        cmocka_unit_test(test_others_stay_away),
+        cmocka_unit_test(test_hidden_lines_do_not_count),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
