@@ -231,30 +231,11 @@ uint8_t *view_unseen(const stroke_view *v, size_t index)
     return out;
 }
 
-/* How far positions may lie off by what they are rounded to, units: to floats where something has cut, to units
- * here. */
-static double rounded_by(const stroke_view *v)
-{
-    const double unit = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]) * v->units;
-    return v->camera.orthographic ? fmax(0x1p-23 * v->scene->extent * unit, 1) : 1;
-}
-
-/* What that may make of the area of a face that is seen from the edge, as window_side counts: walls whose corners are
- * not exactly above each other, as where a section has cut them, are as much from behind as those whose are, all along
- * an outline. */
-static double rounded_area(window_point a, window_point b, window_point c, double by)
-{
-    double x = fmax(fmax(a.x, b.x), c.x) - fmin(fmin(a.x, b.x), c.x),
-           y = fmax(fmax(a.y, b.y), c.y) - fmin(fmin(a.y, b.y), c.y);
-    return by * (x + y);
-}
-
 static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
 {
     const stroke_item *item = &v->scene->items[index];
     const edge_mesh   *m = &v->scene->meshes[item->mesh];
     uint32_t           base = v->items[index].first_point, first = v->items[index].first_face;
-    const double       by = rounded_by(v);
     for (uint32_t f = 0; f < m->face_count; f++) {
         const uint32_t *corners = m->faces[f];
         uint32_t        a = base + corners[0], b = base + corners[1], c = base + corners[2], face = first + f;
@@ -271,7 +252,7 @@ static bool put_faces(stroke_view *v, size_t index, const uint8_t *unseen)
                 return false;
         } else {
             double side = window_side(v->points[a], v->points[b], v->points[c]);
-            front = side < -rounded_area(v->points[a], v->points[b], v->points[c], by);
+            front = side < 0;
             if (side != 0 && unseen[m->pieces[f]] != (front ? 2 : 1) && !put_triangle(v, a, b, c, face))
                 return false;
         }

@@ -474,86 +474,6 @@ static void test_half_has_its_outline(void **state)
     f.scene = kept;
 }
 
-/* --- outlines of walls that a section has cut ------------------------------------------------------------ */
-
-enum { PROFILE = 30 };
-
-/* An angle with a fillet, all of whose walls are at right angles to the drawing, of triangles, 20 deep. */
-static lmn_scene *extruded(double profile[PROFILE][2])
-{
-    static char  text[16384];
-    size_t       size = 0;
-    int          count = 0;
-    const double corners[5][2] = {{0, 0}, {40.1, 0}, {40.1, 8.3}, {8.7, 40.2}, {0, 40.2}};
-    for (int i = 0; i < 3; i++, count++)
-        memcpy(profile[count], corners[i], sizeof *profile);
-    for (; count < PROFILE - 2; count++) { /* around (19.7, 19.3) by 11 */
-        double angle = (270 - 90.0 * (count - 3) / (PROFILE - 6)) * 3.14159265358979323846 / 180;
-        profile[count][0] = 19.7 + 11 * cos(angle);
-        profile[count][1] = 19.3 + 11 * sin(angle);
-    }
-    for (int i = 3; i < 5; i++, count++)
-        memcpy(profile[count], corners[i], sizeof *profile);
-    for (int i = 0; i < 2 * PROFILE; i++)
-        size += (size_t)snprintf(text + size, sizeof text - size, "v %.7f %.7f %d\n", profile[i % PROFILE][0],
-                                 profile[i % PROFILE][1], i < PROFILE ? 0 : 20);
-    for (int i = 0; i < PROFILE; i++) {
-        int a = i + 1, b = (i + 1) % PROFILE + 1;
-        size += (size_t)snprintf(text + size, sizeof text - size, "f %d %d %d\nf %d %d %d\n", a, b, b + PROFILE, a,
-                                 b + PROFILE, a + PROFILE);
-    }
-    for (int side = 0; side < 2; side++) {
-        size += (size_t)snprintf(text + size, sizeof text - size, "f");
-        for (int i = 0; i < PROFILE; i++)
-            size += (size_t)snprintf(text + size, sizeof text - size, " %d", side ? PROFILE + 1 + i : PROFILE - i);
-        size += (size_t)snprintf(text + size, sizeof text - size, "\n");
-    }
-    return load_or_fail(temp_file("angle.obj", text, size));
-}
-
-typedef struct nearest {
-    double at[2], apart;
-} nearest;
-
-static void find_nearest(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
-{
-    nearest *n = user;
-    (void)item;
-    for (uint32_t i = 0; i + !path->closed < path->count; i++) {
-        const float *a = s->points[path->first + i], *b = s->points[path->first + (i + 1) % path->count];
-        double       way[2] = {(double)(b[0] - a[0]), (double)(b[1] - a[1])},
-               to[2] = {n->at[0] - (double)a[0], n->at[1] - (double)a[1]}, square = way[0] * way[0] + way[1] * way[1];
-        double along = square > 0 ? fmin(fmax((way[0] * to[0] + way[1] * to[1]) / square, 0), 1) : 0;
-        n->apart = fmin(n->apart, hypot(to[0] - along * way[0], to[1] - along * way[1]));
-    }
-}
-
-static void test_outline_of_a_section(void **state)
-{
-    double         profile[PROFILE][2];
-    lmn_sheet_desc d = usual();
-    lmn_scene     *kept = f.scene;
-    (void)state;
-    f.scene = extruded(profile);
-    d.sections = "front";
-    d.line_group = 0;
-    lmn_sheet         *s = draw(&d);
-    const vector_view *section = view_named(s, "section-A");
-    int                gaps = 0;
-    for (int i = 0; i < PROFILE; i++) {
-        const double *a = profile[i], *b = profile[(i + 1) % PROFILE];
-        nearest       n = {.apart = INFINITY};
-        project(section, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 10, n.at);
-        each_path(s, "view-section-A", "visible", find_nearest, &n);
-        gaps += n.apart > 0.05;
-    }
-    print_message("%d of %d sides have no line\n", gaps, PROFILE);
-    assert_int_equal(gaps, 0);
-    lmn_sheet_destroy(&s);
-    lmn_scene_destroy(&f.scene);
-    f.scene = kept;
-}
-
 /* The middle of the line of text that says this in the frame, for the n-th time; false: it does not. */
 static bool find_words(const sheet *s, const char *words, size_t n, double out[2])
 {
@@ -921,7 +841,6 @@ int main(void)
                                        cmocka_unit_test(test_half_assembly),
                                        cmocka_unit_test(test_half_has_its_outline),
                                        cmocka_unit_test(test_grid_reference),
-                                       cmocka_unit_test(test_outline_of_a_section),
                                        cmocka_unit_test(test_axis_in_cutting_plane),
                                        cmocka_unit_test(test_title_block),
                                        cmocka_unit_test(test_header),
