@@ -118,6 +118,12 @@ void visibility_draw(frame *f);
 /* --- ground.c: the shadow on the ground --- */
 /* Draws it onto the page, where the look has one and it is seen: by the medium of the first figure, where that can. */
 void ground_draw(frame *f);
+/* The plane in eye space, normal and distance along it, and as a uniform. */
+void ground_plane_set(frame *f, double out[4]);
+/* From where to where a box goes along an axis. */
+void ground_range(box3 box, int axis, double out[2]);
+/* ground_cast.c: the one that the first light throws. */
+void ground_cast(frame *f);
 
 /* What solids are evaluated for. */
 solid_view frame_solid_view(frame *f);

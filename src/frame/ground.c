@@ -29,7 +29,7 @@ static const scene_values *values_of(const frame *f)
     return f->plan->look->wide[KIND_SCENE].values;
 }
 
-static void range_of(box3 box, int axis, double out[2])
+void ground_range(box3 box, int axis, double out[2])
 {
     const float low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
     out[0] = (double)low[axis];
@@ -41,12 +41,12 @@ static ground_square square_of(const ground_plane *ground)
     ground_square s = {.axes = {0, 3 - ground->up}};
     for (int k = 0; k < 2; k++) {
         double range[2];
-        range_of(ground->box, s.axes[k], range);
+        ground_range(ground->box, s.axes[k], range);
         s.middle[k] = (range[0] + range[1]) / 2;
         s.half = fmax(s.half, (range[1] - range[0]) / 2);
     }
     double upward[2];
-    range_of(ground->box, ground->up, upward);
+    ground_range(ground->box, ground->up, upward);
     s.height = fmax(upward[1] - ground->level, 1e-3 * ground->size);
     s.half += MARGIN * ground->reach;
     return s;
@@ -227,8 +227,7 @@ static void find_map_from_pixel(const frame *f, const mat4 *map, const double pl
     }
 }
 
-/* The plane in eye space: normal, distance along it. */
-static void plane_set(frame *f, double out[4])
+void ground_plane_set(frame *f, double out[4])
 {
     const ground_plane *ground = &f->ground_plane;
     const double       *m = f->camera.view.m;
@@ -245,7 +244,7 @@ static void ground_set(frame *f, const view_camera *below, gpu_texture *map)
 {
     const scene_values *v = values_of(f);
     double              plane[4];
-    plane_set(f, plane);
+    ground_plane_set(f, plane);
     gpu_set_vec2(f->g, "u_ground_tone", v->ground_strength, v->ground_flat ? 1 : 0);
     gpu_set_texture(f->g, "t_ground_map", map, true);
     mat4  position = map_from_eye(f, below);
@@ -263,7 +262,7 @@ static void find_pixels(const frame *f, const ground_square *s, double margin, i
     float low[3] = {0}, high[3] = {0};
     for (int k = 0; k < 2; k++) {
         double range[2];
-        range_of(f->ground_plane.box, s->axes[k], range);
+        ground_range(f->ground_plane.box, s->axes[k], range);
         low[s->axes[k]] = (float)(range[0] - margin * f->ground_plane.reach);
         high[s->axes[k]] = (float)(range[1] + margin * f->ground_plane.reach);
     }
@@ -350,82 +349,12 @@ static bool is_drawn_by(const frame *f, const figure *fig)
            row->on_ground(surface->values, f->ground);
 }
 
-/* Where the shadow that the first light throws can be seen: from the model to where its top's shadow falls. */
-static bool find_cast_pixels(const frame *f, int out[4])
-{
-    const ground_plane *ground = &f->ground_plane;
-    double              towards[3], world[3];
-    if (!f->shadow || !lights_first_direction(f, towards))
-        return false;
-    for (int k = 0; k < 3; k++)
-        world[k] = f->camera.view.m[4 * k] * towards[0] + f->camera.view.m[4 * k + 1] * towards[1] +
-                   f->camera.view.m[4 * k + 2] * towards[2];
-    if (!(world[ground->up] > 1e-3))
-        return false;
-    float  low[3] = {0}, high[3] = {0};
-    double half = (double)values_of(f)->shadow_softness * (3.14159265358979 / 360);
-    for (int axis = 0; axis < 3; axis++) {
-        double range[2], upward[2];
-        range_of(ground->box, axis, range);
-        range_of(ground->box, ground->up, upward);
-        double soft = tan(half) * (upward[1] - ground->level) / (world[ground->up] * world[ground->up]),
-               off = -world[axis] / world[ground->up] * (upward[1] - ground->level);
-        bool level = axis != ground->up;
-        low[axis] = (float)(level ? range[0] + fmin(off, 0) - soft : ground->level);
-        high[axis] = (float)(level ? range[1] + fmax(off, 0) + soft : ground->level);
-    }
-    camera_pixels(&f->camera, (box3){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, f->width, f->height, 2,
-                  out);
-    return true;
-}
-
-/* The first light's shadow on the ground. */
-static void draw_cast(frame *f)
-{
-    const scene_values *v = values_of(f);
-    const colour        c = v->ground_colour;
-    figure              fig = f->plan->figures[0];
-    figure_state        s = {.figure = &fig, .near = f->camera.near, .far = f->camera.far, .ground = true};
-    text                prelude = {0};
-    bool                soft = v->shadow_softness > 0;
-    double              plane[4];
-    if (!find_cast_pixels(f, s.pixels))
-        return;
-    window_clip(f, WINDOW_MARGIN, s.pixels);
-    if (s.pixels[2] <= 0 || s.pixels[3] <= 0)
-        return;
-    stopwatch w = watch_start(&f->profile);
-    bool      hatched = v->ground_hatch > 0;
-    double    angle = (double)v->ground_angle * (3.14159265358979323846 / 180);
-    text_append(&prelude, "%s%s%s", hatched ? "#define HATCHED\n" : "", soft ? "#define SOFT\n" : "",
-                !soft && v->ground_edge > 0 ? "#define EDGED\n" : "");
-    target_declare(&prelude, &target_rows[TARGET_SHADOW]);
-    gpu_program *p = program_of(f, GPU_FLOOR, "gpu/screen.vert", "light/ground_cast.frag", &prelude);
-    gpu_pass     pass = {.colours = {f->page}, .colour_count = 1};
-    memcpy(pass.scissor, s.pixels, sizeof pass.scissor);
-    if (p && !gpu_failed(f->g)) {
-        gpu_pass_begin(f->g, &pass);
-        gpu_use(f->g, p, (gpu_state){.blend = GPU_BLEND_OVER});
-        frame_set_common(f, &s);
-        plane_set(f, plane);
-        gpu_set_float(f->g, "u_ground_strength", v->ground_strength);
-        gpu_set_float(f->g, "u_ground_edge", v->ground_edge);
-        if (hatched) {
-            gpu_set_float(f->g, "u_ground_hatch", v->ground_hatch);
-            gpu_set_vec2(f->g, "u_ground_along", (float)cos(angle), (float)sin(angle));
-        }
-        gpu_set_vec4(f->g, "u_ground_colour", (float[]){c.r, c.g, c.b, c.a});
-        gpu_draw_screen(f->g);
-    }
-    watch_stop(&f->profile, w, "scene", "shadow on the ground");
-}
-
 void ground_draw(frame *f)
 {
     if (!f->ground_plane.there || f->maps || f->plan->figure_count == 0)
         return;
     if (values_of(f)->ground == GROUND_CAST) {
-        draw_cast(f);
+        ground_cast(f);
         return;
     }
     if (values_of(f)->ground_strength <= 0)

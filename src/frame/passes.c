@@ -47,6 +47,8 @@ static gpu_program *pass_program(frame *f, const figure_state *s, const pass *p,
         text_append(&prelude, "#define SEEN_DEPTH\n");
     for (size_t i = 0; i < params->count; i++)
         uniforms_declare(&prelude, params->sets[i]);
+    if (p->prepares) /* for what is shaded: it may look at light as that does */
+        lights_declare(&prelude, f);
     reads_declare(&prelude, f, s, p, params->merged);
     if ((s->targets[TARGET_EDGE] || params->merged) && !p->looks_up)
         text_append(&prelude, "#define HAS_LINES\n");
@@ -200,6 +202,19 @@ static void keep_written(frame *f, figure_state *s, target t, gpu_texture *writt
     s->targets[t] = written;
 }
 
+/* What prepares shading is needed only where something is shaded: software drivers skip blocks of pixels by the depth
+ * test, as in raster_shade_deferred. */
+static void where_shaded(frame *f, const figure_state *s, const pass *p, gpu_pass *target, gpu_state *state)
+{
+    gpu_texture *depth = s->targets[TARGET_DEPTH];
+    if (!p->prepares || !depth || target_row_of(s, p->writes)->scale != SCALE_PAGE)
+        return;
+    gpu_pass_begin(f->g, target);
+    target->clear = false;
+    target->depth = depth;
+    *state = (gpu_state){.depth_test = true, .depth_compare = GPU_GREATER};
+}
+
 /* Into pictures that are there, with all that the program asks for. */
 static void draw_pass(frame *f, figure_state *s, const pass *p, const pass_params *params, gpu_program *program,
                       const gpu_pass *target, gpu_state state, int iteration)
@@ -250,9 +265,11 @@ static void run_pass(frame *f, figure_state *s, const pass *p, const pass_params
     gpu_texture *written = page ? target_of(f, s, p->writes) : frame_acquire_for(f, s, p->writes);
     gpu_texture *too = p->writes_too ? frame_acquire_for(f, s, p->writes_too) : NULL;
     if (program && written && !gpu_failed(f->g)) {
-        gpu_pass target = pass_target(f, s, p, written, too);
+        gpu_pass  target = pass_target(f, s, p, written, too);
+        gpu_state state = pass_state(s, p);
         set_scissor(f, s, p, &target);
-        draw_pass(f, s, p, params, program, &target, pass_state(s, p), iteration);
+        where_shaded(f, s, p, &target, &state);
+        draw_pass(f, s, p, params, program, &target, state, iteration);
         keep_moved_depth(f, s, p, params);
     }
     if (!page)

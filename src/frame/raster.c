@@ -707,7 +707,7 @@ void raster_shell(frame *f, figure_state *s, target into, float pixels)
 
 /* What shading from the G-buffer reads. */
 static const pass shading = {
-    .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_DIRECTION, TARGET_REST, TARGET_DETAIL},
+    .reads = {TARGET_NORMAL_DEPTH, TARGET_ID, TARGET_ALBEDO, TARGET_FORM, TARGET_DIRECTION, TARGET_REST, TARGET_DETAIL},
     .writes = TARGET_SHADE};
 
 void raster_shade_deferred(frame *f, figure_state *s)

@@ -42,19 +42,24 @@ float lit_at(vec3 eye)
     }
     return lit / float(COMPARED);
 }
-#else
-float lit_at(vec3 eye)
-{
-    return lit_fraction(eye, u_ground_plane.xyz, u_ground_plane.xyz, u_shadow_light);
-}
-#endif
-
 /* How much of the light is kept off. */
 float dark_at(vec2 pixel)
 {
     vec4 eye = on_ground(pixel);
     return eye.w > 0.0 ? 1.0 - lit_at(eye.xyz) : 0.0;
 }
+#else
+uniform sampler2D t_ground_dark; /* light/ground_dark.frag */
+
+float dark_at(vec2 pixel)
+{
+    vec2 at = pixel - 0.5, low = floor(at), part = at - low;
+    ivec2 first = ivec2(low), last = ivec2(u_size) - 1;
+    float a = texelFetch(t_ground_dark, clamp(first, ivec2(0), last), 0).r, b = texelFetch(t_ground_dark, clamp(first + ivec2(1, 0), ivec2(0), last), 0).r;
+    float c = texelFetch(t_ground_dark, clamp(first + ivec2(0, 1), ivec2(0), last), 0).r, d = texelFetch(t_ground_dark, clamp(first + 1, ivec2(0), last), 0).r;
+    return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
+}
+#endif
 
 /* How much of the pixel the line along the border covers. The share of a ring around it that is lit tells how far the border is. */
 float edge_at(vec2 pixel)
@@ -91,11 +96,10 @@ float along_stroke(int stroke, float along)
 }
 
 #ifndef SOFT
-/* The same by one comparison. */
+/* That of the pixel alone. */
 float dark_once(vec2 pixel)
 {
-    vec4 eye = on_ground(pixel);
-    return eye.w > 0.0 ? 1.0 - lit_once(eye.xyz, u_ground_plane.xyz) : 0.0;
+    return texelFetch(t_ground_dark, clamp(ivec2(pixel), ivec2(0), ivec2(u_size) - 1), 0).r;
 }
 #endif
 

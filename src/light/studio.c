@@ -74,6 +74,10 @@ static const param params[] = {
     PARAM_FLOAT_ROW(scene_values, ground_angle, .def = 0, .min = -180, .max = 180, .unit = UNIT_DEGREES,
                     .cpu_only = true, .only_if = "ground_hatch",
                     .doc = "Direction of these strokes on the page: 0 is level, 90 upright."),
+    PARAM_FLOAT_ROW(scene_values, ground_smoothing, .def = 0, .min = 0, .max = 60, .soft_max = 18, .unit = UNIT_PT,
+                    .cpu_only = true, .only_if = "ground=cast",
+                    .doc = "The border of a hard shadow on the ground is smoothed over this radius, and small scraps "
+                           "of shadow that nothing near throws are left out; 0: it is as it falls."),
     PARAM_FLOAT_ROW(scene_values, focus, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION, .cpu_only = true,
                     .doc = "Depth focus: fraction of the ink that lines and strokes lose away from the depth that is "
                            "looked at; the paper stays what it is."),

@@ -10,7 +10,7 @@ typedef struct mark_values {
     int32_t count, pattern_seed;
     float   shadow, light, contrast, texture, fade;
     colour  ink, paper;
-    float   paper_tint, paper_light;
+    float   paper_tint, paper_light, paper_strokes;
     bool    cull;
 } mark_values;
 
@@ -42,6 +42,11 @@ typedef struct mark_values {
                         .doc = "Fraction of the model's own colour in the paper."),                                    \
         PARAM_FLOAT_ROW(mark_values, paper_light, .def = 1, .min = 0, .max = 1, .unit = UNIT_FRACTION,                 \
                         .only_if = "paper_tint", .doc = "How far light shades that colour; 0 leaves it flat."),        \
+        PARAM_FLOAT_ROW(mark_values, paper_strokes, .toggles = true, .def = 0, .min = 0, .max = 100, .soft_max = 30,   \
+                        .unit = UNIT_PT, .only_if = "paper_tint",                                                      \
+                        .doc = "Width of the strokes of a broad pen that lay that colour, slanting over the page and " \
+                               "one over the other: fewer in the light, where paper shows between them; 0: it is "     \
+                               "flat. In pictures only."),                                                             \
         PARAM_BOOL_ROW(mark_values, cull, .def = 1, .cpu_only = true,                                                  \
                        .doc = "Leaves out, cluster by cluster, marks that cannot be seen from here. The picture is "   \
                               "the same without; it takes longer.")

@@ -1,11 +1,12 @@
 /* toon: bands the summed light, then smooths only the borders between bands. Nienhaus 2005, sections 3.4 and 4.6
  * (the shade map is blurred by four samples that cover nine texels); row E12. */
+#include "surface/form.h"
 #include "surface/surface.h"
 
 typedef struct toon {
     int32_t bands;
     float   softness, gradation, shadow, light, highlight, saturation, smoothing, darkest, lightness, blacks, feather,
-        spacing;
+        spacing, spotted;
     colour shade, ink;
     bool   seed_blur;
 } toon;
@@ -29,11 +30,11 @@ static const param params[] = {
                     .doc = "Strength of the hard-edged highlight; 0 leaves it out."),
     PARAM_FLOAT_ROW(toon, saturation, .def = 1.1, .min = 0, .max = 3, .soft_max = 2,
                     .doc = "Saturation of the tones; cartoons like more than nature."),
-    PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 24, .soft_max = 9, .unit = UNIT_PT,
+    PARAM_FLOAT_ROW(toon, smoothing, .def = 0, .min = 0, .max = 100, .soft_max = 40, .unit = UNIT_PT,
                     .doc =
-                        "Light and textures are smoothed over this radius before tones are told apart, within a part "
-                        "and not across creases: borders of tones no longer follow the faces of a mesh; 0 leaves "
-                        "both as they are. Not in what is seen through."),
+                        "Light is smoothed over this radius before tones are told apart, textures over at most 12 pt "
+                        "of it, within a part and not across creases: borders of tones no longer follow the faces of "
+                        "a mesh; 0 leaves both as they are. Not in what is seen through."),
     PARAM_FLOAT_ROW(toon, darkest, .def = 0, .min = 0, .max = 0.33, .unit = UNIT_FRACTION,
                     .doc = "No fill is shown darker than this, so that ink stays legible on it."),
     PARAM_FLOAT_ROW(toon, lightness, .def = 0, .min = 0, .max = 1, .unit = UNIT_FRACTION,
@@ -46,6 +47,10 @@ static const param params[] = {
                            "way to what faces it; 0: there are none."),
     PARAM_FLOAT_ROW(toon, spacing, .def = 3.5, .min = 0.5, .max = 50, .soft_max = 9, .unit = UNIT_PT,
                     .only_if = "feather>0", .doc = "Distance of those strokes from each other, at most."),
+    PARAM_FLOAT_ROW(toon, spotted, .def = 0, .min = 0, .max = 4, .soft_max = 1, .unit = UNIT_FRACTION,
+                    .only_if = "blacks>0",
+                    .doc = "How much more is filled with ink in corners and clefts, which see little of the sky "
+                           "(scene.occlusion), and of what is dark itself."),
     PARAM_COLOUR_ROW(toon, ink, .def_colour = {13 / 255.0F, 11 / 255.0F, 18 / 255.0F, 1}, .only_if = "blacks>0",
                      .doc = "Ink of the blacks."),
     PARAM_BOOL_ROW(toon, seed_blur, .def = 0,
@@ -53,7 +58,13 @@ static const param params[] = {
                           "border's own distance."),
 };
 
+static int rounds_of(const void *values)
+{
+    return form_rounds((double)((const toon *)values)->smoothing);
+}
+
 static const pass passes[] = {
+    FORM_PASS(rounds_of),
     {.name = "blur tones",
      .shader = "surface/toon_blur.frag",
      .reads = {TARGET_SHADE, TARGET_ID},

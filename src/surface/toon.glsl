@@ -53,20 +53,54 @@ vec3 on_plane(surface_point p, vec2 offset)
     return ray * (dot(p.normal, p.eye) / min(dot(p.normal, ray), -0.05));
 }
 
-/* 1 in the middle of a stripe, 0 between two; each as strong as its own number says. */
+/* Numbers 0 … 1 of a stripe. */
+vec2 of_stripe(float number)
+{
+    return 0.5 + 0.5 * corner_noise(hash_of(uvec3(uint(int(number) + 0x8000), 0u, 0u), 1u));
+}
+
+/* How far the stroke of a stripe reaches there: most in its middle, and as a brush that is lifted leaves it, broad where it begins and long and thin at its end. Strokes differ in length, each
+ * by itself and together with those beside it. */
 float stripe(float along)
 {
-    float strength = 0.85 + 0.15 * corner_noise(hash_of(uvec3(uint(int(floor(along)) + 0x8000), 0u, 0u), 1u)).x;
-    return strength * (1.0 - abs(2.0 * fract(along) - 1.0));
+    float number = floor(along), group = number / 7.0, part = smoothstep(0.0, 1.0, fract(group));
+    float together = mix(of_stripe(floor(group) + 4096.0).y, of_stripe(floor(group) + 4097.0).y, part);
+    float length_ = 0.3 + 0.3 * of_stripe(number).x + 0.4 * together;
+    return length_ * (1.0 - sqrt(abs(2.0 * fract(along) - 1.0)));
+}
+
+/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself. */
+float spotted(surface_point p)
+{
+    float dark = 1.0 - smoothstep(0.15, 0.4, dot(shown(p.albedo.rgb), vec3(0.2126, 0.7152, 0.0722)));
+    return u_spotted * (1.0 - sky_fraction(p) + 0.3 * dark);
+}
+
+/* Are there blacks where a stroke that is here would begin? `beyond`: by how much more this place is turned to the light, which changes by `gradient` from pixel to pixel. */
+float begins(surface_point p, vec2 gradient, float beyond, vec3 light)
+{
+#ifdef SHADED_LATER
+    float slope = max(length(gradient), 1e-6), most = 0.0;
+    vec2 back = gradient / slope * (max(beyond, 0.0) / slope + 1.0);
+    for (int k = 1; k <= 4; k++) { /* the form may end before */
+        ivec2 at = ivec2(clamp(gl_FragCoord.xy - 0.25 * float(k) * back, vec2(0.0), u_size - 1.0));
+        float less = 0.5 * dot(p.normal - texelFetch(t_form, at, 0).xyz, light);
+        most = max(most, texelFetch(t_id, at, 0).r == p.part ? less : 0.0);
+    }
+    return smoothstep(0.5, 0.7, most / max(beyond, 1e-6));
+#else
+    return 1.0;
+#endif
 }
 
 /* An inker's blacks: the fraction of the pixel that is ink. Strokes that feather them lie in planes of light: on any form these cross the border of light
- * and shadow at right angles. They keep their distance on the page within a factor of two: where it would grow beyond that, others come between. `slope`: how fast the form
- * turns towards the light here, by a pixel. */
-float inked(surface_point p, float slope)
+ * and shadow at right angles. They keep their distance on the page within a factor of two: where it would grow beyond that, others come between. `gradient`: how fast the form
+ * turns towards the light here, by a pixel; `shadow`: what else makes it black, and `blur` how much of that may change from pixel to pixel. */
+float inked(surface_point p, vec2 gradient, float blur, float shadow)
 {
+    float slope = length(gradient);
     vec3 light = towards_light(0, p.eye);
-    float beyond = 0.5 + 0.5 * dot(p.normal, light) - 0.5 * u_blacks, reach = 0.0, reach_slope = 0.0;
+    float beyond = 0.5 + 0.5 * dot(p.normal, light) - 0.5 * u_blacks - shadow, reach = 0.0, reach_slope = 0.0;
     if (beyond > slope + u_feather)
         return 0.0;
     if (u_feather > 0.0) {
@@ -77,11 +111,11 @@ float inked(surface_point p, float slope)
         float slope_along = length(vec2(dot(on_plane(p, vec2(1.0, 0.0)) - p.eye, axis), dot(on_plane(p, vec2(0.0, 1.0)) - p.eye, axis)));
         float octave = log2(max(slope_along * u_spacing, 1e-12)), part = fract(octave), pitch = exp2(octave - part);
         /* They begin at blacks: on what hardly turns these are far, or nowhere. */
-        float beside = u_feather * (1.0 - smoothstep(6.0 * u_spacing, 12.0 * u_spacing, beyond / max(slope, 1e-6)));
+        float beside = u_feather * smoothstep(0.02, 0.06, slope * u_spacing / u_feather) * begins(p, gradient, beyond, light);
         reach = beside * mix(stripe(along / pitch), stripe(0.5 * along / pitch), part);
-        reach_slope = beside * slope_along / pitch * (2.0 - part);
+        reach_slope = beside * slope_along / pitch * (2.0 - part); /* at the middle of a stroke's length */
     }
-    float width = max(length(vec2(slope, reach_slope)), 1e-4);
+    float width = max(length(vec3(slope, reach_slope, 0.5 * blur)), 1e-4);
     return clamp((reach - beyond) / width + 0.5, 0.0, 1.0);
 }
 
@@ -90,9 +124,11 @@ vec4 surface_colour(surface_point p)
     p.albedo.rgb = lifted(p.albedo.rgb);
     if (p.unlit)
         return vec4(shown(p.albedo.rgb), 1.0);
+    float arrives = unshadowed(p);
 #ifdef SHADED_LATER
     surroundings around = surroundings_of(p);
     surface_point right = p, above = p;
+    arrives = around.light;
     p.normal = around.normal;
     p.albedo.rgb = lifted(around.albedo);
     right.normal = normalize(around.normal + around.across);
@@ -103,9 +139,9 @@ vec4 surface_colour(surface_point p)
 #endif
     /* The border of a hard shadow is that of its own tone, wherever the steps of light are. */
 #ifdef HAS_SOFT_SHADOW
-    float first = unshadowed(p), lit = 1.0;
+    float first = arrives, lit = 1.0;
 #else
-    float first = 1.0, lit = unshadowed(p);
+    float first = 1.0, lit = arrives;
 #endif
     float light = tone_light(p, first), dark = tone_light(p, 0.0);
 #ifdef SHADED_LATER
@@ -133,7 +169,8 @@ vec4 surface_colour(surface_point p)
         float turned = dot(p.normal, towards);
         vec2 gradient = 0.5 * vec2(dFdx(turned), dFdy(turned));
 #endif
-        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, length(gradient)));
+        float deep = u_spotted > 0.0 ? spotted(p) : 0.0;
+        colour = mix(colour, u_ink.rgb, u_ink.a * inked(p, gradient, fwidth(deep), deep));
     }
     return vec4(colour, 1.0);
 }

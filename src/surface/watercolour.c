@@ -3,6 +3,7 @@
  * and Sillion, "Interactive watercolor rendering with temporal coherence and abstraction", NPAR 2006: edge darkening
  * and turbulent flow; Curtis et al., "Computer-generated watercolor", SIGGRAPH 1997). Pigment in the grain of paper is
  * the sheet's (finish.paper). */
+#include "surface/form.h"
 #include "surface/surface.h"
 
 typedef struct watercolour {
@@ -36,10 +37,17 @@ static const param params[] = {
                     .doc = "The lightest fraction of the light, which is left as paper."),
     PARAM_FLOAT_ROW(watercolour, saturation, .def = 1.15, .min = 0, .max = 3, .soft_max = 2,
                     .doc = "Saturation of the pigments."),
-    PARAM_FLOAT_ROW(watercolour, smoothing, .def = 6, .min = 0.5, .max = 24, .soft_max = 9, .unit = UNIT_PT,
-                    .doc = "Light and textures are smoothed over this radius before washes are laid, within a part "
-                           "and not across creases; not in what is seen through."),
+    PARAM_FLOAT_ROW(watercolour, smoothing, .def = 6, .min = 0.5, .max = 100, .soft_max = 40, .unit = UNIT_PT,
+                    .doc = "Light is smoothed over this radius before washes are laid, textures over at most 12 pt "
+                           "of it, within a part and not across creases; not in what is seen through."),
 };
+
+static int rounds_of(const void *values)
+{
+    return form_rounds((double)((const watercolour *)values)->smoothing);
+}
+
+static const pass passes[] = {FORM_PASS(rounds_of)};
 
 const technique surface_watercolour = {
     .name = "watercolour",
@@ -49,5 +57,7 @@ const technique surface_watercolour = {
     .param_count = PARAM_COUNT(params),
     .params_size = sizeof(watercolour),
     .channels = CHANNEL_ID,
+    .passes = passes,
+    .pass_count = PARAM_COUNT(passes),
     .surface = &(const surface_row){.shader = "surface/watercolour.glsl", .deferred_when = "smoothing>0"},
 };

@@ -28,10 +28,11 @@ float washes_at(float light, float slope)
 
 vec4 surface_colour(surface_point p)
 {
-    float border = 0.0, slope;
+    float border = 0.0, slope, first = unshadowed(p);
 #ifdef SHADED_LATER
     surroundings around = surroundings_of(p);
     surface_point right = p, above = p;
+    first = around.light;
     p.normal = around.normal;
     p.albedo.rgb = around.albedo;
     right.normal = normalize(around.normal + around.across);
@@ -40,7 +41,6 @@ vec4 surface_colour(surface_point p)
     float away = u_smoothing * max(2.0 * around.own - 1.0, 0.0);
     border = exp(-away / u_pool) * (1.0 - smoothstep(0.9, 0.98, around.own));
 #endif
-    float first = unshadowed(p);
     float light = min(luminance_of(diffuse_light_of(p, 1.0)), 1.0), dark = min(luminance_of(diffuse_light_of(p, 0.0)), 1.0);
 #ifdef SHADED_LATER
     slope = length(vec2(luminance_of(diffuse_light_of(right, 1.0)), luminance_of(diffuse_light_of(above, 1.0))) - light);

@@ -12,6 +12,7 @@ typedef enum target {
     TARGET_NORMAL_DEPTH,
     TARGET_ID,
     TARGET_ALBEDO,
+    TARGET_FORM,
     TARGET_SHADE,
     TARGET_REST,
     TARGET_VELOCITY,

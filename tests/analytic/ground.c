@@ -371,15 +371,20 @@ static bool is_kept_off(dvec from, dvec towards)
     return enters < leaves;
 }
 
+/* A direction of the viewer's. The view turns and shifts alone: its transpose turns back. */
+static dvec in_scene(const shot *s, dvec direction)
+{
+    double        ignored;
+    const double *m = s->view;
+    const double  back[16] = {m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1};
+    return dmat_apply(back, direction, 0, &ignored);
+}
+
 /* Per pixel 1 where the ground lies in shadow, 0 where it is lit, UNKNOWN where it is not seen. */
 static signed char *cast_truth(const shot *s, dvec light)
 {
     signed char *out = check_alloc((size_t)CAST_SIDE * CAST_SIDE, 1);
-    double       ignored;
-    /* The view turns and shifts alone: its transpose turns back. */
-    const double *m = s->view;
-    const double  back[16] = {m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1};
-    dvec          towards = dmat_apply(back, light, 0, &ignored);
+    dvec         towards = in_scene(s, light);
     for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
         dvec origin, way;
         shot_ray(s, i % CAST_SIDE + 0.5, i / CAST_SIDE + 0.5, &origin, &way);
@@ -563,6 +568,53 @@ static void cast_shadows_are_hatched(void)
     shape_release(&model);
 }
 
+/* Pixels of shadow within so much of where the shadow of a place falls. */
+static int dark_below(const shot *s, dvec place, dvec light, double reach)
+{
+    dvec towards = in_scene(s, light), foot = dvec_sub(place, dvec_scale(towards, place.y / towards.y));
+    int  dark = 0;
+    for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+        dvec origin, way;
+        shot_ray(s, i % CAST_SIDE + 0.5, i / CAST_SIDE + 0.5, &origin, &way);
+        dvec at = dvec_add(origin, dvec_scale(way, -origin.y / way.y));
+        dark += !s->id[i] && s->picture[4 * i] < 128 && hypot(at.x - foot.x, at.z - foot.z) < reach;
+    }
+    return dark;
+}
+
+/* A block, a leaf in the air, whose shadow lies by itself, and a peg as small that stands on the ground: of the three
+ * shadows the leaf's goes. */
+static void scraps_of_shadow_are_left_out(void)
+{
+    const dvec light = dvec_of(-0.7, 0.75, 0.3), leaf = dvec_of(2.37, 1, 1.7), peg = dvec_of(1.55, 0.125, 1.85);
+    shape      model = {0};
+    shot       as_it_falls, calm;
+    shape_box(&model, "block", dvec_of(cast_low[0], cast_low[1], cast_low[2]),
+              dvec_of(cast_high[0], cast_high[1], cast_high[2]));
+    shape_box(&model, "leaf", dvec_of(2.27, 0.99, 1.62), dvec_of(2.47, 1.01, 1.78));
+    shape_box(&model, "peg", dvec_of(1.5, 0, 1.8), dvec_of(1.6, 0.25, 1.9));
+    shape_box(&model, "other peg", dvec_of(-1.5, 0, 1.8), dvec_of(-1.4, 0.25, 1.9));
+    if (shoot_cast(&as_it_falls, &model, "\"ground_strength\":1", false) &&
+        shoot_cast(&calm, &model, "\"ground_strength\":1,\"ground_smoothing\":\"5px\"", false)) {
+        int          lost = 0, seen = 0, pegs = dark_below(&as_it_falls, peg, light, 0.4);
+        signed char *truth = cast_truth(&calm, light);
+        check_at_least("ground", dark_below(&as_it_falls, leaf, light, 0.4), 30, "pixels of a leaf's shadow");
+        check_at_most("ground", dark_below(&calm, leaf, light, 0.4), 0, "  where scraps are left out");
+        check_at_least("ground", pegs, 20, "pixels of the shadow of a peg that stands there");
+        check_at_least("ground", dark_below(&calm, peg, light, 0.4), 0.6 * pegs, "  where scraps are left out");
+        for (int i = 0; i < CAST_SIDE * CAST_SIDE; i++) {
+            seen += truth[i] == 1 && !is_near_border(truth, i, 2);
+            lost += truth[i] == 1 && !is_near_border(truth, i, 2) && calm.picture[4 * i] > 127;
+        }
+        check_at_least("ground", seen, 2000, "pixels well within the block's shadow");
+        check_at_most("ground", lost, 0, "  that are lost");
+        free(truth);
+        shot_release(&as_it_falls);
+        shot_release(&calm);
+    }
+    shape_release(&model);
+}
+
 /* Things that stand at different heights would throw their shadows far below themselves. */
 static void cast_shadows_need_a_level(void)
 {
@@ -604,6 +656,7 @@ int main(int argc, char **argv)
         {"cast", cast_shadows_are_where_rays_say},
         {"hatched", cast_shadows_are_hatched},
         {"level", cast_shadows_need_a_level},
+        {"scraps", scraps_of_shadow_are_left_out},
     };
     int status = check_main(argc, argv, "ground", cases, sizeof cases / sizeof *cases);
     shot_end();

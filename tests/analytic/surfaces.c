@@ -302,6 +302,51 @@ static void tones_leave_the_faces(void)
     check_at_most("E12", smooth, 230, "  smoothed: hardly more than two a row");
 }
 
+/* Pixels of a coarse ball whose tone is not that of the ball it stands for: where 2 N·L − 1 changes its sign. Its
+ * vertices' normals lean from the ball's by up to 11 degrees. */
+static int tones_off(const char *smoothing)
+{
+    const double light[3] = {0.8, 0.36, 0.48};
+    char         surface[160];
+    shape        s = {0};
+    shot         ball;
+    int          wrong = 0;
+    uint32_t     noise = 7;
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"smoothing\":\"%s\"}", smoothing);
+    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 16, 32, true);
+    for (uint32_t i = 0; i < s.parts[0].vertex_count; i++)
+        for (int k = 0; k < 3; k++) {
+            noise = noise * 1664525u + 1013904223u;
+            s.parts[0].normals[i][k] += 0.12f * ((float)(noise >> 8) / 8388608.0f - 1);
+        }
+    if (shot_of_shape(&ball, &s, "coarse.glb", surface_look(surface, "0.8,0.36,0.48", 0), NULL, &front)) {
+        double radius = 256 / (2 * 8 * tan(9 * PI / 180)), lightest = 0;
+        for (int i = 0; i < 256 * 256; i++)
+            lightest = isinf(ball.depth[i]) ? lightest : fmax(lightest, ball.picture[4 * i]);
+        for (int y = 0; y < 256; y++)
+            for (int x = 0; x < 256; x++) {
+                double at[3] = {(x + 0.5 - 128) / radius, (128 - y - 0.5) / radius, 0}, turned = 0;
+                double off = at[0] * at[0] + at[1] * at[1];
+                at[2] = sqrt(fmax(1 - off, 0));
+                for (int k = 0; k < 3; k++)
+                    turned += at[k] * light[k];
+                wrong += off < 0.7 && (ball.picture[4 * (y * 256 + x)] >= lightest) != (turned >= 0.5);
+            }
+        shot_release(&ball);
+    }
+    shape_release(&s);
+    return wrong;
+}
+
+/* Triangles show in the borders of tones; over a length on paper that is longer than they are, hardly. */
+static void borders_leave_the_triangles(void)
+{
+    int faces = tones_off("6px"), form = tones_off("40px");
+    check_at_least("E12", faces, 300, "pixels of a coarse ball in another tone than the ball it stands for");
+    check_at_most("E12", form, 0.45 * faces, "  smoothed over more than a triangle");
+}
+
 static void dark_fill_is_legible(void)
 {
     for (int k = 0; k < 4; k++) {
@@ -504,25 +549,36 @@ static void blacks_lie_away_from_the_light(void)
     }
 }
 
-static double triangle_wave(double x)
+/* What a brush leaves that is lifted, over a stripe's width: 1 in its middle. */
+static double brush(double x)
 {
-    return 1 - fabs(2 * (x - floor(x)) - 1);
+    return 1 - sqrt(fabs(2 * (x - floor(x)) - 1));
 }
 
-/* The share of strokes of 0.7 … 1 of the full length that reach farther than a fraction of it, while strokes come
- * between them: the mean of all stages of that. */
+static double next_number(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) / 16777216.0;
+}
+
+/* The share of ink, at a fraction of the way, of strokes that are as long as 0.3 and up to 0.3 of their own and 0.4 of
+ * their group's more, these going over into each other, while strokes come between them. */
 static double reaching(double fraction)
 {
-    enum { STEPS = 40 };
-    int count = 0;
-    for (int phase = 0; phase < 2 * STEPS; phase++)
-        for (int stage = 0; stage < STEPS; stage++)
-            for (int strength = 0; strength < STEPS; strength++) {
-                double x = (phase + 0.5) / STEPS, between = (stage + 0.5) / STEPS;
-                double wave = (1 - between) * triangle_wave(x) + between * triangle_wave(x / 2);
-                count += (0.7 + 0.3 * (strength + 0.5) / STEPS) * wave > fraction;
-            }
-    return count / (2.0 * STEPS * STEPS * STEPS);
+    enum { TRIES = 200000 };
+    int      count = 0;
+    uint32_t state = 3;
+    for (int k = 0; k < TRIES; k++) {
+        double x = 2 * next_number(&state), between = next_number(&state), part = next_number(&state), wave = 0;
+        double blend = part * part * (3 - 2 * part);
+        for (int octave = 0; octave < 2; octave++) {
+            double group = (1 - blend) * next_number(&state) + blend * next_number(&state);
+            double length = 0.3 + 0.3 * next_number(&state) + 0.4 * group;
+            wave += (octave ? between : 1 - between) * length * brush(octave ? x / 2 : x);
+        }
+        count += wave > fraction;
+    }
+    return (double)count / TRIES;
 }
 
 /* From where all is ink to where nothing is, strokes taper, and none is seen in the light. */
@@ -592,6 +648,102 @@ static void walls_are_not_feathered(void)
     check_at_most("S1", ink, 0, "  their ink");
     shot_release(&drawing);
     shape_release(&s);
+}
+
+static const char *spotted_surface(double spotted)
+{
+    static char surface[240];
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":1,\"light\":1,\"highlight\":0,\"ink\":\"#000000\",\"blacks\":0.3,"
+             "\"darkest\":0.3,\"spotted\":%g}",
+             spotted);
+    return surface;
+}
+
+/* What is dark itself is black farther into the light: by 0.3 of the way where it is darker than 0.15. */
+static void dark_things_are_blacker(void)
+{
+    for (int spotted = 0; spotted < 2; spotted++) {
+        shape s = {0};
+        shot  ball;
+        int   wrong = 0, filled = 0;
+        shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 96, 192, true);
+        for (int k = 0; k < 3; k++)
+            s.parts[0].colour[k] = 0.01f; /* 0.1 as it is shown */
+        if (shot_of_shape(&ball, &s, "dark.glb", surface_look(spotted_surface(spotted), "0.8,0.6,0", 0), NULL, &front))
+            for (int i = 0; i < 256 * 256; i++) {
+                double beyond = isinf(ball.depth[i]) ? 1 : turned_at(&ball, i) - 0.15 - 0.3 * spotted;
+                bool   inked = ball.picture[4 * i] < 40; /* the fill is no darker than 76 */
+                filled += !isinf(ball.depth[i]) && inked;
+                wrong += fabs(beyond) > 0.015 && inked != (beyond < 0);
+            }
+        check_at_least("S1", filled, 2000, "pixels of black on a dark ball, spotted %d", spotted);
+        check_at_most("S1", wrong, 0, "  that are inked wrongly");
+        shot_release(&ball);
+        shape_release(&s);
+    }
+}
+
+/* In a deep slot it is black, and beside it not. */
+static void clefts_are_black(void)
+{
+    shot_view view = {
+        .width = 256, .height = 256, .eye = {0, 0, 8}, .up = {0, 1, 0}, .orthographic = true, .fov_deg = 18};
+    for (int spotted = 0; spotted < 2; spotted++) {
+        shape  s = {0};
+        shot   drawing;
+        char   look[700];
+        double inside = 0, outside = 0;
+        shape_box(&s, "left", dvec_of(-1, -1, -1), dvec_of(-0.1, 1, 0));
+        shape_box(&s, "right", dvec_of(0.1, -1, -1), dvec_of(1, 1, 0));
+        shape_box(&s, "floor", dvec_of(-1, -1, -1.2), dvec_of(1, 1, -1));
+        snprintf(look, sizeof look,
+                 "{\"version\":2,\"name\":\"t\",\"doc\":\"x.\",\"finish\":{\"ground\":\"#ffffff\"},\"scene\":{"
+                 "\"light_direction\":[0,0.99,0.14],\"fill\":0,\"occlusion\":1,\"occlusion_radius\":1},"
+                 "\"rules\":[{\"select\":\"*\",\"surface\":%s}]}",
+                 spotted_surface(spotted));
+        if (shot_of_shape(&drawing, &s, "slot.glb", look, NULL, &view)) {
+            for (int y = 60; y < 196; y++)
+                for (int x = 40; x < 216; x++)
+                    *(abs(x - 128) < 6    ? &inside
+                      : abs(x - 128) > 30 ? &outside
+                                          : &(double){0}) += drawing.picture[4 * (y * 256 + x)] < 40;
+            check_near("S1", inside / (136 * 11), spotted, 0.05, "share of ink in a slot, spotted %d", spotted);
+            check_at_most("S1", outside, 0, "  beside it");
+            shot_release(&drawing);
+        }
+        shape_release(&s);
+    }
+}
+
+/* A broad pen's strokes over a wall: in full light some of the paper shows between them, without any light hardly, and
+ * the page changes across them and not along. */
+static void broad_strokes_leave_paper(void)
+{
+    for (int dark = 0; dark < 2; dark++) {
+        shape  s = {0};
+        shot   wall;
+        double paper = 0, along = 0, across = 0;
+        shape_quad(&s, "wall", 20, 0);
+        s.parts[0].colour[0] = 0.1f;
+        const char *look =
+            surface_look("{\"technique\":\"lines\",\"shadow\":1,\"light\":4,\"paper_tint\":1,\"paper_light\":0,"
+                         "\"paper_strokes\":\"10px\"}",
+                         dark ? "0,0,-1" : "0,0,1", 0);
+        if (shot_of_shape(&wall, &s, "pen.glb", look, NULL, &front))
+            for (int y = 8; y < 248; y++)
+                for (int x = 8; x < 248; x++) {
+                    int here = wall.picture[4 * (y * 256 + x)];
+                    paper += here > 250;
+                    along += abs(here - wall.picture[4 * ((y - 3) * 256 + x + 4)]); /* 37 degrees; rows run downwards */
+                    across += abs(here - wall.picture[4 * ((y + 4) * 256 + x + 3)]);
+                }
+        check_near("pen", paper / (240 * 240), dark ? 0.01 : 0.25, dark ? 0.01 : 0.15, "share of paper %s",
+                   dark ? "in the dark" : "in full light");
+        check_at_most("pen", along / across, 0.5, "  changes along strokes beside those across");
+        shot_release(&wall);
+        shape_release(&s);
+    }
 }
 
 /* --- Watercolour ------------------------------------------------------------------------------------------- */
@@ -945,6 +1097,9 @@ int main(int argc, char **argv)
         {"feathers", feathers_taper},
         {"feathers-cross", feathers_cross_the_border},
         {"walls", walls_are_not_feathered},
+        {"dark-things", dark_things_are_blacker},
+        {"clefts", clefts_are_black},
+        {"broad-pen", broad_strokes_leave_paper},
         {"pigment", pigment_takes_light},
         {"pools", pigment_pools},
         {"flows", pigment_flows},
@@ -953,6 +1108,7 @@ int main(int argc, char **argv)
         {"gooch-lines", gooch_lines},
         {"gooch-apart", gooch_colours_are_apart},
         {"faces", tones_leave_the_faces},
+        {"triangles", borders_leave_the_triangles},
         {"legible", dark_fill_is_legible},
         {"unlit", unlit_stays_unlit},
         {"wax", wax_wraps},

@@ -1,0 +1,33 @@
+/* Strokes of a broad pen over the page: side by side, each a little over the one before, in lengths that a hand draws at once. */
+#include "gpu/hash.glsl"
+
+const vec2  PEN_ALONG = vec2(0.7986, 0.6018);
+const float PEN_APART = 0.9;  /* from stroke to stroke, in their width */
+const float PEN_LENGTH = 9.0; /* of the longest, in their width */
+const float PEN_ONCE = 0.62;   /* of the colour, what one stroke lays */
+
+vec2 of_pen(int row, int piece)
+{
+    return corner_noise(hash_of(uvec3(uint(row + 0x8000), uint(piece + 0x8000), 0u), 5u));
+}
+
+/* What one row of strokes leaves of the paper. A stroke is there where it is darker than its own bound; it ends straight across, as the pen is broad, and its sides sway. */
+float left_by(int row, vec2 at, float dark)
+{
+    float width = u_paper_strokes, own = of_pen(row, 0).x, along = at.x / (PEN_LENGTH * width) + 0.5 * own, sway = 0.06 * sin(9.0 * along + 6.28 * own) + 0.08 * of_pen(row, 0).y;
+    int   piece = int(floor(along)) + 1;
+    vec2  random = of_pen(row, piece);
+    float side = 0.5 - abs(at.y / width - PEN_APART * (float(row) + 0.5) - sway), bound = 0.5 * (0.5 + 0.5 * random.x) - 0.3;
+    return 1.0 - PEN_ONCE * clamp(side * width + 0.5, 0.0, 1.0) * clamp((dark - bound) * 12.0 + 0.5, 0.0, 1.0);
+}
+
+/* How much of the colour lies here: 0 paper … 1 all of it. */
+float broad_strokes(float dark)
+{
+    vec2 from = gl_FragCoord.xy - u_anchor, at = vec2(dot(from, PEN_ALONG), dot(from, vec2(-PEN_ALONG.y, PEN_ALONG.x)));
+    int row = int(floor(at.y / (u_paper_strokes * PEN_APART)));
+    float left = left_by(row, at, dark) * left_by(row - 1, at, dark) * left_by(row + 1, at, dark);
+    /* Where it is dark, gone over once more. */
+    left *= mix(1.0, left_by(row + 40, at + vec2(0.37 * u_paper_strokes * PEN_LENGTH, u_paper_strokes * PEN_APART * 40.0), dark - 0.62), 0.8);
+    return 1.0 - left;
+}
