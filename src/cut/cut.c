@@ -354,10 +354,13 @@ lmn_status cut_part(cut_result *out, const cut *c, const mat4 *world, const cut_
         find_shells(&j, numbers, input_count);
         if (!j.failed)
             sort_triangles(&j, numbers, input_count);
+        size_t originals = j.piece_count;
         if (!j.failed)
             make_surfaces(&j);
         if (!j.failed)
             make_caps(&j);
+        if (!j.failed)
+            job_mend(&j, originals);
         if (!j.failed)
             job_stitch(&j);
         if (!j.failed)

@@ -30,6 +30,7 @@ typedef struct cut_piece {
 typedef struct cut_edge {
     uint64_t key; /* lower and higher vertex; 0: free */
     uint32_t vertex;
+    bool     kept; /* what borders on it stays divided */
 } cut_edge;
 
 typedef struct cut_job {
@@ -52,16 +53,26 @@ typedef struct cut_job {
     cut_result      *out;
 } cut_job;
 
+/* A polygon gains a corner with each plane at most, but rounding may make it ever so slightly concave. */
+enum { CUT_POLYGON_MAX = 4 * CUT_PLANES_MAX };
+
 /* --- cut_slice.c --- */
 uint32_t job_add_vertex(cut_job *j, const cut_vertex *v);
 /* A point between others, on the plane (−1: on none). Its sides agree with those it lies between. */
 uint32_t   job_blend(cut_job *j, const uint32_t *from, const double *weights, int count, int plane);
 cut_piece *job_add_piece(cut_job *j, const cut_point *points, uint32_t count, uint32_t primitive, uint32_t triangle);
+/* Where an edge is divided; NULL: it is not. */
+cut_edge *job_find_edge(const cut_job *j, uint32_t a, uint32_t b);
 /* Divides pieces from `first` on along the plane. */
 void job_slice(cut_job *j, size_t first, int plane);
 bool cut_is_inside(const cut *c, uint32_t positive, uint32_t negative);
 /* The corner from which a fan has no triangle that is thinner than it must be. */
 uint32_t job_fan_start(const cut_job *j, const cut_piece *p);
+
+/* --- cut_mend.c --- */
+/* Puts divided triangles together again of which nothing is gone; `originals`: the first pieces, triangles when they
+ * came. After that cut faces are no longer made. */
+void job_mend(cut_job *j, size_t originals);
 
 /* --- cut_stitch.c --- */
 /* Gives pieces that meet in a line of two planes the same corners there. */

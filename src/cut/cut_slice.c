@@ -71,6 +71,17 @@ static bool grow_edges(cut_job *j)
     return true;
 }
 
+static uint64_t key_of(uint32_t a, uint32_t b)
+{
+    return (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a);
+}
+
+cut_edge *job_find_edge(const cut_job *j, uint32_t a, uint32_t b)
+{
+    cut_edge *e = j->edge_slots ? &j->edges[edge_slot(j->edges, j->edge_slots, key_of(a, b))] : NULL;
+    return e && e->key ? e : NULL;
+}
+
 /* The vertex where the edge goes through the plane, and its fraction of the way from a to b. */
 static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, double *fraction)
 {
@@ -85,7 +96,7 @@ static uint32_t divide_edge(cut_job *j, uint32_t a, uint32_t b, int plane, doubl
         j->failed = true;
         return 0;
     }
-    uint64_t  key = (uint64_t)ends[0] << 32 | ends[1];
+    uint64_t  key = key_of(a, b);
     cut_edge *e = &j->edges[edge_slot(j->edges, j->edge_slots, key)];
     if (!e->key) {
         e->vertex = job_blend(j, ends, (double[]){1 - t, t}, 2, plane);
@@ -113,17 +124,14 @@ cut_piece *job_add_piece(cut_job *j, const cut_point *points, uint32_t count, ui
     return p;
 }
 
-/* A polygon gains a corner with each plane at most, but rounding may make it ever so slightly concave. */
-enum { POLYGON_MAX = 4 * CUT_PLANES_MAX };
-
 typedef struct polygon {
-    cut_point points[POLYGON_MAX];
+    cut_point points[CUT_POLYGON_MAX];
     uint32_t  count;
 } polygon;
 
 static void add_point(polygon *p, cut_point point)
 {
-    if (p->count < POLYGON_MAX)
+    if (p->count < CUT_POLYGON_MAX)
         p->points[p->count++] = point;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "export/svg_private.h"
 #include "sheet/fit.h"
 #include "sheet/sheet.h"
 
@@ -36,6 +37,7 @@ typedef struct svg_writer {
     size_t       style_count, style_capacity;
     uint32_t    *style_slots; /* hash of styles: style + 1 */
     size_t       style_slot_count;
+    svg_dashes   dashes;
     int32_t      open; /* the innermost group that is open, −1: none */
 } svg_writer;
 
@@ -46,40 +48,10 @@ static void put(svg_writer *w, const char *words)
     text_append_bytes(&w->out, words, strlen(words));
 }
 
-/* Thousandths as a decimal number without what is not needed: "-.5", "12", "0". */
-static size_t print_thousandths(char *to, long long value)
-{
-    char               digits[24];
-    size_t             count = 0, at = 0;
-    unsigned long long left = value < 0 ? (unsigned long long)-value : (unsigned long long)value, whole = left / 1000,
-                       part = left % 1000;
-    if (value < 0)
-        to[at++] = '-';
-    for (; whole; whole /= 10)
-        digits[count++] = (char)('0' + whole % 10);
-    while (count)
-        to[at++] = digits[--count];
-    if (part) {
-        to[at++] = '.';
-        for (unsigned long long unit = 100; part; unit /= 10) {
-            to[at++] = (char)('0' + part / unit);
-            part %= unit;
-        }
-    }
-    if (left == 0)
-        to[at++] = '0';
-    return at;
-}
-
-static long long thousandths(double value)
-{
-    return isfinite(value) ? llround(value * 1000) : 0;
-}
-
 static void put_number(svg_writer *w, double value)
 {
     char digits[32];
-    text_append_bytes(&w->out, digits, print_thousandths(digits, thousandths(value)));
+    text_append_bytes(&w->out, digits, svg_print_thousandths(digits, svg_thousandths(value)));
 }
 
 /* The length of a UTF-8 sequence that XML allows, 0 when there is none here. */
@@ -248,8 +220,11 @@ static void find_styles(svg_writer *w)
             svg_style style;
             style_of(&style, item, &s->paths[item->first + k]);
             note_style(w, item->group, find_style(w, &style));
+            if (s->paths[item->first + k].dash_count && !svg_dashes_note(&w->dashes, s, &s->paths[item->first + k]))
+                w->out.failed = true;
         }
     }
+    svg_dashes_name(&w->dashes);
     for (size_t i = 0; i < s->group_count; i++)
         if (w->group_styles[i] == STYLE_SEVERAL)
             w->group_styles[i] = STYLE_NONE;
@@ -288,6 +263,10 @@ static void put_styles(svg_writer *w)
            "Sans',Arial,Helvetica,sans-serif}\n");
     for (size_t i = 0; i < w->style_count && !w->out.failed; i++)
         put_style(w, i);
+    for (size_t i = 0; i < w->dashes.count; i++)
+        if (w->dashes.patterns[i].name >= 0)
+            text_append(&w->out, ".d%d{stroke-dasharray:%s}\n", w->dashes.patterns[i].name,
+                        w->dashes.patterns[i].lengths);
     put(w, "</style>\n");
 }
 
@@ -493,10 +472,10 @@ static size_t print_pair(char *to, char letter, long long x, long long y)
         to[at++] = letter;
     else if (x >= 0)
         to[at++] = ' ';
-    at += print_thousandths(to + at, x);
+    at += svg_print_thousandths(to + at, x);
     if (y >= 0)
         to[at++] = ' ';
-    return at + print_thousandths(to + at, y);
+    return at + svg_print_thousandths(to + at, y);
 }
 
 /* Where the path data are: what is written are differences of rounded positions. */
@@ -511,11 +490,42 @@ static void put_pair(svg_pen *pen, char letter, const double position[2], long l
 {
     char digits[64];
     for (int k = 0; k < 2; k++)
-        rounded[k] = thousandths(position[k]);
+        rounded[k] = svg_thousandths(position[k]);
     size_t size =
         print_pair(digits, pen->letter == letter ? '\0' : letter, rounded[0] - pen->at[0], rounded[1] - pen->at[1]);
     text_append_bytes(&pen->w->out, digits, size);
     pen->letter = letter;
+}
+
+static void move_to(svg_pen *pen, const double position[2])
+{
+    long long rounded[2];
+    pen->at[0] = pen->at[1] = 0;
+    pen->letter = '\0';
+    put_pair(pen, 'M', position, rounded);
+    memcpy(pen->at, rounded, sizeof rounded);
+}
+
+/* A line: along an axis one number is enough. */
+static void line_to(svg_pen *pen, const double position[2])
+{
+    long long rounded[2] = {svg_thousandths(position[0]), svg_thousandths(position[1])},
+              way[2] = {rounded[0] - pen->at[0], rounded[1] - pen->at[1]};
+    char letter = way[1] == 0 ? 'h' : 'v', digits[32];
+    if (way[0] != 0 && way[1] != 0) {
+        put_pair(pen, 'l', position, rounded);
+    } else {
+        size_t    size = 0;
+        long long only = way[letter == 'v'];
+        if (pen->letter != letter)
+            digits[size++] = letter;
+        else if (only >= 0)
+            digits[size++] = ' ';
+        size += svg_print_thousandths(digits + size, only);
+        text_append_bytes(&pen->w->out, digits, size);
+        pen->letter = letter;
+    }
+    memcpy(pen->at, rounded, sizeof rounded);
 }
 
 /* Their centre comes from both ends, and the nearer these are to half a turn, or to a whole one, the less exactly:
@@ -526,21 +536,34 @@ static int pieces_of_arc(double sweep)
     return size <= 2.6 ? 1 : size >= 3.7 && size <= 5.5 ? 1 : size <= 5.2 ? 2 : 3;
 }
 
+/* Radii have the digits that move the middle of an arc between two ends by no more than half a thousandth: arcs that
+ * turn little need few. */
+static double radius_of_arc(const sheet_piece *arc, int pieces)
+{
+    double half = fabs(arc->sweep) / (2 * pieces), moved = fabs(1 / cos(half) - 1), unit = 1000;
+    if (arc->radii[0] != arc->radii[1] || half >= 0.49 * PI)
+        return arc->radii[0];
+    while (unit > 1 && 0.5 * unit / 1000 * moved > 0.0005)
+        unit /= 10;
+    return round(arc->radii[0] * 1000 / unit) * unit / 1000;
+}
+
 static void put_arc(svg_pen *pen, const sheet_piece *arc)
 {
-    int  pieces = pieces_of_arc(arc->sweep);
-    bool large = fabs(arc->sweep) > PI * pieces;
+    int    pieces = pieces_of_arc(arc->sweep);
+    bool   large = fabs(arc->sweep) > PI * pieces, circular = arc->radii[0] == arc->radii[1];
+    double radius = radius_of_arc(arc, pieces);
     for (int i = 1; i <= pieces; i++) {
         double    end[2] = {arc->end[0], arc->end[1]};
         long long rounded[2];
         if (i < pieces)
             sheet_arc_at(arc, arc->from + arc->sweep * i / pieces, end);
         put(pen->w, pen->letter == 'a' ? " " : "a");
-        put_number(pen->w, arc->radii[0]);
+        put_number(pen->w, radius);
         put(pen->w, " ");
-        put_number(pen->w, arc->radii[1]);
+        put_number(pen->w, circular ? radius : arc->radii[1]);
         put(pen->w, " ");
-        put_number(pen->w, arc->turn * (180 / PI));
+        put_number(pen->w, circular ? 0 : arc->turn * (180 / PI));
         put(pen->w, large ? " 1" : " 0");
         put(pen->w, arc->sweep > 0 ? " 1" : " 0");
         pen->letter = 'a';
@@ -549,82 +572,50 @@ static void put_arc(svg_pen *pen, const sheet_piece *arc)
     }
 }
 
-static void put_pieces(svg_writer *w, const sheet_path *path)
+static void put_cubic(svg_pen *pen, const sheet_piece *p)
 {
-    svg_pen      pen = {.w = w};
-    const float *first = w->s->points[path->first];
-    const double from[2] = {(double)first[0], (double)first[1]};
-    long long    rounded[2];
-    put_pair(&pen, 'M', from, rounded);
-    memcpy(pen.at, rounded, sizeof rounded);
+    long long rounded[2];
+    put_pair(pen, 'c', p->controls[0], rounded);
+    put_pair(pen, 'c', p->controls[1], rounded);
+    put_pair(pen, 'c', p->end, rounded);
+    memcpy(pen->at, rounded, sizeof rounded);
+}
+
+static void put_pieces(svg_pen *pen, const sheet_path *path)
+{
+    const sheet_piece *pieces = pen->w->s->pieces + path->first_piece;
     for (uint32_t i = 0; i < path->piece_count; i++) {
-        const sheet_piece *p = &w->s->pieces[path->first_piece + i];
-        bool               last = i + 1 == path->piece_count && (path->closed || path->filled);
-        if (p->kind == SHEET_ARC) {
-            put_arc(&pen, p);
-            continue;
+        bool last = i + 1 == path->piece_count && (path->closed || path->filled);
+        switch (pieces[i].kind) {
+        case SHEET_ARC: put_arc(pen, &pieces[i]); break;
+        case SHEET_CUBIC: put_cubic(pen, &pieces[i]); break;
+        case SHEET_LINE:
+            if (!last) /* z draws it */
+                line_to(pen, pieces[i].end);
         }
-        if (p->kind == SHEET_LINE && last)
-            break; /* z draws it */
-        if (p->kind == SHEET_CUBIC) {
-            put_pair(&pen, 'c', p->controls[0], rounded);
-            put_pair(&pen, 'c', p->controls[1], rounded);
-        }
-        put_pair(&pen, p->kind == SHEET_CUBIC ? 'c' : 'l', p->end, rounded);
-        memcpy(pen.at, rounded, sizeof rounded);
     }
-    put(w, path->closed || path->filled ? "z" : "");
 }
 
 static void put_path_data(svg_writer *w, const sheet_path *path, bool dots)
 {
-    if (path->piece_count && !dots) {
-        put_pieces(w, path);
-        return;
-    }
-    char      digits[64];
-    long long before[2] = {0, 0};
-    bool      lined = false;
+    svg_pen pen = {.w = w};
     for (uint32_t i = 0; i < path->count; i++) {
         const float *p = w->s->points[path->first + i];
-        long long    x = thousandths((double)p[0]), y = thousandths((double)p[1]);
-        size_t       size;
+        const double at[2] = {(double)p[0], (double)p[1]};
         if (dots || i == 0)
-            size = print_pair(digits, 'M', x, y);
-        else if (x == before[0] && y == before[1] && !(i == 1 && path->count == 2))
+            move_to(&pen, at);
+        else if ((svg_thousandths(at[0]) == pen.at[0] && svg_thousandths(at[1]) == pen.at[1]) &&
+                 !(i == 1 && path->count == 2))
             continue; /* nothing at this many decimals; a line of no length is a dot all the same */
         else
-            size = print_pair(digits, lined ? '\0' : 'l', x - before[0], y - before[1]);
-        lined = i > 0;
-        if (dots) {
-            memcpy(digits + size, "h0", 2);
-            size += 2;
-        }
-        text_append_bytes(&w->out, digits, size);
-        before[0] = x;
-        before[1] = y;
+            line_to(&pen, at);
+        put(w, dots ? "h0" : "");
+        if (path->piece_count && !dots)
+            break;
     }
-    if (path->closed || path->filled)
-        text_append_bytes(&w->out, "z", dots ? 0 : 1);
-}
-
-/* Each length is the difference of rounded positions along the pattern. */
-static void put_dashes(svg_writer *w, const sheet_path *path)
-{
-    double    sum = 0;
-    long long before = 0;
-    put(w, " stroke-dasharray=\"");
-    for (uint32_t i = 0; i < path->dash_count; i++) {
-        char digits[32];
-        sum += (double)w->s->dashes[path->first_dash + i];
-        long long at = thousandths(sum);
-        put(w, i ? " " : "");
-        text_append_bytes(&w->out, digits, print_thousandths(digits, at - before));
-        before = at;
-    }
-    put(w, "\"");
-    if (thousandths((double)path->phase) != 0)
-        put_attribute(w, "stroke-dashoffset", (double)path->phase);
+    if (!dots)
+        put_pieces(&pen, path);
+    put(w, (path->closed || path->filled) && !dots ? "z" : "");
 }
 
 /* 48 bits of a name, in digits and letters. */
@@ -639,14 +630,34 @@ static void put_line_name(svg_writer *w, uint64_t id)
     text_append(&w->out, " data-line=\"%s\"", name + at);
 }
 
-static void begin_element(svg_writer *w, const char *name, const sheet_item *item, size_t style)
+static void begin_element(svg_writer *w, const char *name, const sheet_item *item, size_t style,
+                          const svg_dash_pattern *dashes)
 {
+    bool own = item->group >= w->s->group_count || w->group_styles[item->group] != style + 1,
+         dashed = dashes && dashes->name >= 0;
     put(w, "<");
     put(w, name);
-    if (item->group >= w->s->group_count || w->group_styles[item->group] != style + 1)
-        text_append(&w->out, " class=\"s%zu\"", style);
+    put(w, own || dashed ? " class=\"" : "");
+    if (own)
+        text_append(&w->out, "s%zu%s", style, dashed ? " " : "");
+    if (dashed)
+        text_append(&w->out, "d%d", dashes->name);
+    put(w, own || dashed ? "\"" : "");
     if (item->id)
         put_line_name(w, item->id);
+}
+
+/* Begins an element of lines. */
+static void begin_path(svg_writer *w, const sheet_item *item, const sheet_path *path, size_t style)
+{
+    const svg_dash_pattern *dashes = path->dash_count ? svg_dashes_find(&w->dashes, w->s, path) : NULL;
+    w->out.failed = w->out.failed || (path->dash_count && !dashes);
+    begin_element(w, "path", item, style, dashes);
+    if (dashes && dashes->name < 0)
+        text_append(&w->out, " stroke-dasharray=\"%s\"", dashes->lengths);
+    if (dashes && svg_dash_offset(w->s, path) != 0)
+        put_attribute(w, "stroke-dashoffset", (double)svg_dash_offset(w->s, path) / 1000);
+    put(w, " d=\"");
 }
 
 /* The circle or ellipse that a path is, NULL: it is none. Dashes begin where a path does. */
@@ -659,8 +670,9 @@ static const sheet_piece *round_of(const svg_writer *w, const sheet_item *item, 
 
 static void put_round(svg_writer *w, const sheet_item *item, size_t style, const sheet_piece *p)
 {
-    bool circle = thousandths(p->radii[0]) == thousandths(p->radii[1]), turned = !circle && thousandths(p->turn) != 0;
-    begin_element(w, circle ? "circle" : "ellipse", item, style);
+    bool circle = svg_thousandths(p->radii[0]) == svg_thousandths(p->radii[1]),
+         turned = !circle && svg_thousandths(p->turn) != 0;
+    begin_element(w, circle ? "circle" : "ellipse", item, style, NULL);
     if (!turned) {
         put_attribute(w, "cx", p->centre[0]);
         put_attribute(w, "cy", p->centre[1]);
@@ -697,10 +709,7 @@ static void put_paths(svg_writer *w, const sheet_item *item)
                 put_round(w, item, index, round);
                 continue;
             }
-            begin_element(w, "path", item, index);
-            if (path->dash_count)
-                put_dashes(w, path);
-            put(w, " d=\"");
+            begin_path(w, item, path, index);
         }
         put_path_data(w, path, item->kind == SHEET_DOTS);
     }
@@ -800,6 +809,7 @@ lmn_status export_svg(export_bytes *out, const sheet *s, lmn_error *error)
     mem_free(w.group_styles);
     mem_free(w.styles);
     mem_free(w.style_slots);
+    svg_dashes_release(&w.dashes);
     out->size = w.out.size;
     out->data = s->failed ? NULL : (unsigned char *)text_take(&w.out);
     text_release(&w.out);

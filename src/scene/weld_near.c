@@ -28,11 +28,17 @@ static size_t cell_hash(const double cell[3])
     return (size_t)(h ^ h >> 32);
 }
 
-static void cell_of(const near_table *t, vec3 p, double aside[3], double cell[3])
+/* Where a coordinate moved by so many tolerances lies. */
+static double cell_along(const near_table *t, float at, double aside)
 {
-    const float at[3] = {p.x, p.y, p.z};
-    for (int k = 0; k < 3; k++)
-        cell[k] = floor(((double)at[k] + aside[k] * t->tolerance) / t->cell) + 0.0; /* no zero with a sign */
+    return floor(((double)at + aside * t->tolerance) / t->cell) + 0.0; /* no zero with a sign */
+}
+
+static void cell_of(const near_table *t, vec3 p, double aside, double cell[3])
+{
+    cell[0] = cell_along(t, p.x, aside);
+    cell[1] = cell_along(t, p.y, aside);
+    cell[2] = cell_along(t, p.z, aside);
 }
 
 static uint32_t find_in(const near_table *t, vec3 p, const double cell[3])
@@ -48,15 +54,17 @@ static uint32_t find_in(const near_table *t, vec3 p, const double cell[3])
     return FREE;
 }
 
-/* An earlier vertex that lies so near. */
-static uint32_t find_near(const near_table *t, vec3 p)
+/* An earlier vertex that lies so near; `own`: the vertex's cell. Most lie far from their cell's borders. */
+static uint32_t find_near(const near_table *t, vec3 p, const double own[3])
 {
-    double own[3];
-    cell_of(t, p, (double[3]){0, 0, 0}, own);
+    double   sides[2][3];
     uint32_t found = find_in(t, p, own);
+    cell_of(t, p, -1, sides[0]);
+    cell_of(t, p, 1, sides[1]);
+    if (memcmp(sides[0], own, sizeof sides[0]) == 0 && memcmp(sides[1], own, sizeof sides[1]) == 0)
+        return found;
     for (int corner = 0; corner < 8 && found == FREE; corner++) {
-        double cell[3];
-        cell_of(t, p, (double[3]){corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1}, cell);
+        const double cell[3] = {sides[corner & 1][0], sides[corner >> 1 & 1][1], sides[corner >> 2 & 1][2]};
         if (cell[0] != own[0] || cell[1] != own[1] || cell[2] != own[2])
             found = find_in(t, p, cell);
     }
@@ -90,13 +98,13 @@ bool mesh_weld_near(const vec3 *positions, uint32_t *ids, size_t count, double t
         vec3 p = positions[i];
         if (ids[i] != i || !(fabsf(p.x) + fabsf(p.y) + fabsf(p.z) < INFINITY))
             continue;
-        uint32_t found = find_near(&t, p);
+        double cell[3];
+        cell_of(&t, p, 0, cell);
+        uint32_t found = find_near(&t, p, cell);
         if (found != FREE) {
             ids[i] = found;
             continue;
         }
-        double cell[3];
-        cell_of(&t, p, (double[3]){0, 0, 0}, cell);
         uint32_t *head = &t.heads[cell_hash(cell) & t.mask];
         t.nexts[i] = *head;
         *head = i;

@@ -223,36 +223,68 @@ static uint32_t leave_face(const edge_mesh *m, uint32_t entered, vector from, ve
     return found;
 }
 
-/* Goes straight away from an edge over the faces beside it and finds the next ones that turn. Returns how many of
- * `most`. */
-static int find_steps(const judge *j, uint32_t half, double own, step out[STEPS_MOST], int most)
+/* A way straight on from an edge over the faces beside it. */
+typedef struct strip_walk {
+    uint32_t half; /* that was passed last */
+    vector   at, direction;
+    double   least; /* what turns by less is part of a face */
+    int      faces;
+} strip_walk;
+
+static strip_walk walk_from(const edge_mesh *m, uint32_t half, double own)
+{
+    vector a = position(m, half), b = position(m, half_next(half)), edge = unit(minus(b, a));
+    return (strip_walk){half, along(a, 0.5, minus(b, a)), cross(face_normal(m, half / 3), edge),
+                        FLAT_FRACTION * fabs(own), 0};
+}
+
+/* Does the surface turn by less than that? As turn_over says, but most edges on the way do not need an arc. */
+static bool is_flat(const edge_mesh *m, uint32_t half, uint32_t other, double least)
+{
+    vector n = face_normal(m, half / 3), o = face_normal(m, other / 3), c = cross(n, o);
+    double cosine = dot(n, o), most = 0.999 * least * cosine; /* no arc is longer than its tangent */
+    return cosine > 0 && dot(c, c) < most * most;
+}
+
+/* The next edge that turns, and how far away it is; false where the way ends before. */
+static bool next_step(const judge *j, strip_walk *w, step *out)
 {
     const edge_mesh *m = j->m;
-    vector           a = position(m, half), b = position(m, half_next(half)), edge = unit(minus(b, a)),
-           at = along(a, 0.5, minus(b, a)), direction = cross(face_normal(m, half / 3), edge);
-    double width = 0;
-    int    count = 0;
-    for (int faces = 0; faces < FACES_MOST && count < most; faces++) {
+    double           width = 0;
+    for (; w->faces < FACES_MOST; w->faces++) {
         double   distance;
-        uint32_t left = leave_face(m, half, at, direction, &distance);
+        uint32_t left = leave_face(m, w->half, w->at, w->direction, &distance);
         if (left == EDGE_NO_FACE || j->facts->opposite[left] == EDGE_NO_FACE)
-            break;
+            return false;
         vector rim = unit(minus(position(m, half_next(left)), position(m, left))),
                out_of = cross(rim, face_normal(m, left / 3));
         width += distance;
-        at = along(at, distance, direction);
-        half = j->facts->opposite[left];
-        double lengthways = dot(direction, rim), across = dot(direction, out_of), turn = turn_over(m, left, half);
-        if (fabs(turn) >= FLAT_FRACTION * fabs(own)) {
-            if (across < ACROSS) /* bent along the way, too: no strip */
-                break;
-            out[count++] = (step){width, turn};
-            width = 0;
+        w->at = along(w->at, distance, w->direction);
+        w->half = j->facts->opposite[left];
+        double lengthways = dot(w->direction, rim), across = dot(w->direction, out_of),
+               turn = is_flat(m, left, w->half, w->least) ? 0 : turn_over(m, left, w->half);
+        bool turns = fabs(turn) >= w->least;
+        if (turns && across < ACROSS) /* bent along the way, too: no strip */
+            return false;
+        vector into = cross(rim, face_normal(m, w->half / 3));
+        w->direction = (vector){lengthways * rim.x + across * into.x, lengthways * rim.y + across * into.y,
+                                lengthways * rim.z + across * into.z};
+        if (turns) {
+            w->faces++;
+            *out = (step){width, turn};
+            return true;
         }
-        vector into = cross(rim, face_normal(m, half / 3));
-        direction = (vector){lengthways * rim.x + across * into.x, lengthways * rim.y + across * into.y,
-                             lengthways * rim.z + across * into.z};
     }
+    return false;
+}
+
+/* The next edges that turn, at most so many. */
+static int find_steps(const judge *j, uint32_t half, double own, step *out, int most)
+{
+    strip_walk w = walk_from(j->m, half, own);
+    int        count = 0;
+    while (count < most && next_step(j, &w, &out[count]))
+        count++;
     return count;
 }
 
@@ -299,21 +331,22 @@ typedef struct turning {
 
 static turning turn_within(const judge *j, uint32_t half, double own, double width)
 {
-    step    steps[STEPS_MOST];
-    turning out = {0, 0, INFINITY, 0};
-    int     found = find_steps(j, half, own, steps, STEPS_MOST);
-    for (int i = 0; i < found; i++) {
-        width -= steps[i].width;
-        if (width < 0 || (steps[i].turn < 0) != (own < 0)) {
-            out.beyond = (steps[i].turn < 0) != (own < 0) ? INFINITY : steps[i].width;
+    strip_walk w = walk_from(j->m, half, own);
+    turning    out = {0, 0, INFINITY, 0};
+    step       next;
+    while (next_step(j, &w, &next)) { /* no farther than is asked for */
+        width -= next.width;
+        if (width < 0 || (next.turn < 0) != (own < 0)) {
+            out.beyond = (next.turn < 0) != (own < 0) ? INFINITY : next.width;
             return out;
         }
-        out.turn += fabs(steps[i].turn);
-        out.widest = fmax(out.widest, steps[i].width);
-        out.count++;
+        out.turn += fabs(next.turn);
+        out.widest = fmax(out.widest, next.width);
+        if (++out.count == STEPS_MOST) {
+            out.beyond = 0;
+            return out;
+        }
     }
-    if (found == STEPS_MOST)
-        out.beyond = 0;
     return out;
 }
 
@@ -322,7 +355,10 @@ static turning turn_within(const judge *j, uint32_t half, double own, double wid
 static bool is_narrow_middle(const judge *j, uint32_t half, double own)
 {
     double  width = NARROW * j->size;
-    turning before = turn_within(j, j->facts->opposite[half], own, width), after = turn_within(j, half, own, width);
+    turning before = turn_within(j, j->facts->opposite[half], own, width);
+    if (!(before.beyond > ENDS_IN_FACE * before.widest)) /* whatever there is on the other side */
+        return false;
+    turning after = turn_within(j, half, own, width);
     double  whole = before.turn + fabs(own) + after.turn, middle = (0.5 + MIDDLE_SLACK) * whole,
            face = ENDS_IN_FACE * fmax(before.widest, after.widest);
     return before.count + after.count > 0 && whole > fmax(NARROW_TURN, j->facts->angle) && before.turn <= middle &&
@@ -373,16 +409,18 @@ static float unrest_at(const judge *j, uint32_t half)
 static bool measure_noise(judge *j)
 {
     const edge_mesh *m = j->m;
-    const size_t     halves = (size_t)m->face_count * 3, most = 20000, stride = halves / most + 1;
-    float           *unrests = mem_alloc((halves / stride + 2) * sizeof *unrests);
-    size_t           count = 0, asked = 0;
-    double           length = 0;
+    const size_t     halves = (size_t)m->face_count * 3, most = 20000, stride = halves / most + 1,
+                 wanted = (size_t)(SAMPLED_FRACTION * (double)((halves + stride - 1) / stride));
+    float *unrests = mem_alloc((halves / stride + 2) * sizeof *unrests);
+    size_t count = 0, asked = 0;
+    double length = 0;
     j->noise = -1;
     for (size_t h = 0; unrests && h < halves; h += stride) {
         vector edge = minus(position(m, half_next((uint32_t)h)), position(m, (uint32_t)h));
         length += sqrt(dot(edge, edge));
         asked++;
-        float own = j->facts->opposite[h] == EDGE_NO_FACE ? -1 : unrest_at(j, (uint32_t)h);
+        bool  hopeless = count + (halves - h) / stride + 1 < wanted; /* too many had no rest already */
+        float own = hopeless || j->facts->opposite[h] == EDGE_NO_FACE ? -1 : unrest_at(j, (uint32_t)h);
         if (own >= 0)
             unrests[count++] = own;
     }
@@ -666,8 +704,11 @@ static bool is_round(const judge *j, uint32_t half, double own)
 
 static crease_verdict judge_edge(judge *j, const mesh_edge *e, uint32_t half)
 {
+    bool sharp = (e->flags & EDGE_CREASE) != 0;
+    if (!sharp && is_flat(j->m, half, j->facts->opposite[half], fmin(0.5 * j->facts->angle, NARROW_STEP)))
+        return NO_CREASE;
     double own = turn_over(j->m, half, j->facts->opposite[half]);
-    bool   sharp = (e->flags & EDGE_CREASE) != 0, weak = !sharp && fabs(own) < 0.5 * j->facts->angle;
+    bool   weak = !sharp && fabs(own) < 0.5 * j->facts->angle;
     if (j->noise >= 0 && (weak || is_round(j, half, own) || !is_sampled_crease(j, half, own)))
         return NO_CREASE;
     if (j->noise < 0 && (weak || is_round(j, half, own)))

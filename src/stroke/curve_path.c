@@ -13,17 +13,27 @@
 #define ARC_ERROR 0.03
 enum { ARC_PIECES_MAX = 16 };
 
-/* Counts, for each vertex, the sharp edges of its mesh, whether they are drawn or not. */
-static void count_sharp(curve_path *c)
+static void count_sharp_at(uint8_t *sharp, const uint32_t vertices[2])
+{
+    for (int k = 0; k < 2; k++)
+        if (sharp[vertices[k]] < 3)
+            sharp[vertices[k]]++;
+}
+
+/* Counts, for each vertex, the sharp edges of its mesh, whether they are drawn or not, and lines that the file brings
+ * where no such edge is: CAD programs draw them along the edges of faces that they have split into straight pieces. */
+static void count_sharp(curve_path *c, bool drawn)
 {
     const stroke_scene *s = c->v->scene;
     for (size_t i = 0; i < s->item_count; i++) {
         const edge_mesh *m = &s->meshes[s->items[i].mesh];
         uint8_t         *sharp = c->sharp + c->v->items[i].first_point;
         for (uint32_t e = 0; e < m->edge_count; e++)
-            for (int k = 0; k < 2 && m->edges[e].flags & (EDGE_CREASE | EDGE_BORDER); k++)
-                if (sharp[m->edges[e].vertex[k]] < 3)
-                    sharp[m->edges[e].vertex[k]]++;
+            if (m->edges[e].flags & (EDGE_CREASE | EDGE_BORDER))
+                count_sharp_at(sharp, m->edges[e].vertex);
+        for (uint32_t l = 0; l < m->line_count && drawn; l++)
+            if (m->lines[l].edge == EDGE_NO_FACE || !(m->edges[m->lines[l].edge].flags & (EDGE_CREASE | EDGE_BORDER)))
+                count_sharp_at(sharp, m->lines[l].vertex);
     }
 }
 
@@ -35,7 +45,7 @@ bool curve_path_open(curve_path *c, const stroke_view *v, const view_lines *line
         return true;
     c->sharp = mem_calloc((size_t)v->vertex_count + 1, 1);
     if (c->sharp)
-        count_sharp(c);
+        count_sharp(c, options->drawn);
     return c->sharp != NULL;
 }
 
@@ -51,7 +61,8 @@ void curve_path_close(curve_path *c)
 
 bool curve_path_bends(const curve_path *c, stroke_class kind)
 {
-    return c->sharp && (kind == STROKE_CONTOUR || kind == STROKE_BORDER || kind == STROKE_CREASE);
+    return c->sharp &&
+           (kind == STROKE_CONTOUR || kind == STROKE_BORDER || kind == STROKE_CREASE || kind == STROKE_DRAWN);
 }
 
 static const window_point *position_of(const curve_path *c, uint32_t half)
@@ -85,13 +96,19 @@ static bool turns_sharply(const curve_path *c, uint32_t in, uint32_t out, double
     return ax * bx + ay * by + az * bz < cosine * lengths;
 }
 
+static bool is_sharp(const curve_path *c, uint32_t half)
+{
+    const view_line *line = &c->lines->lines[half / 2];
+    return line->sharp || line->kind == STROKE_DRAWN;
+}
+
 /* What is where one half-line leads to the next, and two that turn further than that are none of a curve? */
 static arc_point_kind judge(const curve_path *c, uint32_t in, uint32_t out, double cosine)
 {
     uint32_t here = number_of(c, out);
     if (here >= c->v->vertex_count || c->sharp[here] == 0)
         return ARC_POINT_SMOOTH;
-    bool sharp_in = c->lines->lines[in / 2].sharp, sharp_out = c->lines->lines[out / 2].sharp;
+    bool sharp_in = is_sharp(c, in), sharp_out = is_sharp(c, out);
     if (c->sharp[here] != 2 || sharp_in != sharp_out || (sharp_in && turns_sharply(c, in, out, cosine)))
         return ARC_POINT_CORNER;
     return sharp_in ? ARC_POINT_STEP : ARC_POINT_SMOOTH;

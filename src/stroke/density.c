@@ -222,22 +222,44 @@ static double ink_around(const density *d, const sample *s)
     return ink / (count * CELL * CELL);
 }
 
+/* Is so much of a chain in ink that is there already? */
+static bool is_dense(const density *d, double most, double limit, double *all)
+{
+    double dense = 0;
+    size_t cell = SIZE_MAX;
+    bool   in_ink = false;
+    *all = 0;
+    for (size_t i = 0; i < d->sample_count; i++) {
+        const sample *s = &d->samples[i];
+        if (cell_at(d, s->x, s->y) != cell) { /* several lie in one */
+            cell = cell_at(d, s->x, s->y);
+            in_ink = ink_around(d, s) > most;
+        }
+        *all += (double)s->length;
+        dense += in_ink ? (double)s->length : 0;
+    }
+    return dense > limit * *all;
+}
+
 static bool is_crowded(const density *d, const stroke *s, double width)
 {
     double limit = is_outline(s) || s->kind >= STROKE_SUGGESTIVE ? MOST_OF_OUTLINES : MOST_OF_IT;
     double detail = d->options->detail, reach = fmax(BESIDE_WIDTHS * width, BESIDE_LEAST) * 2 * (1 - detail),
-           most = DENSITY_LEAST + DENSITY_MORE * detail, all = 0, parallel = 0, dense = 0, alone = 0, most_alone = 0;
+           most = DENSITY_LEAST + DENSITY_MORE * detail, all, parallel = 0, other = 0, alone = 0, most_alone = 0;
+    if (is_dense(d, most, limit, &all))
+        return true;
     for (size_t i = 0; i < d->sample_count; i++) {
         const sample *p = &d->samples[i];
-        all += (double)p->length;
-        bool beside_another = runs_beside(d, p, reach, width), in_ink = ink_around(d, p) > most;
+        bool          beside_another = runs_beside(d, p, reach, width);
         parallel += beside_another ? (double)p->length : 0;
-        dense += in_ink ? (double)p->length : 0;
-        alone = beside_another || in_ink ? 0 : alone + (double)p->length;
+        other += beside_another ? 0 : (double)p->length;
+        if (all - other < (1 - 1e-9) * limit * all) /* what is left cannot be enough any more */
+            return false;
+        alone = beside_another || ink_around(d, p) > most ? 0 : alone + (double)p->length;
         most_alone = fmax(most_alone, alone);
     }
     bool bare = is_outline(s) ? all - parallel > BARE_OUTLINE : most_alone > BARE_LINE;
-    return (parallel > limit * all && !bare) || dense > limit * all;
+    return parallel > limit * all && !bare;
 }
 
 static bool lay(density *d, double width)

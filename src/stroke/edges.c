@@ -536,6 +536,7 @@ void edge_mesh_release(edge_mesh *m)
     mem_free(m->closed);
     mem_free(m->inward);
     mem_free(m->boxes);
+    mem_free(m->planes);
     mem_free(m->said);
     mem_free(m->caps);
     edge_refinement_destroy(&m->refinement);

@@ -61,15 +61,17 @@ typedef struct edge_mesh {
     uint32_t vertex_count, face_count, edge_count, piece_count, line_count;
     vec3    *positions;
     uint32_t (*faces)[3];
-    vec3                   *normals;   /* per face, unit, by winding */
-    int32_t                *materials; /* per face; NULL: all alike */
-    mesh_edge              *edges;     /* those with flags, in a fixed order */
-    mesh_line              *lines;     /* all of them are the last piece, which has no faces */
-    uint32_t               *pieces;    /* per face: what hangs together over edges, numbered from 0 */
-    bool                   *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
-    bool                   *inward;    /* per closed piece: its faces look inwards */
-    box3                   *boxes;     /* per piece */
-    uint8_t                *said;      /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
+    vec3      *normals;   /* per face, unit, by winding */
+    int32_t   *materials; /* per face; NULL: all alike */
+    mesh_edge *edges;     /* those with flags, in a fixed order */
+    mesh_line *lines;     /* all of them are the last piece, which has no faces */
+    uint32_t  *pieces;    /* per face: what hangs together over edges, numbered from 0 */
+    bool      *closed;    /* per piece: each edge has two faces that pass it in opposite directions */
+    bool      *inward;    /* per closed piece: its faces look inwards */
+    box3      *boxes;     /* per piece */
+    uint32_t  *planes; /* per face: the plane in which it lies with others, from 1 on; 0: none; NULL: not asked for */
+    uint32_t   plane_count;
+    uint8_t   *said; /* per corner, of the edge that begins there: edge_saying; NULL: nothing */
     edge_sampling           sampling;
     edge_cap               *caps;
     uint32_t                cap_count;

@@ -5,6 +5,7 @@
 #include "stroke/stroke_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,6 +13,8 @@
 
 /* A cell with more triangles than this gets a finer grid with about so many a cell. */
 enum { CROWD = 256, FEW = 8, SUB_SIDE_MAX = 24 };
+/* Its cells are divided in turn unless its triangles are so large that they lie in more of them, on average. */
+enum { SPLIT_MOST = 3 };
 
 /* Cells that a box touches: first and last column and row. */
 typedef struct cell_range {
@@ -132,7 +135,8 @@ static bool make_levels(window_grid *g, const stroke_view *v)
                           (int32_t)(width / cell) + 1,
                           (int32_t)(height / cell) + 1,
                           NULL,
-                          NULL};
+                          NULL,
+                          false};
         l->starts = mem_calloc((size_t)l->columns * (size_t)l->rows + 2, sizeof *l->starts);
         if (!l->starts)
             return false;
@@ -141,38 +145,110 @@ static bool make_levels(window_grid *g, const stroke_view *v)
     return true;
 }
 
-/* A finer grid for the triangles of a crowded cell. Starts are numbers in sub_starts until all are made. */
-static bool divide_cell(window_grid *g, const stroke_view *v, grid_level *l, int32_t column, int32_t row)
+typedef struct plane_entry {
+    uint32_t plane, entry;
+} plane_entry;
+
+static int compare_planes(const void *a, const void *b)
 {
-    size_t   number = (size_t)row * (size_t)l->columns + (size_t)column;
+    const plane_entry *p = a, *q = b;
+    return p->plane != q->plane ? (p->plane < q->plane ? -1 : 1) : (p->entry > q->entry) - (p->entry < q->entry);
+}
+
+/* Sorts the entries of cells that are a crowd by the planes in which they lie. */
+static bool sort_crowds(const stroke_view *v, const uint32_t *starts, size_t cells, uint32_t *entries)
+{
+    plane_entry *keys = NULL;
+    size_t       capacity = 0;
+    bool         good = true;
+    for (size_t c = 0; c < cells && v->planes && good; c++) {
+        size_t count = starts[c + 1] - starts[c];
+        if (count <= GRID_CROWD)
+            continue;
+        good = mem_grow((void **)&keys, &capacity, count, sizeof *keys);
+        for (size_t i = 0; i < count && good; i++) {
+            uint32_t entry = entries[starts[c] + i];
+            keys[i] = (plane_entry){v->planes[v->triangles[entry].face], entry};
+        }
+        if (good)
+            qsort(keys, count, sizeof *keys, compare_planes);
+        for (size_t i = 0; i < count && good; i++)
+            entries[starts[c] + i] = keys[i].entry;
+    }
+    mem_free(keys);
+    return good;
+}
+
+/* Room for a finer grid of so many cells; where its numbers begin. */
+static bool open_sub(window_grid *g, size_t cells)
+{
+    size_t more = g->sub_start_count + cells + 2;
+    return mem_grow((void **)&g->subs, &g->sub_capacity, g->sub_count + 1, sizeof *g->subs) &&
+           mem_grow((void **)&g->sub_starts, &g->sub_start_capacity, more, sizeof *g->sub_starts) &&
+           mem_grow((void **)&g->sub_links, &g->sub_link_capacity, more, sizeof *g->sub_links);
+}
+
+/* A finer grid for the triangles of a crowded cell, which are entries of the grid or of finer ones. Where its numbers
+ * are is said when all are made. Returns its number + 1; 0: memory is gone. */
+static uint32_t divide_cell(window_grid *g, const stroke_view *v, const grid_level *l, size_t number, bool nested)
+{
     uint32_t begin = l->starts[number], count = l->starts[number + 1] - begin;
-    int32_t  side = (int32_t)sqrt((double)count / FEW);
+    int32_t  column = (int32_t)(number % (size_t)l->columns), row = (int32_t)(number / (size_t)l->columns),
+            side = (int32_t)sqrt((double)count / FEW);
     side = side < SUB_SIDE_MAX ? side : SUB_SIDE_MAX;
-    size_t cells = (size_t)side * (size_t)side;
-    if (!mem_grow((void **)&g->subs, &g->sub_capacity, g->sub_count + 1, sizeof *g->subs) ||
-        !mem_grow((void **)&g->sub_starts, &g->sub_start_capacity, g->sub_start_count + cells + 2,
-                  sizeof *g->sub_starts))
-        return false;
+    size_t     cells = (size_t)side * (size_t)side;
     grid_level sub = {l->low_x + column * l->cell,
                       l->low_y + row * l->cell,
                       (l->cell + side - 1) / side,
                       side,
                       side,
-                      g->sub_starts + g->sub_start_count,
-                      NULL};
+                      NULL,
+                      NULL,
+                      false};
+    if (!open_sub(g, cells)) /* of nested ones, l's own numbers may have moved */
+        return 0;
+    sub.starts = g->sub_starts + g->sub_start_count;
     memset(sub.starts, 0, (cells + 2) * sizeof *sub.starts);
+    memset(g->sub_links + g->sub_start_count, 0, (cells + 2) * sizeof *g->sub_links);
     for (uint32_t i = 0; i < count; i++)
-        enter(&sub, v, g->entries[begin + i], sub.starts + 2, NULL);
+        enter(&sub, v, (nested ? g->sub_entries : g->entries)[begin + i], sub.starts + 2, NULL);
     uint32_t total = add_up(&sub, (uint32_t)g->sub_entry_count);
     if (!mem_grow((void **)&g->sub_entries, &g->sub_entry_capacity, (size_t)total + 1, sizeof *g->sub_entries))
-        return false;
+        return 0;
     for (uint32_t i = 0; i < count; i++)
-        enter(&sub, v, g->entries[begin + i], sub.starts + 1, g->sub_entries);
+        enter(&sub, v, (nested ? g->sub_entries : g->entries)[begin + i], sub.starts + 1, g->sub_entries);
+    sub.divisible = total - g->sub_entry_count <= (size_t)SPLIT_MOST * count;
     g->sub_entry_count = total;
     g->sub_start_count += cells + 2;
+    if (!sort_crowds(v, sub.starts, cells, g->sub_entries))
+        return 0;
     sub.starts = NULL;
     g->subs[g->sub_count++] = sub;
-    l->subs[number] = (uint32_t)g->sub_count;
+    return (uint32_t)g->sub_count;
+}
+
+static bool is_crowd(const grid_level *l, size_t number)
+{
+    return l->starts[number + 1] - l->starts[number] > CROWD && l->cell > SUB_SIDE_MAX;
+}
+
+/* Finer grids for cells of finer grids: what lies in one pixel may be as rich as the rest of the page. */
+static bool divide_subs(window_grid *g, const stroke_view *v)
+{
+    size_t at = 0;
+    for (size_t i = 0; i < g->sub_count; i++) {
+        size_t cells = (size_t)g->subs[i].columns * (size_t)g->subs[i].rows;
+        for (size_t c = 0; c < cells && g->subs[i].divisible; c++) {
+            grid_level l = g->subs[i];
+            l.starts = g->sub_starts + at;
+            bool     crowd = is_crowd(&l, c);
+            uint32_t link = crowd ? divide_cell(g, v, &l, c, true) : 0;
+            if (crowd && !link)
+                return false;
+            g->sub_links[at + c] = link;
+        }
+        at += cells + 2;
+    }
     return true;
 }
 
@@ -183,19 +259,21 @@ static bool divide_crowds(window_grid *g, const stroke_view *v)
         size_t      cells = (size_t)l->columns * (size_t)l->rows;
         if (l->starts[cells] == l->starts[0])
             continue;
+        if (!sort_crowds(v, l->starts, cells, g->entries))
+            return false;
         l->subs = mem_calloc(cells, sizeof *l->subs);
         if (!l->subs)
             return false;
-        for (int32_t r = 0; r < l->rows; r++)
-            for (int32_t c = 0; c < l->columns; c++) {
-                const uint32_t *start = &l->starts[(size_t)r * (size_t)l->columns + (size_t)c];
-                if (start[1] - start[0] > CROWD && l->cell > SUB_SIDE_MAX && !divide_cell(g, v, l, c, r))
-                    return false;
-            }
+        for (size_t c = 0; c < cells; c++)
+            if (is_crowd(l, c) && !(l->subs[c] = divide_cell(g, v, l, c, false)))
+                return false;
     }
+    if (!divide_subs(g, v))
+        return false;
     size_t at = 0;
     for (size_t i = 0; i < g->sub_count; i++) { /* now that they do not move any longer */
         g->subs[i].starts = g->sub_starts + at;
+        g->subs[i].subs = g->sub_links + at;
         at += (size_t)g->subs[i].columns * (size_t)g->subs[i].rows + 2;
     }
     return true;
@@ -285,6 +363,7 @@ void grid_release(window_grid *g)
     }
     mem_free(g->subs);
     mem_free(g->sub_starts);
+    mem_free(g->sub_links);
     mem_free(g->entries);
     mem_free(g->sub_entries);
     memset(g, 0, sizeof *g);

@@ -7,6 +7,8 @@
 #include "base/memory.h"
 
 enum { LEAF = 4, CURVE_BITS = 10, RADIX_BITS = 10, RADIX = 1 << RADIX_BITS, DEPTH_MAX = 96 };
+/* So many boxes at one place of the curve get a finer one of their own. */
+enum { CROWD = 64 };
 
 typedef struct curve_key {
     uint32_t position, member;
@@ -27,20 +29,21 @@ static uint32_t step_along(float at, float low, float scale)
     return step > 0 ? step < (1 << CURVE_BITS) - 1 ? (uint32_t)step : (1 << CURVE_BITS) - 1 : 0;
 }
 
+/* Along a curve through the box around all members of the keys. */
 static void position_on_curve(curve_key *keys, const box3 *boxes, uint32_t count)
 {
     box3 all = box3_empty();
     for (uint32_t i = 0; i < count; i++)
-        all = box3_union(all, boxes[i]);
+        all = box3_union(all, boxes[keys[i].member]);
     const float side = 1 << CURVE_BITS;
     vec3        size = {all.max.x - all.min.x, all.max.y - all.min.y, all.max.z - all.min.z};
     vec3 scale = {size.x > 0 ? side / size.x : 0, size.y > 0 ? side / size.y : 0, size.z > 0 ? side / size.z : 0};
     for (uint32_t i = 0; i < count; i++) {
-        const box3 *b = &boxes[i];
+        const box3 *b = &boxes[keys[i].member];
         uint32_t    x = step_along(0.5f * (b->min.x + b->max.x), all.min.x, scale.x),
                  y = step_along(0.5f * (b->min.y + b->max.y), all.min.y, scale.y),
                  z = step_along(0.5f * (b->min.z + b->max.z), all.min.z, scale.z);
-        keys[i] = (curve_key){spread(x) | spread(y) << 1 | spread(z) << 2, i};
+        keys[i].position = spread(x) | spread(y) << 1 | spread(z) << 2;
     }
 }
 
@@ -80,7 +83,7 @@ typedef struct run {
 } run;
 
 /* Nodes from the root on; children lie side by side, behind their parent. */
-static void make_nodes(hierarchy *h, const curve_key *keys)
+static void make_nodes(hierarchy *h, const box3 *boxes, curve_key *keys, curve_key *other)
 {
     run stack[DEPTH_MAX];
     int depth = 0;
@@ -89,37 +92,44 @@ static void make_nodes(hierarchy *h, const curve_key *keys)
     while (depth > 0) {
         run r = stack[--depth];
         if (r.end - r.begin <= LEAF || depth + 2 > DEPTH_MAX) {
-            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, KIN_MIXED};
+            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, {KIN_MIXED, KIN_MIXED}};
             continue;
+        }
+        if (r.end - r.begin > CROWD && keys[r.begin].position == keys[r.end - 1].position) {
+            position_on_curve(keys + r.begin, boxes, r.end - r.begin);
+            sort_keys(keys + r.begin, other, r.end - r.begin);
         }
         uint32_t split = split_of(keys, r.begin, r.end), left = h->node_count;
         h->node_count += 2;
-        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, KIN_MIXED};
+        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, {KIN_MIXED, KIN_MIXED}};
         stack[depth++] = (run){left + 1, split, r.end};
         stack[depth++] = (run){left, r.begin, split};
     }
 }
 
-static void make_boxes(hierarchy *h, const box3 *boxes, const uint32_t *kin)
+static void make_boxes(hierarchy *h, const box3 *boxes, hierarchy_kin kin)
 {
     for (uint32_t i = h->node_count; i-- > 0;) {
         hierarchy_node *n = &h->nodes[i];
         if (n->count == 0) {
             const hierarchy_node *left = &h->nodes[n->first], *right = left + 1;
             n->box = box3_union(left->box, right->box);
-            n->kin = left->kin == right->kin ? left->kin : KIN_MIXED;
+            for (int way = 0; way < 2; way++)
+                n->kin[way] = left->kin[way] == right->kin[way] ? left->kin[way] : KIN_MIXED;
             continue;
         }
-        n->kin = kin ? kin[h->members[n->first]] : KIN_MIXED;
         for (uint32_t k = 0; k < n->count; k++) {
             uint32_t member = h->members[n->first + k];
             n->box = box3_union(n->box, boxes[member]);
-            n->kin = kin && kin[member] == n->kin ? n->kin : KIN_MIXED;
+            for (int way = 0; way < 2; way++) {
+                uint32_t own = kin.of[way] ? kin.of[way][member] : KIN_MIXED;
+                n->kin[way] = k == 0 || own == n->kin[way] ? own : KIN_MIXED;
+            }
         }
     }
 }
 
-lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *kin, uint32_t count, lmn_error *error)
+lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, hierarchy_kin kin, uint32_t count, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
     if (count == 0)
@@ -129,12 +139,14 @@ lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *ki
     out->nodes = mem_alloc(2 * (size_t)count * sizeof *out->nodes);
     lmn_status status = LMN_OK;
     if (keys && out->members && out->nodes) {
+        for (uint32_t i = 0; i < count; i++)
+            keys[i].member = i;
         position_on_curve(keys, boxes, count);
         sort_keys(keys, keys + count, count);
+        out->member_count = count;
+        make_nodes(out, boxes, keys, keys + count);
         for (uint32_t i = 0; i < count; i++)
             out->members[i] = keys[i].member;
-        out->member_count = count;
-        make_nodes(out, keys);
         make_boxes(out, boxes, kin);
     } else {
         hierarchy_release(out);
@@ -162,17 +174,31 @@ static bool meet(const box3 *a, const box3 *b)
 typedef struct pair_search {
     const hierarchy *h;
     const box3      *boxes;
-    const uint32_t  *kin;
+    hierarchy_kin    kin;
     hierarchy_pair   pair;
     void            *user;
 } pair_search;
+
+static bool are_kin(const pair_search *s, uint32_t p, uint32_t q)
+{
+    for (int way = 0; way < 2; way++)
+        if (s->kin.of[way] && s->kin.of[way][p] == s->kin.of[way][q] && s->kin.of[way][p] != KIN_MIXED)
+            return true;
+    return false;
+}
+
+/* All members of one node and of another one, or the same. */
+static bool are_nodes_kin(const hierarchy_node *a, const hierarchy_node *b)
+{
+    return (a->kin[0] == b->kin[0] && a->kin[0] != KIN_MIXED) || (a->kin[1] == b->kin[1] && a->kin[1] != KIN_MIXED);
+}
 
 static bool pairs_of_leaves(const pair_search *s, const hierarchy_node *a, const hierarchy_node *b)
 {
     for (uint32_t i = 0; i < a->count; i++)
         for (uint32_t k = a == b ? i + 1 : 0; k < b->count; k++) {
             uint32_t p = s->h->members[a->first + i], q = s->h->members[b->first + k];
-            if ((!s->kin || s->kin[p] != s->kin[q]) && meet(&s->boxes[p], &s->boxes[q]) && !s->pair(s->user, p, q))
+            if (!are_kin(s, p, q) && meet(&s->boxes[p], &s->boxes[q]) && !s->pair(s->user, p, q))
                 return false;
         }
     return true;
@@ -181,7 +207,7 @@ static bool pairs_of_leaves(const pair_search *s, const hierarchy_node *a, const
 static bool pairs_between(const pair_search *s, uint32_t first, uint32_t second)
 {
     const hierarchy_node *a = &s->h->nodes[first], *b = &s->h->nodes[second];
-    if ((a->kin == b->kin && a->kin != KIN_MIXED) || !meet(&a->box, &b->box))
+    if (are_nodes_kin(a, b) || !meet(&a->box, &b->box))
         return true;
     if (a->count && b->count)
         return pairs_of_leaves(s, a, b);
@@ -190,12 +216,12 @@ static bool pairs_between(const pair_search *s, uint32_t first, uint32_t second)
     return pairs_between(s, first, b->first) && pairs_between(s, first, b->first + 1);
 }
 
-bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user)
+bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, hierarchy_kin kin, hierarchy_pair pair, void *user)
 {
     pair_search s = {h, boxes, kin, pair, user};
     for (uint32_t i = 0; i < h->node_count; i++) {
         const hierarchy_node *n = &h->nodes[i];
-        if (n->kin != KIN_MIXED)
+        if (are_nodes_kin(n, n))
             continue;
         if (n->count ? !pairs_of_leaves(&s, n, n) : !pairs_between(&s, n->first, n->first + 1))
             return false;

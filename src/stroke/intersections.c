@@ -11,6 +11,8 @@
 #include "stroke/solid.h"
 
 enum { MARK_SIDE = 64, TICKS = 65536 };
+/* Where more boxes of pieces overlap, it takes longer to say where than to look at all faces. */
+enum { OVERLAPS_A_PIECE = 8, OVERLAPS_LEAST = 4096 };
 /* Faces of one surface that two pieces have turn against each other by no more than the first, radians, whatever the
  * second is; they lie no farther apart than this fraction of the smaller piece. */
 #define TURN_MOST  0.44
@@ -45,10 +47,12 @@ typedef struct crossing_search {
     uint64_t           *marks;  /* MARK_SIDE² words: cells where boxes overlap */
     near_face          *faces;
     box3               *boxes;
-    uint32_t           *pieces; /* per near face, of all items */
-    size_t              face_count, face_capacity, box_capacity, kin_capacity;
-    double              same;
-    float             **turns; /* per mesh: of each face, by how much they turn; NULL: not needed yet */
+    uint32_t           *pieces, *planes; /* per near face, of all items */
+    size_t              face_count, face_capacity, box_capacity, kin_capacity, plane_capacity;
+    size_t              overlaps; /* pairs of pieces whose boxes do */
+    bool                crowded;  /* these are so many that all faces are looked at instead */
+    double              same;     /* of the two faces that are compared */
+    float             **turns;    /* per mesh: of each face, by how much they turn; NULL: not needed yet */
     face_touch         *touches;
     size_t              touch_count, touch_capacity;
     solid_trimmer     **trimmers; /* per item that is a solid; NULL: not needed yet */
@@ -126,6 +130,10 @@ static bool widen_region(void *user, uint32_t a, uint32_t b)
 {
     crossing_search *s = user;
     const box3      *p = &s->piece_boxes[a], *q = &s->piece_boxes[b];
+    if (++s->overlaps > (size_t)OVERLAPS_A_PIECE * s->piece_count + OVERLAPS_LEAST) {
+        s->crowded = true;
+        return false;
+    }
     if (!asks_for(s, a, b))
         return true;
     s->piece_meets[a] = s->piece_meets[b] = 1;
@@ -203,27 +211,39 @@ static box3 face_box(const edge_mesh *m, const stroke_item *item, bool still, ui
                    larger(p[0].z, larger(p[1].z, p[2].z))}};
 }
 
+static bool put_near_face(crossing_search *s, near_face n, box3 box, uint32_t piece, uint32_t plane)
+{
+    if (!mem_grow((void **)&s->faces, &s->face_capacity, s->face_count + 1, sizeof *s->faces) ||
+        !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes) ||
+        !mem_grow((void **)&s->pieces, &s->kin_capacity, s->face_count + 1, sizeof *s->pieces) ||
+        !mem_grow((void **)&s->planes, &s->plane_capacity, s->face_count + 1, sizeof *s->planes))
+        return false;
+    s->faces[s->face_count] = n;
+    s->boxes[s->face_count] = box;
+    s->pieces[s->face_count] = piece;
+    s->planes[s->face_count++] = plane;
+    return true;
+}
+
 static lmn_status gather_faces(crossing_search *s, lmn_error *error)
 {
+    uint32_t first_plane = 0;
     for (uint32_t i = 0; i < s->scene->item_count; i++) {
         const stroke_item *item = &s->scene->items[i];
         const edge_mesh   *m = &s->scene->meshes[item->mesh];
         bool               still = s->still[i];
         for (uint32_t f = 0; f < m->face_count; f++) {
             uint32_t piece = s->first_piece[i] + m->pieces[f];
-            if (!s->piece_meets[piece])
+            if (!s->crowded && !s->piece_meets[piece])
                 continue;
             box3 box = face_box(m, item, still, f);
-            if (!is_marked(s, &box))
+            if (!s->crowded && !is_marked(s, &box))
                 continue;
-            if (!mem_grow((void **)&s->faces, &s->face_capacity, s->face_count + 1, sizeof *s->faces) ||
-                !mem_grow((void **)&s->boxes, &s->box_capacity, s->face_count + 1, sizeof *s->boxes) ||
-                !mem_grow((void **)&s->pieces, &s->kin_capacity, s->face_count + 1, sizeof *s->pieces))
+            if (!put_near_face(s, (near_face){i, f}, box, piece,
+                               m->planes && m->planes[f] ? first_plane + m->planes[f] : KIN_MIXED))
                 return error_memory(error);
-            s->faces[s->face_count] = (near_face){i, f};
-            s->pieces[s->face_count] = piece;
-            s->boxes[s->face_count++] = box;
         }
+        first_plane += m->plane_count;
     }
     return LMN_OK;
 }
@@ -484,6 +504,7 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
     const near_face *n = &s->faces[first], *m = &s->faces[second];
     if (!asks_for(s, s->pieces[first], s->pieces[second]))
         return true;
+    s->same = SAME_POSITION * fmax(s->scene->items[n->item].reach, s->scene->items[m->item].reach);
     if (n->item == m->item && s->still[n->item]) {
         const edge_mesh *own = &s->scene->meshes[s->scene->items[n->item].mesh];
         if (is_clear(s, own, n->face, m->face) || is_clear(s, own, m->face, n->face))
@@ -534,24 +555,26 @@ static bool cross_along_edges(crossing_search *s)
 
 static lmn_status search(crossing_search *s, lmn_error *error)
 {
-    hierarchy  tree;
-    lmn_status status = number_pieces(s, error);
+    static const hierarchy_kin none = {{NULL, NULL}};
+    hierarchy                  tree;
+    lmn_status                 status = number_pieces(s, error);
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->piece_boxes, NULL, s->piece_count, error);
+        status = hierarchy_build(&tree, s->piece_boxes, none, s->piece_count, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->piece_boxes, NULL, widen_region, s);
-    if (!box3_is_empty(s->region))
-        hierarchy_pairs(&tree, s->piece_boxes, NULL, mark_region, s);
+    hierarchy_pairs(&tree, s->piece_boxes, none, widen_region, s);
+    if (!s->crowded && !box3_is_empty(s->region))
+        hierarchy_pairs(&tree, s->piece_boxes, none, mark_region, s);
     hierarchy_release(&tree);
-    if (box3_is_empty(s->region))
+    if (!s->crowded && box3_is_empty(s->region))
         return LMN_OK;
     status = gather_faces(s, error);
+    const hierarchy_kin kin = {{s->pieces, s->planes}};
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, s->boxes, s->pieces, (uint32_t)s->face_count, error);
+        status = hierarchy_build(&tree, s->boxes, kin, (uint32_t)s->face_count, error);
     if (status != LMN_OK)
         return status;
-    hierarchy_pairs(&tree, s->boxes, s->pieces, cross_faces, s);
+    hierarchy_pairs(&tree, s->boxes, kin, cross_faces, s);
     hierarchy_release(&tree);
     s->failed = s->failed || (!s->cancelled && !cross_along_edges(s));
     if (s->cancelled)
@@ -579,14 +602,9 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
                           void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    crossing_search s = {.scene = scene,
-                         .out = out,
-                         .parts = parts,
-                         .region = box3_empty(),
-                         .progress = progress,
-                         .user = user,
-                         .same = SAME_POSITION * scene->reach};
-    lmn_status      status = search(&s, error);
+    crossing_search s = {
+        .scene = scene, .out = out, .parts = parts, .region = box3_empty(), .progress = progress, .user = user};
+    lmn_status status = search(&s, error);
     mem_free(s.first_piece);
     mem_free(s.still);
     mem_free(s.piece_boxes);
@@ -597,6 +615,7 @@ lmn_status crossings_find(crossing_list *out, const stroke_scene *scene, const b
     mem_free(s.faces);
     mem_free(s.boxes);
     mem_free(s.pieces);
+    mem_free(s.planes);
     mem_free(s.touches);
     for (size_t i = 0; i < scene->mesh_count && s.turns; i++)
         mem_free(s.turns[i]);

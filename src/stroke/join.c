@@ -37,7 +37,7 @@
 /* Lines of form must be longer than others by this factor, but no longer than this fraction of the page. */
 #define FORM_SHORTEST 16.0
 #define FORM_FRACTION (1.0 / 64)
-/* Of ends in one cell so many are looked at. */
+/* Of ends in one cell, behind as many surfaces, so many are looked at. */
 enum { MEETING_MOST = 256 };
 
 /* An end of a stroke: number 2 · stroke, + 1 for its last point. */
@@ -46,6 +46,13 @@ typedef struct stroke_end {
     float   out_x, out_y; /* unit: away from the stroke */
     int32_t column, row;
 } stroke_end;
+
+/* What tells whether two ends can be linked at all; those of a bucket lie side by side, the last end first. */
+typedef struct kept_end {
+    float    x, y;
+    uint32_t number, hidden_by, chain;
+    int32_t  column, row;
+} kept_end;
 
 typedef struct candidate {
     float    cost;
@@ -57,8 +64,9 @@ typedef struct joiner {
     double                focal;
     bool                  orthographic;
     stroke_end           *ends;
-    uint32_t             *heads, *nexts; /* hash table of cells */
-    size_t                mask;
+    kept_end             *kept;   /* of those that can be linked, by buckets of cells */
+    uint32_t             *starts; /* per bucket, and one more: its first one */
+    size_t                mask, columns;
     candidate            *candidates;
     size_t                candidate_count, candidate_capacity;
     uint32_t             *partners;    /* per end; NO_VERTEX: none */
@@ -88,33 +96,51 @@ static stroke_end end_of(const joiner *j, uint32_t number)
     return (stroke_end){from->x, from->y, from->depth, x * fraction, y * fraction, cell_of(from->x), cell_of(from->y)};
 }
 
-static size_t cell_hash(int32_t column, int32_t row)
+/* Ends are linked only where as many surfaces lie in front of both, so that each number has cells of its own. Cells
+ * side by side have buckets side by side. */
+static size_t bucket_of(const joiner *j, int32_t column, int32_t row, uint32_t hidden_by)
 {
-    return (size_t)((uint64_t)(uint32_t)column * UINT64_C(0x9E3779B97F4A7C15) ^
-                    (uint64_t)(uint32_t)row * UINT64_C(0xC2B2AE3D27D4EB4F)) >>
-           20;
+    return ((size_t)(uint32_t)row * j->columns + (size_t)(uint32_t)column +
+            (size_t)hidden_by * UINT64_C(0x9E3779B97F4A7C15)) &
+           j->mask;
+}
+
+static void fill_buckets(joiner *j, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (!j->set->strokes[i / 2].closed)
+            j->starts[1 + bucket_of(j, j->ends[i].column, j->ends[i].row, j->set->strokes[i / 2].hidden_by)]++;
+    for (size_t k = 0; k <= j->mask; k++)
+        j->starts[k + 1] += j->starts[k];
+    /* Backwards, which moves each start to its bucket's end, where the next one begins. */
+    for (uint32_t i = count; i-- > 0;) {
+        const stroke     *s = &j->set->strokes[i / 2];
+        const stroke_end *e = &j->ends[i];
+        if (!s->closed)
+            j->kept[j->starts[bucket_of(j, e->column, e->row, s->hidden_by)]++] =
+                (kept_end){e->x, e->y, i, s->hidden_by, s->chain, e->column, e->row};
+    }
+    memmove(j->starts + 1, j->starts, (j->mask + 1) * sizeof *j->starts);
+    j->starts[0] = 0;
 }
 
 static bool put_ends(joiner *j)
 {
     size_t count = 2 * j->set->stroke_count, slots = 64;
-    while (slots < count)
-        slots *= 2;
+    j->columns = 8;
+    for (; slots < count; slots *= 2)
+        j->columns *= slots > j->columns * j->columns ? 2 : 1;
     j->mask = slots - 1;
     j->ends = mem_alloc((count + 1) * sizeof *j->ends);
-    j->nexts = mem_alloc((count + 1) * sizeof *j->nexts);
+    j->kept = mem_alloc((count + 1) * sizeof *j->kept);
     j->partners = mem_alloc((count + 1) * sizeof *j->partners);
-    j->heads = mem_alloc(slots * sizeof *j->heads);
-    if (!j->ends || !j->nexts || !j->partners || !j->heads)
+    j->starts = mem_calloc(slots + 1, sizeof *j->starts);
+    if (!j->ends || !j->kept || !j->partners || !j->starts)
         return false;
-    memset(j->heads, 0xFF, slots * sizeof *j->heads);
     memset(j->partners, 0xFF, (count + 1) * sizeof *j->partners);
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count; i++)
         j->ends[i] = end_of(j, i);
-        uint32_t *head = &j->heads[cell_hash(j->ends[i].column, j->ends[i].row) & j->mask];
-        j->nexts[i] = *head;
-        *head = i;
-    }
+    fill_buckets(j, (uint32_t)count);
     return true;
 }
 
@@ -180,37 +206,34 @@ static float cost_of(const joiner *j, uint32_t a, uint32_t b)
     return cost < MOST ? cost : -1;
 }
 
-/* A first look, for there may be many. */
-static bool is_far(const joiner *j, uint32_t a, uint32_t b)
+/* Links of an end with those of a cell that come behind it. */
+static bool find_in_cell(joiner *j, const kept_end *a, int32_t column, int32_t row)
 {
-    const stroke *s = &j->set->strokes[a / 2], *t = &j->set->strokes[b / 2];
-    double        x = (double)j->ends[b].x - j->ends[a].x, y = (double)j->ends[b].y - j->ends[a].y;
-    return s->chain != t->chain && (s->hidden_by != t->hidden_by || x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS);
+    size_t          bucket = bucket_of(j, column, row, a->hidden_by);
+    const kept_end *b = j->kept + j->starts[bucket], *end = j->kept + j->starts[bucket + 1];
+    for (int left = MEETING_MOST; b < end && left && b->number > a->number; b++) {
+        if (b->column != column || b->row != row || b->hidden_by != a->hidden_by)
+            continue;
+        left--;
+        double x = (double)b->x - a->x, y = (double)b->y - a->y;
+        if (x * x + y * y > REACH_OF_LINKS * REACH_OF_LINKS && b->chain != a->chain)
+            continue;
+        float cost = cost_of(j, a->number, b->number);
+        if (cost < 0)
+            continue;
+        if (!mem_grow((void **)&j->candidates, &j->candidate_capacity, j->candidate_count + 1, sizeof *j->candidates))
+            return false;
+        j->candidates[j->candidate_count++] = (candidate){cost, {a->number, b->number}};
+    }
+    return true;
 }
 
-static bool find_candidates(joiner *j, uint32_t a)
+static bool find_candidates(joiner *j)
 {
-    const stroke_end *p = &j->ends[a];
-    for (int32_t row = p->row - 1; row <= p->row + 1; row++)
-        for (int32_t column = p->column - 1; column <= p->column + 1; column++) {
-            int left = MEETING_MOST;
-            for (uint32_t b = j->heads[cell_hash(column, row) & j->mask]; b != NO_VERTEX && left; b = j->nexts[b]) {
-                if (b <= a) /* those behind it came before it */
-                    break;
-                if (j->ends[b].column != column || j->ends[b].row != row)
-                    continue;
-                left--;
-                if (is_far(j, a, b))
-                    continue;
-                float cost = cost_of(j, a, b);
-                if (cost < 0)
-                    continue;
-                if (!mem_grow((void **)&j->candidates, &j->candidate_capacity, j->candidate_count + 1,
-                              sizeof *j->candidates))
-                    return false;
-                j->candidates[j->candidate_count++] = (candidate){cost, {a, b}};
-            }
-        }
+    for (size_t i = 0; i < j->starts[j->mask + 1]; i++)
+        for (int32_t cell = 0; cell < 9; cell++)
+            if (!find_in_cell(j, &j->kept[i], j->kept[i].column + cell % 3 - 1, j->kept[i].row + cell / 3 - 1))
+                return false;
     return true;
 }
 
@@ -249,11 +272,8 @@ static void link_ends(joiner *j, uint8_t *taken, const uint32_t ends[2])
 static bool match_ends(joiner *j)
 {
     uint8_t *taken = mem_calloc(2 * j->set->stroke_count + 1, 1);
-    bool     good = taken != NULL;
     j->wholes = mem_alloc((j->set->chain_count + 1) * sizeof *j->wholes);
-    for (uint32_t i = 0; i < 2 * j->set->stroke_count && good; i++)
-        good = find_candidates(j, i);
-    good = good && j->wholes;
+    bool good = taken && j->wholes && find_candidates(j);
     for (uint32_t i = 0; i < j->set->chain_count && good; i++)
         j->wholes[i] = i;
     if (good && j->candidate_count)
@@ -482,8 +502,8 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_opti
     if (good && set->stroke_count)
         qsort(set->strokes, set->stroke_count, sizeof *set->strokes, compare_strokes);
     mem_free(j.ends);
-    mem_free(j.heads);
-    mem_free(j.nexts);
+    mem_free(j.kept);
+    mem_free(j.starts);
     mem_free(j.candidates);
     mem_free(j.partners);
     mem_free(j.first_marks);

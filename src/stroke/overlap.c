@@ -148,7 +148,7 @@ static bool is_overlap(const trimmer *t, const loose_end *a, const loose_end *b,
 static bool find_pairs(trimmer *t)
 {
     for (uint32_t a = 0; a < t->count; a++)
-        for (int32_t cell = 0; cell < 9; cell++) {
+        for (int32_t cell = 0; cell < 9 && t->ends[a].loose; cell++) {
             const loose_end *e = &t->ends[a];
             int32_t          column = e->column + cell % 3 - 1, row = e->row + cell / 3 - 1;
             size_t           first = first_in(t, column, row);

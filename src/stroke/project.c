@@ -73,9 +73,9 @@ double view_depth(const stroke_view *v, double z)
     return v->camera.orthographic ? z : -1 / z;
 }
 
-double view_tolerance(const stroke_view *v, double z)
+double view_tolerance(const stroke_view *v, double same, double z)
 {
-    return v->camera.orthographic ? v->same : v->same * z * z;
+    return v->camera.orthographic ? same : same * z * z;
 }
 
 bool view_position(const stroke_view *v, double3 world, window_point *out)
@@ -311,19 +311,50 @@ static bool mark_solids(stroke_view *v)
     return v->around != NULL;
 }
 
+/* Numbers of all items' planes; 0 where they are not known. */
+static bool mark_planes(stroke_view *v)
+{
+    const stroke_scene *s = v->scene;
+    v->planes = mem_calloc((size_t)v->face_count + 1, sizeof *v->planes);
+    for (size_t i = 0; i < s->item_count && v->planes; i++) {
+        const edge_mesh *m = &s->meshes[s->items[i].mesh];
+        for (uint32_t f = 0; m->planes && f < m->face_count; f++)
+            v->planes[v->items[i].first_face + f] = m->planes[f] ? v->items[i].first_plane + m->planes[f] : 0;
+    }
+    return v->planes != NULL;
+}
+
+/* Items that reach about as far are alike: so are most. */
+#define REACH_ALIKE 4
+
+/* How exact positions are is each item's own matter. */
+static bool mark_sames(stroke_view *v)
+{
+    const stroke_scene *s = v->scene;
+    bool                alike = true;
+    for (size_t i = 0; i < s->item_count; i++)
+        alike = alike && REACH_ALIKE * s->items[i].reach >= s->reach;
+    v->sames = alike ? NULL : mem_alloc((size_t)v->piece_count * sizeof *v->sames);
+    for (size_t i = 0; i < s->item_count && v->sames; i++)
+        for (uint32_t k = v->items[i].first_piece; k < v->items[i + 1].first_piece; k++)
+            v->sames[k] = (float)(SAME_POSITION * s->items[i].reach);
+    return alike || v->sames;
+}
+
 static lmn_status number_items(stroke_view *v, lmn_error *error)
 {
     const stroke_scene *s = v->scene;
-    uint64_t            points = 0, faces = 0, pieces = 0;
+    uint64_t            points = 0, faces = 0, pieces = 0, planes = 0;
     v->items = mem_alloc((s->item_count + 1) * sizeof *v->items);
     if (!v->items)
         return error_memory(error);
     for (size_t i = 0; i < s->item_count; i++) {
         const edge_mesh *m = &s->meshes[s->items[i].mesh];
-        v->items[i] = (view_item){(uint32_t)points, (uint32_t)faces, (uint32_t)pieces};
+        v->items[i] = (view_item){(uint32_t)points, (uint32_t)faces, (uint32_t)pieces, (uint32_t)planes};
         points += m->vertex_count;
         faces += m->face_count;
         pieces += m->piece_count;
+        planes += m->plane_count;
         if (points >= UINT32_MAX / 4 || faces >= UINT32_MAX / 4)
             return error_set(error, LMN_LIMIT, "the scene has more than %u triangles, too many for strokes",
                              UINT32_MAX / 4);
@@ -331,7 +362,7 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
     v->face_count = (uint32_t)faces;
     v->piece_count = (uint32_t)pieces;
     v->vertex_count = (uint32_t)points;
-    v->items[s->item_count] = (view_item){v->vertex_count, v->face_count, v->piece_count};
+    v->items[s->item_count] = (view_item){v->vertex_count, v->face_count, v->piece_count, (uint32_t)planes};
     v->point_count = v->point_capacity = points;
     v->triangle_capacity = faces;
     v->points = mem_alloc(points * sizeof *v->points);
@@ -346,7 +377,7 @@ static lmn_status number_items(stroke_view *v, lmn_error *error)
         for (uint32_t f = 0; f < m->face_count; f++)
             v->face_pieces[v->items[i].first_face + f] = v->items[i].first_piece + m->pieces[f];
     }
-    return mark_solids(v) ? LMN_OK : error_memory(error);
+    return mark_solids(v) && (!planes || mark_planes(v)) && mark_sames(v) ? LMN_OK : error_memory(error);
 }
 
 static double units_of(const stroke_camera *c)
@@ -408,6 +439,8 @@ void stroke_view_destroy(stroke_view **view)
     mem_free(v->outside);
     mem_free(v->fronts);
     mem_free(v->face_pieces);
+    mem_free(v->planes);
+    mem_free(v->sames);
     mem_free(v->solids);
     mem_free(v->around);
     mem_free(v->triangles);

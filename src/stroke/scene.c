@@ -6,6 +6,7 @@
 #include "stroke/scene_cut.h"
 #include "scene/mesh.h"
 #include "stroke/butterfly_mesh.h"
+#include "stroke/planes.h"
 #include "stroke/solid.h"
 #include "stroke/stroke_private.h"
 
@@ -127,7 +128,7 @@ static lmn_status find_mesh(scene_builder *b, size_t part_index, uint32_t *out, 
 }
 
 /* The largest coordinate of a box. */
-static double farthest(box3 box)
+double box_farthest(box3 box)
 {
     return fmax(fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y))),
                 fmax(fabs(box.min.z), fabs(box.max.z)));
@@ -142,13 +143,16 @@ double mat4_growth(const mat4 *m)
     return most;
 }
 
-static void widen_box(scene_builder *b, const edge_mesh *m, const mat4 *world)
+/* Widens the box of all; returns how far the item reaches. */
+static double widen_box(scene_builder *b, const edge_mesh *m, const mat4 *world)
 {
-    double grown = mat4_growth(world);
+    double grown = mat4_growth(world), reach = 0;
     for (uint32_t k = 0; k < m->piece_count; k++) {
         b->box = box3_union(b->box, box3_transform(m->boxes[k], world));
-        b->out->reach = fmax(b->out->reach, grown * farthest(m->boxes[k]));
+        reach = fmax(reach, grown * box_farthest(m->boxes[k]));
     }
+    b->out->reach = fmax(b->out->reach, reach);
+    return reach;
 }
 
 static lmn_status put_item(scene_builder *b, size_t part_index, uint32_t mesh, const mat4 *world, lmn_error *error)
@@ -157,9 +161,9 @@ static lmn_status put_item(scene_builder *b, size_t part_index, uint32_t mesh, c
     if (!mem_grow((void **)&s->items, &b->item_capacity, s->item_count + 1, sizeof *s->items))
         return error_memory(error);
     const node *n = &b->pose->scene->nodes[b->pose->scene->parts[part_index].node];
+    double      reach = widen_box(b, &s->meshes[mesh], world);
     s->items[s->item_count++] =
-        (stroke_item){(uint32_t)part_index, mesh, *world, !node_throws_shadow(n), node_image(n)};
-    widen_box(b, &s->meshes[mesh], world);
+        (stroke_item){(uint32_t)part_index, mesh, *world, !node_throws_shadow(n), node_image(n), reach};
     return LMN_OK;
 }
 
@@ -292,6 +296,8 @@ static lmn_status fill(scene_builder *b, const bool *parts, lmn_progress_fn prog
             status = add_part(b, i, error);
     }
     mem_free(b->shared);
+    for (size_t i = 0; i < out->mesh_count && status == LMN_OK; i++)
+        status = planes_find(&out->meshes[i]) ? LMN_OK : error_memory(error);
     out->extent = box3_is_empty(b->box) ? 0 : box3_diagonal(b->box);
     if (status != LMN_OK)
         stroke_scene_release(out);

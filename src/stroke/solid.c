@@ -187,7 +187,7 @@ static lmn_status find_lines(solid_builder *b, const solid_form *form, lmn_error
     double          extent = extent_of(form);
     lmn_status      status = find_planes(b, extent, error);
     if (status == LMN_OK)
-        status = hierarchy_build(&b->tree, b->boxes, NULL, b->mesh->face_count, error);
+        status = hierarchy_build(&b->tree, b->boxes, (hierarchy_kin){{NULL}}, b->mesh->face_count, error);
     if (status == LMN_OK)
         status = solid_cross(b, error);
     if (status == LMN_OK)

@@ -367,9 +367,9 @@ static lmn_status find_meetings(solid_builder *b, uint32_t count, lmn_error *err
     for (uint32_t i = 0; i < count && boxes; i++)
         boxes[i] = b->parts[i].box;
     if (status == LMN_OK)
-        status = hierarchy_build(&tree, boxes, NULL, count, error);
+        status = hierarchy_build(&tree, boxes, (hierarchy_kin){{NULL}}, count, error);
     if (status == LMN_OK)
-        hierarchy_pairs(&tree, boxes, NULL, put_meeting, &s);
+        hierarchy_pairs(&tree, boxes, (hierarchy_kin){{NULL}}, put_meeting, &s);
     b->meets = s.failed ? NULL : mem_alloc((2 * s.count + 1) * sizeof *b->meets);
     for (uint32_t i = 0; i < count && b->meets; i++) {
         b->parts[i].first_meet = at;

@@ -130,6 +130,6 @@ static bool cross_faces(void *user, uint32_t first, uint32_t second)
 lmn_status solid_cross(solid_builder *b, lmn_error *error)
 {
     pair_search s = {.b = b};
-    hierarchy_pairs(&b->tree, b->boxes, NULL, cross_faces, &s);
+    hierarchy_pairs(&b->tree, b->boxes, (hierarchy_kin){{NULL}}, cross_faces, &s);
     return s.failed ? error_memory(error) : LMN_OK;
 }

@@ -103,6 +103,8 @@ typedef struct stroke_item {
     mat4     world;
     bool     is_sign; /* no body of the scene: it runs through none, though it is where one is */
     uint32_t image;   /* of a sign: whose pieces it runs through; 0: through none */
+    double   reach;   /* the largest coordinate of its mesh as large as it is drawn, which says how exact positions are:
+                         where a node puts it is exact */
 } stroke_item;
 
 typedef struct crossing_list crossing_list;
@@ -116,8 +118,7 @@ typedef struct stroke_scene {
     size_t               item_count;
     size_t               open_parts;    /* some of whose sections do not close */
     uint32_t             open_operands; /* of solids, that are no closed meshes: what they enclose is not certain */
-    double extent, reach; /* diagonal of all; the largest coordinate of any mesh as large as it is drawn, which says how
-                             exact positions are: where a node puts it is exact */
+    double               extent, reach; /* diagonal of all; the largest reach of an item */
 } stroke_scene;
 
 /* Takes the parts with `parts[index]` (NULL: all) as they are posed; of solids what bounds them (stroke/solid.h).

@@ -58,7 +58,8 @@ typedef struct grid_level {
     int32_t   low_x, low_y;        /* its corner, window units */
     int32_t   cell, columns, rows; /* side of a cell, window units */
     uint32_t *starts;              /* per cell, and one more, in the grid's entries */
-    uint32_t *subs; /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
+    uint32_t *subs;      /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
+    bool      divisible; /* of finer grids: their cells may have some, too */
 } grid_level;
 
 /* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded
@@ -66,14 +67,15 @@ typedef struct grid_level {
 enum { GRID_LEVELS = 10, GRID_SPAN = 16 };
 typedef struct window_grid {
     grid_level  levels[GRID_LEVELS];
-    grid_level *subs; /* their starts are parts of sub_starts */
-    uint32_t   *sub_starts;
+    grid_level *subs; /* their starts and subs are parts of sub_starts and sub_links */
+    uint32_t   *sub_starts, *sub_links;
     uint32_t   *entries, *sub_entries; /* triangles */
-    size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_entry_count, sub_entry_capacity;
+    size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
+        sub_entry_capacity;
 } window_grid;
 
 typedef struct view_item {
-    uint32_t first_point, first_face, first_piece; /* numbers that the item's own begin at */
+    uint32_t first_point, first_face, first_piece, first_plane; /* numbers that the item's own begin at */
 } view_item;
 
 struct stroke_view {
@@ -81,7 +83,8 @@ struct stroke_view {
     stroke_camera       camera; /* the same on paper; see paper.c */
     mat4                whole;  /* world to clip space */
     double              units;  /* window units in a unit of paper */
-    double              same;   /* SAME_POSITION in file units */
+    double              same;   /* SAME_POSITION in file units, of the item that reaches farthest */
+    float              *sames;  /* per piece: its item's; NULL: they are alike */
     view_item          *items;
     window_point       *points; /* of all items' vertices; behind them those of clipped faces */
     size_t              point_count, point_capacity;
@@ -93,6 +96,7 @@ struct stroke_view {
     window_grid         grid;
     uint32_t            face_count, piece_count, vertex_count;
     uint32_t           *face_pieces; /* per face: of all pieces in the view */
+    uint32_t           *planes;      /* per face: the plane in which it lies with others, from 1 on; NULL: not known */
     uint32_t *solids; /* per piece: 1 + the item of which it is, where that is a solid; NULL: there are none */
     bool     *around; /* per item: a solid that reaches up to the eye, which may be in it */
 };
@@ -118,6 +122,7 @@ typedef struct visibility_span {
 
 /* --- scene.c --- */
 double mat4_growth(const mat4 *m); /* by how much it may lengthen things */
+double box_farthest(box3 box);     /* its largest coordinate */
 
 /* --- project.c --- */
 /* Eye space and back: a position of the world in the window, and whether it can be seen (not nearer than the near
@@ -128,8 +133,8 @@ bool view_clip_line(const stroke_view *v, double3 a, double3 b, double cut[2]);
 /* Is a triangle of the world seen from the front? Its corners run anticlockwise then. */
 bool    view_shows_front(const stroke_view *v, double3 a, double3 b, double3 c);
 double3 item_position(const stroke_item *item, vec3 p);
-double  view_depth(const stroke_view *v, double z);     /* eye depth */
-double  view_tolerance(const stroke_view *v, double z); /* of z */
+double  view_depth(const stroke_view *v, double z);                  /* eye depth */
+double  view_tolerance(const stroke_view *v, double same, double z); /* of z */
 /* Which side of each piece's faces is never seen: 1 the back, 2 the front, 0 none. Of a closed body with the eye
  * outside, what faces away lies behind what faces the eye, so that it need not be counted. Free with mem_free; NULL
  * when memory is gone. */
@@ -157,6 +162,8 @@ void       grid_release(window_grid *g);
 /* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `alone`: it is
  * the only one of the level. */
 typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t count, bool alone);
+/* Runs with more entries are sorted by the planes of the view, where it has any. */
+enum { GRID_CROWD = 64 };
 void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user);
 
 /* --- visibility.c --- */
@@ -174,23 +181,29 @@ void       visibility_release(visibility *out);
 typedef struct hierarchy_node {
     box3     box;
     uint32_t first, count; /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
-    uint32_t kin;          /* what all its members are of; KIN_MIXED: of several */
+    uint32_t kin[2];       /* what all its members are of; KIN_MIXED: of several */
 } hierarchy_node;
 #define KIN_MIXED UINT32_MAX
+
+/* What each member is of, in two ways: those that are of one in either are no pair. NULL: all differ; KIN_MIXED: it is
+ * of none. */
+typedef struct hierarchy_kin {
+    const uint32_t *of[2];
+} hierarchy_kin;
 
 typedef struct hierarchy {
     hierarchy_node *nodes;
     uint32_t       *members;
     uint32_t        node_count, member_count;
 } hierarchy;
-/* Sorts boxes into a tree with a few of them a leaf. `kin` (NULL: all differ) says what each is of. */
-lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, const uint32_t *kin, uint32_t count, lmn_error *error);
+/* Sorts boxes into a tree with a few of them a leaf. */
+lmn_status hierarchy_build(hierarchy *out, const box3 *boxes, hierarchy_kin kin, uint32_t count, lmn_error *error);
 void       hierarchy_release(hierarchy *h);
 
-/* Calls `pair` for all pairs of members of different kin whose boxes overlap, each once; false from it ends the
+/* Calls `pair` for all pairs of members that are no kin and whose boxes overlap, each once; false from it ends the
  * search. */
 typedef bool (*hierarchy_pair)(void *user, uint32_t a, uint32_t b);
-bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, const uint32_t *kin, hierarchy_pair pair, void *user);
+bool hierarchy_pairs(const hierarchy *h, const box3 *boxes, hierarchy_kin kin, hierarchy_pair pair, void *user);
 
 /* --- intersections.c --- */
 /* A straight line in which two faces of different pieces cross. */

@@ -129,7 +129,7 @@ static lmn_status prepare(verifier *w, lmn_error *error)
         mem_free(unseen);
     }
     if (status == LMN_OK)
-        status = hierarchy_build(&w->tree, w->boxes, NULL, v->face_count, error);
+        status = hierarchy_build(&w->tree, w->boxes, (hierarchy_kin){{NULL}}, v->face_count, error);
     w->to_world = inverse_view(&v->camera.view);
     w->half_width = 1 / v->camera.projection.m[0];
     w->half_height = 1 / v->camera.projection.m[5];

@@ -21,7 +21,7 @@
 #define CRUMB 0.02
 /* Gaps between bodies are no wider than twice this where it is roundings that make them, pixels. */
 #define GAP 0.01
-enum { BLOCK = 512 };
+enum { BLOCK = 512, RUN_MOST = 256 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -33,7 +33,8 @@ typedef struct span_block {
 typedef struct span_job {
     const stroke_view    *v;
     const window_segment *segments;
-    size_t                count;
+    const uint32_t       *order; /* segments as they are looked at: those side by side ask for the same triangles */
+    size_t                count; /* of these */
     span_block           *blocks;
     uint32_t             *lengths; /* spans per segment */
     atomic_bool           failed;
@@ -56,9 +57,11 @@ typedef struct position_slot {
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
+    double                same;  /* of the segment's piece, where these differ */
     float                 far_z; /* of the segment, or a little more: what begins behind is no cover */
     int32_t               low_x, low_y, high_x, high_y;
-    uint32_t             *stamps; /* per triangle: the last segment that it was compared with */
+    uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
+    uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
     position_slot        *table; /* of places where covers begin or end, found by their bits */
     size_t                table_size;
@@ -242,16 +245,21 @@ static bool runs_along(const worker *w, const window_point p[3], const int64_t s
     return near == 2 && to > 0 && from < x * x + y * y;
 }
 
+/* Does a face lie in a plane of the segment's? Then it hides nothing of it. */
+static bool is_in_plane(const worker *w, uint32_t face)
+{
+    uint32_t plane = w->v->planes[face];
+    return plane && (plane == w->planes[0] || plane == w->planes[1]);
+}
+
 static void compare(worker *w, uint32_t number)
 {
-    const stroke_view *v = w->v;
-    const window_box  *box = &v->boxes[number];
-    /* Without short cuts: which of these fails cannot be foretold. */
-    if ((box->low_x > w->high_x) | (box->high_x < w->low_x) | (box->low_y > w->high_y) | (box->high_y < w->low_y) |
-        (box->near_z > w->far_z))
-        return;
+    const stroke_view     *v = w->v;
+    const window_box      *box = &v->boxes[number];
     const window_triangle *t = &v->triangles[number];
     const window_segment  *s = w->segment;
+    if (v->planes && is_in_plane(w, t->face))
+        return;
     w->pairs++;
     const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
     int64_t            sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
@@ -288,7 +296,9 @@ static void compare(worker *w, uint32_t number)
     if (own || (to == 1 && has_corner(t, s->ends[1])))
         after = 0;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
-    double same = view_tolerance(v, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
+    double exact = v->sames ? fmax(w->same, v->sames[v->face_pieces[t->face]]) : v->same;
+    double same =
+        view_tolerance(v, exact, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
     if (s->ignored_count && is_ignored(s, t->face))
         return;
     uint32_t solid = view_solid(v, t->face);
@@ -300,17 +310,67 @@ static void compare(worker *w, uint32_t number)
         cover_nearer(w, from, to, before, after, same);
 }
 
+/* The entries whose boxes meet the segment's, and which begin in front of its end. Without a branch: which of them do
+ * cannot be foretold. */
+static size_t find_meeting(const worker *w, const uint32_t *entries, size_t count, uint32_t *out)
+{
+    const window_box *boxes = w->v->boxes;
+    const int32_t     low_x = w->low_x, low_y = w->low_y, high_x = w->high_x, high_y = w->high_y;
+    const float       far_z = w->far_z;
+    size_t            found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const window_box *box = &boxes[entries[i]];
+        out[found] = entries[i];
+        found += (box->low_x <= high_x) & (box->high_x >= low_x) & (box->low_y <= high_y) & (box->high_y >= low_y) &
+                 (box->near_z <= far_z);
+    }
+    return found;
+}
+
+static void visit_run(worker *w, const uint32_t *entries, size_t count, bool alone)
+{
+    uint32_t meeting[RUN_MOST];
+    for (size_t begin = 0; begin < count; begin += RUN_MOST) {
+        size_t found = find_meeting(w, entries + begin, count - begin < RUN_MOST ? count - begin : RUN_MOST, meeting);
+        for (size_t i = 0; i < found; i++) {
+            if (!alone) {
+                if (w->stamps[meeting[i]] == w->stamp)
+                    continue;
+                w->stamps[meeting[i]] = w->stamp;
+            }
+            compare(w, meeting[i]);
+        }
+    }
+}
+
+/* The first entry of a crowd whose plane is this one, or behind it. */
+static size_t first_in_plane(const stroke_view *v, const uint32_t *entries, size_t count, uint32_t plane)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (v->planes[v->triangles[entries[middle]].face] < plane)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Of a crowd, what lies in the segment's own planes is passed by. */
 static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
 {
     worker *w = user;
-    for (size_t i = 0; i < count; i++) {
-        if (!alone) {
-            if (w->stamps[entries[i]] == w->stamp)
-                continue;
-            w->stamps[entries[i]] = w->stamp;
-        }
-        compare(w, entries[i]);
+    size_t  begin = 0;
+    for (int k = 0; k < 2 && count > GRID_CROWD && w->v->planes; k++) {
+        if (!w->planes[k])
+            continue;
+        size_t end = first_in_plane(w->v, entries, count, w->planes[k]);
+        if (end > begin)
+            visit_run(w, entries + begin, end - begin, alone);
+        begin = first_in_plane(w->v, entries, count, w->planes[k] + 1);
     }
+    visit_run(w, entries + begin, count - begin, alone);
 }
 
 /* By insertion with gaps: few are left where the segment is short. */
@@ -384,6 +444,21 @@ static void put_solid_step(void *user, double at, int32_t step)
     put_step(user, at, step);
 }
 
+/* What is known of the segment by its faces. */
+static void take_faces(worker *w)
+{
+    const window_segment *s = w->segment;
+    if (w->v->sames)
+        w->same = s->faces[0] == EDGE_NO_FACE ? w->v->same : w->v->sames[w->v->face_pieces[s->faces[0]]];
+    for (int k = 0; k < 2 && w->v->planes; k++)
+        w->planes[k] = s->faces[k] == EDGE_NO_FACE ? 0 : w->v->planes[s->faces[k]];
+    if (w->planes[0] > w->planes[1]) {
+        uint32_t other = w->planes[0];
+        w->planes[0] = w->planes[1];
+        w->planes[1] = other;
+    }
+}
+
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
     double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
@@ -398,6 +473,7 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
     w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
     w->covers.count = 0;
+    take_faces(w);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
     if (!w->failed && w->covers.count)
         w->failed = !solid_covers_count(&w->covers, w->v, put_solid_step, w);
@@ -495,11 +571,12 @@ static void find_blocks(size_t begin, size_t end, void *user)
         span_block *block = &job->blocks[b];
         size_t      last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
         for (size_t i = b * BLOCK; i < last && !w.failed; i++) {
-            size_t before = block->count;
-            find_spans(&w, block, &job->segments[i]);
+            size_t                before = block->count;
+            const window_segment *s = &job->segments[job->order[i]];
+            find_spans(&w, block, s);
             if (w.grazed && !w.failed && is_seen(block, before))
-                look_beside(&w, block, &job->segments[i], before);
-            job->lengths[i] = (uint32_t)(block->count - before);
+                look_beside(&w, block, s, before);
+            job->lengths[job->order[i]] = (uint32_t)(block->count - before);
         }
         block->pairs = w.pairs;
         w.pairs = 0;
@@ -516,7 +593,37 @@ static void find_blocks(size_t begin, size_t end, void *user)
     mem_free(w.merged.spans);
 }
 
-/* The blocks' spans one after the other. */
+enum { ORDER_SIDE = 128 };
+
+/* The field of the page that the middle of a segment lies in; every second row of fields runs back. */
+static size_t field_of(const stroke_view *v, const window_segment *s)
+{
+    double  width = v->camera.width * v->units, height = v->camera.height * v->units;
+    int32_t at[2] = {(int32_t)((0.5 * ((double)s->a.x + s->b.x) / width + 0.5) * ORDER_SIDE),
+                     (int32_t)((0.5 * ((double)s->a.y + s->b.y) / height + 0.5) * ORDER_SIDE)};
+    for (int k = 0; k < 2; k++)
+        at[k] = at[k] < 0 ? 0 : at[k] < ORDER_SIDE ? at[k] : ORDER_SIDE - 1;
+    return (size_t)(at[1] * ORDER_SIDE + (at[1] & 1 ? ORDER_SIDE - 1 - at[0] : at[0]));
+}
+
+/* All segments, field by field; NULL when memory is gone. */
+static uint32_t *order_segments(const stroke_view *v, const window_segment *segments, size_t count)
+{
+    uint32_t *order = mem_alloc((count + 1) * sizeof *order), *starts = mem_calloc(ORDER_SIDE * ORDER_SIDE + 1, 4);
+    for (size_t i = 0; i < count && order && starts; i++)
+        starts[field_of(v, &segments[i]) + 1]++;
+    for (size_t k = 0; k < ORDER_SIDE * ORDER_SIDE && starts; k++)
+        starts[k + 1] += starts[k];
+    for (size_t i = 0; i < count && order && starts; i++)
+        order[starts[field_of(v, &segments[i])]++] = (uint32_t)i;
+    bool good = order && starts;
+    mem_free(starts);
+    if (!good)
+        mem_free(order);
+    return good ? order : NULL;
+}
+
+/* The blocks' spans, each segment's where it belongs. */
 static lmn_status join_blocks(visibility *out, const span_job *job, size_t block_count, lmn_error *error)
 {
     size_t total = 0;
@@ -526,16 +633,19 @@ static lmn_status join_blocks(visibility *out, const span_job *job, size_t block
     out->starts = mem_alloc((job->count + 1) * sizeof *out->starts);
     if (!out->spans || !out->starts)
         return error_memory(error);
-    size_t at = 0;
-    for (size_t b = 0; b < block_count; b++) {
-        if (job->blocks[b].count)
-            memcpy(out->spans + at, job->blocks[b].spans, job->blocks[b].count * sizeof *out->spans);
-        at += job->blocks[b].count;
-        out->pairs += job->blocks[b].pairs;
-    }
     out->starts[0] = 0;
     for (size_t i = 0; i < job->count; i++)
         out->starts[i + 1] = out->starts[i] + job->lengths[i];
+    for (size_t b = 0; b < block_count; b++) {
+        const visibility_span *from = job->blocks[b].spans;
+        size_t                 last = (b + 1) * BLOCK < job->count ? (b + 1) * BLOCK : job->count;
+        for (size_t i = b * BLOCK; i < last; i++) {
+            uint32_t segment = job->order[i], length = job->lengths[segment];
+            memcpy(out->spans + out->starts[segment], from, length * sizeof *from); /* one at least */
+            from += length;
+        }
+        out->pairs += job->blocks[b].pairs;
+    }
     return LMN_OK;
 }
 
@@ -543,11 +653,12 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
                            lmn_progress_fn progress, void *user, lmn_error *error)
 {
     memset(out, 0, sizeof *out);
-    size_t   block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
-    span_job job = {.v = v, .segments = segments, .count = count};
+    size_t    block_count = (count + BLOCK - 1) / BLOCK, portion = 64;
+    uint32_t *order = order_segments(v, segments, count);
+    span_job  job = {.v = v, .segments = segments, .order = order, .count = count};
     job.blocks = mem_calloc(block_count + 1, sizeof *job.blocks);
     job.lengths = mem_alloc((count + 1) * sizeof *job.lengths);
-    lmn_status status = job.blocks && job.lengths ? LMN_OK : error_memory(error);
+    lmn_status status = job.blocks && job.lengths && order ? LMN_OK : error_memory(error);
     span_job   part = job;
     for (size_t b = 0; b < block_count && status == LMN_OK; b += portion) {
         if (progress && !progress((double)b / (double)block_count, "finding what is hidden", user)) {
@@ -556,8 +667,7 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
         }
         size_t blocks = block_count - b < portion || !progress ? block_count - b : portion;
         part.blocks = job.blocks + b;
-        part.segments = segments + b * BLOCK;
-        part.lengths = job.lengths + b * BLOCK;
+        part.order = order + b * BLOCK;
         part.count = count - b * BLOCK;
         threads_for(blocks, 1, find_blocks, &part);
         if (atomic_load(&part.failed))
@@ -571,6 +681,7 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
         mem_free(job.blocks[b].spans);
     mem_free(job.blocks);
     mem_free(job.lengths);
+    mem_free(order);
     if (status != LMN_OK)
         visibility_release(out);
     return status;
@@ -625,7 +736,7 @@ static void count_nearer(void *user, const uint32_t *entries, size_t count, bool
         double whole = window_side(p[0], p[1], p[2]), a = window_side(p[1], p[2], c->at) / whole,
                b = window_side(p[2], p[0], c->at) / whole;
         double   z = a * p[0].z + b * p[1].z + (1 - a - b) * p[2].z;
-        bool     nearer = c->at.z - z > view_tolerance(v, z) + box->slope;
+        bool     nearer = c->at.z - z > view_tolerance(v, v->same, z) + box->slope;
         uint32_t solid = view_solid(v, t->face);
         if (!solid) {
             c->count += nearer;

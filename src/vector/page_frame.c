@@ -239,15 +239,77 @@ static void put_all_fields(sheet *s, const lmn_sheet_desc *wanted, const lmn_she
     }
 }
 
-/* Marks in the middle of each side, from the edge of the paper into the frame (ISO 5457). */
+/* --- the borders of ISO 5457 ---------------------------------------------------------------------------- */
+
+/* Marks at the ends of both axes of symmetry of the paper, from its edge into the frame. */
 static void put_centring_marks(sheet *s, uint32_t group, colour ink, const block_sizes *b)
 {
-    double inside = 0.5 * b->margin, width = 0.07 * b->margin, x = (b->filing + s->width - b->margin) / 2,
-           y = s->height / 2;
+    double inside = 0.5 * b->margin, width = 0.07 * b->margin, x = s->width / 2, y = s->height / 2;
     put_line(s, group, ink, x, 0, x, b->margin + inside, width);
     put_line(s, group, ink, x, s->height - b->margin, x, s->height, width);
     put_line(s, group, ink, 0, y, b->filing + inside, y, width);
     put_line(s, group, ink, s->width - b->margin - inside, y, s->width, y, width);
+}
+
+static const double field_length = 50, border_width = 5, border_line = 0.35, border_letter = 3.5; /* mm */
+
+/* Fields on either side of the middle: what is left over is the last one's. */
+static int fields_of(double length)
+{
+    int half = (int)round(length / 2 / field_length);
+    return half > 0 ? half : 1;
+}
+
+/* The name of a field: letters without I and O, twice where they are used up, or numbers from 1 on. */
+static void name_field(char out[16], int index, bool letter)
+{
+    static const char letters[] = "ABCDEFGHJKLMNPQRSTUVWXYZ";
+    const int         known = (int)sizeof letters - 1;
+    if (letter) {
+        memset(out, 0, 16);
+        memset(out, letters[index % known], (size_t)(index < 15 * known ? index / known + 1 : 15));
+    } else {
+        snprintf(out, 16, "%d", index + 1);
+    }
+}
+
+/* Fields along one side, of the paper's width or height; `inner` and `outer`: of the border, from the paper's edge;
+ * `ends`: of the frame along it. */
+static void put_fields(sheet *s, uint32_t group, colour ink, bool upright, double inner, double outer,
+                       const double ends[2])
+{
+    double length = upright ? s->height : s->width, middle = (inner + outer) / 2;
+    int    half = fields_of(length);
+    for (int i = 0; i < 2 * half; i++) {
+        double from = i == 0 ? ends[0] : length / 2 + field_length * (i - half),
+               to = i + 1 == 2 * half ? ends[1] : length / 2 + field_length * (i + 1 - half), at = (from + to) / 2;
+        char name[16];
+        name_field(name, i, upright);
+        sheet_add_text(s, group, ink, name, upright ? middle : at, (upright ? at : middle) + 0.36 * border_letter,
+                       border_letter, 0);
+        if (i == 0 || i == half) /* a centring mark is there */
+            continue;
+        if (upright)
+            put_line(s, group, ink, inner, from, outer, from, border_line);
+        else
+            put_line(s, group, ink, from, inner, from, outer, border_line);
+    }
+}
+
+/* The grid reference border: fields of 50 mm from the middle of the paper on, capitals from the top down and numbers
+ * from left to right, on all sides, of A4 above and on the right alone. */
+static void put_grid(sheet *s, uint32_t group, colour ink, const block_sizes *b)
+{
+    double left = b->filing, top = b->margin, right = s->width - b->margin, bottom = s->height - b->margin;
+    bool   small = fmax(s->width, s->height) < 300;
+    sheet_add_rectangle(s, group, ink, left - border_width, top - border_width, right - left + 2 * border_width,
+                        bottom - top + 2 * border_width, border_line);
+    put_fields(s, group, ink, false, top, top - border_width, (const double[2]){left, right});
+    put_fields(s, group, ink, true, right, right + border_width, (const double[2]){top, bottom});
+    if (small)
+        return;
+    put_fields(s, group, ink, false, bottom, bottom + border_width, (const double[2]){left, right});
+    put_fields(s, group, ink, true, left, left - border_width, (const double[2]){top, bottom});
 }
 
 void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink)
@@ -263,6 +325,8 @@ void vector_put_frame(lmn_sheet *facts, const lmn_sheet_desc *wanted, colour ink
                             b.letter * 0.14);
         if (b.filing > b.margin)
             put_centring_marks(s, group, ink, &b);
+        if (b.filing > b.margin && fmin(s->width, s->height) >= 209.5)
+            put_grid(s, group, ink, &b);
         if (b.unit > 0)
             put_all_fields(s, wanted, facts, group, ink, &b);
         else

@@ -502,6 +502,33 @@ static void boxes_take_a_piece_out(void **state)
     assert_int_equal(cut_by("box=-1,-1,-1:3,3,3").verdict, CUT_GONE);
 }
 
+/* Two planes bound what goes, and one of them runs on through what stays: triangles there are what they were. */
+static void what_nothing_is_taken_from_stays_whole(void **state)
+{
+    cut        c;
+    cut_result r;
+    mat4       world = mat4_identity();
+    size_t     wanted = 0, whole = 0;
+    (void)state;
+    clear(shape);
+    add_torus(shape, 2, 0.5, 40, 16, 1);
+    const cut_input input = {shape->positions, shape->vertices, shape->indices, shape->corners};
+    assert_int_equal(cut_parse(&c, "box=0,-9,0.1:9,9,9", (box3){{-3, -3, -3}, {3, 3, 3}}, NULL), LMN_OK);
+    assert_int_equal(cut_part(&r, &c, &world, &input, 1, NULL), LMN_OK);
+    for (uint32_t t = 0; t < shape->corners / 3; t++) {
+        bool left = true;
+        for (uint32_t k = 0; k < 3; k++)
+            left = left && shape->positions[shape->indices[3 * t + k]].x < -0.4f; /* no neighbour crosses the plane */
+        wanted += left;
+        for (size_t i = 0; i < r.surfaces[0].whole_count && left; i++)
+            whole += r.surfaces[0].whole[i] == t;
+    }
+    print_message("%zu of %zu triangles are whole\n", whole, wanted);
+    assert_true(wanted > 400 && whole == wanted);
+    cut_result_release(&r);
+    assert_int_equal(cut_by("box=0,-9,0.1:9,9,9").open_edges, 0);
+}
+
 static void boxes_cut_round_solids(void **state)
 {
     (void)state;
@@ -789,6 +816,7 @@ int main(void)
         cmocka_unit_test(random_cuts_stay_closed),
         cmocka_unit_test(halves_add_up),
         cmocka_unit_test(boxes_take_a_piece_out),
+        cmocka_unit_test(what_nothing_is_taken_from_stays_whole),
         cmocka_unit_test(boxes_cut_round_solids),
         cmocka_unit_test(open_meshes_are_told),
         cmocka_unit_test(small_gaps_are_closed),

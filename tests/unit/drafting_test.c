@@ -418,6 +418,115 @@ static void test_half_assembly(void **state)
     f.scene = kept;
 }
 
+/* Where lines are farthest to the left of a position, in rows of half a millimetre. */
+enum { ROWS = 240 };
+typedef struct left_rim {
+    double origin[2];
+    double at[ROWS];
+} left_rim;
+
+static void find_rim(const sheet *s, const sheet_item *item, const sheet_path *path, void *user)
+{
+    left_rim *rim = user;
+    (void)item;
+    for (uint32_t i = 1; i < path->count; i++)
+        for (int row = 0; row < ROWS; row++) {
+            const float *a = s->points[path->first + i - 1], *b = a + 2;
+            double       y = rim->origin[1] + 0.5 * (row - ROWS / 2) + 0.123, rise = (double)(b[1] - a[1]);
+            if (((double)a[1] > y) == ((double)b[1] > y))
+                continue;
+            double x = (double)a[0] + (y - (double)a[1]) / rise * (double)(b[0] - a[0]) - rim->origin[0];
+            rim->at[row] = fmin(rim->at[row], x);
+        }
+}
+
+static left_rim rim_of(const lmn_sheet *s, const char *view)
+{
+    left_rim    rim;
+    const char *group = strcmp(view, "front") == 0 ? "view-front" : "view-section-A";
+    project(view_named(s, view), 0, 0, 0, rim.origin);
+    for (int row = 0; row < ROWS; row++)
+        rim.at[row] = INFINITY;
+    each_path(s, group, "visible", find_rim, &rim);
+    return rim;
+}
+
+/* The half of a section that is seen from outside has the outline that the view has, without a gap. */
+static void test_half_has_its_outline(void **state)
+{
+    lmn_sheet_desc d = usual();
+    lmn_scene     *kept = f.scene;
+    int            rows = 0, gaps = 0;
+    (void)state;
+    f.scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/pump.glb");
+    d.views = "front";
+    d.sections = "front@half";
+    lmn_sheet *s = draw(&d);
+    left_rim   view = rim_of(s, "front"), section = rim_of(s, "section-A");
+    for (int row = 0; row < ROWS; row++) {
+        rows += isfinite(view.at[row]);
+        gaps += isfinite(view.at[row]) && !(fabs(view.at[row] - section.at[row]) < 0.05);
+    }
+    print_message("%d of %d rows have another outline\n", gaps, rows);
+    assert_true(rows > 200 && gaps == 0);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&f.scene);
+    f.scene = kept;
+}
+
+/* The middle of the line of text that says this in the frame, for the n-th time; false: it does not. */
+static bool find_words(const sheet *s, const char *words, size_t n, double out[2])
+{
+    for (size_t i = 0; i < s->item_count; i++) {
+        const sheet_item *item = &s->items[i];
+        if (item->kind != SHEET_TEXT || !is_in(s, item, "frame") || strcmp(item->text, words) != 0 || n-- > 0)
+            continue;
+        out[0] = item->box[0];
+        out[1] = item->box[1] - 0.36 * item->box[3];
+        return true;
+    }
+    return false;
+}
+
+/* ISO 5457: A3 has 8 fields by 6 and A4 has 6 by 4, on all sides and on two; 50 mm long from the middle of the paper
+ * on. */
+static void test_grid_reference(void **state)
+{
+    static const char *const pages[2] = {"A3", "A4"};
+    static const double      sizes[2][2] = {{420, 297}, {210, 297}};
+    static const int         fields[2][2] = {{8, 6}, {4, 6}};
+    (void)state;
+    for (int page = 0; page < 2; page++) {
+        lmn_sheet_desc d = usual();
+        double         at[2], next[2];
+        char           words[2][3] = {"", ""};
+        d.page = pages[page];
+        d.frame = true;
+        d.scale = page ? "1:2" : "1:1";
+        lmn_sheet *s = draw(&d);
+        for (int side = 0; side < 2; side++) {
+            for (int i = 0; i < fields[page][side]; i++) {
+                snprintf(words[side], 3, "%c", side ? 'A' + i : '1' + i);
+                for (size_t n = 0; n < (page ? 1 : 2); n++)
+                    assert_true(find_words(&s->page, words[side], n, at));
+                if (page)
+                    assert_false(find_words(&s->page, words[side], 1, at));
+            }
+            snprintf(words[side], 3, "%c", side ? 'A' + fields[page][side] : '1' + fields[page][side]);
+            assert_false(find_words(&s->page, words[side], 0, at));
+            /* The fields around the middle of the paper are 25 mm beside it. */
+            snprintf(words[side], 3, "%c", (side ? 'A' : '1') + fields[page][side] / 2 - 1);
+            assert_true(find_words(&s->page, words[side], 0, at));
+            snprintf(words[side], 3, "%c", (side ? 'A' : '1') + fields[page][side] / 2);
+            assert_true(find_words(&s->page, words[side], 0, next));
+            assert_true(fabs(at[side] - (sizes[page][side] / 2 - 25)) < 1e-3);
+            assert_true(fabs(next[side] - (sizes[page][side] / 2 + 25)) < 1e-3);
+            assert_true(fabs(at[!side] - (side ? sizes[page][0] - 7.5 : 7.5)) < 1e-3); /* within the border of 5 mm */
+        }
+        lmn_sheet_destroy(&s);
+    }
+}
+
 /* What ISO 128-2 draws where two kinds of lines lie on each other is the one of the cutting plane. */
 static void test_axis_in_cutting_plane(void **state)
 {
@@ -730,6 +839,8 @@ int main(void)
                                        cmocka_unit_test(test_detail),
                                        cmocka_unit_test(test_auxiliary),
                                        cmocka_unit_test(test_half_assembly),
+                                       cmocka_unit_test(test_half_has_its_outline),
+                                       cmocka_unit_test(test_grid_reference),
                                        cmocka_unit_test(test_axis_in_cutting_plane),
                                        cmocka_unit_test(test_title_block),
                                        cmocka_unit_test(test_header),

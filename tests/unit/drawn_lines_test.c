@@ -341,6 +341,38 @@ static void crossing_polylines_go_on(void **state)
     shot_release(&shot);
 }
 
+/* The nearest that lines of a circle around the middle of the page come to it, in radii. */
+static double least_radius(uint32_t corners)
+{
+    vec3       points[65];
+    lmn_scene *s = stroke_scene_begin();
+    circle(points, corners, 1, 0, 0.1);
+    add_wire(s, points, corners + 1);
+    stroke_options w = drawn_lines(false);
+    w.round = 3;
+    stroke_shot shot = shoot(s, look_along(0, 0, -1, origin, 20, 2, true, 400, 400), w);
+    double      least = INFINITY;
+    for (size_t i = 0; i < shot.set.stroke_count; i++)
+        for (uint32_t k = 0; k + 1 < shot.set.strokes[i].count; k++) {
+            const stroke_point *p = &shot.set.points[shot.set.strokes[i].first + k];
+            least = fmin(least, hypot(0.5 * (double)(p[0].x + p[1].x) - 200, 0.5 * (double)(p[0].y + p[1].y) - 200));
+        }
+    shot_release(&shot);
+    return least / 100;
+}
+
+/* CAD programs write circles as lines: they are drawn round as circles of edges are. What turns too far for that is
+ * drawn as it is written. */
+static void circles_are_round(void **state)
+{
+    (void)state;
+    static const uint32_t corners[] = {16, 24, 48};
+    for (size_t i = 0; i < sizeof corners / sizeof *corners; i++)
+        assert_true(fabs(least_radius(corners[i]) - 1) < 1e-3); /* chords: 0.981, 0.991, 0.998 */
+    for (uint32_t i = 4; i <= 8; i += 2)
+        assert_true(fabs(least_radius(i) - cos(stroke_pi / i)) < 1e-3);
+}
+
 /* A part that is lines alone has a piece, and small as it is its lines stay. */
 static void wires_are_parts(void **state)
 {
@@ -484,6 +516,7 @@ int main(void)
         cmocka_unit_test(lines_on_and_behind_a_cube),
         cmocka_unit_test(curves_on_curved_surfaces),
         cmocka_unit_test(lines_along_edges),
+        cmocka_unit_test(circles_are_round),
         cmocka_unit_test(wires_are_parts),
         cmocka_unit_test(crossing_polylines_go_on),
         cmocka_unit_test(poses_and_refinements_keep_lines),

@@ -645,6 +645,69 @@ static bool stop_at_once(double fraction, const char *stage, void *user)
     return --*(int *)user > 0;
 }
 
+/* Two rods and a ball that run through each other: moved by nodes, which put things exactly where they say. */
+static void add_cross(lmn_scene *s, const double at[3], double size)
+{
+    add_box(s, -size, -0.2 * size, -0.2 * size, size, 0.2 * size, 0.2 * size);
+    add_box(s, -0.15 * size, -0.15 * size, -size, 0.15 * size, 0.15 * size, size);
+    add_ball(s, 0, 0.15 * size, 0, 0.35 * size, 120, 90);
+    for (size_t i = s->node_count - 3; i < s->node_count; i++)
+        memcpy(node_own_place(&s->nodes[i])->translation, at, 3 * sizeof *at);
+}
+
+typedef struct cross_lines {
+    double seen[STROKE_CLASS_COUNT], hidden[STROKE_CLASS_COUNT];
+} cross_lines;
+
+/* Lengths of the lines of a small cross, with or without something huge beside it. */
+static cross_lines draw_cross(const double at[3], double size, double beside)
+{
+    cross_lines out;
+    lmn_scene  *s = stroke_scene_begin();
+    if (beside > 0)
+        add_box(s, at[0] - 4 * size - beside, at[1] - beside, at[2] - beside, at[0] - 4 * size, at[1] + beside,
+                at[2] + beside);
+    add_cross(s, at, size);
+    stroke_shot shot = shoot(s, look_along(-1, -0.8, -0.6, at, 20 * size, 1.5 * size, true, 600, 600), all_lines());
+    for (size_t i = 0; i < shot.set.stroke_count; i++)
+        if (beside > 0 && shot.set.strokes[i].part == 1)
+            shot.set.strokes[i].kind = STROKE_PAST; /* nobody asks */
+    for (int kind = 0; kind < STROKE_CLASS_COUNT; kind++) {
+        count_strokes(&shot.set, kind, 0, &out.seen[kind]);
+        count_strokes(&shot.set, kind, -2, &out.hidden[kind]);
+    }
+    shot_release(&shot);
+    return out;
+}
+
+static void assert_same_lines(const cross_lines *a, const cross_lines *b, double most)
+{
+    for (int kind = 0; kind < STROKE_PAST; kind++)
+        if (fabs(a->seen[kind] - b->seen[kind]) > most || fabs(a->hidden[kind] - b->hidden[kind]) > most)
+            fail_msg("%s: %g px seen and %g hidden, not %g and %g", stroke_class_name((stroke_class)kind),
+                     b->seen[kind], b->hidden[kind], a->seen[kind], a->hidden[kind]);
+}
+
+/* How exact positions are is each part's own matter: what is a millionth of the size of another part keeps its lines.
+ */
+static void small_parts_keep_their_lines(void **state)
+{
+    (void)state;
+    cross_lines alone = draw_cross(origin, 1e-6, 0), beside = draw_cross(origin, 1e-6, 1);
+    assert_true(alone.seen[STROKE_INTERSECTION] > 50 && alone.hidden[STROKE_CREASE] > 100);
+    assert_same_lines(&alone, &beside, 1);
+}
+
+/* A model that its node moves by a million of its sizes has the same lines. */
+static void far_parts_keep_their_lines(void **state)
+{
+    static const double away[3] = {1e6, -7e5, 3e5};
+    (void)state;
+    cross_lines here = draw_cross(origin, 1, 0), there = draw_cross(away, 1, 0);
+    assert_true(here.seen[STROKE_INTERSECTION] > 50 && here.hidden[STROKE_CREASE] > 100);
+    assert_same_lines(&here, &there, 1);
+}
+
 static void work_can_be_cancelled(void **state)
 {
     (void)state;
@@ -699,6 +762,8 @@ int main(void)
         cmocka_unit_test(phases_follow),
         cmocka_unit_test(lines_on_lines_are_left_out),
         cmocka_unit_test(bad_meshes_are_drawn),
+        cmocka_unit_test(small_parts_keep_their_lines),
+        cmocka_unit_test(far_parts_keep_their_lines),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(work_can_be_cancelled),
     };

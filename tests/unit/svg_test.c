@@ -24,6 +24,7 @@
 #include "sheet/fit.h"
 #include "look/look.h"
 
+#define PI 3.14159265358979323846
 static const colour black = {0, 0, 0, 1};
 
 static export_bytes bytes_of(const sheet *s, lmn_status (*write)(export_bytes *, const sheet *, lmn_error *))
@@ -70,6 +71,12 @@ static void check_ids(xmlDocPtr document)
             assert_string_not_equal((const char *)ids->nodesetval->nodeTab[i]->children->content,
                                     (const char *)ids->nodesetval->nodeTab[k]->children->content);
     xmlXPathFreeObject(ids);
+}
+
+static float number(uint32_t *state, float most)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) / 16777216 * most;
 }
 
 static void test_structure(void **state)
@@ -174,6 +181,99 @@ static void test_round(void **state)
     sheet_release(&s);
 }
 
+/* One number for lines along an axis; hundredths where no dash is moved by more than two of them; what three lines are
+ * dashed by is a class. */
+static void test_few_bytes(void **state)
+{
+    const float bent[5][2] = {{1, 2}, {4, 2}, {6, 2}, {6, 1}, {5, 0}}, straight[2][2] = {{10, 10}, {110, 10}};
+    const float pattern[2] = {1.591f, 1.06f}, others[4] = {0.365f, 1.061f, 1.592f, 1.061f},
+                ended[4] = {5, 1, 2.414f, 1};
+    sheet s;
+    (void)state;
+    sheet_begin(&s, 120, 80, 4);
+    uint32_t group = sheet_add_group(&s, -1, "lines", NULL, 0);
+    for (int i = 0; i < 6; i++) {
+        sheet_add_item(&s, SHEET_PATH, group, black, 0);
+        sheet_add_path(&s, &(sheet_path){.width = 0.5f}, i == 3 ? straight : bent, i == 3 ? 2 : 5);
+        if (i >= 4)
+            sheet_dash_path(&s, i == 4 ? others : ended, 4, 0);
+        else
+            sheet_dash_path(&s, pattern, 2, i == 1 ? 0.5041f : 0);
+    }
+    export_bytes bytes = bytes_of(&s, export_svg);
+    xmlDocPtr    document = parse(&bytes);
+    assert_int_equal(count_of(document, "//s:path[@d='M1 2h3 2v-1l-1-1']"), 5);
+    assert_int_equal(count_of(document, "//s:path[@d='M10 10h100'][@stroke-dasharray='1.591 1.06']"), 1);
+    assert_int_equal(count_of(document, "//s:path[@class='d0'][not(@stroke-dasharray)]"), 3);
+    assert_int_equal(count_of(document, "//s:path[@class='d0'][@stroke-dashoffset='.5']"), 1);
+    assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='.37 1.06 1.59 1.06']"), 1);
+    assert_int_equal(count_of(document, "//s:path[@stroke-dasharray='5 1']"), 1); /* the line ends with the second */
+    assert_int_equal(count_of(document, "//s:style[contains(.,'.d0{stroke-dasharray:1.59 1.06}')]"), 1);
+    xmlFreeDoc(document);
+    mem_free(bytes.data);
+    sheet_release(&s);
+}
+
+/* Where the middle of an arc of SVG is, by the formulas of its specification (F.6.5), for circles. */
+static void middle_of_arc(const double from[2], const double end[2], double radius, bool large, bool sweeps,
+                          double out[2])
+{
+    double x = (from[0] - end[0]) / 2, y = (from[1] - end[1]) / 2, square = x * x + y * y;
+    double along = sqrt(fmax(radius * radius / square - 1, 0)) * (large == sweeps ? -1 : 1);
+    double centre[2] = {along * y + (from[0] + end[0]) / 2, -along * x + (from[1] + end[1]) / 2};
+    double first = atan2(from[1] - centre[1], from[0] - centre[0]),
+           turn = atan2(end[1] - centre[1], end[0] - centre[0]) - first;
+    turn += sweeps && turn < 0 ? 2 * PI : !sweeps && turn > 0 ? -2 * PI : 0;
+    out[0] = centre[0] + radius * cos(first + turn / 2);
+    out[1] = centre[1] + radius * sin(first + turn / 2);
+}
+
+/* Arcs have as few digits of their radius as keep them where they are. */
+static void test_radii(void **state)
+{
+    enum { ARCS = 400 };
+    uint32_t random = 7;
+    size_t   digits = 0;
+    (void)state;
+    for (int i = 0; i < ARCS; i++) {
+        sheet  s;
+        double radius = exp((double)number(&random, 5)), sweep = 0.05 + (double)number(&random, 1.95f),
+               begin = (double)number(&random, 6), centre[2] = {200, 200}, middle[2], read[6];
+        float points[60][2];
+        for (int k = 0; k < 60; k++) {
+            points[k][0] = (float)(centre[0] + radius * cos(begin + sweep * k / 59));
+            points[k][1] = (float)(centre[1] + radius * sin(begin + sweep * k / 59));
+        }
+        sheet_begin(&s, 400, 400, 4);
+        sheet_add_item(&s, SHEET_PATH, sheet_add_group(&s, -1, "arc", NULL, 0), black, 0);
+        sheet_add_path(&s, &(sheet_path){.width = 1, .curved = true}, (const float(*)[2])points, 60);
+        sheet_fit(&s, 0.02);
+        export_bytes bytes = bytes_of(&s, export_svg);
+        const char  *at = strstr((const char *)bytes.data, "d=\"M");
+        int          large, sweeps, size = 0;
+        assert_non_null(at);
+        if (s.piece_count == 1 && s.pieces[0].kind == SHEET_ARC) {
+            const sheet_piece *arc = &s.pieces[0];
+            assert_int_equal(sscanf(at, "d=\"M%lf %lfa%n%lf %lf 0 %d %d%lf%lf\"", &read[0], &read[1], &size, &read[2],
+                                    &read[3], &large, &sweeps, &read[4], &read[5]),
+                             8);
+            assert_true(read[2] == read[3]);
+            digits += strcspn(at + size, " ");
+            middle_of_arc(read, (const double[2]){read[0] + read[4], read[1] + read[5]}, read[2], large, sweeps,
+                          middle);
+            double angle = arc->from + arc->sweep / 2,
+                   off = hypot(middle[0] - arc->centre[0] - arc->radii[0] * cos(angle),
+                               middle[1] - arc->centre[1] - arc->radii[0] * sin(angle));
+            if (!(off < 0.0017)) /* rounded ends move it, too */
+                fail_msg("arc %d, radius %.4f, turn %.3f: %.5f mm off", i, radius, sweep, off);
+        }
+        mem_free(bytes.data);
+        sheet_release(&s);
+    }
+    print_message("%.2f characters a radius\n", (double)digits / ARCS);
+    assert_true(digits > 2 * ARCS && digits < 4.6 * ARCS);
+}
+
 /* Names that want to be the same id, and sheets with nothing in them. */
 static void test_hostile(void **state)
 {
@@ -215,12 +315,6 @@ typedef struct raster {
 } raster;
 
 static raster wanted, drawn;
-
-static float number(uint32_t *state, float most)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) / 16777216 * most;
-}
 
 /* Ribbons of all kinds: straight, bent, closed, even ones and such as swell; pixels. */
 static void make_ribbons(ribbon_set *set, ribbon *ribbons, ribbon_point *points)
@@ -664,9 +758,10 @@ static void test_pdf_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_round),        cmocka_unit_test(test_hatch_pictures),
-        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),  cmocka_unit_test(test_pdf_picture),
-        cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
+        cmocka_unit_test(test_structure),    cmocka_unit_test(test_round),          cmocka_unit_test(test_few_bytes),
+        cmocka_unit_test(test_radii),        cmocka_unit_test(test_hatch_pictures), cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_svg_picture),  cmocka_unit_test(test_pdf_picture),    cmocka_unit_test(test_pdf_words),
+        cmocka_unit_test(test_fill_picture),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
     xmlCleanupParser();

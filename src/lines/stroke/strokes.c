@@ -45,8 +45,9 @@ static const param params[] = {
         .doc = "Times outlines, borders and creases are refined as curves, from corner to corner; 0 leaves them as "
                "straight as they are."),
     NUMBER("round", options.round, .def = 0, .min = 0, .max = 24, .soft_max = 3, .unit = UNIT_PT, .only_if = "curve=0",
-           .doc = "Outlines, borders and creases that stand for curves are drawn as curves, with visibility exact, and "
-                  "leave the mesh for it by no more than this; straight lines and corners stay as they are."),
+           .doc = "Outlines, borders, creases and lines of the file that stand for curves are drawn as curves, with "
+                  "visibility exact, and leave the mesh for it by no more than this; straight lines and corners stay "
+                  "as they are."),
     NUMBER("shortest", options.shortest, .def = 0.75, .min = 0, .max = 150, .soft_max = 15, .unit = UNIT_PT,
            .along = true, .doc = "Lines shorter than this are left out."),
     NUMBER("crowd", options.crowd, .def = 0.5625, .min = 0, .max = 12, .soft_max = 3, .unit = UNIT_PT,

@@ -1,0 +1,144 @@
+/* What would take a search over all pairs too long: four times as much of it takes four times as long, or little more.
+ * And the lines are all there. */
+#include "stroke_shapes.h"
+
+#include <time.h>
+
+static const double origin[3] = {0, 0, 0};
+
+/* Least CPU seconds of some runs. */
+enum { RUNS = 2 };
+
+typedef void (*maker)(lmn_scene *s, uint32_t count);
+
+typedef struct outcome {
+    double   seconds, visible, hidden; /* lengths, of all lines */
+    uint64_t pairs;
+} outcome;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void find(const pose *p, const stroke_camera *c, outcome *out)
+{
+    stroke_options w = STROKE_OPTIONS_INIT;
+    stroke_scene   scene;
+    stroke_view   *view;
+    stroke_set     set;
+    lmn_error      error = {0};
+    double         begin = now();
+    w.hidden = 1;
+    w.crowd = 0;
+    assert_int_equal(stroke_scene_create(&scene, p, NULL, 0.5, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_view_create(&view, &scene, c, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_find(&set, view, &w, NULL, NULL, NULL, &error), LMN_OK);
+    out->seconds = fmin(out->seconds, now() - begin);
+    out->visible = out->hidden = 0;
+    out->pairs = set.pairs;
+    for (size_t i = 0; i < set.stroke_count; i++)
+        for (uint32_t k = 1; k < set.strokes[i].count; k++) {
+            const stroke_point *q = &set.points[set.strokes[i].first + k];
+            *(set.strokes[i].hidden_by ? &out->hidden : &out->visible) +=
+                hypot((double)q->x - q[-1].x, (double)q->y - q[-1].y);
+        }
+    stroke_set_release(&set);
+    stroke_view_destroy(&view);
+    stroke_scene_release(&scene);
+}
+
+static outcome run(maker make, uint32_t count)
+{
+    outcome       out = {.seconds = INFINITY};
+    lmn_error     error = {0};
+    pose          at_rest;
+    lmn_scene    *s = stroke_scene_begin();
+    stroke_camera c = look_along(-1, -0.7, -1.2, origin, 20, 1.25, true, 1000, 1000);
+    make(s, count);
+    assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
+    for (int k = 0; k < RUNS; k++)
+        find(&at_rest, &c, &out);
+    pose_release(&at_rest);
+    scene_free(s);
+    return out;
+}
+
+/* Thin triangles from one place to a circle around it, in the plane that the camera looks at straight on. */
+static void make_star(lmn_scene *s, uint32_t count)
+{
+    const double n[3] = {1, 0.7, 1.2};
+    const double u[3] = {0.7, -1, 0},
+                 v[3] = {n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
+    const double lengths[2] = {sqrt(u[0] * u[0] + u[1] * u[1]), sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
+    vec3        *positions = mem_alloc((2 * (size_t)count + 1) * sizeof *positions);
+    uint32_t    *corners = mem_alloc(3 * (size_t)count * sizeof *corners);
+    positions[0] = (vec3){0, 0, 0};
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        double turn = stroke_pi * i / count, x = cos(turn) / lengths[0], y = sin(turn) / lengths[1];
+        positions[1 + i] =
+            (vec3){(float)(x * u[0] + y * v[0]), (float)(x * u[1] + y * v[1]), (float)(x * u[2] + y * v[2])};
+        if (i % 2 == 0)
+            memcpy(corners + 3 * (i / 2), (const uint32_t[]){0, 1 + i, 2 + i}, 3 * sizeof *corners);
+    }
+    add_part(s, positions, 2 * count + 1, corners, 3 * count);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Each spoke has two long sides of 400 px and a short one. Four times as many: sixteen times as long before. */
+static void stars_grow_as_their_spokes(void **state)
+{
+    (void)state;
+    outcome few = run(make_star, 1500), many = run(make_star, 6000);
+    double  wanted = 400 * 6000 * (2 + 2 * sin(stroke_pi / 12000));
+    if (!(many.seconds < 8 * few.seconds))
+        fail_msg("1500 spokes take %g s, 6000 %g s", few.seconds, many.seconds);
+    if (!(many.pairs < 8 * few.pairs + 6000) || !(fabs(many.visible - wanted) < 1e-3 * wanted) ||
+        many.hidden > 1e-3 * wanted)
+        fail_msg("%g pairs, then %g; %g px are seen and %g hidden, not %g", (double)few.pairs, (double)many.pairs,
+                 many.visible, many.hidden, wanted);
+}
+
+/* Small triangles, one behind the other, that are one pixel large, all of them, and one that is not. */
+static void make_speck(lmn_scene *s, uint32_t count)
+{
+    vec3     *positions = mem_alloc((3 * (size_t)count + 3) * sizeof *positions);
+    uint32_t *corners = mem_alloc((3 * (size_t)count + 3) * sizeof *corners);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        double middle[3], at[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            middle[k] = 1e-3 * stroke_random(9 * (i / 3) + k);
+            at[k] = middle[k] + 3e-5 * stroke_random(7 * i + k + 1000003);
+        }
+        positions[i] = (vec3){(float)at[0], (float)at[1], (float)at[2]};
+    }
+    positions[3 * count] = (vec3){1, 0, 0};
+    positions[3 * count + 1] = (vec3){0, 1, 0};
+    positions[3 * count + 2] = (vec3){0, 0, 1};
+    for (uint32_t i = 0; i < 3 * count + 3; i++)
+        corners[i] = i;
+    add_part(s, positions, 3 * count + 3, corners, 3 * count + 3);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+static void specks_grow_as_they_are_full(void **state)
+{
+    (void)state;
+    outcome few = run(make_speck, 2500), many = run(make_speck, 10000);
+    if (!(many.seconds < 8 * few.seconds))
+        fail_msg("2500 triangles in a pixel take %g s, 10000 %g s", few.seconds, many.seconds);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stars_grow_as_their_spokes),
+        cmocka_unit_test(specks_grow_as_they_are_full),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
