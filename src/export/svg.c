@@ -401,21 +401,25 @@ static void put_attribute(svg_writer *w, const char *name, double value)
     put(w, "\"");
 }
 
-/* One line a tile, which is so long that none ends on the page: tiles that meet along a line show where. */
+/* One line a tile, which is so long that none ends on the page, since tiles that meet along a line show where; and no
+ * longer, since renderers make pictures of tiles. It is laid around the page's middle. */
 static void put_pattern(svg_writer *w, size_t index)
 {
     const svg_style *style = &w->styles[index];
-    const double    *h = style->hatch;
-    double           half = hypot(w->s->width, w->s->height) + hypot(h[2], h[3]);
-    char             ink[10];
+    const double    *h = style->hatch, middle[2] = {w->s->width / 2, w->s->height / 2},
+                 across[2] = {-sin(h[1]), cos(h[1])};
+    const double half = hypot(middle[0], middle[1]) + h[0];
+    /* From the middle to the nearest line. */
+    const double off = remainder((h[2] - middle[0]) * across[0] + (h[3] - middle[1]) * across[1], h[0]);
+    char         ink[10];
     print_colour(ink, style->ink);
     text_append(&w->out, "<pattern id=\"hatch.%zu\" patternUnits=\"userSpaceOnUse\"", index);
     put_attribute(w, "width", 2 * half);
     put_attribute(w, "height", h[0]);
     put(w, " patternTransform=\"translate(");
-    put_number(w, h[2]);
+    put_number(w, middle[0] + off * across[0]);
     put(w, " ");
-    put_number(w, h[3]);
+    put_number(w, middle[1] + off * across[1]);
     put(w, ")rotate(");
     put_number(w, h[1] * (180 / PI));
     put(w, ")translate(");

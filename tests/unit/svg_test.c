@@ -564,6 +564,21 @@ static void test_hatch_pictures(void **state)
     }
 }
 
+/* Who draws a tile as a picture has to be able to: it is no longer than the page needs. */
+static void test_hatch_tiles(void **state)
+{
+    (void)state;
+    sheet s;
+    hatch_ring(&s, true);
+    export_bytes bytes = bytes_of(&s, export_svg);
+    const char  *tile = strstr((const char *)bytes.data, "<pattern "), *width = tile ? strstr(tile, " width=\"") : NULL;
+    assert_non_null(width);
+    const double long_one = strtod(width + strlen(" width=\""), NULL), page = hypot(s.width, s.height);
+    assert_true(long_one > page && long_one < page + 7);
+    mem_free(bytes.data);
+    sheet_release(&s);
+}
+
 /* --- areas ---------------------------------------------------------------------------------------------- */
 
 static uint32_t owners[SIDE][SIDE]; /* what is nearest, part index + 1 */
@@ -758,10 +773,10 @@ static void test_pdf_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure),    cmocka_unit_test(test_round),          cmocka_unit_test(test_few_bytes),
-        cmocka_unit_test(test_radii),        cmocka_unit_test(test_hatch_pictures), cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_svg_picture),  cmocka_unit_test(test_pdf_picture),    cmocka_unit_test(test_pdf_words),
-        cmocka_unit_test(test_fill_picture),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_round),          cmocka_unit_test(test_few_bytes),
+        cmocka_unit_test(test_radii),     cmocka_unit_test(test_hatch_pictures), cmocka_unit_test(test_hatch_tiles),
+        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_svg_picture),    cmocka_unit_test(test_pdf_picture),
+        cmocka_unit_test(test_pdf_words), cmocka_unit_test(test_fill_picture),
     };
     int failed = cmocka_run_group_tests_name("svg", tests, NULL, NULL);
     xmlCleanupParser();
