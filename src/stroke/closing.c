@@ -10,7 +10,7 @@
 #define MM      PAPER_UNITS_PER_MM
 #define CELL    MM
 #define TOUCHES (0.06 * MM) /* shared corners are at one place; where one hides another, nearly so */
-#define LONGEST (3 * MM)    /* what is longer is what made the crowd */
+#define LONGEST (6 * MM)    /* what is longer is what made the crowd */
 enum { WAY_MOST = 3 };      /* lines that come back for one end */
 
 /* A piece of a drawn stroke, in each cell that it runs through. */
