@@ -2,6 +2,7 @@
  * are as long as they say. By drawings as users get them. */
 #include "import_support.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -93,18 +94,27 @@ typedef struct written {
 } written;
 
 /* Numbers of a path that begins with M x y l, as far as there are `count`. */
-static int numbers_of(const char *path, double *out, int count)
+/* Where a path of straight lines goes: M, and relative l, h and v. Returns the number of places. */
+static int places_of(const char *path, double (*out)[2], int most)
 {
-    int n = 0;
-    for (const char *at = path; n < count && *at && *at != '"';) {
+    int    n = 0;
+    char   command = 'M';
+    double at[2] = {0, 0};
+    for (const char *c = path; n < most && *c && *c != '"';) {
         char  *end;
-        double v = strtod(at, &end);
-        if (end == at) {
-            at++;
+        double v[2] = {strtod(c, &end), 0};
+        if (end == c) {
+            command = isalpha((unsigned char)*c) ? *c : command;
+            c++;
             continue;
         }
-        out[n++] = v;
-        at = end;
+        if (command == 'M' || command == 'l')
+            v[1] = strtod(end, &end);
+        at[0] = command == 'M' ? v[0] : at[0] + (command == 'v' ? 0 : v[0]);
+        at[1] = command == 'M' ? v[1] : at[1] + (command == 'v' ? v[0] : v[1]);
+        memcpy(out[n++], at, sizeof at);
+        command = command == 'M' ? 'l' : command;
+        c = end;
     }
     return n;
 }
@@ -116,14 +126,14 @@ static size_t read_annotations(const char *svg, written *out, size_t most)
     written     now = {.text = ""};
     assert_non_null(at);
     for (at = strchr(at, '\n') + 1; *at && strncmp(at, "</g>", 4) != 0; at = strchr(at, '\n') + 1) {
-        double      n[9];
+        double      n[5][2];
         const char *path = strstr(at, "d=\"M"), *line = strchr(at, '\n'), *text = strstr(at, "<text x=\"");
-        int         found = path && path < line ? numbers_of(path + 3, n, 9) : 0;
-        if (found == 8 && n[3] == 0 && n[4] == 0 && n[7] == 0) {
-            const double box[4] = {n[0], n[1], n[0] + n[2], n[1] + n[5]};
+        int         found = path && path < line ? places_of(path + 3, n, 5) : 0;
+        if (found == 4 && n[1][1] == n[0][1] && n[2][0] == n[1][0] && n[3][1] == n[2][1]) {
+            const double box[4] = {n[0][0], n[0][1], n[2][0], n[2][1]};
             memcpy(now.box, box, sizeof box);
-        } else if (found == 4 && n[2] == 0) {
-            const double leader[3] = {n[0], fmin(n[1], n[1] + n[3]), fmax(n[1], n[1] + n[3])};
+        } else if (found == 2 && n[1][0] == n[0][0]) {
+            const double leader[3] = {n[0][0], fmin(n[0][1], n[1][1]), fmax(n[0][1], n[1][1])};
             memcpy(now.leader, leader, sizeof leader);
         }
         if (!text || text > line || count == most)
@@ -345,10 +355,10 @@ static void needles_point_north(void **state)
         memcpy(desc.eye, eye, sizeof eye);
         memcpy(desc.target, target, sizeof target);
         char  *svg = svg_of(scene, look, &desc);
-        double n[6];
-        assert_int_equal(numbers_of(strstr(strstr(svg, "class=\"annotations\""), "d=\"M") + 3, n, 6), 6);
+        double n[3][2];
+        assert_int_equal(places_of(strstr(strstr(svg, "class=\"annotations\""), "d=\"M") + 3, n, 3), 3);
         /* From the tail, the mean of the other two corners, to the tip. */
-        double tail[2] = {n[2] / 2 + (n[2] + n[4]) / 2, n[3] / 2 + (n[3] + n[5]) / 2};
+        double tail[2] = {(n[1][0] + n[2][0]) / 2 - n[0][0], (n[1][1] + n[2][1]) / 2 - n[0][1]};
         if (east)
             assert_true(tail[0] > 5 * fabs(tail[1]));
         else
