@@ -670,10 +670,10 @@ static void needles_point_north_at_eye_level(void **state)
             assert_int_equal(lmn_scene_project(&bent, scene, &desc, &how, &error), LMN_OK);
         }
         char  *svg = svg_of(bent ? bent : scene, look, &desc);
-        double n[6], tip[2];
-        assert_int_equal(numbers_of(strstr(strstr(svg, "class=\"annotations\""), "d=\"M") + 3, n, 6), 6);
+        double n[3][2], tip[2];
+        assert_int_equal(places_of(strstr(strstr(svg, "class=\"annotations\""), "d=\"M") + 3, n, 3), 3);
         for (int k = 0; k < 2; k++)
-            tip[k] = -(n[2 + k] + n[4 + k] / 2) * (k ? -1 : 1);
+            tip[k] = (n[0][k] - (n[1][k] + n[2][k]) / 2) * (k ? -1 : 1);
         if (!(rows[i].sign * tip[rows[i].axis] > 5 * fabs(tip[1 - rows[i].axis])))
             fail_msg("view %zu: the needle points to %g, %g", i, tip[0], tip[1]);
         free(svg);
