@@ -268,22 +268,27 @@ static void blur_is_a_box(void)
     shot_release(&blurred);
 }
 
-/* Pairs of neighbouring pixels of different tones on a ball whose normals are scanned with noise. */
-static int tone_changes(double smoothing)
+/* A ball whose normals are scanned with noise. */
+static void noisy_ball(shape *s, int rings, int sides, uint32_t noise, float by)
 {
-    char     surface[160];
-    shape    s = {0};
-    shot     ball;
-    int      changes = 0;
-    uint32_t noise = 1;
-    snprintf(surface, sizeof surface,
-             "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"smoothing\":%g}", smoothing);
-    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 48, 96, true);
-    for (uint32_t i = 0; i < s.parts[0].vertex_count; i++)
+    shape_sphere(s, "ball", dvec_of(0, 0, 0), 1, rings, sides, true);
+    for (uint32_t i = 0; i < s->parts[0].vertex_count; i++)
         for (int k = 0; k < 3; k++) {
             noise = noise * 1664525u + 1013904223u;
-            s.parts[0].normals[i][k] += 0.2f * ((float)(noise >> 8) / 8388608.0f - 1);
+            s->parts[0].normals[i][k] += by * ((float)(noise >> 8) / 8388608.0f - 1);
         }
+}
+
+/* Pairs of neighbouring pixels of different tones on a noisy ball. */
+static int tone_changes(double smoothing)
+{
+    char  surface[160];
+    shape s = {0};
+    shot  ball;
+    int   changes = 0;
+    snprintf(surface, sizeof surface,
+             "{\"technique\":\"toon\",\"bands\":3,\"softness\":0,\"highlight\":0,\"smoothing\":%g}", smoothing);
+    noisy_ball(&s, 48, 96, 1, 0.2f);
     if (shot_of_shape(&ball, &s, "noisy.glb", surface_look(surface, "1,0.3,0.5", 0), NULL, &front))
         for (int y = 80; y < 176; y++)
             for (int x = 81; x < 176; x++)
@@ -311,15 +316,9 @@ static int tones_off(const char *smoothing)
     shape        s = {0};
     shot         ball;
     int          wrong = 0;
-    uint32_t     noise = 7;
     snprintf(surface, sizeof surface,
              "{\"technique\":\"toon\",\"bands\":2,\"softness\":0,\"highlight\":0,\"smoothing\":\"%s\"}", smoothing);
-    shape_sphere(&s, "ball", dvec_of(0, 0, 0), 1, 16, 32, true);
-    for (uint32_t i = 0; i < s.parts[0].vertex_count; i++)
-        for (int k = 0; k < 3; k++) {
-            noise = noise * 1664525u + 1013904223u;
-            s.parts[0].normals[i][k] += 0.12f * ((float)(noise >> 8) / 8388608.0f - 1);
-        }
+    noisy_ball(&s, 16, 32, 7, 0.12f);
     if (shot_of_shape(&ball, &s, "coarse.glb", surface_look(surface, "0.8,0.36,0.48", 0), NULL, &front)) {
         double radius = 256 / (2 * 8 * tan(9 * PI / 180)), lightest = 0;
         for (int i = 0; i < 256 * 256; i++)
