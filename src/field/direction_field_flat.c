@@ -99,8 +99,8 @@ static void measure_triangle(const flat_walk *c, uint32_t t, uint32_t piece, poi
     const field_surface *s = c->surface;
     bool                 inside = in_piece(c, t, piece);
     for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
-        uint32_t e = s->corners[h], next = s->corners[h % 3 == 2 ? h - 2 : h + 1], o = s->opposite[h];
-        flat_shape_add(out, s->positions[e], s->areas[t]);
+        uint32_t e = s->corners[h], next = s->corners[field_next_half(h)], o = s->opposite[h];
+        flat_shape_add(out, field_edge_middle(s, h), s->areas[t]);
         if (inside && (o == NOWHERE || !in_piece(c, o / 3, piece)))
             flat_shape_add_border(out, point_sub(s->positions[next], s->positions[e]), u, v);
         if (!c->reached[e] || c->pieces[e] == piece)
@@ -132,17 +132,23 @@ static double covariance_apply(const double m[6], point3 a, point3 b)
            m[4] * (a.y * b.z + a.z * b.y) + m[5] * (a.z * b.x + a.x * b.z);
 }
 
+bool flat_shape_bend(const flat_shape *piece, tensor *out)
+{
+    point3 u, v;
+    double a, b;
+    tangents(piece->normal, &u, &v);
+    tensor_traceless(&piece->bend, u, v, &a, &b);
+    return piece->bend_weight > 0 && hypot(a, b) > 0.6 * piece->bend_weight &&
+           field_unit_in_plane(piece->normal, &piece->bend, out);
+}
+
 tensor flat_shape_direction(const flat_shape *piece)
 {
     tensor out;
     point3 u, v;
+    if (flat_shape_bend(piece, &out))
+        return out;
     tangents(piece->normal, &u, &v);
-    if (piece->bend_weight > 0) {
-        double a, b;
-        tensor_traceless(&piece->bend, u, v, &a, &b);
-        if (hypot(a, b) > 0.6 * piece->bend_weight && field_unit_in_plane(piece->normal, &piece->bend, &out))
-            return out;
-    }
     double difference = (covariance_apply(piece->covariance, u, u) - covariance_apply(piece->covariance, v, v)) / 2;
     double angle = atan2(covariance_apply(piece->covariance, u, v), difference) / 2;
     /* A border of right angles says more than how far the piece reaches: that of an L is askew. */

@@ -1,7 +1,5 @@
 /* Planes of a surface. Vertices at a plane's rim bend as what lies beside it does, so that what vertices know says
- * nothing about wide triangles; a hand sees that all between the rims is even. Triangles are collected into pieces by
- * their normals. A piece is a plane when what lies beside it without a crease is small, as roundings are: facets of
- * what is round have neighbours like themselves. */
+ * nothing about wide triangles; a hand sees that all between the rims is even. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +7,8 @@
 #include "base/memory.h"
 #include "base/work.h"
 #include "field/direction_field_private.h"
+#include "scene/flat_pieces.h"
 
-static const double even = 0.99998; /* cosine of 0.36 degrees: normals of a piece differ from the first by no more */
-/* A neighbour of more than this share of a piece's area is like it; a piece with such ones along more than this share
- * of its rim is a facet. */
-static const double alike = 1.0 / 6, beside_alike = 0.35;
-/* A single triangle or quadrangle, as coarse round things consist of, only if there are hardly any. */
-static const double beside_alike_small = 0.05;
-enum { SMALL_PIECE = 2 };
 /* Pieces lie in one plane when their normals agree so far (sine), and their distances from the middle, diagonal 1. */
 static const double same_slope = 0.02, same_offset = 0.01;
 
@@ -24,130 +16,46 @@ static const double same_slope = 0.02, same_offset = 0.01;
 static const double same_side = 0.906;
 enum { LEADERS_MOST = 64 };
 
-typedef struct plane_piece {
-    point3   normal, middle;
-    double   area, rim, beside; /* beside: of the rim, beside neighbours that are alike */
-    uint32_t first, count;      /* triangles, in the order that they were collected in */
-} plane_piece;
-
 typedef struct plane_finder {
     const field_surface *surface;
     const tensor        *tensors;
     const bool          *flat;
-    uint32_t            *order, *queue, *pieces; /* triangles by area; as they are collected; per triangle: its piece */
-    plane_piece         *items;
-    size_t               count, capacity;
+    flat_pieces          pieces;
 } plane_finder;
-
-static point3 normal_of(const field_surface *s, uint32_t t)
-{
-    return point_scale(s->directions[t], s->turned[t] ? -1 : 1);
-}
-
-typedef struct sized_triangle {
-    double   area;
-    uint32_t triangle;
-} sized_triangle;
-
-static int by_area(const void *a, const void *b)
-{
-    const sized_triangle *one = a, *other = b;
-    if (one->area != other->area)
-        return one->area > other->area ? -1 : 1;
-    return one->triangle < other->triangle ? -1 : one->triangle > other->triangle;
-}
-
-static bool sort_triangles(plane_finder *f)
-{
-    const field_surface *s = f->surface;
-    sized_triangle      *sizes = mem_alloc(s->triangle_count * sizeof *sizes);
-    for (uint32_t t = 0; sizes && t < s->triangle_count; t++)
-        sizes[t] = (sized_triangle){s->areas[t], t};
-    if (sizes && s->triangle_count)
-        qsort(sizes, s->triangle_count, sizeof *sizes, by_area);
-    for (uint32_t t = 0; sizes && t < s->triangle_count; t++)
-        f->order[t] = sizes[t].triangle;
-    bool done = sizes != NULL;
-    mem_free(sizes);
-    return done;
-}
-
-/* From the largest triangle that is left: all that hang together with it and lie as it does. What has no normal goes
- * along with any. */
-static void collect(plane_finder *f, uint32_t seed, plane_piece *out, uint32_t begin)
-{
-    const field_surface *s = f->surface;
-    uint32_t             number = (uint32_t)f->count, end = begin;
-    *out = (plane_piece){.normal = normal_of(s, seed), .first = begin};
-    f->pieces[seed] = number;
-    f->queue[end++] = seed;
-    for (uint32_t i = begin; i < end; i++) {
-        uint32_t t = f->queue[i];
-        out->area += s->areas[t];
-        for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
-            uint32_t o = s->opposite[h] == NOWHERE ? NOWHERE : s->opposite[h] / 3;
-            if (o == NOWHERE || f->pieces[o] != NOWHERE)
-                continue;
-            point3 n = normal_of(s, o);
-            if (point_dot(n, n) > 0 && point_dot(n, out->normal) < even)
-                continue;
-            f->pieces[o] = number;
-            f->queue[end++] = o;
-        }
-    }
-    out->count = end - begin;
-}
-
-static bool collect_pieces(plane_finder *f)
-{
-    const field_surface *s = f->surface;
-    uint32_t             end = 0;
-    memset(f->pieces, 0xFF, s->triangle_count * sizeof *f->pieces);
-    for (uint32_t i = 0; i < s->triangle_count; i++) {
-        if (f->pieces[f->order[i]] != NOWHERE)
-            continue;
-        if (work_stopped() || !mem_grow((void **)&f->items, &f->capacity, f->count + 1, sizeof *f->items))
-            return false;
-        collect(f, f->order[i], &f->items[f->count], end);
-        end += f->items[f->count++].count;
-    }
-    return true;
-}
 
 static point3 edge_of(const field_surface *s, uint32_t h)
 {
-    uint32_t next = h % 3 == 2 ? h - 2 : h + 1;
-    return point_sub(s->positions[s->corners[next]], s->positions[s->corners[h]]);
+    return point_sub(s->positions[s->corners[field_next_half(h)]], s->positions[s->corners[h]]);
 }
 
 /* Is the half-edge on its piece's rim? *beside: the piece there, NOWHERE at creases and borders. */
 static bool on_rim(const plane_finder *f, uint32_t h, uint32_t *beside)
 {
     uint32_t o = f->surface->opposite[h];
-    *beside = o == NOWHERE ? NOWHERE : f->pieces[o / 3];
-    return *beside != f->pieces[h / 3];
+    *beside = o == NOWHERE ? NOWHERE : f->pieces.of[o / 3];
+    return *beside != f->pieces.of[h / 3];
 }
 
-static void measure_rims(plane_finder *f)
+static bool find_pieces(plane_finder *f)
 {
     const field_surface *s = f->surface;
-    for (uint32_t h = 0; h < 3 * s->triangle_count; h++) {
-        plane_piece *piece = &f->items[f->pieces[h / 3]];
-        uint32_t     beside;
-        if (!on_rim(f, h, &beside))
-            continue;
-        double length = point_length(edge_of(s, h));
-        piece->rim += length;
-        if (beside != NOWHERE && f->items[beside].area > alike * piece->area)
-            piece->beside += length;
+    double(*normals)[3] = mem_alloc(s->triangle_count * sizeof *normals + 1);
+    double *lengths = mem_alloc(3 * (size_t)s->triangle_count * sizeof *lengths + 1);
+    bool    good = normals && lengths;
+    for (uint32_t t = 0; t < s->triangle_count && good; t++) {
+        point3 n = point_scale(s->directions[t], s->turned[t] ? -1 : 1);
+        normals[t][0] = n.x, normals[t][1] = n.y, normals[t][2] = n.z;
+        for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+            lengths[h] = point_length(edge_of(s, h));
     }
-}
-
-static bool is_plane(const plane_piece *piece)
-{
-    double most = piece->count <= SMALL_PIECE ? beside_alike_small : beside_alike;
-    return piece->area > 0 && point_dot(piece->normal, piece->normal) > 0 && piece->beside <= most * piece->rim &&
-           piece->rim > 0;
+    good = good && flat_pieces_find(&f->pieces, &(flat_triangles){.count = s->triangle_count,
+                                                                  .normals = (const double(*)[3])normals,
+                                                                  .areas = s->areas,
+                                                                  .lengths = lengths,
+                                                                  .opposite = s->opposite});
+    mem_free(normals);
+    mem_free(lengths);
+    return good;
 }
 
 /* --- directions ----------------------------------------------------------------------------------------- */
@@ -158,39 +66,55 @@ static point3 centre_of(const field_surface *s, uint32_t t)
     return point_scale(point_add(point_add(s->positions[k[0]], s->positions[k[1]]), s->positions[k[2]]), 1.0 / 3);
 }
 
-static void find_middle(const plane_finder *f, plane_piece *piece)
+static point3 normal_of(const flat_piece *piece)
 {
-    for (uint32_t i = piece->first; i < piece->first + piece->count; i++) {
-        uint32_t t = f->queue[i];
-        piece->middle = point_add(piece->middle, point_scale(centre_of(f->surface, t), f->surface->areas[t]));
-    }
-    piece->middle = point_scale(piece->middle, 1 / piece->area);
+    return (point3){piece->normal[0], piece->normal[1], piece->normal[2]};
 }
 
-/* What an element at the rim knows of how the surface bends there. */
-static void add_bend(const plane_finder *f, flat_shape *out, uint32_t e, double weight)
+static point3 middle_of(const plane_finder *f, const flat_piece *piece)
 {
-    tensor unit;
-    if (f->flat[e] || !field_unit_in_plane(out->normal, &f->tensors[e], &unit))
+    point3 sum = {0, 0, 0};
+    for (uint32_t i = piece->first; i < piece->first + piece->count; i++) {
+        uint32_t t = f->pieces.members[i];
+        sum = point_add(sum, point_scale(centre_of(f->surface, t), f->surface->areas[t]));
+    }
+    return point_scale(sum, 1 / piece->area);
+}
+
+/* How the surface bends over an edge of the rim, across it and by its angle. What vertices there know is of wide discs,
+ * which on long triangles reach over the whole plane. */
+static void add_bend(const plane_finder *f, flat_shape *out, uint32_t h, uint32_t beside)
+{
+    const field_surface *s = f->surface;
+    tensor               unit, across;
+    if (beside == NOWHERE || (f->flat[s->corners[h]] && f->flat[s->corners[field_next_half(h)]]))
+        return;
+    point3 edge = edge_of(s, h), away = point_unit_or(point_cross(edge, out->normal), (point3){0, 0, 0});
+    across = tensor_of(away, point_cross(out->normal, away), 1, 0, 0);
+    double angle = point_length(point_cross(out->normal, normal_of(&f->pieces.items[beside]))),
+           weight = angle * point_length(edge);
+    if (!(weight > 0) || !field_unit_in_plane(out->normal, &across, &unit))
         return;
     for (int k = 0; k < 6; k++)
         out->bend.v[k] += (float)weight * unit.v[k];
     out->bend_weight += weight;
 }
 
-static tensor direction_of(const plane_finder *f, const plane_piece *piece)
+/* *bent: what goes on smoothly beside it says which way. */
+static tensor direction_of(const plane_finder *f, const flat_piece *piece, bool *bent)
 {
     const field_surface *s = f->surface;
-    flat_shape           shape = {.normal = piece->normal, .mean = piece->middle, .area = piece->area};
+    point3               normal = normal_of(piece);
+    flat_shape           shape = {.normal = normal, .mean = middle_of(f, piece), .area = piece->area};
     point3               u, v;
     double               flat = 0;
     tensor               chosen = {{0}}, unit;
-    tangents(piece->normal, &u, &v);
+    tangents(normal, &u, &v);
     for (uint32_t i = piece->first; i < piece->first + piece->count; i++) {
-        uint32_t t = f->queue[i];
+        uint32_t t = f->pieces.members[i];
         for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
             uint32_t e = s->corners[h], beside;
-            flat_shape_add(&shape, s->positions[e], s->areas[t]);
+            flat_shape_add(&shape, field_edge_middle(s, h), s->areas[t]);
             if (f->flat[e]) {
                 flat += s->areas[t] / 3;
                 for (int k = 0; k < 6; k++)
@@ -198,13 +122,13 @@ static tensor direction_of(const plane_finder *f, const plane_piece *piece)
             }
             if (!on_rim(f, h, &beside))
                 continue;
-            point3 edge = edge_of(s, h);
-            flat_shape_add_border(&shape, edge, u, v);
-            add_bend(f, &shape, e, point_length(edge));
+            flat_shape_add_border(&shape, edge_of(s, h), u, v);
+            add_bend(f, &shape, h, beside);
         }
     }
+    *bent = flat_shape_bend(&shape, &unit);
     /* Most of it is known as flat: one direction has been found for that already. */
-    if (flat > 0.5 * piece->area && field_unit_in_plane(piece->normal, &chosen, &unit))
+    if (flat > 0.5 * piece->area && field_unit_in_plane(normal, &chosen, &unit))
         return unit;
     flat_shape_settle(&shape);
     return flat_shape_direction(&shape);
@@ -218,6 +142,7 @@ typedef struct plane_table {
     point3   *normals; /* per plane, turned so that opposite ones agree */
     double   *offsets;
     uint32_t *pieces; /* per plane: the largest one in it */
+    bool     *bent;   /* per plane: does that take after what bends beside it? */
 } plane_table;
 
 static size_t hash_cell(const int64_t cell[4])
@@ -284,25 +209,33 @@ static void add_plane(plane_table *t, uint32_t plane, uint32_t piece, point3 nor
     t->pieces[plane] = piece;
 }
 
-static int by_area_of_piece(const void *a, const void *b)
+typedef struct sized_plane {
+    double   area;
+    uint32_t piece;
+} sized_plane;
+
+static int by_area(const void *a, const void *b)
 {
-    return by_area(a, b);
+    const sized_plane *one = a, *other = b;
+    if (one->area != other->area)
+        return one->area > other->area ? -1 : 1;
+    return one->piece < other->piece ? -1 : one->piece > other->piece;
 }
 
 /* The pieces that are planes, the largest first. */
-static size_t sort_planes(const plane_finder *f, sized_triangle *out)
+static size_t sort_planes(const plane_finder *f, sized_plane *out)
 {
     size_t count = 0;
-    for (uint32_t i = 0; i < f->count; i++)
-        if (is_plane(&f->items[i]))
-            out[count++] = (sized_triangle){f->items[i].area, i};
+    for (uint32_t i = 0; i < f->pieces.count; i++)
+        if (flat_piece_is_plane(&f->pieces.items[i]))
+            out[count++] = (sized_plane){f->pieces.items[i].area, i};
     if (count)
-        qsort(out, count, sizeof *out, by_area_of_piece);
+        qsort(out, count, sizeof *out, by_area);
     return count;
 }
 
 /* `planes`: per piece, the plane in which it lies. */
-static bool join_planes(plane_finder *f, plane_table *t, sized_triangle *sorted, uint32_t *planes, field_planes *out)
+static bool join_planes(plane_finder *f, plane_table *t, sized_plane *sorted, uint32_t *planes, field_planes *out)
 {
     size_t count = sort_planes(f, sorted), size = 64;
     while (size < 2 * count)
@@ -312,35 +245,35 @@ static bool join_planes(plane_finder *f, plane_table *t, sized_triangle *sorted,
     t->normals = mem_alloc(count * sizeof *t->normals);
     t->offsets = mem_alloc(count * sizeof *t->offsets);
     t->pieces = mem_alloc(count * sizeof *t->pieces);
-    if (!t->slots || !t->normals || !t->offsets || !t->pieces)
+    t->bent = mem_calloc(count, sizeof *t->bent);
+    if (!t->slots || !t->normals || !t->offsets || !t->pieces || !t->bent)
         return false;
     memset(t->slots, 0xFF, size * sizeof *t->slots);
     for (size_t i = 0; i < count; i++) {
-        plane_piece *piece = &f->items[sorted[i].triangle];
-        find_middle(f, piece);
-        point3   normal = canonical(piece->normal);
-        double   offset = point_dot(normal, piece->middle);
-        uint32_t plane = find_plane(t, normal, offset);
+        const flat_piece *piece = &f->pieces.items[sorted[i].piece];
+        point3            normal = canonical(normal_of(piece));
+        double            offset = point_dot(normal, middle_of(f, piece));
+        uint32_t          plane = find_plane(t, normal, offset);
         if (plane == NOWHERE)
-            add_plane(t, plane = out->count++, sorted[i].triangle, normal, offset);
-        planes[sorted[i].triangle] = plane;
+            add_plane(t, plane = out->count++, sorted[i].piece, normal, offset);
+        planes[sorted[i].piece] = plane;
         if (work_stopped())
             return false;
     }
     out->units = mem_alloc(out->count * sizeof *out->units);
     for (uint32_t k = 0; out->units && k < out->count; k++)
-        out->units[k] = direction_of(f, &f->items[t->pieces[k]]);
+        out->units[k] = direction_of(f, &f->pieces.items[t->pieces[k]], &t->bent[k]);
     return out->units != NULL;
 }
 
 /* What lies nearly as a larger plane does is hatched the same way: a hand keeps its direction over a wall that turns a
- * little, and on all walls that face one way. The largest planes come first. */
+ * little, and on all walls that face one way, unless it came there over a rounding. The largest planes come first. */
 static void follow_larger(const plane_table *t, field_planes *out)
 {
     uint32_t leaders[LEADERS_MOST], count = 0;
     for (uint32_t k = 0; k < out->count; k++) {
         bool follows = false;
-        for (uint32_t i = 0; i < count && !follows; i++) {
+        for (uint32_t i = 0; i < count && !follows && !t->bent[k]; i++) {
             tensor unit;
             if (fabs(point_dot(t->normals[k], t->normals[leaders[i]])) < same_side ||
                 !field_unit_in_plane(t->normals[k], &out->units[leaders[i]], &unit))
@@ -355,19 +288,19 @@ static void follow_larger(const plane_table *t, field_planes *out)
 
 static bool find_planes(plane_finder *f, field_planes *out)
 {
-    plane_table     table = {0};
-    uint32_t       *planes = mem_alloc(f->count * sizeof *planes);
-    sized_triangle *sorted = mem_alloc(f->count * sizeof *sorted);
-    bool            good = planes && sorted;
+    plane_table  table = {0};
+    uint32_t    *planes = mem_alloc(f->pieces.count * sizeof *planes);
+    sized_plane *sorted = mem_alloc(f->pieces.count * sizeof *sorted);
+    bool         good = planes && sorted;
     if (good) {
-        memset(planes, 0xFF, f->count * sizeof *planes);
+        memset(planes, 0xFF, f->pieces.count * sizeof *planes);
         good = join_planes(f, &table, sorted, planes, out);
         if (good)
             follow_larger(&table, out);
     }
     for (uint32_t t = 0; good && t < f->surface->triangle_count; t++)
-        out->of[t] = planes[f->pieces[t]];
-    void *const blocks[] = {planes, sorted, table.slots, table.normals, table.offsets, table.pieces};
+        out->of[t] = planes[f->pieces.of[t]];
+    void *const blocks[] = {planes, sorted, table.slots, table.normals, table.offsets, table.pieces, table.bent};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         mem_free(blocks[i]);
     return good;
@@ -375,20 +308,10 @@ static bool find_planes(plane_finder *f, field_planes *out)
 
 bool field_planes_find(field_planes *out, const field_surface *s, const tensor *tensors, const bool *flat)
 {
-    size_t       count = s->triangle_count;
     plane_finder f = {.surface = s, .tensors = tensors, .flat = flat};
-    f.order = mem_alloc(count * sizeof *f.order);
-    f.queue = mem_alloc(count * sizeof *f.queue);
-    f.pieces = mem_alloc(count * sizeof *f.pieces);
-    out->of = mem_alloc(count * sizeof *out->of);
-    bool good = f.order && f.queue && f.pieces && out->of && sort_triangles(&f) && collect_pieces(&f);
-    if (good) {
-        measure_rims(&f);
-        good = find_planes(&f, out);
-    }
-    void *const blocks[] = {f.order, f.queue, f.pieces, f.items};
-    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
-        mem_free(blocks[i]);
+    out->of = mem_alloc(s->triangle_count * sizeof *out->of);
+    bool good = out->of && find_pieces(&f) && find_planes(&f, out);
+    flat_pieces_release(&f.pieces);
     if (!good)
         out->count = 0;
     return good;

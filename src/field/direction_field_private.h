@@ -80,12 +80,15 @@ typedef struct flat_shape {
     double border_cos, border_sin, border; /* edges turned by four times their angle */
 } flat_shape;
 
-/* The piece's normal and middle must be known. */
+/* The piece's normal and middle must be known. A triangle is the middles of its edges, each with its area: these have
+ * its moments, however a piece is triangulated. */
 void flat_shape_add(flat_shape *out, point3 p, double weight);
 void flat_shape_add_border(flat_shape *out, point3 edge, point3 u, point3 v);
 /* Where all sides are alike, rounding must not choose: x before y before z. */
 void flat_shape_settle(flat_shape *out);
-/* The one direction of the piece, as a unit tensor. */
+/* The direction of what bends around the piece, as a unit tensor; false: nothing does, or not one way. */
+bool flat_shape_bend(const flat_shape *piece, tensor *out);
+/* The one direction of the piece, as a unit tensor: that, or one by its shape. */
 tensor flat_shape_direction(const flat_shape *piece);
 
 /* Planes of a surface: what is even from border to border, however it is triangulated and whatever bends beside it. */
@@ -130,6 +133,16 @@ static inline double point_dot(point3 a, point3 b)
 static inline point3 point_cross(point3 a, point3 b)
 {
     return (point3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline uint32_t field_next_half(uint32_t h)
+{
+    return h % 3 == 2 ? h - 2 : h + 1;
+}
+
+static inline point3 field_edge_middle(const field_surface *s, uint32_t h)
+{
+    return point_scale(point_add(s->positions[s->corners[h]], s->positions[s->corners[field_next_half(h)]]), 0.5);
 }
 
 static inline double point_length(point3 a)

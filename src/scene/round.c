@@ -9,49 +9,15 @@
 #include "base/memory.h"
 #include "base/vector3.h"
 #include "scene/mesh.h"
+#include "scene/round_private.h"
 
 enum { ROUNDS = 4, WHOLE = -1 };
 /* Of edge_visibility. */
 enum { SILHOUETTE = 1, HARD = 2 };
 
-/* A half-edge: corner `corner` of the primitive's triangles to the next one. */
-typedef struct half_edge {
-    uint64_t ends; /* numbers of its two positions, the lower one first */
-    uint32_t primitive, corner;
-} half_edge;
-
-/* A primitive as it grows. */
-typedef struct growing {
-    primitive made;
-    uint32_t *positions; /* number of each vertex's position, the same for all at one place */
-    int64_t  *middles;   /* per corner: the vertex half-way to the next corner, or WHOLE */
-    size_t    room;      /* for vertices */
-} growing;
-
-typedef struct rounding {
-    growing   *parts;
-    size_t     part_count;
-    uint32_t   position_count;
-    double     tolerance; /* a length */
-    half_edge *halves;
-    size_t     half_count;
-    uint32_t  *starts; /* the corners at a position are corners[starts[p]] to corners[starts[p + 1] - 1] */
-    half_edge *corners;
-} rounding;
-
-static void point_of(double out[3], vec3 v)
-{
-    vector3_set(out, (double)v.x, (double)v.y, (double)v.z);
-}
-
 static vec3 vec_of(const double p[3])
 {
     return (vec3){(float)p[0], (float)p[1], (float)p[2]};
-}
-
-static uint32_t next_corner(uint32_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
 /* --- copies --------------------------------------------------------------------------------------------- */
@@ -317,8 +283,15 @@ static round_side side_of(const rounding *r, const half_edge *h)
     vector3_cross(side.face, one, two);
     vector3_normalise(side.face);
     vertices_of(r, h, v);
+    uint32_t plane = r->parts[h->primitive].planes[h->corner / 3];
+    side.plane = plane != NOWHERE;
+    if (side.plane)
+        vector3_copy(side.face, r->planes[plane]);
     for (int k = 0; k < 2; k++) {
-        point_of(side.normals[k], p->normals[v[k]]);
+        if (side.plane)
+            vector3_copy(side.normals[k], side.face);
+        else
+            point_of(side.normals[k], p->normals[v[k]]);
         side.beyond[k] = beyond_of(r, p, r->parts[h->primitive].positions[v[k]], v[k], v[1 - k]);
     }
     return side;
@@ -518,11 +491,13 @@ static lmn_status put_middles(rounding *r, const size_t *more, lmn_error *error)
 typedef struct triangles {
     uint32_t *indices;
     uint8_t  *edges;
-    uint32_t  count;
+    uint32_t *planes;
+    uint32_t  count, plane; /* corners; the plane of those that come */
 } triangles;
 
 static void put_triangle(triangles *to, const uint32_t corners[3], const uint8_t edges[3])
 {
+    to->planes[to->count / 3] = to->plane;
     for (int k = 0; k < 3; k++) {
         to->indices[to->count] = corners[k];
         to->edges[to->count] = edges[k];
@@ -579,16 +554,23 @@ static lmn_status cut_triangles(growing *g, lmn_error *error)
         room += g->middles[c] >= 0 ? 3 : 0;
     if (room >= UINT32_MAX)
         return error_set(error, LMN_LIMIT, "a mesh with %zu corners cannot be drawn", room);
-    triangles to = {mem_alloc(room * sizeof *to.indices + 1), mem_alloc(room + 1), 0};
-    if (!to.indices || !to.edges) {
+    triangles to = {.indices = mem_alloc(room * sizeof *to.indices + 1),
+                    .edges = mem_alloc(room + 1),
+                    .planes = mem_alloc(room / 3 * sizeof *to.planes + 1)};
+    if (!to.indices || !to.edges || !to.planes) {
         mem_free(to.indices);
         mem_free(to.edges);
+        mem_free(to.planes);
         return error_memory(error);
     }
-    for (uint32_t c = 0; c < p->index_count; c += 3)
+    for (uint32_t c = 0; c < p->index_count; c += 3) {
+        to.plane = g->planes[c / 3];
         cut_triangle(&to, p, &p->indices[c], &g->middles[c], &p->edges.values[c]);
+    }
     mem_free(p->indices);
     mem_free(p->edges.values);
+    mem_free(g->planes);
+    g->planes = to.planes;
     p->indices = to.indices;
     p->edges.values = to.edges;
     p->index_count = to.count;
@@ -597,25 +579,32 @@ static lmn_status cut_triangles(growing *g, lmn_error *error)
 
 /* --- the whole ------------------------------------------------------------------------------------------ */
 
-/* Halves what lies too far off once; how many vertices that made. */
-static lmn_status halve(rounding *r, size_t *left, size_t *added, lmn_error *error)
+/* The edges and corners of the mesh as it is now. */
+static lmn_status list_mesh(rounding *r, lmn_error *error)
 {
     size_t corners = 0;
     for (size_t i = 0; i < r->part_count; i++)
         corners += r->parts[i].made.index_count;
     half_edge *halves = mem_realloc(r->halves, corners * sizeof *halves + 1);
-    size_t    *more = mem_calloc(r->part_count + 1, sizeof *more);
-    lmn_status status = halves && more ? LMN_OK : error_memory(error);
-    if (halves)
-        r->halves = halves;
-    if (status == LMN_OK && !list_corners(r, corners))
-        status = error_memory(error);
-    if (status == LMN_OK) {
-        list_halves(r);
-        *added = count_middles(r, more);
-        *added = *added > *left || r->position_count + *added >= UINT32_MAX ? 0 : *added;
-    }
-    if (status == LMN_OK && *added) {
+    if (!halves)
+        return error_memory(error);
+    r->halves = halves;
+    if (!list_corners(r, corners))
+        return error_memory(error);
+    list_halves(r);
+    return LMN_OK;
+}
+
+/* Halves what lies too far off once; how many vertices that made. */
+static lmn_status halve(rounding *r, size_t *left, size_t *added, lmn_error *error)
+{
+    size_t *more = mem_calloc(r->part_count + 1, sizeof *more);
+    if (!more)
+        return error_memory(error);
+    lmn_status status = LMN_OK;
+    *added = count_middles(r, more);
+    *added = *added > *left || r->position_count + *added >= UINT32_MAX ? 0 : *added;
+    if (*added) {
         *left -= *added;
         status = put_middles(r, more, error);
         for (size_t i = 0; i < r->part_count; i++) {
@@ -674,7 +663,11 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
         status = say_all_edges(&r, options, error);
     bool changed = false;
     for (int k = 0; k < ROUNDS && status == LMN_OK && (k == 0 || added) && r.tolerance > 0; k++) {
-        status = halve(&r, &left, &added, error);
+        status = list_mesh(&r, error);
+        if (status == LMN_OK && k == 0)
+            status = round_planes_find(&r, error);
+        if (status == LMN_OK)
+            status = halve(&r, &left, &added, error);
         changed = changed || added;
     }
     if (status == LMN_OK && changed)
@@ -683,7 +676,9 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
         primitive_release(&r.parts[i].made);
         mem_free(r.parts[i].positions);
         mem_free(r.parts[i].middles);
+        mem_free(r.parts[i].planes);
     }
+    mem_free(r.planes);
     mem_free(r.parts);
     mem_free(r.halves);
     mem_free(r.starts);

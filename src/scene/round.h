@@ -28,6 +28,7 @@ lmn_status mesh_round(mesh *out, const mesh *m, const round_options *options, lm
  * face goes that it would go on over beyond either end; INFINITY where there is none. */
 typedef struct round_side {
     double normals[2][3], face[3], beyond[2];
+    bool   plane; /* the face lies in a plane, to which the edge keeps; then all three normals are its own */
 } round_side;
 
 typedef struct round_edge {

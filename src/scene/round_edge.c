@@ -40,6 +40,11 @@ static void tangent_at(double out[3], int end, const double edge[3], const round
         vector3_set(line, along * line[0], along * line[1], along * line[2]);
         vector3_mix(out, out, line, sharp);
     }
+    for (int k = 0; k < 2; k++) {
+        const round_side *side = k ? other : one;
+        if (side && side->plane)
+            vector3_add(out, out, -vector3_dot(out, side->face), side->face);
+    }
     /* An edge that would leave nearly across itself is not what the normals were made for. */
     trust *= smooth_step(0.3, 0.55, square > 0 ? vector3_dot(out, edge) / square : 0);
     vector3_mix(out, edge, out, trust);

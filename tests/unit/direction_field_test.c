@@ -377,6 +377,32 @@ static void flat_positions_take_after_what_bends_beside_them(void **state)
     primitive_release(&p);
 }
 
+/* A larger plane beside the hook's that faces the same way: the hook keeps to its own cylinder, and does not follow. */
+static void bent_walls_follow_no_other(void **state)
+{
+    (void)state;
+    primitive      hook = grid_surface(hook_at, 80, 1, false, false, 0);
+    primitive      p = empty_primitive(hook.vertex_count + 4, hook.index_count + 6);
+    const uint32_t n = hook.vertex_count, two[6] = {n, n + 1, n + 2, n, n + 2, n + 3};
+    const vec3     corners[4] = {{20, 4, 0}, {25, 4, 0}, {25, 4, 40}, {20, 4, 40}};
+    memcpy(p.positions, hook.positions, n * sizeof *p.positions);
+    memcpy(p.positions + n, corners, sizeof corners);
+    memcpy(p.indices, hook.indices, hook.index_count * sizeof *p.indices);
+    memcpy(p.indices + hook.index_count, two, sizeof two);
+    direction_field f = make_field(&p);
+    assert_true(along(direction_field_at(&f, &p, hook.index_count), (place3){0, 0, 1}) > 0.04);
+    size_t count = 0;
+    for (uint32_t c = 0; c < hook.index_count; c++)
+        if (p.positions[p.indices[c]].x < -0.2f) {
+            assert_true(along(direction_field_at(&f, &p, c), (place3){1, 0, 0}) > 0.04);
+            count++;
+        }
+    assert_true(count > 100);
+    direction_field_release(&f);
+    primitive_release(&p);
+    primitive_release(&hook);
+}
+
 /* A wall between two rounded edges, in two triangles that share their vertices with the roundings; beside it, in the
  * same plane, a strip of its own that stands upright. What bends at the rims must not be drawn into the wall, and the
  * strip goes along with the wall. */
@@ -956,6 +982,7 @@ int main(void)
         cmocka_unit_test(a_facade_is_drawn_along_its_border),
         cmocka_unit_test(faces_of_a_cube_have_one_direction_each),
         cmocka_unit_test(flat_positions_take_after_what_bends_beside_them),
+        cmocka_unit_test(bent_walls_follow_no_other),
         cmocka_unit_test(planes_have_one_direction_whatever_bends_beside_them),
         cmocka_unit_test(walls_that_turn_a_little_are_drawn_one_way),
         cmocka_unit_test(crosses_turn_no_more_than_they_must),
