@@ -4,6 +4,9 @@
 const vec2  PEN_ALONG = vec2(0.7986, 0.6018);
 const float PEN_APART = 0.9;  /* from stroke to stroke, in their width */
 const float PEN_LENGTH = 9.0; /* of the longest, in their width */
+const float PEN_SLANT = 0.9;   /* of its tip: along over across */
+const float PEN_FIBRES = 6.0;  /* in its width */
+const float PEN_RAGGED = 0.8;  /* how unevenly they end, in its width */
 const float PEN_ONCE = 0.62;   /* of the colour, what one stroke lays */
 
 vec2 of_pen(int row, int piece)
@@ -11,13 +14,21 @@ vec2 of_pen(int row, int piece)
     return corner_noise(hash_of(uvec3(uint(row + 0x8000), uint(piece + 0x8000), 0u), 5u));
 }
 
-/* What one row of strokes leaves of the paper. A stroke is there where it is darker than its own bound; it ends straight across, as the pen is broad, and its sides sway. */
+/* How much farther a fibre of the pen draws, in widths: the tip is cut aslant, and fibres run dry one after the other. */
+float drawn_farther(int row, float across)
+{
+    float fibre = floor((across + 1.0) * PEN_FIBRES), last = of_pen(row, int(fibre) + 64).x, next = of_pen(row, int(fibre) + 65).x;
+    return PEN_SLANT * across + PEN_RAGGED * mix(last, next, smoothstep(0.0, 1.0, fract((across + 1.0) * PEN_FIBRES)));
+}
+
+/* What one row of strokes leaves of the paper. A stroke is there where it is darker than its own bound; its sides sway. */
 float left_by(int row, vec2 at, float dark)
 {
-    float width = u_paper_strokes, own = of_pen(row, 0).x, along = at.x / (PEN_LENGTH * width) + 0.5 * own, sway = 0.06 * sin(9.0 * along + 6.28 * own) + 0.08 * of_pen(row, 0).y;
+    float width = u_paper_strokes, own = of_pen(row, 0).x, across = at.y / width - PEN_APART * (float(row) + 0.5);
+    float along = (at.x / width + drawn_farther(row, across)) / PEN_LENGTH + 0.5 * own, sway = 0.06 * sin(9.0 * along + 6.28 * own) + 0.08 * of_pen(row, 0).y;
     int   piece = int(floor(along)) + 1;
     vec2  random = of_pen(row, piece);
-    float side = 0.5 - abs(at.y / width - PEN_APART * (float(row) + 0.5) - sway), bound = 0.5 * (0.5 + 0.5 * random.x) - 0.3;
+    float side = 0.5 - abs(across - sway), bound = 0.5 * (0.5 + 0.5 * random.x) - 0.3;
     return 1.0 - PEN_ONCE * clamp(side * width + 0.5, 0.0, 1.0) * clamp((dark - bound) * 12.0 + 0.5, 0.0, 1.0);
 }
 

@@ -69,11 +69,12 @@ float stripe(float along)
     return length_ * (1.0 - sqrt(abs(2.0 * fract(along) - 1.0)));
 }
 
-/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself. */
+/* By how much more than its own turn from the light a place is black: where little of the sky is seen, and what is dark itself. Where less than a quarter of the sky is hidden lies no cleft:
+ * what is measured there is grain. */
 float spotted(surface_point p)
 {
     float dark = 1.0 - smoothstep(0.15, 0.4, dot(shown(p.albedo.rgb), vec3(0.2126, 0.7152, 0.0722)));
-    return u_spotted * (1.0 - sky_fraction(p) + 0.3 * dark);
+    return u_spotted * (clamp(1.5 - 2.0 * sky_fraction(p), 0.0, 1.0) + 0.3 * dark);
 }
 
 /* Are there blacks where a stroke that is here would begin? `beyond`: by how much more this place is turned to the light, which changes by `gradient` from pixel to pixel. */
