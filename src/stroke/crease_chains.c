@@ -18,7 +18,7 @@
  * free ends so many times: of a coarse mesh all edges turn. */
 #define STANDS_OUT  2.0
 #define STANDS_FREE 2.5
-/* Round things have five sides or more: a chain between other lines that turns by as much as those is a corner. */
+/* Round things have five sides or more: a chain that turns by as much as those is a corner. */
 #define CORNER (72 * DEGREE)
 /* Faces around a chain that are more than this fraction of what hangs together with them tell nothing. */
 #define AROUND_MOST 0.5
@@ -270,7 +270,7 @@ static double turn_around(chain_net *n, const chain_facts *f)
 /* Is a chain one of the edges that a coarse mesh of a curved surface has everywhere? */
 static bool is_of_mesh(chain_net *n, const chain_facts *f)
 {
-    if (!is_smooth(n, f->count) || (f->free_ends == 0 && f->turn >= CORNER))
+    if (!is_smooth(n, f->count) || f->turn >= CORNER)
         return false;
     return (f->free_ends == 2 && f->length < ISLAND_EDGES * n->measured->mean_edge) ||
            f->turn < (f->free_ends > 0 ? STANDS_FREE : STANDS_OUT) * turn_around(n, f);
