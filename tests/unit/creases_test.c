@@ -474,21 +474,51 @@ static uint32_t count_creases(const primitive *p, uint32_t *free_ends)
     return count;
 }
 
-/* A coarse ball of uneven faces, or with `rim` two bowls that meet at 120 degrees in a rim of 16 edges. */
-static uint32_t coarse_creases(uint32_t seed, bool rim, bool normals, uint32_t *free_ends)
+enum { STUDS = 12, BETWEEN = 2 * STUDS * (STUDS - 1) };
+
+/* Rows of pyramids with smooth normals. Sides that rise by 60 degrees meet at 76, and at 120 between the pyramids,
+ * sides that rise by 45 at 60 and at 90. */
+static primitive pyramids(double rise)
 {
-    primitive p = ball(4, 0, (place3){1, 1, 1});
+    enum { SIDE = STUDS + 1 };
+    primitive p = empty_primitive(SIDE * SIDE + STUDS * STUDS, 12 * STUDS * STUDS);
+    uint32_t  at = 0;
+    for (uint32_t j = 0; j < SIDE; j++)
+        for (uint32_t i = 0; i < SIDE; i++)
+            p.positions[j * SIDE + i] = (vec3){(float)i, (float)j, 0};
+    for (uint32_t j = 0; j < STUDS; j++)
+        for (uint32_t i = 0; i < STUDS; i++) {
+            const uint32_t n = j * SIDE + i, top = SIDE * SIDE + j * STUDS + i,
+                           base[4] = {n, n + 1, n + SIDE + 1, n + SIDE};
+            p.positions[top] = (vec3){(float)i + 0.5f, (float)j + 0.5f, (float)(0.5 * tan(rise * degree))};
+            for (uint32_t k = 0; k < 4; k++) {
+                const uint32_t corners[3] = {base[k], base[(k + 1) % 4], top};
+                memcpy(p.indices + at, corners, sizeof corners);
+                at += 3;
+            }
+        }
+    p.normals = mem_alloc(p.vertex_count * sizeof *p.normals);
+    for (uint32_t i = 0; i < p.vertex_count; i++)
+        p.normals[i] = (vec3){0, 0, 1};
+    return p;
+}
+
+/* A coarse ball of uneven faces, or two bowls so high that meet in a rim of four times so many edges as `cells`, at 120
+ * degrees where they are 0.4 high, at 66 where they are 0.9 high. */
+static uint32_t coarse_creases(uint32_t cells, double height, uint32_t seed, bool normals, uint32_t *free_ends)
+{
+    primitive p = ball(cells, 0, (place3){1, 1, 1});
     p.normals = normals ? mem_alloc(p.vertex_count * sizeof *p.normals) : NULL;
     for (uint32_t i = 0; i < p.vertex_count; i++) {
         vec3 *at = &p.positions[i];
         float inwards = 1 - 0.5f * fabsf(at->z);
         if (normals)
             p.normals[i] = *at; /* one at a place, as programs give them to what is to look curved */
-        if (rim)
-            *at = (vec3){at->x * inwards, at->y * inwards, 0.4f * at->z};
+        if (height > 0)
+            *at = (vec3){at->x * inwards, at->y * inwards, (float)height * at->z};
         at->x += (float)seed; /* shaken otherwise */
     }
-    shake(&p, rim ? 0.06 : 0.12); /* edges are about 0.4 long */
+    shake(&p, (height > 0 ? 0.24 : 0.48) / cells); /* edges are about 1.6 / cells long */
     uint32_t count = count_creases(&p, free_ends);
     primitive_release(&p);
     return count;
@@ -502,43 +532,20 @@ static void coarse_meshes_of_curved_surfaces_have_few_creases(void **state)
     uint32_t free_ends, scraps = 0, loose = 0, faceted = 0;
     (void)state;
     for (uint32_t seed = 0; seed < BALLS; seed++) {
-        scraps += coarse_creases(seed, false, true, &free_ends);
+        scraps += coarse_creases(4, 0, seed, true, &free_ends);
         loose += free_ends;
-        assert_int_equal(coarse_creases(seed, true, true, &free_ends), 16);
+        assert_int_equal(coarse_creases(4, 0.4, seed, true, &free_ends), 16);
         assert_int_equal(free_ends, 0);
-        faceted += coarse_creases(seed, false, false, &free_ends);
+        assert_int_equal(coarse_creases(8, 0.9, seed, true, &free_ends), 32);
+        assert_int_equal(free_ends, 0);
+        faceted += coarse_creases(4, 0, seed, false, &free_ends);
     }
     printf("%d coarse balls: %u creases, %u free ends\n", BALLS, scraps, loose);
     assert_true(scraps < BALLS / 2 && loose <= 2); /* a vertex that stands out far enough is a peak */
     assert_true(faceted > 50 * BALLS);
-}
-
-enum { STUDS = 12 };
-
-/* Rows of pyramids whose sides rise by 60 degrees: all edges turn by 76, or by 120 between them. Normals are smooth. */
-static primitive pyramids(void)
-{
-    enum { SIDE = STUDS + 1 };
-    primitive p = empty_primitive(SIDE * SIDE + STUDS * STUDS, 12 * STUDS * STUDS);
-    uint32_t  at = 0;
-    for (uint32_t j = 0; j < SIDE; j++)
-        for (uint32_t i = 0; i < SIDE; i++)
-            p.positions[j * SIDE + i] = (vec3){(float)i, (float)j, 0};
-    for (uint32_t j = 0; j < STUDS; j++)
-        for (uint32_t i = 0; i < STUDS; i++) {
-            const uint32_t n = j * SIDE + i, top = SIDE * SIDE + j * STUDS + i,
-                           base[4] = {n, n + 1, n + SIDE + 1, n + SIDE};
-            p.positions[top] = (vec3){(float)i + 0.5f, (float)j + 0.5f, (float)(0.5 * tan(60 * degree))};
-            for (uint32_t k = 0; k < 4; k++) {
-                const uint32_t corners[3] = {base[k], base[(k + 1) % 4], top};
-                memcpy(p.indices + at, corners, sizeof corners);
-                at += 3;
-            }
-        }
-    p.normals = mem_alloc(p.vertex_count * sizeof *p.normals);
-    for (uint32_t i = 0; i < p.vertex_count; i++)
-        p.normals[i] = (vec3){0, 0, 1};
-    return p;
+    primitive quilt = pyramids(45);
+    assert_int_equal(count_creases(&quilt, &free_ends), BETWEEN);
+    primitive_release(&quilt);
 }
 
 /* What is sharp all over stays, and so does what has flat faces, though its normals are smooth. */
@@ -569,8 +576,8 @@ static void sharp_solids_keep_their_edges(void **state)
     primitive_release(&diamond);
     const profile hexagon = {{{2, 0}, {1, 1.732}, {-1, 1.732}, {-2, 0}, {-1, -1.732}, {1, -1.732}}, 6};
     assert_int_equal(lines_of(&hexagon, 30), 6);
-    primitive studs = pyramids();
-    assert_int_equal(count_creases(&studs, &free_ends), 4 * STUDS * STUDS + 2 * STUDS * (STUDS - 1));
+    primitive studs = pyramids(60);
+    assert_int_equal(count_creases(&studs, &free_ends), 4 * STUDS * STUDS + BETWEEN);
     primitive_release(&studs);
 }
 
