@@ -264,9 +264,9 @@ group_draw() {
     # Where most is seen: of pictures and vectors, of what is selected; not beside another viewpoint, nor on sheets of views.
     row 0 '' 'x.png' draw "$examples/pump.glb" $small --view best -o x.png
     row 0 '' 'x.svg' draw "$examples/pump.glb" --view best --look technical -o x.svg --select '*gear'
-    row 2 'exclude each other' '' draw "$examples/pump.glb" --view best --eye 1,2,3 -o x.png
-    row 2 'allowed is iso, front' '' draw "$examples/pump.glb" --views front,best --look technical -o x.svg
-    row 2 "selection|select" '' draw "$examples/pump.glb" --view best --select '[' -o x.png
+    row 1 'exclude each other' '' draw "$examples/pump.glb" --view best --eye 1,2,3 -o x.png
+    row 1 'allowed is iso, front' '' draw "$examples/pump.glb" --views front,best --look technical -o x.svg
+    row 1 "selector" '' draw "$examples/pump.glb" --view best --select '[' -o x.png
     row 0 '' 'r.json x.png' draw "$examples/walker.bvh" $small --view right -o x.png --poses 4 --report r.json
     grep -q '"reason": "turn"' r.json || complain "no turn is told"
     row 0 '' 'x.svg' draw "$examples/walker.bvh" $small --view right -o x.svg --look line --poses auto --motion ghosts
