@@ -14,15 +14,29 @@
 #define SHORT 0.6
 /* Beside other lines edges go on as one another when they turn by less: cosine. */
 #define STRAIGHT 0.7
-enum { ROUNDS = 4, CROWD_MOST = 16 };
+/* Where normals are smooth, chains between other lines turn so many times as much as their surroundings, and those with
+ * free ends so many times: of a coarse mesh all edges turn. */
+#define STANDS_OUT  2.0
+#define STANDS_FREE 2.5
+/* Round things have five sides or more: a chain that turns by as much as those is a corner. */
+#define CORNER (72 * DEGREE)
+/* Faces around a chain that are more than this fraction of what hangs together with them tell nothing. */
+#define AROUND_MOST 0.5
+/* There lines that lie in the middle of a surface, with two free ends, are longer than so many mean edges. */
+#define ISLAND_EDGES 3
+enum { ROUNDS = 16, CROWD_MOST = 16, AROUND_RINGS = 2 };
 #define NO_EDGE UINT32_MAX
 
 typedef struct chain_net {
-    edge_mesh *m;
-    uint32_t  *starts, *lines; /* per vertex, and one more: the lines that meet there */
-    uint32_t (*links)[2];      /* per edge and end: the edge that it goes on as */
-    uint32_t *chain;           /* edges of the chain that is walked along */
+    edge_mesh            *m;
+    const crease_facts   *facts;
+    const crease_measure *measured;
+    uint32_t             *starts, *lines; /* per vertex, and one more: the lines that meet there */
+    uint32_t (*links)[2];                 /* per edge and end: the edge that it goes on as */
+    uint32_t *chain;                      /* edges of the chain that is walked along */
     uint8_t  *seen;
+    uint32_t *around, *stamps, stamp; /* faces around a chain; per face: the last chain that it was found for */
+    uint32_t *pieces, *sizes;         /* per face: its piece, by the piece's first face; per such: how many faces */
 } chain_net;
 
 typedef struct chain_facts {
@@ -58,14 +72,19 @@ static double direction_of(const edge_mesh *m, const mesh_edge *e, uint32_t from
     return length;
 }
 
-/* Radians, over the faces of an edge. */
-static double turn_of(const edge_mesh *m, const mesh_edge *e)
+/* Radians, from one face to another one. */
+static double turn_between(const edge_mesh *m, uint32_t face, uint32_t other)
 {
-    vec3   n = m->normals[e->face[0]], o = m->normals[e->face[1]];
+    vec3   n = m->normals[face], o = m->normals[other];
     double x = (double)n.y * o.z - (double)n.z * o.y, y = (double)n.z * o.x - (double)n.x * o.z,
            z = (double)n.x * o.y - (double)n.y * o.x,
            cosine = (double)n.x * o.x + (double)n.y * o.y + (double)n.z * o.z;
-    double turn = atan2(sqrt(x * x + y * y + z * z), cosine);
+    return atan2(sqrt(x * x + y * y + z * z), cosine);
+}
+
+static double turn_of(const edge_mesh *m, const mesh_edge *e)
+{
+    double turn = turn_between(m, e->face[0], e->face[1]);
     return e->flags & EDGE_TWISTED ? 180 * DEGREE - turn : turn;
 }
 
@@ -160,8 +179,107 @@ static chain_facts follow(chain_net *n, uint32_t start)
     return out;
 }
 
+/* --- the surface around a chain -------------------------------------------------------------------------- */
+
+/* Do the file's normals go on over all of a chain? */
+static bool is_smooth(const chain_net *n, size_t count)
+{
+    const edge_mesh *m = n->m;
+    if (!n->facts->shading)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const mesh_edge *e = &m->edges[n->chain[i]];
+        const uint32_t  *corners = m->faces[e->face[0]];
+        uint32_t         k = corners[0] == e->vertex[0] ? 0 : corners[1] == e->vertex[0] ? 1 : 2;
+        if (n->facts->shading[3 * e->face[0] + k] != SHADED_SMOOTH)
+            return false;
+    }
+    return true;
+}
+
+static void find_face(chain_net *n, uint32_t face, uint32_t *count)
+{
+    if (n->stamps[face] == n->stamp)
+        return;
+    n->stamps[face] = n->stamp;
+    n->around[(*count)++] = face;
+}
+
+/* From the faces that were found so many rings on. */
+static void find_rings(chain_net *n, uint32_t *count, uint32_t rings)
+{
+    uint32_t next = 0;
+    for (uint32_t ring = 0; ring < rings && next < *count; ring++)
+        for (uint32_t end = *count; next < end; next++)
+            for (uint32_t k = 0; k < 3; k++) {
+                uint32_t other = n->facts->opposite[3 * n->around[next] + k];
+                if (other != EDGE_NO_FACE)
+                    find_face(n, other / 3, count);
+            }
+}
+
+/* What hangs together. */
+static void find_pieces(chain_net *n)
+{
+    n->stamp++;
+    for (uint32_t f = 0; f < n->m->face_count; f++) {
+        uint32_t count = 0;
+        find_face(n, f, &count);
+        find_rings(n, &count, UINT32_MAX);
+        for (uint32_t i = 0; i < count; i++)
+            n->pieces[n->around[i]] = f;
+        if (count > 0)
+            n->sizes[f] = count;
+    }
+}
+
+/* The faces beside a chain, and those around them; how many. */
+static uint32_t find_around(chain_net *n, size_t edges)
+{
+    uint32_t count = 0;
+    n->stamp++;
+    for (size_t i = 0; i < edges; i++)
+        for (int k = 0; k < 2; k++)
+            find_face(n, n->m->edges[n->chain[i]].face[k], &count);
+    find_rings(n, &count, AROUND_RINGS);
+    return count;
+}
+
+/* By how much the edges of faces around a chain turn, its own left out: the mean by length, of every face's edges. 0
+ * where the chain is about all that there is. */
+static double turn_around(chain_net *n, const chain_facts *f)
+{
+    const edge_mesh *m = n->m;
+    const uint32_t   count = find_around(n, f->count);
+    double           turn = -2 * f->turn * f->length, whole = -2 * f->length, way[3]; /* both its faces are there */
+    if (count > AROUND_MOST * n->sizes[n->pieces[n->around[0]]])
+        return 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t *corners = m->faces[n->around[i]], other = n->facts->opposite[3 * n->around[i] + k];
+            if (other == EDGE_NO_FACE)
+                continue;
+            mesh_edge e = {.vertex = {corners[k], corners[(k + 1) % 3]}};
+            double    length = direction_of(m, &e, e.vertex[0], way);
+            turn += length * turn_between(m, n->around[i], other / 3);
+            whole += length;
+        }
+    return whole > 0 ? turn / whole : 0;
+}
+
+/* Is a chain one of the edges that a coarse mesh of a curved surface has everywhere? */
+static bool is_of_mesh(chain_net *n, const chain_facts *f)
+{
+    if (!is_smooth(n, f->count) || f->turn >= CORNER)
+        return false;
+    return (f->free_ends == 2 && f->length < ISLAND_EDGES * n->measured->mean_edge) ||
+           f->turn < (f->free_ends > 0 ? STANDS_FREE : STANDS_OUT) * turn_around(n, f);
+}
+
+/* --- all ------------------------------------------------------------------------------------------------- */
+
 /* One round; whether chains went. */
-static bool judge_chains(chain_net *n, double size, double weak_turn)
+static bool judge_chains(chain_net *n, double weak_turn)
 {
     edge_mesh *m = n->m;
     bool       gone = false;
@@ -172,8 +290,8 @@ static bool judge_chains(chain_net *n, double size, double weak_turn)
         if (n->seen[i] || !is_chained(&m->edges[i]))
             continue;
         chain_facts f = follow(n, i);
-        bool        weak = f.turn < weak_turn && f.length < SHORT * size;
-        bool        goes = weak && f.free_ends > 0;
+        bool        may_go = weak_turn > 0 && f.length < SHORT * n->measured->size;
+        bool        goes = may_go && ((f.turn < weak_turn && f.free_ends > 0) || is_of_mesh(n, &f));
         for (size_t k = 0; k < f.count; k++) {
             mesh_edge *e = &m->edges[n->chain[k]];
             e->turn = goes ? 0 : (float)f.turn;
@@ -184,24 +302,39 @@ static bool judge_chains(chain_net *n, double size, double weak_turn)
     return gone;
 }
 
-bool crease_chains_judge(edge_mesh *m, double size, double angle, bool hand_made)
+static void close_net(chain_net *n)
 {
-    const double weak_turn = hand_made && !m->said ? fmin(WEAK, WEAK_TIMES * angle) : 0;
-    size_t       edges = (size_t)m->edge_count + 1;
-    chain_net    n = {.m = m};
+    mem_free(n->starts);
+    mem_free(n->lines);
+    mem_free(n->links);
+    mem_free(n->chain);
+    mem_free(n->seen);
+    mem_free(n->around);
+    mem_free(n->stamps);
+    mem_free(n->pieces);
+    mem_free(n->sizes);
+}
+
+bool crease_chains_judge(edge_mesh *m, const crease_facts *facts, const crease_measure *measured, bool hand_made)
+{
+    const double weak_turn = hand_made && !m->said ? fmin(WEAK, WEAK_TIMES * facts->angle) : 0;
+    size_t       edges = (size_t)m->edge_count + 1, faces = (size_t)m->face_count + 1;
+    chain_net    n = {.m = m, .facts = facts, .measured = measured};
     n.starts = mem_alloc(((size_t)m->vertex_count + 2) * sizeof *n.starts);
     n.lines = mem_alloc(2 * edges * sizeof *n.lines);
     n.links = mem_alloc(edges * sizeof *n.links);
     n.chain = mem_alloc(edges * sizeof *n.chain);
     n.seen = mem_alloc(edges);
-    bool good = n.starts && n.lines && n.links && n.chain && n.seen;
+    n.around = mem_alloc(faces * sizeof *n.around);
+    n.stamps = mem_calloc(faces, sizeof *n.stamps);
+    n.pieces = mem_alloc(faces * sizeof *n.pieces);
+    n.sizes = mem_alloc(faces * sizeof *n.sizes);
+    bool good = n.starts && n.lines && n.links && n.chain && n.seen && n.around && n.stamps && n.pieces && n.sizes;
+    if (good && weak_turn > 0)
+        find_pieces(&n);
     for (int round = 0; good && round < ROUNDS; round++)
-        if (!judge_chains(&n, size, weak_turn))
+        if (!judge_chains(&n, weak_turn))
             break;
-    mem_free(n.starts);
-    mem_free(n.lines);
-    mem_free(n.links);
-    mem_free(n.chain);
-    mem_free(n.seen);
+    close_net(&n);
     return good;
 }

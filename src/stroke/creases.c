@@ -786,7 +786,7 @@ bool creases_judge(edge_mesh *m, const crease_facts *facts, const crease_measure
     good = good && follow_chains(&j);
     if (good) {
         set_flags(&j);
-        good = crease_chains_judge(m, j.size, facts->angle, is_hand_made(m, facts));
+        good = crease_chains_judge(m, facts, measured, is_hand_made(m, facts));
     }
     mem_free(j.verdicts);
     mem_free(j.stamps);

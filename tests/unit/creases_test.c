@@ -459,6 +459,128 @@ static void weak_creases_end_on_lines(void **state)
     assert_true(least == most && fabs(least - 34 * degree) < 3 * degree);
 }
 
+/* How many creases a mesh has, and how many of their ends are free. */
+static uint32_t count_creases(const primitive *p, uint32_t *free_ends)
+{
+    edge_mesh e = sort(p, 30);
+    uint32_t  count = 0;
+    *free_ends = 0;
+    for (uint32_t i = 0; i < e.edge_count; i++)
+        for (int k = 0; k < 2 && e.edges[i].flags & EDGE_CREASE; k++) {
+            count += k == 0;
+            *free_ends += degree_of(&e, e.edges[i].vertex[k]) == 1;
+        }
+    edge_mesh_release(&e);
+    return count;
+}
+
+enum { STUDS = 12, BETWEEN = 2 * STUDS * (STUDS - 1) };
+
+/* Rows of pyramids with smooth normals. Sides that rise by 60 degrees meet at 76, and at 120 between the pyramids,
+ * sides that rise by 45 at 60 and at 90. */
+static primitive pyramids(double rise)
+{
+    enum { SIDE = STUDS + 1 };
+    primitive p = empty_primitive(SIDE * SIDE + STUDS * STUDS, 12 * STUDS * STUDS);
+    uint32_t  at = 0;
+    for (uint32_t j = 0; j < SIDE; j++)
+        for (uint32_t i = 0; i < SIDE; i++)
+            p.positions[j * SIDE + i] = (vec3){(float)i, (float)j, 0};
+    for (uint32_t j = 0; j < STUDS; j++)
+        for (uint32_t i = 0; i < STUDS; i++) {
+            const uint32_t n = j * SIDE + i, top = SIDE * SIDE + j * STUDS + i,
+                           base[4] = {n, n + 1, n + SIDE + 1, n + SIDE};
+            p.positions[top] = (vec3){(float)i + 0.5f, (float)j + 0.5f, (float)(0.5 * tan(rise * degree))};
+            for (uint32_t k = 0; k < 4; k++) {
+                const uint32_t corners[3] = {base[k], base[(k + 1) % 4], top};
+                memcpy(p.indices + at, corners, sizeof corners);
+                at += 3;
+            }
+        }
+    p.normals = mem_alloc(p.vertex_count * sizeof *p.normals);
+    for (uint32_t i = 0; i < p.vertex_count; i++)
+        p.normals[i] = (vec3){0, 0, 1};
+    return p;
+}
+
+/* A coarse ball of uneven faces, or two bowls so high that meet in a rim of four times so many edges as `cells`, at 120
+ * degrees where they are 0.4 high, at 66 where they are 0.9 high. */
+static uint32_t coarse_creases(uint32_t cells, double height, uint32_t seed, bool normals, uint32_t *free_ends)
+{
+    primitive p = ball(cells, 0, (place3){1, 1, 1});
+    p.normals = normals ? mem_alloc(p.vertex_count * sizeof *p.normals) : NULL;
+    for (uint32_t i = 0; i < p.vertex_count; i++) {
+        vec3 *at = &p.positions[i];
+        float inwards = 1 - 0.5f * fabsf(at->z);
+        if (normals)
+            p.normals[i] = *at; /* one at a place, as programs give them to what is to look curved */
+        if (height > 0)
+            *at = (vec3){at->x * inwards, at->y * inwards, (float)height * at->z};
+        at->x += (float)seed; /* shaken otherwise */
+    }
+    shake(&p, (height > 0 ? 0.24 : 0.48) / cells); /* edges are about 1.6 / cells long */
+    uint32_t count = count_creases(&p, free_ends);
+    primitive_release(&p);
+    return count;
+}
+
+/* The edges of a coarse mesh turn as features do. Where it is shaded as a curved surface, lines are what turns much
+ * more than all around it; where nothing says so, the edges are the shape. */
+static void coarse_meshes_of_curved_surfaces_have_few_creases(void **state)
+{
+    enum { BALLS = 20 };
+    uint32_t free_ends, scraps = 0, loose = 0, faceted = 0;
+    (void)state;
+    for (uint32_t seed = 0; seed < BALLS; seed++) {
+        scraps += coarse_creases(4, 0, seed, true, &free_ends);
+        loose += free_ends;
+        assert_int_equal(coarse_creases(4, 0.4, seed, true, &free_ends), 16);
+        assert_int_equal(free_ends, 0);
+        assert_int_equal(coarse_creases(8, 0.9, seed, true, &free_ends), 32);
+        assert_int_equal(free_ends, 0);
+        faceted += coarse_creases(4, 0, seed, false, &free_ends);
+    }
+    printf("%d coarse balls: %u creases, %u free ends\n", BALLS, scraps, loose);
+    assert_true(scraps < BALLS / 2 && loose <= 2); /* a vertex that stands out far enough is a peak */
+    assert_true(faceted > 50 * BALLS);
+    primitive quilt = pyramids(45);
+    assert_int_equal(count_creases(&quilt, &free_ends), BETWEEN);
+    primitive_release(&quilt);
+}
+
+/* What is sharp all over stays, and so does what has flat faces, though its normals are smooth. */
+static void sharp_solids_keep_their_edges(void **state)
+{
+    uint32_t  free_ends;
+    primitive box = ball(1, 0, (place3){1, 2, 3});
+    (void)state;
+    assert_int_equal(count_creases(&box, &free_ends), 12);
+    box.normals = mem_alloc(box.vertex_count * sizeof *box.normals);
+    memcpy(box.normals, box.positions, box.vertex_count * sizeof *box.normals);
+    assert_int_equal(count_creases(&box, &free_ends), 12);
+    primitive_release(&box);
+    /* All edges of an octahedron turn by 71 degrees, but there is nothing else to compare them with. */
+    primitive diamond = empty_primitive(6, 24);
+    diamond.normals = mem_alloc(6 * sizeof *diamond.normals);
+    for (uint32_t i = 0; i < 6; i++) {
+        float at[3] = {0, 0, 0};
+        at[i / 2] = i % 2 ? -1 : 1;
+        diamond.positions[i] = diamond.normals[i] = (vec3){at[0], at[1], at[2]};
+    }
+    for (uint32_t k = 0; k < 8; k++) {
+        const uint32_t x = k & 1, y = 2 + (k >> 1 & 1), z = 4 + (k >> 2 & 1), odd = (x + y + z) & 1,
+                       corners[3] = {x, odd ? z : y, odd ? y : z};
+        memcpy(diamond.indices + 3 * k, corners, sizeof corners);
+    }
+    assert_int_equal(count_creases(&diamond, &free_ends), 12);
+    primitive_release(&diamond);
+    const profile hexagon = {{{2, 0}, {1, 1.732}, {-1, 1.732}, {-2, 0}, {-1, -1.732}, {1, -1.732}}, 6};
+    assert_int_equal(lines_of(&hexagon, 30), 6);
+    primitive studs = pyramids(60);
+    assert_int_equal(count_creases(&studs, &free_ends), 4 * STUDS * STUDS + BETWEEN);
+    primitive_release(&studs);
+}
+
 /* A turned body: a plane at the top and the bottom, and rings between them. How many creases its ring `ring` has. */
 static uint32_t ring_creases(const double (*profile)[2], uint32_t rings, uint32_t ring, double crease)
 {
@@ -515,12 +637,19 @@ static void rims_of_chamfers_are_creases(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tessellated_cylinders_are_round), cmocka_unit_test(fillets_are_round_and_chamfers_are_not),
-        cmocka_unit_test(narrow_fillets_are_one_line),     cmocka_unit_test(thin_rods_have_no_creases),
-        cmocka_unit_test(noise_of_scans_is_no_crease),     cmocka_unit_test(edges_of_scans_stay),
-        cmocka_unit_test(normals_of_files_are_believed),   cmocka_unit_test(sharp_edges_stand_alone),
-        cmocka_unit_test(creases_fade_out_whole),          cmocka_unit_test(creases_do_not_fray),
-        cmocka_unit_test(weak_creases_end_on_lines),       cmocka_unit_test(rims_of_chamfers_are_creases)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tessellated_cylinders_are_round),
+                                       cmocka_unit_test(fillets_are_round_and_chamfers_are_not),
+                                       cmocka_unit_test(narrow_fillets_are_one_line),
+                                       cmocka_unit_test(thin_rods_have_no_creases),
+                                       cmocka_unit_test(noise_of_scans_is_no_crease),
+                                       cmocka_unit_test(edges_of_scans_stay),
+                                       cmocka_unit_test(normals_of_files_are_believed),
+                                       cmocka_unit_test(sharp_edges_stand_alone),
+                                       cmocka_unit_test(creases_fade_out_whole),
+                                       cmocka_unit_test(creases_do_not_fray),
+                                       cmocka_unit_test(weak_creases_end_on_lines),
+                                       cmocka_unit_test(rims_of_chamfers_are_creases),
+                                       cmocka_unit_test(coarse_meshes_of_curved_surfaces_have_few_creases),
+                                       cmocka_unit_test(sharp_solids_keep_their_edges)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
