@@ -1,7 +1,6 @@
 /* Planes of a coarse mesh. Where a bevel is joined smoothly with a wide face, normals at the rim lean over to the
  * bevel, and edges across the face would bulge with them. What such a face is can be seen by its neighbours: they are
  * small. */
-#include <stdlib.h>
 
 #include "base/memory.h"
 #include "scene/flat_pieces.h"
