@@ -83,10 +83,10 @@ static void test_open_sides_are_looked_into(void **state)
     (void)state;
     static const float low[3] = {-0.8F, -0.9F, -0.8F}, high[3] = {0.8F, 0.5F, 0.8F};
     for (unsigned side = 0; side < 6; side++) {
-        lmn_scene *scene = new_scene();
-        double     to_eye[3];
         if (side / 2 == 1)
             continue; /* from below nobody looks */
+        lmn_scene *scene = new_scene();
+        double     to_eye[3];
         add_box(scene, "box", LOW, HIGH, 1U << side);
         for (int i = 0; i < 4; i++) {
             float from[3], to[3];
