@@ -94,13 +94,6 @@ lmn_status depict_clear(lmn_scene *scene, lmn_error *error)
 /* --- the job
  * ------------------------------------------------------------------------------------------------------------ */
 
-static bool is_hidden(const lmn_scene *s, int32_t n)
-{
-    while (n != NONE && !s->nodes[n].hidden)
-        n = s->nodes[n].parent;
-    return n != NONE;
-}
-
 /* The box of all that the scene has, and the size of what pictures are fitted to, wherever it goes. */
 static lmn_status measure_scene(depict_job *j, lmn_error *error)
 {
@@ -111,7 +104,7 @@ static lmn_status measure_scene(depict_job *j, lmn_error *error)
         const pose *p = NULL;
         status = depict_pose(&p, j, staging_moment(j, i), error);
         for (size_t k = 0; k < j->scene->part_count && status == LMN_OK; k++)
-            if (!is_hidden(j->scene, j->scene->parts[k].node)) {
+            if (!scene_is_hidden(j->scene, j->scene->parts[k].node)) {
                 j->box = box3_union(j->box, p->part_boxes[k]);
                 fitted = box3_union(fitted, scene_fitted_box(j->scene, k, p->part_boxes[k]));
             }
@@ -154,7 +147,7 @@ static lmn_status place_viewer(depict_job *j, const lmn_scene *scene, const lmn_
         fit_body body = {.pose = &p, .fitted = fitted, .part_count = p.part_count, .box = box3_empty()};
         p.fit_boxes = swept ? swept : p.part_boxes;
         for (size_t i = 0; i < p.part_count; i++) {
-            fitted[i] = !is_hidden(scene, scene->parts[i].node);
+            fitted[i] = !scene_is_hidden(scene, scene->parts[i].node);
             if (fitted[i])
                 body.box = box3_union(body.box, scene_fitted_box(scene, i, p.fit_boxes[i]));
         }

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "depict/inset.h"
+#include "scene/content.h"
 #include "depict/camera_shot.h"
 
 typedef struct inset_values {
@@ -78,13 +79,6 @@ static lmn_status put(inset *i, glyph_mesh *m, const char *glyph, colour tint, l
         error);
     glyph_mesh_release(m);
     return status;
-}
-
-static bool is_seen(const lmn_scene *s, int32_t n)
-{
-    while (n != NONE && !s->nodes[n].hidden)
-        n = s->nodes[n].parent;
-    return n == NONE;
 }
 
 static colour own_colour(const lmn_scene *s, const primitive *p)
@@ -198,7 +192,7 @@ static lmn_status put_all(inset *i, const pose *p, lmn_error *error)
     const colour        tint = depict_tint(i->when, v->colour);
     lmn_status          status = put_paper(i, error);
     for (size_t k = 0; k < i->job->scene->part_count && status == LMN_OK; k++)
-        if (is_seen(i->job->scene, i->job->scene->parts[k].node))
+        if (!scene_is_hidden(i->job->scene, i->job->scene->parts[k].node))
             status = put_part(i, p, k, error);
     if (status == LMN_OK)
         status = put_bars(i, tint, error);

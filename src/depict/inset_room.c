@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "scene/content.h"
 #include "depict/inset.h"
 
 /* The page in cells, which know how much is seen in them. */
@@ -65,13 +66,6 @@ static void mark_mesh(ink *i, const vec3 *positions, const uint32_t *indices, si
     }
 }
 
-static bool is_seen(const lmn_scene *s, int32_t n)
-{
-    while (n != NONE && !s->nodes[n].hidden)
-        n = s->nodes[n].parent;
-    return n == NONE;
-}
-
 /* What things stand on may be covered rather than things. */
 static float weight_of(const lmn_scene *s, int32_t n)
 {
@@ -86,7 +80,7 @@ static lmn_status mark_scene(ink *i, lmn_error *error)
     lmn_status        status = depict_pose(&p, j, j->when.seconds, error);
     for (size_t k = 0; k < j->scene->part_count && status == LMN_OK; k++) {
         const int32_t own = j->scene->parts[k].node, mesh_index = j->scene->nodes[own].mesh;
-        const mesh   *m = mesh_index == NONE || !is_seen(j->scene, own) ? NULL : &j->scene->meshes[mesh_index];
+        const mesh   *m = mesh_index == NONE || scene_is_hidden(j->scene, own) ? NULL : &j->scene->meshes[mesh_index];
         i->weight = weight_of(j->scene, own);
         for (size_t n = 0; m && n < m->primitive_count && status == LMN_OK; n++) {
             const primitive *from = &m->primitives[n];

@@ -17,6 +17,7 @@
 #include "look/selector.h"
 #include "plan/time.h"
 #include "pose/pose.h"
+#include "scene/content.h"
 
 enum {
     SIDE = 128,              /* pixels of a try */
@@ -140,10 +141,7 @@ static size_t count_triangles(const lmn_scene *scene, size_t part)
 
 static bool is_shown(const lmn_scene *scene, const selector *wanted, size_t part)
 {
-    int32_t n = scene->parts[part].node;
-    while (n != NONE && !scene->nodes[n].hidden)
-        n = scene->nodes[n].parent;
-    return n == NONE && !scene->parts[part].ghost && (!wanted || selector_matches(wanted, scene, part));
+    return !scene_is_hidden(scene, scene->parts[part].node) && (!wanted || selector_matches(wanted, scene, part));
 }
 
 /* Items are the caller's to free, after an error too. */
