@@ -60,6 +60,7 @@ static void fill_desc(draw_session *s)
     d.lenient = v->lenient;
     d.maps = v->maps != NULL;
     d.profile = v->report != NULL;
+    s->run.bar = &s->progress; /* the view is looked for before any frame */
     d.progress = s->frames.given ? frame_report : progress_report;
     d.progress_user = s->frames.given ? (void *)&s->run : &s->progress;
     s->desc = d;

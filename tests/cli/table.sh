@@ -264,6 +264,7 @@ group_draw() {
     # Where most is seen: of pictures and vectors, of what is selected; not beside another viewpoint, nor on sheets of views.
     row 0 '' 'x.png' draw "$examples/pump.glb" $small --view best -o x.png
     row 0 '' 'x.svg' draw "$examples/pump.glb" --view best --look technical -o x.svg --select '*gear'
+    row 0 '' 'x-0000.png x-0001.png' draw "$examples/fox.glb" $small --view best --clip Run --frames 0:1:24 -o 'x-{frame}.png'
     row 1 'exclude each other' '' draw "$examples/pump.glb" --view best --eye 1,2,3 -o x.png
     row 1 'allowed is iso, front' '' draw "$examples/pump.glb" --views front,best --look technical -o x.svg
     row 1 "selector" '' draw "$examples/pump.glb" --view best --select '[' -o x.png
