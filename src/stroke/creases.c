@@ -246,8 +246,9 @@ static bool is_flat(const edge_mesh *m, uint32_t half, uint32_t other, double le
     return cosine > 0 && dot(c, c) < most * most;
 }
 
-/* The next edge that turns, and how far away it is; false where the way ends before. */
-static bool next_step(const judge *j, strip_walk *w, step *out)
+/* The next edge that turns, and how far away it is; false where the way ends before, or where it is farther away than
+ * `most`. */
+static bool next_step(const judge *j, strip_walk *w, double most, step *out)
 {
     const edge_mesh *m = j->m;
     double           width = 0;
@@ -259,6 +260,8 @@ static bool next_step(const judge *j, strip_walk *w, step *out)
         vector rim = unit(minus(position(m, half_next(left)), position(m, left))),
                out_of = cross(rim, face_normal(m, left / 3));
         width += distance;
+        if (width > most)
+            return false;
         w->at = along(w->at, distance, w->direction);
         w->half = j->facts->opposite[left];
         double lengthways = dot(w->direction, rim), across = dot(w->direction, out_of),
@@ -283,7 +286,7 @@ static int find_steps(const judge *j, uint32_t half, double own, step *out, int 
 {
     strip_walk w = walk_from(j->m, half, own);
     int        count = 0;
-    while (count < most && next_step(j, &w, &out[count]))
+    while (count < most && next_step(j, &w, INFINITY, &out[count]))
         count++;
     return count;
 }
@@ -323,7 +326,7 @@ static bool is_rounding(const judge *j, uint32_t half, double own)
 }
 
 /* One side of a rounding: by how much it turns on the same way, over how many steps, its widest strip, and the strip of
- * the face that it ends in. */
+ * the face that it ends in, infinite where that is so wide that it ends any rounding. */
 typedef struct turning {
     double turn, widest, beyond;
     int    count;
@@ -334,7 +337,9 @@ static turning turn_within(const judge *j, uint32_t half, double own, double wid
     strip_walk w = walk_from(j->m, half, own);
     turning    out = {0, 0, INFINITY, 0};
     step       next;
-    while (next_step(j, &w, &next)) { /* no farther than is asked for */
+    /* No farther than is asked for: no strip is wider than `width`, so that what is wider than that by enough is. */
+    const double enough = ENDS_IN_FACE * width;
+    while (next_step(j, &w, enough, &next)) {
         width -= next.width;
         if (width < 0 || (next.turn < 0) != (own < 0)) {
             out.beyond = (next.turn < 0) != (own < 0) ? INFINITY : next.width;
@@ -392,17 +397,18 @@ static float unrest_at(const judge *j, uint32_t half)
     const uint32_t *opposite = j->facts->opposite;
     const uint32_t  other = opposite[half], around[4] = {half_next(half), half_next(half_next(half)), half_next(other),
                                                          half_next(half_next(other))};
-    double          own = turn_over(j->m, half, other), sum = 0, least = fabs(own);
+    double          own = turn_over(j->m, half, other), sum = 0;
+    if (fabs(own) > TORN || fabs(own) < FLAT)
+        return -1;
     for (int k = 0; k < 4; k++) {
         if (opposite[around[k]] == EDGE_NO_FACE)
             return -1;
         double turn = turn_over(j->m, around[k], opposite[around[k]]);
-        if (fabs(turn) > TORN)
+        if (fabs(turn) > TORN || fabs(turn) < FLAT)
             return -1;
         sum += turn;
-        least = fmin(least, fabs(turn));
     }
-    return fabs(own) > TORN || least < FLAT ? -1 : (float)fabs(own - 0.25 * sum);
+    return (float)fabs(own - 0.25 * sum);
 }
 
 /* How much neighbouring edges of a sampling differ, by a measure that features do not disturb. */

@@ -141,8 +141,11 @@ static float height_above(const edge_mesh *m, uint32_t face, uint32_t neighbour_
     uint32_t beyond = next_corner(next_corner(neighbour_corner));
     vec3     free = m->positions[corner_vertex(m, beyond)],
          from_edge = minus(free, m->positions[corner_vertex(m, neighbour_corner)]);
-    float height = dot(from_edge, m->normals[face]),
-          rounding = ROUNDED * fmaxf(fmaxf(fabsf(free.x), fabsf(free.y)), fabsf(free.z));
+    float height = dot(from_edge, m->normals[face]), x = fabsf(free.x), y = fabsf(free.y),
+          z = fabsf(free.z), /* fmaxf is a call */
+        rounding = ROUNDED * (x > y   ? x > z ? x : z
+                              : y > z ? y
+                                      : z);
     return fabsf(height) <= FLAT * sqrtf(dot(from_edge, from_edge)) || fabsf(height) <= rounding ? 0 : height;
 }
 

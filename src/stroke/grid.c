@@ -21,22 +21,24 @@ typedef struct cell_range {
     int32_t c0, r0, c1, r1;
 } cell_range;
 
-static int32_t cell_of(int32_t at, int32_t low, int32_t cell, int32_t count)
+/* The quotient as a product, half a unit from where rounding could change it: four divisions a triangle are much of
+ * what a grid takes. */
+static int32_t cell_of(int32_t at, int32_t low, double cells, int32_t count)
 {
     int32_t offset = at - low; /* window coordinates are far from the limits of 32 bits */
     if (offset < 0)
         return -1;
-    int32_t number = offset / cell;
+    int32_t number = (int32_t)((offset + 0.5) * cells);
     return number < count ? number : count;
 }
 
 /* False when the box lies outside the grid. */
 static bool range_of(const grid_level *l, int32_t low_x, int32_t low_y, int32_t high_x, int32_t high_y, cell_range *out)
 {
-    out->c0 = cell_of(low_x, l->low_x, l->cell, l->columns);
-    out->r0 = cell_of(low_y, l->low_y, l->cell, l->rows);
-    out->c1 = cell_of(high_x, l->low_x, l->cell, l->columns);
-    out->r1 = cell_of(high_y, l->low_y, l->cell, l->rows);
+    out->c0 = cell_of(low_x, l->low_x, l->cells, l->columns);
+    out->r0 = cell_of(low_y, l->low_y, l->cells, l->rows);
+    out->c1 = cell_of(high_x, l->low_x, l->cells, l->columns);
+    out->r1 = cell_of(high_y, l->low_y, l->cells, l->rows);
     if (out->c1 < 0 || out->r1 < 0 || out->c0 >= l->columns || out->r0 >= l->rows)
         return false;
     out->c0 = out->c0 < 0 ? 0 : out->c0;
@@ -126,11 +128,12 @@ static bool make_levels(window_grid *g, const stroke_view *v)
 {
     double  width = v->camera.width * v->units, height = v->camera.height * v->units;
     double  wanted = sqrt(width * height / ((double)v->triangle_count / 2 + 256)), finest = fmax(width, height) / 1024;
-    int32_t cell = (int32_t)fmax(fmax(wanted, finest), 64);
+    int32_t cell = (int32_t)fmax(fmax(1.5 * wanted, finest), 64);
     for (int k = 0; k < GRID_LEVELS; k++) {
         grid_level *l = &g->levels[k];
         *l = (grid_level){(int32_t)(-width / 2),
                           (int32_t)(-height / 2),
+                          1.0 / cell,
                           cell,
                           (int32_t)(width / cell) + 1,
                           (int32_t)(height / cell) + 1,
@@ -197,14 +200,9 @@ static uint32_t divide_cell(window_grid *g, const stroke_view *v, const grid_lev
             side = (int32_t)sqrt((double)count / FEW);
     side = side < SUB_SIDE_MAX ? side : SUB_SIDE_MAX;
     size_t     cells = (size_t)side * (size_t)side;
-    grid_level sub = {l->low_x + column * l->cell,
-                      l->low_y + row * l->cell,
-                      (l->cell + side - 1) / side,
-                      side,
-                      side,
-                      NULL,
-                      NULL,
-                      false};
+    int32_t    cell = (l->cell + side - 1) / side;
+    grid_level sub = {
+        l->low_x + column * l->cell, l->low_y + row * l->cell, 1.0 / cell, cell, side, side, NULL, NULL, false};
     if (!open_sub(g, cells)) /* of nested ones, l's own numbers may have moved */
         return 0;
     sub.starts = g->sub_starts + g->sub_start_count;
@@ -339,9 +337,57 @@ static bool enter_all(grid_job *j)
     for (int k = 0; k < GRID_LEVELS; k++)
         total = place_runs(j, k, total);
     j->g->entries = j->entries = mem_alloc(((size_t)total + 1) * sizeof *j->entries);
+    j->g->entry_count = total;
     if (j->entries)
         threads_for(j->run_count, 1, enter_runs, j);
     return j->entries;
+}
+
+/* --- corners -------------------------------------------------------------------------------------------- */
+
+typedef struct corner_job {
+    window_grid       *g;
+    const stroke_view *v;
+} corner_job;
+
+static void put_corners(size_t begin, size_t end, void *user)
+{
+    const corner_job   *j = user;
+    const window_grid  *g = j->g;
+    const grid_corners *c = &g->corners;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t               number = i < g->entry_count ? g->entries[i] : g->sub_entries[i - g->entry_count];
+        const window_triangle *t = &j->v->triangles[number];
+        const window_point     p[3] = {j->v->points[t->v[0]], j->v->points[t->v[1]], j->v->points[t->v[2]]};
+        const double           side = window_side(p[0], p[1], p[2]);
+        for (int k = 0; k < 3; k++) {
+            c->x[k][i] = (float)p[k].x;
+            c->y[k][i] = (float)p[k].y;
+        }
+        c->turn[i] = (float)((side > 0) - (side < 0));
+        c->near_z[i] = j->v->boxes[number].near_z;
+    }
+}
+
+static bool make_corners(window_grid *g, const stroke_view *v)
+{
+    enum { NUMBERS = 8, SMALLEST = 4096 };
+    grid_corners *c = &g->corners;
+    size_t        count = g->entry_count + g->sub_entry_count, stride = count + GRID_LANES;
+    corner_job    job = {g, v};
+    c->memory = mem_alloc(NUMBERS * stride * sizeof *c->memory);
+    if (!c->memory)
+        return false;
+    for (int k = 0; k < 3; k++) {
+        c->x[k] = c->memory + (size_t)k * stride;
+        c->y[k] = c->memory + (size_t)(3 + k) * stride;
+    }
+    c->near_z = c->memory + 6 * stride;
+    c->turn = c->memory + 7 * stride;
+    for (int k = 0; k < NUMBERS; k++)
+        memset(c->memory + (size_t)k * stride + count, 0, GRID_LANES * sizeof *c->memory);
+    threads_for(count, SMALLEST, put_corners, &job);
+    return true;
 }
 
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
@@ -352,7 +398,7 @@ lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
     for (uint32_t r = 0; r < job.run_count; r++)
         for (int k = 0; k < GRID_LEVELS; k++)
             mem_free(job.slots[r][k]);
-    return good && divide_crowds(out, v) ? LMN_OK : error_memory(error);
+    return good && divide_crowds(out, v) && make_corners(out, v) ? LMN_OK : error_memory(error);
 }
 
 void grid_release(window_grid *g)
@@ -366,6 +412,7 @@ void grid_release(window_grid *g)
     mem_free(g->sub_links);
     mem_free(g->entries);
     mem_free(g->sub_entries);
+    mem_free(g->corners.memory);
     memset(g, 0, sizeof *g);
 }
 
@@ -390,13 +437,14 @@ static void columns_of(const walk *w, const grid_level *l, int32_t row, cell_ran
     if (w->b.y > bottom)
         to = w->a.x + width * ((bottom - w->a.y) / height);
     double  low = (from < to ? from : to) - 1, high = (from < to ? to : from) + 1;
-    int32_t c0 = cell_of((int32_t)low, l->low_x, l->cell, l->columns),
-            c1 = cell_of((int32_t)high, l->low_x, l->cell, l->columns);
+    int32_t c0 = cell_of((int32_t)low, l->low_x, l->cells, l->columns),
+            c1 = cell_of((int32_t)high, l->low_x, l->cells, l->columns);
     range->c0 = c0 < range->c0 ? range->c0 : c0;
     range->c1 = c1 > range->c1 ? range->c1 : c1;
 }
 
-static void walk_level(const walk *w, const grid_level *l, const uint32_t *entries, bool alone)
+/* `corner`: where those of the entries begin. */
+static void walk_level(const walk *w, const grid_level *l, const uint32_t *entries, size_t corner, bool alone)
 {
     cell_range range;
     if (!range_of(l, w->low_x, w->a.y, w->high_x, w->b.y, &range))
@@ -412,9 +460,9 @@ static void walk_level(const walk *w, const grid_level *l, const uint32_t *entri
             if (begin == end)
                 continue;
             if (l->subs && l->subs[number])
-                walk_level(w, &w->g->subs[l->subs[number] - 1], w->g->sub_entries, alone);
+                walk_level(w, &w->g->subs[l->subs[number] - 1], w->g->sub_entries, w->g->entry_count, alone);
             else
-                w->visit(w->user, entries + begin, end - begin, alone);
+                w->visit(w->user, entries + begin, corner + begin, end - begin, alone);
         }
     }
 }
@@ -426,6 +474,6 @@ void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit 
     for (int k = 0; k < GRID_LEVELS; k++) {
         const grid_level *l = &g->levels[k];
         if (l->starts[(size_t)l->columns * (size_t)l->rows] != l->starts[0])
-            walk_level(&w, l, g->entries, true);
+            walk_level(&w, l, g->entries, 0, true);
     }
 }

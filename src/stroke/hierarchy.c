@@ -92,7 +92,7 @@ static void make_nodes(hierarchy *h, const box3 *boxes, curve_key *keys, curve_k
     while (depth > 0) {
         run r = stack[--depth];
         if (r.end - r.begin <= LEAF || depth + 2 > DEPTH_MAX) {
-            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, {KIN_MIXED, KIN_MIXED}};
+            h->nodes[r.node] = (hierarchy_node){box3_empty(), r.begin, r.end - r.begin, {KIN_MIXED, KIN_MIXED}, 0};
             continue;
         }
         if (r.end - r.begin > CROWD && keys[r.begin].position == keys[r.end - 1].position) {
@@ -101,7 +101,7 @@ static void make_nodes(hierarchy *h, const box3 *boxes, curve_key *keys, curve_k
         }
         uint32_t split = split_of(keys, r.begin, r.end), left = h->node_count;
         h->node_count += 2;
-        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, {KIN_MIXED, KIN_MIXED}};
+        h->nodes[r.node] = (hierarchy_node){box3_empty(), left, 0, {KIN_MIXED, KIN_MIXED}, 0};
         stack[depth++] = (run){left + 1, split, r.end};
         stack[depth++] = (run){left, r.begin, split};
     }
@@ -114,6 +114,7 @@ static void make_boxes(hierarchy *h, const box3 *boxes, hierarchy_kin kin)
         if (n->count == 0) {
             const hierarchy_node *left = &h->nodes[n->first], *right = left + 1;
             n->box = box3_union(left->box, right->box);
+            n->size = box3_diagonal(n->box);
             for (int way = 0; way < 2; way++)
                 n->kin[way] = left->kin[way] == right->kin[way] ? left->kin[way] : KIN_MIXED;
             continue;
@@ -126,6 +127,7 @@ static void make_boxes(hierarchy *h, const box3 *boxes, hierarchy_kin kin)
                 n->kin[way] = k == 0 || own == n->kin[way] ? own : KIN_MIXED;
             }
         }
+        n->size = box3_diagonal(n->box);
     }
 }
 
@@ -211,7 +213,7 @@ static bool pairs_between(const pair_search *s, uint32_t first, uint32_t second)
         return true;
     if (a->count && b->count)
         return pairs_of_leaves(s, a, b);
-    if (b->count || (!a->count && box3_diagonal(a->box) > box3_diagonal(b->box)))
+    if (b->count || (!a->count && a->size > b->size))
         return pairs_between(s, a->first, second) && pairs_between(s, a->first + 1, second);
     return pairs_between(s, first, b->first) && pairs_between(s, first, b->first + 1);
 }

@@ -56,6 +56,7 @@ typedef struct window_box {
 /* A grid of cells. */
 typedef struct grid_level {
     int32_t   low_x, low_y;        /* its corner, window units */
+    double    cells;               /* in a window unit: 1 / cell */
     int32_t   cell, columns, rows; /* side of a cell, window units */
     uint32_t *starts;              /* per cell, and one more, in the grid's entries */
     uint32_t *subs;      /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
@@ -64,13 +65,24 @@ typedef struct grid_level {
 
 /* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded
  * cells have a finer grid in them. */
-enum { GRID_LEVELS = 10, GRID_SPAN = 16 };
+enum { GRID_LEVELS = 10, GRID_SPAN = 16, GRID_LANES = 16 };
+/* The corners of the triangles of cells, in the cells' order: those that are looked at together lie together. As single
+ * precision, which window coordinates fit in. */
+typedef struct grid_corners {
+    float *x[3], *y[3], *near_z; /* per entry of the grid, behind them those of the finer ones; GRID_LANES more may be
+                                    read; near_z: as boxes have it */
+    float *turn;                 /* 1, or −1 where they run the other way round; 0: they lie in a line */
+    float *memory;
+} grid_corners;
+
 typedef struct window_grid {
-    grid_level  levels[GRID_LEVELS];
-    grid_level *subs; /* their starts and subs are parts of sub_starts and sub_links */
-    uint32_t   *sub_starts, *sub_links;
-    uint32_t   *entries, *sub_entries; /* triangles */
-    size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
+    grid_level   levels[GRID_LEVELS];
+    grid_level  *subs; /* their starts and subs are parts of sub_starts and sub_links */
+    uint32_t    *sub_starts, *sub_links;
+    uint32_t    *entries, *sub_entries; /* triangles */
+    size_t       entry_count;
+    grid_corners corners;
+    size_t       sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
         sub_entry_capacity;
 } window_grid;
 
@@ -159,9 +171,9 @@ static inline uint32_t view_solid(const stroke_view *v, uint32_t face)
 /* --- grid.c --- */
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error);
 void       grid_release(window_grid *g);
-/* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `alone`: it is
- * the only one of the level. */
-typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t count, bool alone);
+/* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `corner`: where its
+ * corners begin. `alone`: it is the only one of the level. */
+typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone);
 /* Runs with more entries are sorted by the planes of the view, where it has any. */
 enum { GRID_CROWD = 64 };
 void grid_walk(const window_grid *g, window_point a, window_point b, grid_visit visit, void *user);
@@ -182,6 +194,7 @@ typedef struct hierarchy_node {
     box3     box;
     uint32_t first, count; /* leaf: members; else count 0, and `first` is the left child, the right one behind it */
     uint32_t kin[2];       /* what all its members are of; KIN_MIXED: of several */
+    double   size;         /* diagonal of the box */
 } hierarchy_node;
 #define KIN_MIXED UINT32_MAX
 

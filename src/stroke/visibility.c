@@ -53,13 +53,23 @@ typedef struct position_slot {
     uint32_t stamp; /* the segment that it was filled for */
 } position_slot;
 
+/* What triangles of cells are held against first: window coordinates, which single precision has exactly; only what is
+ * worked out with them is rounded. */
+typedef struct line_test {
+    float x, y, along_x, along_y;
+    float margin; /* who is farther than that to one side of the line is to that side: not along it, nor by rounding */
+    float apart;  /* the same of the line of an edge, times its length */
+    float low_x, low_y, high_x, high_y;
+    float far_z; /* of the segment, or a little more: what begins behind is no cover */
+} line_test;
+
 /* One thread's work on one segment. */
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
-    double                same;  /* of the segment's piece, where these differ */
-    float                 far_z; /* of the segment, or a little more: what begins behind is no cover */
-    int32_t               low_x, low_y, high_x, high_y;
+    double                same; /* of the segment's piece, where these differ */
+    line_test             line;
+    bool                  wide;      /* the processor has wide registers */
     uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
     uint32_t             *stamps;    /* per triangle: the last segment that it was compared with */
     uint32_t              stamp;
@@ -78,18 +88,9 @@ typedef struct worker {
     bool                  failed;
 } worker;
 
-/* Where the segment crosses an edge of a triangle: fraction of the segment and depth. `from`, `to`: sides of the
- * edge's ends of the segment's line. */
-static double cross_edge(const worker *w, window_point p, window_point q, double from, double to, double *z)
-{
-    double a = window_side(p, q, w->segment->a), b = window_side(p, q, w->segment->b);
-    *z = p.z + from / (from - to) * (q.z - p.z);
-    return a / (a - b);
-}
-
 static bool has_corner(const window_triangle *t, uint32_t point)
 {
-    return point != NO_VERTEX && (t->v[0] == point || t->v[1] == point || t->v[2] == point);
+    return (point != NO_VERTEX) & ((t->v[0] == point) | (t->v[1] == point) | (t->v[2] == point));
 }
 
 static size_t slot_of(const worker *w, double at)
@@ -130,11 +131,10 @@ static void put_step(worker *w, double at, int32_t step)
         return;
     }
     position_slot *slot = &w->table[slot_of(w, at)];
-    if (slot->stamp != w->stamp) {
-        *slot = (position_slot){at, 0, w->stamp};
-        w->filled[w->filled_count++] = (uint32_t)(slot - w->table);
-    }
-    slot->step += step;
+    const bool     is_new = slot->stamp != w->stamp; /* every other one, without a pattern: no branch */
+    w->filled[w->filled_count] = (uint32_t)(slot - w->table);
+    w->filled_count += is_new;
+    *slot = (position_slot){at, (is_new ? 0 : slot->step) + step, w->stamp};
 }
 
 /* Between two positions of the segment the triangle lies nearer by before … after; what differs by less than `same` is
@@ -228,18 +228,33 @@ static bool is_around(const stroke_view *v, uint32_t face)
     return solid && v->around[solid - 1];
 }
 
+/* A triangle's corners on the page, as exact as they are, and on which side of the segment's line each lies. */
+typedef struct flat_triangle {
+    double x[3], y[3], sides[3];
+} flat_triangle;
+
+static inline void put_corner(const worker *w, flat_triangle *out, int k, size_t corner)
+{
+    const grid_corners   *c = &w->v->grid.corners;
+    const window_segment *s = w->segment;
+    const double          x = (double)c->x[k][corner], y = (double)c->y[k][corner];
+    out->x[k] = x;
+    out->y[k] = y;
+    out->sides[k] = ((double)s->b.x - s->a.x) * (y - s->a.y) - ((double)s->b.y - s->a.y) * (x - s->a.x);
+}
+
 /* Does an edge of a triangle run along the segment, so near that it might as well lie on its other side? */
-static bool runs_along(const worker *w, const window_point p[3], const int64_t sides[3])
+static bool runs_along(const worker *w, const flat_triangle *t)
 {
     const window_segment *s = w->segment;
     double                from = INFINITY, to = -INFINITY, x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
     int                   near = 0;
     for (int k = 0; k < 3; k++) {
-        if (fabs((double)sides[k]) > w->gap)
+        if (fabs(t->sides[k]) > w->gap)
             continue;
-        double at = x * ((double)p[k].x - s->a.x) + y * ((double)p[k].y - s->a.y);
-        from = fmin(from, at);
-        to = fmax(to, at);
+        double at = x * (t->x[k] - s->a.x) + y * (t->y[k] - s->a.y);
+        from = at < from ? at : from;
+        to = at > to ? at : to;
         near++;
     }
     return near == 2 && to > 0 && from < x * x + y * y;
@@ -248,98 +263,202 @@ static bool runs_along(const worker *w, const window_point p[3], const int64_t s
 /* Does a face lie in a plane of the segment's? Then it hides nothing of it. */
 static bool is_in_plane(const worker *w, uint32_t face)
 {
-    uint32_t plane = w->v->planes[face];
+    uint32_t plane = w->v->planes ? w->v->planes[face] : 0;
     return plane && (plane == w->planes[0] || plane == w->planes[1]);
 }
 
-static void compare(worker *w, uint32_t number)
+static bool is_own(const worker *w, uint32_t face)
+{
+    return (face == w->segment->faces[0]) | (face == w->segment->faces[1]);
+}
+
+/* Where the segment crosses the edge between two corners: fraction of it. */
+static double cross_edge(const worker *w, const flat_triangle *t, int p, int q)
+{
+    const window_segment *s = w->segment;
+    double                x = t->x[q] - t->x[p], y = t->y[q] - t->y[p];
+    double a = x * (s->a.y - t->y[p]) - y * (s->a.x - t->x[p]), b = x * (s->b.y - t->y[p]) - y * (s->b.x - t->x[p]);
+    return a / (a - b);
+}
+
+/* Two crossings of a triangle's rim, in order along the segment, and depths there. */
+typedef struct crossing_pair {
+    double t[2], z[2];
+} crossing_pair;
+
+/* What of the segment a triangle covers that is crossed from one place to the other. */
+static void cover_by(worker *w, uint32_t number, const crossing_pair *c)
 {
     const stroke_view     *v = w->v;
     const window_box      *box = &v->boxes[number];
     const window_triangle *t = &v->triangles[number];
     const window_segment  *s = w->segment;
-    if (v->planes && is_in_plane(w, t->face))
-        return;
-    w->pairs++;
-    const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
-    int64_t            sides[3], along_x = (int64_t)s->b.x - s->a.x, along_y = (int64_t)s->b.y - s->a.y;
-    for (int k = 0; k < 3; k++)
-        sides[k] = along_x * ((int64_t)p[k].y - s->a.y) - along_y * ((int64_t)p[k].x - s->a.x);
-    bool low[3] = {sides[0] < 0, sides[1] < 0, sides[2] < 0};
-    bool own = (t->face == s->faces[0]) | (t->face == s->faces[1]);
-    if (((low[0] == low[1]) & (low[1] == low[2])) | (own & !is_around(v, t->face))) {
-        w->grazed = w->grazed || (!own && runs_along(w, p, sides));
-        return;
-    }
-    int alone = low[0] == low[1]   ? 2
-                : low[0] == low[2] ? 1
-                                   : 0,
-        next = alone == 2 ? 0 : alone + 1, last = alone == 0 ? 2 : alone - 1;
-    double z0, z1;
-    double t0 = cross_edge(w, p[alone], p[next], (double)sides[alone], (double)sides[next], &z0);
-    double t1 = cross_edge(w, p[last], p[alone], (double)sides[last], (double)sides[alone], &z1);
-    if (t0 > t1) {
-        double other = t0;
-        t0 = t1;
-        t1 = other;
-        other = z0;
-        z0 = z1;
-        z1 = other;
-    }
-    if (!(t0 < 1) || !(t1 > 0) || !(t0 < t1))
-        return;
-    double from = t0 > 0 ? t0 : 0, to = t1 < 1 ? t1 : 1, rise = (z1 - z0) / (t1 - t0), run = s->b.z - s->a.z;
-    double before = s->a.z + from * run - (z0 + (from - t0) * rise),
-           after = s->a.z + to * run - (z0 + (to - t0) * rise);
-    if (own || (from == 0 && has_corner(t, s->ends[0])))
-        before = 0;
-    if (own || (to == 1 && has_corner(t, s->ends[1])))
-        after = 0;
+    const bool             own = is_own(w, t->face);
+    double                 from = c->t[0] > 0 ? c->t[0] : 0, to = c->t[1] < 1 ? c->t[1] : 1, z0 = c->z[0],
+           rise = (c->z[1] - z0) / (c->t[1] - c->t[0]), run = s->b.z - s->a.z;
+    double before = s->a.z + from * run - (z0 + (from - c->t[0]) * rise),
+           after = s->a.z + to * run - (z0 + (to - c->t[0]) * rise);
+    const bool meets_first = own | ((from == 0) & has_corner(t, s->ends[0])),
+               meets_last = own | ((to == 1) & has_corner(t, s->ends[1]));
+    before = meets_first ? 0 : before;
+    after = meets_last ? 0 : after;
     double lift = is_beside(w, t->face) ? fmax(s->lift, BESIDE_LIFT * v->scene->extent) : s->lift;
     double exact = v->sames ? fmax(w->same, v->sames[v->face_pieces[t->face]]) : v->same;
-    double same =
-        view_tolerance(v, exact, z0) + (1 + w->beside) * box->slope + (lift > 0 ? depth_of_lift(v, p, z0, lift) : 0);
+    double same = view_tolerance(v, exact, z0) + (1 + w->beside) * box->slope;
+    if (lift > 0) {
+        const window_point p[3] = {v->points[t->v[0]], v->points[t->v[1]], v->points[t->v[2]]};
+        same += depth_of_lift(v, p, z0, lift);
+    }
     if (s->ignored_count && is_ignored(s, t->face))
         return;
     uint32_t solid = view_solid(v, t->face);
     if (solid)
-        cover_of_solid(w,
-                       solid_cover_of(v, solid - 1, t->face, from, to, z0 + (from - t0) * rise, z0 + (to - t0) * rise),
-                       before, after, same);
+        cover_of_solid(
+            w,
+            solid_cover_of(v, solid - 1, t->face, from, to, z0 + (from - c->t[0]) * rise, z0 + (to - c->t[0]) * rise),
+            before, after, same);
     else
         cover_nearer(w, from, to, before, after, same);
 }
 
-/* The entries whose boxes meet the segment's, and which begin in front of its end. Without a branch: which of them do
- * cannot be foretold. */
-static size_t find_meeting(const worker *w, const uint32_t *entries, size_t count, uint32_t *out)
+/* `corner`: of the triangle in the grid's corners, which lie together; what lies elsewhere is read only of triangles
+ * that the segment crosses, or runs along. Which corner lies alone and which crossing comes first has no pattern that
+ * could be foretold, so that numbers say it and not branches. */
+static void compare(worker *w, uint32_t number, size_t corner)
 {
-    const window_box *boxes = w->v->boxes;
-    const int32_t     low_x = w->low_x, low_y = w->low_y, high_x = w->high_x, high_y = w->high_y;
-    const float       far_z = w->far_z;
-    size_t            found = 0;
-    for (size_t i = 0; i < count; i++) {
-        const window_box *box = &boxes[entries[i]];
-        out[found] = entries[i];
-        found += (box->low_x <= high_x) & (box->high_x >= low_x) & (box->low_y <= high_y) & (box->high_y >= low_y) &
-                 (box->near_z <= far_z);
+    static const uint8_t   alone_of[8] = {0, 0, 1, 2, 2, 1, 0, 0}, after[3] = {1, 2, 0}, before[3] = {2, 0, 1};
+    const stroke_view     *v = w->v;
+    const window_triangle *t = &v->triangles[number];
+    flat_triangle          flat;
+    const double          *sides = flat.sides;
+    put_corner(w, &flat, 0, corner);
+    put_corner(w, &flat, 1, corner);
+    put_corner(w, &flat, 2, corner);
+    unsigned low = (unsigned)(sides[0] < 0) | (unsigned)(sides[1] < 0) << 1 | (unsigned)(sides[2] < 0) << 2;
+    if (low == 0 || low == 7) {
+        if (!w->grazed && runs_along(w, &flat))
+            w->grazed = !is_own(w, t->face) && !is_in_plane(w, t->face);
+        return;
+    }
+    const int    alone = alone_of[low], next = after[alone], last = before[alone];
+    const double t0 = cross_edge(w, &flat, alone, next), t1 = cross_edge(w, &flat, last, alone);
+    const double first = t1 < t0 ? t1 : t0, second = t1 < t0 ? t0 : t1;
+    if (!((first < 1) & (second > 0) & (first < second)) || is_in_plane(w, t->face))
+        return;
+    w->pairs++;
+    if (is_own(w, t->face) && !is_around(v, t->face))
+        return;
+    const double z = v->points[t->v[alone]].z, z_next = v->points[t->v[next]].z, z_last = v->points[t->v[last]].z;
+    const double z0 = z + sides[alone] / (sides[alone] - sides[next]) * (z_next - z),
+                 z1 = z_last + sides[last] / (sides[last] - sides[alone]) * (z - z_last);
+    const crossing_pair c = {{first, second}, {t1 < t0 ? z1 : z0, t1 < t0 ? z0 : z1}};
+    cover_by(w, number, &c);
+}
+
+/* Which of the entries of a group may meet the segment, or run along it, 1 or 0 each: their boxes meet its box, they
+ * begin in front of its end, not all their corners are clearly to one side of its line, nor both its ends clearly to
+ * the outer side of one of their edges. Single precision, with what it may be off by to spare, and without a branch, as
+ * which of them do cannot be foretold: compilers make it one for many entries at a time. */
+static inline __attribute__((always_inline)) void test_group(const grid_corners *c, size_t corner,
+                                                             const line_test *line, int32_t meets[GRID_LANES])
+{
+    const float *x0 = c->x[0] + corner, *x1 = c->x[1] + corner, *x2 = c->x[2] + corner, *y0 = c->y[0] + corner,
+                *y1 = c->y[1] + corner, *y2 = c->y[2] + corner, *z = c->near_z + corner, *turn = c->turn + corner;
+    const line_test t = *line;
+    for (int i = 0; i < GRID_LANES; i++) {
+        float px0 = x0[i] - t.x, px1 = x1[i] - t.x, px2 = x2[i] - t.x, py0 = y0[i] - t.y, py1 = y1[i] - t.y,
+              py2 = y2[i] - t.y;
+        float s0 = t.along_x * py0 - t.along_y * px0, s1 = t.along_x * py1 - t.along_y * px1,
+              s2 = t.along_x * py2 - t.along_y * px2;
+        float ex0 = x1[i] - x0[i], ey0 = y1[i] - y0[i], ex1 = x2[i] - x1[i], ey1 = y2[i] - y1[i], ex2 = x0[i] - x2[i],
+              ey2 = y0[i] - y2[i];
+        /* How far inside of each edge the segment's first end is, and its last one. */
+        float a0 = (ey0 * px0 - ex0 * py0) * turn[i], a1 = (ey1 * px1 - ex1 * py1) * turn[i],
+              a2 = (ey2 * px2 - ex2 * py2) * turn[i];
+        float b0 = a0 - (s1 - s0) * turn[i], b1 = a1 - (s2 - s1) * turn[i], b2 = a2 - (s0 - s2) * turn[i];
+        float m0 = 2 * t.margin + t.apart * (fabsf(ex0) + fabsf(ey0)),
+              m1 = 2 * t.margin + t.apart * (fabsf(ex1) + fabsf(ey1)),
+              m2 = 2 * t.margin + t.apart * (fabsf(ex2) + fabsf(ey2));
+        meets[i] = ((x0[i] <= t.high_x) | (x1[i] <= t.high_x) | (x2[i] <= t.high_x)) &
+                   ((x0[i] >= t.low_x) | (x1[i] >= t.low_x) | (x2[i] >= t.low_x)) &
+                   ((y0[i] <= t.high_y) | (y1[i] <= t.high_y) | (y2[i] <= t.high_y)) &
+                   ((y0[i] >= t.low_y) | (y1[i] >= t.low_y) | (y2[i] >= t.low_y)) & (z[i] <= t.far_z) &
+                   ((s0 <= t.margin) | (s1 <= t.margin) | (s2 <= t.margin)) &
+                   ((s0 >= -t.margin) | (s1 >= -t.margin) | (s2 >= -t.margin)) & ((a0 >= -m0) | (b0 >= -m0)) &
+                   ((a1 >= -m1) | (b1 >= -m1)) & ((a2 >= -m2) | (b2 >= -m2));
+    }
+}
+
+static inline __attribute__((always_inline)) size_t find_with(const worker *w, size_t corner, size_t count,
+                                                              uint16_t *out)
+{
+    size_t found = 0;
+    for (size_t begin = 0; begin < count; begin += GRID_LANES) {
+        int32_t meets[GRID_LANES];
+        size_t  lanes = count - begin < GRID_LANES ? count - begin : GRID_LANES;
+        test_group(&w->v->grid.corners, corner + begin, &w->line, meets);
+        for (size_t i = 0; i < lanes; i++) {
+            out[found] = (uint16_t)(begin + i);
+            found += (size_t)meets[i];
+        }
     }
     return found;
 }
 
-static void visit_run(worker *w, const uint32_t *entries, size_t count, bool alone)
+/* The entries of a run that may meet the segment, by their places in it. */
+static size_t find_meeting(const worker *w, size_t corner, size_t count, uint16_t *out)
 {
-    uint32_t meeting[RUN_MOST];
+    return find_with(w, corner, count, out);
+}
+
+#ifdef __x86_64__
+/* Where the processor takes twice as many numbers at a time. */
+static __attribute__((target("avx2"))) size_t find_meeting_wide(const worker *w, size_t corner, size_t count,
+                                                                uint16_t *out)
+{
+    return find_with(w, corner, count, out);
+}
+
+static bool is_wide(void)
+{
+    return __builtin_cpu_supports("avx2");
+}
+#else
+static size_t find_meeting_wide(const worker *w, size_t corner, size_t count, uint16_t *out)
+{
+    return find_with(w, corner, count, out);
+}
+
+static bool is_wide(void)
+{
+    return false;
+}
+#endif
+
+/* Of entries those that the segment has not been compared with: whose triangle no other cell had. */
+static size_t find_new(worker *w, const uint32_t *entries, uint16_t *offsets, size_t count)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t *stamp = &w->stamps[entries[offsets[i]]];
+        offsets[found] = offsets[i];
+        found += *stamp != w->stamp;
+        *stamp = w->stamp;
+    }
+    return found;
+}
+
+static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t count, bool alone)
+{
+    uint16_t offsets[RUN_MOST];
     for (size_t begin = 0; begin < count; begin += RUN_MOST) {
-        size_t found = find_meeting(w, entries + begin, count - begin < RUN_MOST ? count - begin : RUN_MOST, meeting);
-        for (size_t i = 0; i < found; i++) {
-            if (!alone) {
-                if (w->stamps[meeting[i]] == w->stamp)
-                    continue;
-                w->stamps[meeting[i]] = w->stamp;
-            }
-            compare(w, meeting[i]);
-        }
+        size_t length = count - begin < RUN_MOST ? count - begin : RUN_MOST;
+        size_t found = w->wide ? find_meeting_wide(w, corner + begin, length, offsets)
+                               : find_meeting(w, corner + begin, length, offsets);
+        if (!alone)
+            found = find_new(w, entries + begin, offsets, found);
+        for (size_t i = 0; i < found; i++)
+            compare(w, entries[begin + offsets[i]], corner + begin + offsets[i]);
     }
 }
 
@@ -358,7 +477,7 @@ static size_t first_in_plane(const stroke_view *v, const uint32_t *entries, size
 }
 
 /* Of a crowd, what lies in the segment's own planes is passed by. */
-static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
+static void visit(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone)
 {
     worker *w = user;
     size_t  begin = 0;
@@ -367,10 +486,10 @@ static void visit(void *user, const uint32_t *entries, size_t count, bool alone)
             continue;
         size_t end = first_in_plane(w->v, entries, count, w->planes[k]);
         if (end > begin)
-            visit_run(w, entries + begin, end - begin, alone);
+            visit_run(w, entries + begin, corner + begin, end - begin, alone);
         begin = first_in_plane(w->v, entries, count, w->planes[k] + 1);
     }
-    visit_run(w, entries + begin, count - begin, alone);
+    visit_run(w, entries + begin, corner + begin, count - begin, alone);
 }
 
 /* By insertion with gaps: few are left where the segment is short. */
@@ -459,6 +578,25 @@ static void take_faces(worker *w)
     }
 }
 
+/* Differences of coordinates are below 2^25, so that each of a side's four roundings is of less than twice the
+ * differences of the segment's ends. */
+static line_test test_of(const window_segment *s, double units)
+{
+    bool   right = s->a.x < s->b.x, down = s->a.y < s->b.y;
+    double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
+    return (line_test){(float)s->a.x,
+                       (float)s->a.y,
+                       (float)x,
+                       (float)y,
+                       (float)(1.001 * GAP * units * sqrt(x * x + y * y) + 16 * (fabs(x) + fabs(y))),
+                       (float)(4 * GAP * units + 16),
+                       (float)(right ? s->a.x : s->b.x),
+                       (float)(down ? s->a.y : s->b.y),
+                       (float)(right ? s->b.x : s->a.x),
+                       (float)(down ? s->b.y : s->a.y),
+                       nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY)};
+}
+
 static void find_spans(worker *w, span_block *block, const window_segment *s)
 {
     double x = (double)s->b.x - s->a.x, y = (double)s->b.y - s->a.y;
@@ -467,11 +605,7 @@ static void find_spans(worker *w, span_block *block, const window_segment *s)
     w->grazed = false;
     w->stamp++;
     w->filled_count = 0;
-    w->low_x = s->a.x < s->b.x ? s->a.x : s->b.x;
-    w->high_x = s->a.x < s->b.x ? s->b.x : s->a.x;
-    w->low_y = s->a.y < s->b.y ? s->a.y : s->b.y;
-    w->high_y = s->a.y < s->b.y ? s->b.y : s->a.y;
-    w->far_z = nextafterf((float)(s->a.z > s->b.z ? s->a.z : s->b.z), INFINITY);
+    w->line = test_of(s, w->v->units);
     w->covers.count = 0;
     take_faces(w);
     grid_walk(&w->v->grid, s->a, s->b, visit, w);
@@ -565,7 +699,7 @@ static void look_beside(worker *w, span_block *block, const window_segment *s, s
 static void find_blocks(size_t begin, size_t end, void *user)
 {
     span_job *job = user;
-    worker    w = {.v = job->v, .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
+    worker    w = {.v = job->v, .wide = is_wide(), .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
     w.failed = !w.stamps;
     for (size_t b = begin; b < end && !w.failed; b++) {
         span_block *block = &job->blocks[b];
@@ -719,8 +853,9 @@ static bool is_inside(const window_point p[3], window_point at)
     return true;
 }
 
-static void count_nearer(void *user, const uint32_t *entries, size_t count, bool alone)
+static void count_nearer(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone)
 {
+    (void)corner;
     (void)alone;
     surface_count     *c = user;
     const stroke_view *v = c->v;
