@@ -133,6 +133,40 @@ static void speck(writer *w, long count)
     }
 }
 
+/* Spheres in each other, of 528 triangles each: as many surfaces lie in front of the middle. */
+static void spheres(writer *w, long count)
+{
+    enum { ROUND = 24, UP = 12 };
+    for (long n = 0; n < count; n++)
+        for (int i = 0; i < ROUND; i++)
+            for (int k = 0; k < UP; k++) {
+                place  p[4];
+                double size = 1 + (double)n / (double)count;
+                for (int c = 0; c < 4; c++) {
+                    double turn = TURN * (i + (c == 1 || c == 2)) / ROUND,
+                           rise = TURN * ((k + (c > 1)) / 2.0 / UP - 0.25);
+                    p[c] = (place){size * cos(rise) * cos(turn), size * cos(rise) * sin(turn), size * sin(rise)};
+                }
+                if (k > 0)
+                    put(w, p[0], p[1], p[2]);
+                if (k < UP - 1)
+                    put(w, p[0], p[2], p[3]);
+            }
+}
+
+/* Narrow triangles from one place in all directions: a star that is not flat. */
+static void spikes(writer *w, long count)
+{
+    uint64_t state = 7;
+    for (long i = 0; i < count; i++) {
+        double turn = TURN * next(&state), up = 2 * next(&state) - 1, wide = sqrt(1 - up * up);
+        place  tip = {wide * cos(turn), wide * sin(turn), up};
+        place  beside = {tip.x + 4e-3 * (next(&state) - 0.5), tip.y + 4e-3 * (next(&state) - 0.5),
+                         tip.z + 4e-3 * (next(&state) - 0.5)};
+        put(w, (place){0, 0, 0}, tip, beside);
+    }
+}
+
 /* Boxes on a grid, in groups of their own: parts. */
 static void parts(FILE *file, long count)
 {
@@ -189,10 +223,11 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*make)(writer *w, long count);
-    } cases[] = {{"star", star}, {"soup", soup}, {"tori", tori}, {"junctions", junctions}, {"speck", speck}};
+    } cases[] = {{"star", star},   {"soup", soup},       {"tori", tori},    {"junctions", junctions},
+                 {"speck", speck}, {"spheres", spheres}, {"spikes", spikes}};
     if (argc != 4)
-        return fprintf(stderr,
-                       "usage: make_cases star|soup|tori|junctions|speck|parts COUNT OUT, or split IN.stl OUT.stl\n"),
+        return fprintf(stderr, "usage: make_cases star|soup|tori|junctions|speck|spheres|spikes|parts COUNT OUT, or "
+                               "split IN.stl OUT.stl\n"),
                1;
     writer w = {fopen(argv[3], "wb"), 0};
     int    good = w.file != NULL;

@@ -664,9 +664,6 @@ void stroke_set_release(stroke_set *s)
     memset(s, 0, sizeof *s);
 }
 
-/* What overlaps is joined, and may overlap with others then. */
-enum { TRIMS = 3 };
-
 lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_options *options, const bool *parts,
                        lmn_progress_fn progress, void *user, lmn_error *error)
 {
@@ -679,13 +676,8 @@ lmn_status stroke_find(stroke_set *out, const stroke_view *v, const stroke_optio
     status = outlines_see(&seen, v, &lines, progress, user, error);
     if (status == LMN_OK)
         status = chains_make(out, v, &lines, &seen, options, error);
-    size_t overlaps = 1;
-    for (int round = 0; status == LMN_OK && round <= TRIMS && overlaps; round++) {
+    if (status == LMN_OK)
         status = strokes_join(out, v, options, error);
-        overlaps = 0;
-        if (status == LMN_OK && round < TRIMS)
-            status = strokes_trim(out, v, &overlaps, error);
-    }
     if (status == LMN_OK)
         status = strokes_choose(out, v, options, error);
     if (status == LMN_OK)

@@ -13,8 +13,12 @@
 
 /* A cell with more triangles than this gets a finer grid with about so many a cell. */
 enum { CROWD = 256, FEW = 8, SUB_SIDE_MAX = 24 };
-/* Its cells are divided in turn unless its triangles are so large that they lie in more of them, on average. */
-enum { SPLIT_MOST = 3 };
+/* Its cells are divided in turn unless its triangles are so large that they lie in more of them, on average, or in more
+ * than so many all in all: where surfaces lie one behind the other, cells stay crowded however fine they are. */
+enum { SPLIT_MOST = 3, COPIES_MOST = 8 };
+/* A finer grid is kept if its cells have so many times fewer triangles, on average: those that are larger than the cell
+ * would be in all of them. */
+enum { EMPTIER = 4 };
 
 /* Cells that a box touches: first and last column and row. */
 typedef struct cell_range {
@@ -139,6 +143,7 @@ static bool make_levels(window_grid *g, const stroke_view *v)
                           (int32_t)(height / cell) + 1,
                           NULL,
                           NULL,
+                          1,
                           false};
         l->starts = mem_calloc((size_t)l->columns * (size_t)l->rows + 2, sizeof *l->starts);
         if (!l->starts)
@@ -192,8 +197,10 @@ static bool open_sub(window_grid *g, size_t cells)
 }
 
 /* A finer grid for the triangles of a crowded cell, which are entries of the grid or of finer ones. Where its numbers
- * are is said when all are made. Returns its number + 1; 0: memory is gone. */
-static uint32_t divide_cell(window_grid *g, const stroke_view *v, const grid_level *l, size_t number, bool nested)
+ * are is said when all are made. *link: its number + 1; 0: there is none, as its cells would be hardly less crowded.
+ * False when memory is gone. */
+static bool divide_cell(window_grid *g, const stroke_view *v, const grid_level *l, size_t number, bool nested,
+                        uint32_t *link)
 {
     uint32_t begin = l->starts[number], count = l->starts[number + 1] - begin;
     int32_t  column = (int32_t)(number % (size_t)l->columns), row = (int32_t)(number / (size_t)l->columns),
@@ -203,26 +210,32 @@ static uint32_t divide_cell(window_grid *g, const stroke_view *v, const grid_lev
     int32_t    cell = (l->cell + side - 1) / side;
     grid_level sub = {
         l->low_x + column * l->cell, l->low_y + row * l->cell, 1.0 / cell, cell, side, side, NULL, NULL, false};
+    *link = 0;
     if (!open_sub(g, cells)) /* of nested ones, l's own numbers may have moved */
-        return 0;
+        return false;
     sub.starts = g->sub_starts + g->sub_start_count;
     memset(sub.starts, 0, (cells + 2) * sizeof *sub.starts);
     memset(g->sub_links + g->sub_start_count, 0, (cells + 2) * sizeof *g->sub_links);
     for (uint32_t i = 0; i < count; i++)
         enter(&sub, v, (nested ? g->sub_entries : g->entries)[begin + i], sub.starts + 2, NULL);
     uint32_t total = add_up(&sub, (uint32_t)g->sub_entry_count);
+    size_t   own = total - g->sub_entry_count;
+    if (own * EMPTIER > (size_t)count * cells)
+        return true;
     if (!mem_grow((void **)&g->sub_entries, &g->sub_entry_capacity, (size_t)total + 1, sizeof *g->sub_entries))
-        return 0;
+        return false;
     for (uint32_t i = 0; i < count; i++)
         enter(&sub, v, (nested ? g->sub_entries : g->entries)[begin + i], sub.starts + 1, g->sub_entries);
-    sub.divisible = total - g->sub_entry_count <= (size_t)SPLIT_MOST * count;
+    sub.copies = l->copies * (float)own / (float)count;
+    sub.divisible = own <= (size_t)SPLIT_MOST * count && sub.copies <= COPIES_MOST;
     g->sub_entry_count = total;
     g->sub_start_count += cells + 2;
     if (!sort_crowds(v, sub.starts, cells, g->sub_entries))
-        return 0;
+        return false;
     sub.starts = NULL;
     g->subs[g->sub_count++] = sub;
-    return (uint32_t)g->sub_count;
+    *link = (uint32_t)g->sub_count;
+    return true;
 }
 
 static bool is_crowd(const grid_level *l, size_t number)
@@ -239,9 +252,8 @@ static bool divide_subs(window_grid *g, const stroke_view *v)
         for (size_t c = 0; c < cells && g->subs[i].divisible; c++) {
             grid_level l = g->subs[i];
             l.starts = g->sub_starts + at;
-            bool     crowd = is_crowd(&l, c);
-            uint32_t link = crowd ? divide_cell(g, v, &l, c, true) : 0;
-            if (crowd && !link)
+            uint32_t link = 0;
+            if (is_crowd(&l, c) && !divide_cell(g, v, &l, c, true, &link))
                 return false;
             g->sub_links[at + c] = link;
         }
@@ -263,7 +275,7 @@ static bool divide_crowds(window_grid *g, const stroke_view *v)
         if (!l->subs)
             return false;
         for (size_t c = 0; c < cells; c++)
-            if (is_crowd(l, c) && !(l->subs[c] = divide_cell(g, v, l, c, false)))
+            if (is_crowd(l, c) && !divide_cell(g, v, l, c, false, &l->subs[c]))
                 return false;
     }
     if (!divide_subs(g, v))
@@ -346,35 +358,45 @@ static bool enter_all(grid_job *j)
 /* --- corners -------------------------------------------------------------------------------------------- */
 
 typedef struct corner_job {
-    window_grid       *g;
+    const window_grid *g;
     const stroke_view *v;
+    const grid_level  *level;
+    const uint32_t    *entries;
+    size_t             first; /* corner of the first of these */
 } corner_job;
 
-static void put_corners(size_t begin, size_t end, void *user)
+static void put_corner(const corner_job *j, uint32_t entry)
 {
-    const corner_job   *j = user;
-    const window_grid  *g = j->g;
-    const grid_corners *c = &g->corners;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t               number = i < g->entry_count ? g->entries[i] : g->sub_entries[i - g->entry_count];
-        const window_triangle *t = &j->v->triangles[number];
-        const window_point     p[3] = {j->v->points[t->v[0]], j->v->points[t->v[1]], j->v->points[t->v[2]]};
-        const double           side = window_side(p[0], p[1], p[2]);
-        for (int k = 0; k < 3; k++) {
-            c->x[k][i] = (float)p[k].x;
-            c->y[k][i] = (float)p[k].y;
-        }
-        c->turn[i] = (float)((side > 0) - (side < 0));
-        c->near_z[i] = j->v->boxes[number].near_z;
+    const grid_corners    *c = &j->g->corners;
+    const uint32_t         number = j->entries[entry];
+    const size_t           at = j->first + entry;
+    const window_triangle *t = &j->v->triangles[number];
+    const window_point     p[3] = {j->v->points[t->v[0]], j->v->points[t->v[1]], j->v->points[t->v[2]]};
+    const double           side = window_side(p[0], p[1], p[2]);
+    for (int k = 0; k < 3; k++) {
+        c->x[k][at] = (float)p[k].x;
+        c->y[k][at] = (float)p[k].y;
     }
+    c->near_z[at] = j->v->boxes[number].near_z;
+    c->turn[at] = (float)((side > 0) - (side < 0));
+}
+
+/* Of rows of cells: not of those that have finer grids, which no one looks into. */
+static void put_rows(size_t begin, size_t end, void *user)
+{
+    const corner_job *j = user;
+    const grid_level *l = j->level;
+    const size_t      columns = (size_t)l->columns;
+    for (size_t c = begin * columns; c < end * columns; c++)
+        for (uint32_t i = l->starts[c]; i < l->starts[c + 1] && !(l->subs && l->subs[c]); i++)
+            put_corner(j, i);
 }
 
 static bool make_corners(window_grid *g, const stroke_view *v)
 {
-    enum { NUMBERS = 8, SMALLEST = 4096 };
+    enum { NUMBERS = 8, ROWS_LEAST = 16 };
     grid_corners *c = &g->corners;
     size_t        count = g->entry_count + g->sub_entry_count, stride = count + GRID_LANES;
-    corner_job    job = {g, v};
     c->memory = mem_alloc(NUMBERS * stride * sizeof *c->memory);
     if (!c->memory)
         return false;
@@ -386,7 +408,10 @@ static bool make_corners(window_grid *g, const stroke_view *v)
     c->turn = c->memory + 7 * stride;
     for (int k = 0; k < NUMBERS; k++)
         memset(c->memory + (size_t)k * stride + count, 0, GRID_LANES * sizeof *c->memory);
-    threads_for(count, SMALLEST, put_corners, &job);
+    for (int k = 0; k < GRID_LEVELS; k++)
+        threads_for((size_t)g->levels[k].rows, ROWS_LEAST, put_rows, &(corner_job){g, v, &g->levels[k], g->entries, 0});
+    for (size_t i = 0; i < g->sub_count; i++)
+        put_rows(0, (size_t)g->subs[i].rows, &(corner_job){g, v, &g->subs[i], g->sub_entries, g->entry_count});
     return true;
 }
 

@@ -39,6 +39,8 @@
 #define FORM_FRACTION (1.0 / 64)
 /* Of ends in one cell, behind as many surfaces, so many are looked at. */
 enum { MEETING_MOST = 256 };
+/* What overlaps is joined, and may overlap with others then: so often. */
+enum { TRIMS = 3 };
 
 /* An end of a stroke: number 2 · stroke, + 1 for its last point. */
 typedef struct stroke_end {
@@ -70,6 +72,8 @@ typedef struct joiner {
     candidate            *candidates;
     size_t                candidate_count, candidate_capacity;
     uint32_t             *partners;    /* per end; NO_VERTEX: none */
+    uint8_t              *rings;       /* per chain that is made of links: has it come full circle over a gap? */
+    uint32_t              first_chain; /* that is made of links */
     uint32_t             *first_marks; /* per chain, and one more */
     const stroke_options *options;
     float                 bridged; /* hidden stretches of a chain up to here are thinner than the pen */
@@ -133,15 +137,19 @@ static bool put_ends(joiner *j)
     j->mask = slots - 1;
     j->ends = mem_alloc((count + 1) * sizeof *j->ends);
     j->kept = mem_alloc((count + 1) * sizeof *j->kept);
-    j->partners = mem_alloc((count + 1) * sizeof *j->partners);
     j->starts = mem_calloc(slots + 1, sizeof *j->starts);
-    if (!j->ends || !j->kept || !j->partners || !j->starts)
+    if (!j->ends || !j->kept || !j->starts)
         return false;
-    memset(j->partners, 0xFF, (count + 1) * sizeof *j->partners);
     for (uint32_t i = 0; i < count; i++)
         j->ends[i] = end_of(j, i);
     fill_buckets(j, (uint32_t)count);
     return true;
+}
+
+static const stroke_point *point_at_end(const stroke_set *set, uint32_t number)
+{
+    const stroke *s = &set->strokes[number / 2];
+    return &set->points[s->first + (number & 1 ? s->count - 1 : 0)];
 }
 
 static bool are_alike(const stroke *s, const stroke *t)
@@ -389,6 +397,13 @@ static void measure(joined *out, size_t first)
         out->strokes[i].chain_length = arc;
 }
 
+/* As gap_between says, of ends as they are now. */
+static float gap_of(const joiner *j, uint32_t a, uint32_t b)
+{
+    const stroke_point *p = point_at_end(j->set, a), *q = point_at_end(j->set, b);
+    return hypotf(q->x - p->x, q->y - p->y);
+}
+
 /* All that is linked, in one chain: one stroke where pieces almost touch, the next one where they do not. `entry`: the
  * end that it begins with. */
 static void put_linked(joined *out, joiner *j, uint32_t entry, uint8_t *used)
@@ -414,11 +429,12 @@ static void put_linked(joined *out, joiner *j, uint32_t entry, uint8_t *used)
         s->count = (uint32_t)(out->point_count - s->first);
         used[at / 2] = 1;
         next = j->partners[at ^ 1];
-        gap = next == NO_VERTEX ? 0 : gap_between(j, at ^ 1, next);
+        gap = next == NO_VERTEX ? 0 : gap_of(j, at ^ 1, next);
         if (next == entry && out->stroke_count == first + 1 && gap <= GAP) {
             s->closed = true;
             out->points[out->point_count - 1] = out->points[s->first];
         }
+        j->rings[chain - j->first_chain] = next == entry && !s->closed;
         if (next == NO_VERTEX || used[next / 2])
             break;
     }
@@ -440,44 +456,30 @@ static void put_joined(joined *out, joiner *j, uint32_t entry, uint8_t *used)
     used[entry / 2] = 1;
 }
 
-static bool put_all(joiner *j, const stroke_view *v)
+static bool open_joined(joined *out, const stroke_set *set)
 {
-    stroke_set *set = j->set;
-    joined      out = {mem_alloc((set->stroke_count + 1) * sizeof(stroke)),
-                       mem_alloc((set->point_count + 1) * sizeof(stroke_point)),
-                       NULL,
-                       0,
-                       0,
-                       0,
-                       0,
-                       false};
-    uint8_t    *used = mem_calloc(set->stroke_count + 1, 1);
-    bool        good = out.strokes && out.points && used && index_marks(j) && leave_out(j, v, used);
-    for (int rings = 0; rings < 2 && good; rings++) /* what has an end, then what has come full circle */
-        for (uint32_t i = 0; i < set->stroke_count; i++) {
-            bool first_free = j->partners[2 * i] == NO_VERTEX, last_free = j->partners[2 * i + 1] == NO_VERTEX;
-            if (!used[i] && (rings || first_free || last_free))
-                put_joined(&out, j, rings || first_free ? 2 * i : 2 * i + 1, used);
-        }
-    mem_free(used);
-    good = good && !out.failed &&
-           mem_grow((void **)&set->marks, &(size_t){set->mark_count}, set->mark_count + out.mark_count,
-                    sizeof *set->marks);
-    if (good && out.mark_count)
-        memcpy(set->marks + set->mark_count, out.marks, out.mark_count * sizeof *out.marks);
-    mem_free(out.marks);
-    if (!good) {
-        mem_free(out.strokes);
-        mem_free(out.points);
+    *out = (joined){.strokes = mem_alloc((set->stroke_count + 1) * sizeof(stroke)),
+                    .points = mem_alloc((set->point_count + 1) * sizeof(stroke_point))};
+    return out->strokes && out->points;
+}
+
+/* The joined strokes take the place of those that they were made of. */
+static bool take_joined(stroke_set *set, joined *out)
+{
+    if (!mem_grow((void **)&set->marks, &(size_t){set->mark_count}, set->mark_count + out->mark_count,
+                  sizeof *set->marks))
         return false;
-    }
-    set->mark_count += out.mark_count;
+    if (out->mark_count)
+        memcpy(set->marks + set->mark_count, out->marks, out->mark_count * sizeof *out->marks);
+    set->mark_count += out->mark_count;
     mem_free(set->strokes);
     mem_free(set->points);
-    set->strokes = out.strokes;
-    set->points = out.points;
-    set->stroke_count = out.stroke_count;
-    set->point_count = out.point_count;
+    set->strokes = out->strokes;
+    set->points = out->points;
+    set->stroke_count = out->stroke_count;
+    set->point_count = out->point_count;
+    out->strokes = NULL;
+    out->points = NULL;
     return true;
 }
 
@@ -491,16 +493,110 @@ static int compare_strokes(const void *a, const void *b)
     return p->first < q->first ? -1 : p->first > q->first;
 }
 
-lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
+/* All strokes but those that are used, joined with their partners. */
+static bool put_all(joiner *j, uint8_t *used)
 {
-    joiner j = {.set = set,
-                .options = options,
-                .bridged = BRIDGED_WIDTHS * fmaxf(options->width, 0),
-                .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]),
-                .orthographic = v->camera.orthographic};
-    bool   good = put_ends(&j) && match_ends(&j) && put_all(&j, v);
+    stroke_set *set = j->set;
+    joined      out;
+    mem_free(j->rings);
+    mem_free(j->first_marks);
+    j->first_chain = (uint32_t)set->chain_count;
+    j->rings = mem_calloc(set->stroke_count + 1, 1);
+    bool good = open_joined(&out, set) && index_marks(j) && j->rings;
+    for (int rings = 0; rings < 2 && good; rings++) /* what has an end, then what has come full circle */
+        for (uint32_t i = 0; i < set->stroke_count; i++) {
+            bool first_free = j->partners[2 * i] == NO_VERTEX, last_free = j->partners[2 * i + 1] == NO_VERTEX;
+            if (!used[i] && (rings || first_free || last_free))
+                put_joined(&out, j, rings || first_free ? 2 * i : 2 * i + 1, used);
+        }
+    good = good && !out.failed && take_joined(set, &out);
+    mem_free(out.strokes);
+    mem_free(out.points);
+    mem_free(out.marks);
     if (good && set->stroke_count)
         qsort(set->strokes, set->stroke_count, sizeof *set->strokes, compare_strokes);
+    return good;
+}
+
+/* --- ends that are cut ---------------------------------------------------------------------------------- */
+
+/* What is linked over gaps stays so: strokes of one chain of links, which follow each other. */
+static void keep_links(joiner *j)
+{
+    const stroke *s = j->set->strokes;
+    uint32_t      count = (uint32_t)j->set->stroke_count;
+    memset(j->partners, 0xFF, 2 * (size_t)count * sizeof *j->partners);
+    for (uint32_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && s[end].chain == s[first].chain)
+            end++;
+        if (s[first].chain < j->first_chain)
+            continue;
+        for (uint32_t i = first + 1; i < end; i++) {
+            j->partners[2 * i - 1] = 2 * i;
+            j->partners[2 * i] = 2 * i - 1;
+        }
+        if (j->rings[s[first].chain - j->first_chain]) {
+            j->partners[2 * end - 1] = 2 * first;
+            j->partners[2 * first] = 2 * end - 1;
+        }
+    }
+}
+
+static void link_cut(joiner *j, const uint32_t ends[2])
+{
+    for (int k = 0; k < 2; k++) {
+        if (j->partners[ends[k]] != NO_VERTEX)
+            j->partners[j->partners[ends[k]]] = NO_VERTEX;
+        j->partners[ends[k]] = ends[1 - k];
+    }
+}
+
+/* Cuts outlines that run past each other to where they meet, and joins them there; what is joined may overlap with
+ * others then. */
+static lmn_status join_overlaps(joiner *j, const stroke_view *v, lmn_error *error)
+{
+    for (int round = 0; round < TRIMS; round++) {
+        uint32_t(*cut)[2];
+        size_t     count;
+        lmn_status status = strokes_trim(j->set, v, &cut, &count, error);
+        if (status != LMN_OK || !count) {
+            mem_free(cut);
+            return status;
+        }
+        uint8_t *used = mem_calloc(j->set->stroke_count + 1, 1);
+        keep_links(j);
+        for (size_t i = 0; i < count; i++)
+            link_cut(j, cut[i]);
+        bool good = used && put_all(j, used);
+        mem_free(used);
+        mem_free(cut);
+        if (!good)
+            return error_memory(error);
+    }
+    return LMN_OK;
+}
+
+static bool join_all(joiner *j, const stroke_view *v)
+{
+    size_t   ends = 2 * j->set->stroke_count;
+    uint8_t *used = mem_calloc(j->set->stroke_count + 1, 1);
+    j->partners = mem_alloc((ends + 1) * sizeof *j->partners);
+    bool good = used && j->partners;
+    if (good)
+        memset(j->partners, 0xFF, (ends + 1) * sizeof *j->partners);
+    good = good && put_ends(j) && match_ends(j) && leave_out(j, v, used) && put_all(j, used);
+    mem_free(used);
+    return good;
+}
+
+lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error)
+{
+    joiner     j = {.set = set,
+                    .options = options,
+                    .bridged = BRIDGED_WIDTHS * fmaxf(options->width, 0),
+                    .focal = 0.5 * v->camera.height * fabs(v->camera.projection.m[5]),
+                    .orthographic = v->camera.orthographic};
+    lmn_status status = join_all(&j, v) ? join_overlaps(&j, v, error) : error_memory(error);
     mem_free(j.ends);
     mem_free(j.kept);
     mem_free(j.starts);
@@ -508,5 +604,6 @@ lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_opti
     mem_free(j.partners);
     mem_free(j.first_marks);
     mem_free(j.wholes);
-    return good ? LMN_OK : error_memory(error);
+    mem_free(j.rings);
+    return status;
 }

@@ -206,7 +206,8 @@ static void end_at(stroke_set *set, uint32_t number, float cut, stroke_point pla
     set->points[s->first + (number & 1 ? s->count - 1 : 0)] = place;
 }
 
-static bool trim_pairs(trimmer *t)
+/* Cuts both ends of each pair, the nearest first, each end once. */
+static bool trim_pairs(trimmer *t, uint32_t (*cut)[2], size_t *count)
 {
     uint8_t *taken = mem_calloc(t->count + 1, 1);
     if (t->pair_count)
@@ -223,21 +224,25 @@ static bool trim_pairs(trimmer *t)
         p.depth = q.depth = 0.5f * (p.depth + q.depth);
         end_at(t->set, a, pair->overlap / 2 + BEND, p);
         end_at(t->set, b, pair->overlap / 2 + BEND, q);
+        cut[*count][0] = a;
+        cut[(*count)++][1] = b;
     }
     mem_free(taken);
     return taken != NULL;
 }
 
-lmn_status strokes_trim(stroke_set *set, const stroke_view *v, size_t *count, lmn_error *error)
+lmn_status strokes_trim(stroke_set *set, const stroke_view *v, uint32_t (**cut)[2], size_t *count, lmn_error *error)
 {
     trimmer t = {.set = set, .v = v, .ends = mem_alloc((2 * set->stroke_count + 1) * sizeof *t.ends)};
     bool    good = t.ends != NULL;
+    *cut = NULL;
+    *count = 0;
     if (good) {
         gather_ends(&t);
         find_loose(&t);
     }
-    good = good && find_pairs(&t) && trim_pairs(&t);
-    *count = t.pair_count;
+    good =
+        good && find_pairs(&t) && (*cut = mem_alloc((t.pair_count + 1) * sizeof **cut)) && trim_pairs(&t, *cut, count);
     mem_free(t.ends);
     mem_free(t.pairs);
     return good ? LMN_OK : error_memory(error);

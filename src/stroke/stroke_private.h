@@ -60,7 +60,8 @@ typedef struct grid_level {
     int32_t   cell, columns, rows; /* side of a cell, window units */
     uint32_t *starts;              /* per cell, and one more, in the grid's entries */
     uint32_t *subs;      /* per cell: 1 + the finer grid that crowded ones have, 0: none; NULL: no cell has one */
-    bool      divisible; /* of finer grids: their cells may have some, too */
+    float     copies;    /* of finer grids: how often a triangle is entered in them, with all above, on average */
+    bool      divisible; /* their cells may have some, too */
 } grid_level;
 
 /* Grids of several sizes. Each triangle lies in one of the levels, in all cells that it touches there; crowded
@@ -308,14 +309,14 @@ lmn_status chains_make(stroke_set *out, const stroke_view *v, const view_lines *
                        const stroke_options *options, lmn_error *error);
 
 /* --- join.c --- */
-/* Makes chains whole: links strokes whose ends lie close together and follow each other, and only then leaves out what
- * is too short. */
+/* Makes chains whole: links strokes whose ends lie close together and follow each other, leaves out only then what is
+ * too short, and joins outlines that run past each other. */
 lmn_status strokes_join(stroke_set *set, const stroke_view *v, const stroke_options *options, lmn_error *error);
 
 /* --- overlap.c --- */
-/* Cuts visible outlines that run past each other, side by side, to where they meet; *count is above 0 where there were
- * some, which are to be joined then. */
-lmn_status strokes_trim(stroke_set *set, const stroke_view *v, size_t *count, lmn_error *error);
+/* Cuts visible outlines that run past each other, side by side, to where they meet. *cut: the ends that meet there now,
+ * 2 · stroke, + 1 for its last point, to be joined; the caller frees it, also after an error. */
+lmn_status strokes_trim(stroke_set *set, const stroke_view *v, uint32_t (**cut)[2], size_t *count, lmn_error *error);
 
 /* --- density.c --- */
 /* Small pieces are drawn with a finer pen, so that their outlines enclose something. */

@@ -240,10 +240,17 @@ static void overlaps_become_one_line(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         stroke_set set = {.strokes = given_strokes, .points = given_points};
-        size_t     count;
+        uint32_t(*cut)[2];
+        size_t count;
         give(&set, 0, 50, 100, 50);
         give(&set, others[i].x, others[i].y, others[i].to_x, others[i].to_y);
-        assert_int_equal(strokes_trim(&set, &view, &count, NULL), LMN_OK);
+        assert_int_equal(strokes_trim(&set, &view, &cut, &count, NULL), LMN_OK);
+        if (others[i]
+                .meets) { /* says which ends these are: the first one's last, and the other one's that is near it */
+            assert_int_equal(cut[0][0] + cut[0][1], 1 + (i == 1 ? 3 : 2));
+            assert_true(cut[0][0] == 1 || cut[0][1] == 1);
+        }
+        mem_free(cut);
         const stroke_point *p = &given_points[given_strokes[0].first + given_strokes[0].count - 1],
                            *q = &given_points[given_strokes[1].first + (i == 1 ? given_strokes[1].count - 1 : 0)];
         assert_int_equal(count, others[i].meets);
@@ -262,11 +269,13 @@ static void the_nearest_overlap_is_taken(void **state)
     (void)state;
     for (int order = 0; order < 2; order++) {
         stroke_set set = {.strokes = given_strokes, .points = given_points};
-        size_t     count;
+        uint32_t(*cut)[2];
+        size_t count;
         give(&set, 0, 50, 100, 50);
         give(&set, 90, order ? 51.8f : 50.4f, 200, order ? 51.8f : 50.4f);
         give(&set, 90, order ? 50.4f : 51.8f, 200, order ? 50.4f : 51.8f);
-        assert_int_equal(strokes_trim(&set, &view, &count, NULL), LMN_OK);
+        assert_int_equal(strokes_trim(&set, &view, &cut, &count, NULL), LMN_OK);
+        mem_free(cut);
         assert_float_equal(given_points[given_strokes[0].first + given_strokes[0].count - 1].y, 50.2, 1e-3);
     }
 }

@@ -2,6 +2,8 @@
  * And the lines are all there. */
 #include "stroke_shapes.h"
 
+#include "stroke/stroke_private.h"
+
 #include <time.h>
 
 static const double origin[3] = {0, 0, 0};
@@ -134,11 +136,61 @@ static void specks_grow_as_they_are_full(void **state)
         fail_msg("2500 triangles in a pixel take %g s, 10000 %g s", few.seconds, many.seconds);
 }
 
+/* Sheets one behind the other, all of them larger than the cells of a grid. */
+static void make_sheets(lmn_scene *s, uint32_t count)
+{
+    const double n[3] = {1, 0.7, 1.2}, u[3] = {0.7, -1, 0}, v[3] = {1.2, 0.84, -1.49};
+    vec3        *positions = mem_alloc(3 * (size_t)count * sizeof *positions);
+    uint32_t    *corners = mem_alloc(3 * (size_t)count * sizeof *corners);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        double along = i % 3 == 1 ? 3 : -2, up = i % 3 == 2 ? 3 : -2, deep = 1e-3 * (i / 3);
+        corners[i] = i;
+        positions[i] =
+            (vec3){(float)(along * u[0] + up * v[0] + deep * n[0]), (float)(along * u[1] + up * v[1] + deep * n[1]),
+                   (float)(along * u[2] + up * v[2] + deep * n[2])};
+    }
+    add_part(s, positions, 3 * count, corners, 3 * count);
+    mem_free(positions);
+    mem_free(corners);
+}
+
+/* Entries that a view's grids have. */
+static size_t entries_of(maker make, uint32_t count)
+{
+    lmn_error     error = {0};
+    pose          at_rest;
+    stroke_scene  scene;
+    stroke_view  *view;
+    lmn_scene    *s = stroke_scene_begin();
+    stroke_camera c = look_along(-1, -0.7, -1.2, origin, 20, 1.25, true, 1000, 1000);
+    make(s, count);
+    assert_int_equal(scene_finish(s, "test", &error), LMN_OK);
+    assert_int_equal(pose_create(&at_rest, s, &(moment){.seconds = 0}, &error), LMN_OK);
+    assert_int_equal(stroke_scene_create(&scene, &at_rest, NULL, 0.5, NULL, NULL, &error), LMN_OK);
+    assert_int_equal(stroke_view_create(&view, &scene, &c, NULL, NULL, &error), LMN_OK);
+    size_t out = view->grid.entry_count + view->grid.sub_entry_count;
+    stroke_view_destroy(&view);
+    stroke_scene_release(&scene);
+    pose_release(&at_rest);
+    scene_free(s);
+    return out;
+}
+
+/* Where surfaces lie one behind the other, cells stay crowded however fine they are, and are not divided in vain. */
+static void surfaces_in_front_do_not_fill_the_grid(void **state)
+{
+    (void)state;
+    size_t few = entries_of(make_sheets, 400), many = entries_of(make_sheets, 1600);
+    if (many > 8 * few || many > 400 * 1600)
+        fail_msg("400 sheets have %zu entries, 1600 %zu", few, many);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_grow_as_their_spokes),
         cmocka_unit_test(specks_grow_as_they_are_full),
+        cmocka_unit_test(surfaces_in_front_do_not_fill_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
