@@ -358,7 +358,7 @@ static bool enter_all(grid_job *j)
 /* --- corners -------------------------------------------------------------------------------------------- */
 
 typedef struct corner_job {
-    const window_grid *g;
+    grid_corners      *out;
     const stroke_view *v;
     const grid_level  *level;
     const uint32_t    *entries;
@@ -367,7 +367,7 @@ typedef struct corner_job {
 
 static void put_corner(const corner_job *j, uint32_t entry)
 {
-    const grid_corners    *c = &j->g->corners;
+    const grid_corners    *c = j->out;
     const uint32_t         number = j->entries[entry];
     const size_t           at = j->first + entry;
     const window_triangle *t = &j->v->triangles[number];
@@ -392,27 +392,34 @@ static void put_rows(size_t begin, size_t end, void *user)
             put_corner(j, i);
 }
 
-static bool make_corners(window_grid *g, const stroke_view *v)
+bool grid_corners_make(grid_corners *out, const stroke_view *v)
 {
     enum { NUMBERS = 8, ROWS_LEAST = 16 };
-    grid_corners *c = &g->corners;
-    size_t        count = g->entry_count + g->sub_entry_count, stride = count + GRID_LANES;
-    c->memory = mem_alloc(NUMBERS * stride * sizeof *c->memory);
-    if (!c->memory)
+    const window_grid *g = &v->grid;
+    const size_t       count = g->entry_count + g->sub_entry_count, stride = count + GRID_LANES;
+    out->memory = mem_alloc(NUMBERS * stride * sizeof *out->memory);
+    if (!out->memory)
         return false;
     for (int k = 0; k < 3; k++) {
-        c->x[k] = c->memory + (size_t)k * stride;
-        c->y[k] = c->memory + (size_t)(3 + k) * stride;
+        out->x[k] = out->memory + (size_t)k * stride;
+        out->y[k] = out->memory + (size_t)(3 + k) * stride;
     }
-    c->near_z = c->memory + 6 * stride;
-    c->turn = c->memory + 7 * stride;
+    out->near_z = out->memory + 6 * stride;
+    out->turn = out->memory + 7 * stride;
     for (int k = 0; k < NUMBERS; k++)
-        memset(c->memory + (size_t)k * stride + count, 0, GRID_LANES * sizeof *c->memory);
+        memset(out->memory + (size_t)k * stride + count, 0, GRID_LANES * sizeof *out->memory);
     for (int k = 0; k < GRID_LEVELS; k++)
-        threads_for((size_t)g->levels[k].rows, ROWS_LEAST, put_rows, &(corner_job){g, v, &g->levels[k], g->entries, 0});
+        threads_for((size_t)g->levels[k].rows, ROWS_LEAST, put_rows,
+                    &(corner_job){out, v, &g->levels[k], g->entries, 0});
     for (size_t i = 0; i < g->sub_count; i++)
-        put_rows(0, (size_t)g->subs[i].rows, &(corner_job){g, v, &g->subs[i], g->sub_entries, g->entry_count});
+        put_rows(0, (size_t)g->subs[i].rows, &(corner_job){out, v, &g->subs[i], g->sub_entries, g->entry_count});
     return true;
+}
+
+void grid_corners_release(grid_corners *c)
+{
+    mem_free(c->memory);
+    memset(c, 0, sizeof *c);
 }
 
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
@@ -423,7 +430,7 @@ lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error)
     for (uint32_t r = 0; r < job.run_count; r++)
         for (int k = 0; k < GRID_LEVELS; k++)
             mem_free(job.slots[r][k]);
-    return good && divide_crowds(out, v) && make_corners(out, v) ? LMN_OK : error_memory(error);
+    return good && divide_crowds(out, v) ? LMN_OK : error_memory(error);
 }
 
 void grid_release(window_grid *g)
@@ -437,7 +444,6 @@ void grid_release(window_grid *g)
     mem_free(g->sub_links);
     mem_free(g->entries);
     mem_free(g->sub_entries);
-    mem_free(g->corners.memory);
     memset(g, 0, sizeof *g);
 }
 

@@ -77,13 +77,12 @@ typedef struct grid_corners {
 } grid_corners;
 
 typedef struct window_grid {
-    grid_level   levels[GRID_LEVELS];
-    grid_level  *subs; /* their starts and subs are parts of sub_starts and sub_links */
-    uint32_t    *sub_starts, *sub_links;
-    uint32_t    *entries, *sub_entries; /* triangles */
-    size_t       entry_count;
-    grid_corners corners;
-    size_t       sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
+    grid_level  levels[GRID_LEVELS];
+    grid_level *subs; /* their starts and subs are parts of sub_starts and sub_links */
+    uint32_t   *sub_starts, *sub_links;
+    uint32_t   *entries, *sub_entries; /* triangles */
+    size_t      entry_count;
+    size_t      sub_count, sub_capacity, sub_start_count, sub_start_capacity, sub_link_capacity, sub_entry_count,
         sub_entry_capacity;
 } window_grid;
 
@@ -172,6 +171,10 @@ static inline uint32_t view_solid(const stroke_view *v, uint32_t face)
 /* --- grid.c --- */
 lmn_status grid_build(window_grid *out, const stroke_view *v, lmn_error *error);
 void       grid_release(window_grid *g);
+/* Puts the corners of a view's triangles together, which pays where many segments are asked for. False when memory is
+ * gone. */
+bool grid_corners_make(grid_corners *out, const stroke_view *v);
+void grid_corners_release(grid_corners *c);
 /* The runs of entries of the cells of a level that a segment touches: calls `visit` for each run. `corner`: where its
  * corners begin. `alone`: it is the only one of the level. */
 typedef void (*grid_visit)(void *user, const uint32_t *entries, size_t corner, size_t count, bool alone);

@@ -22,6 +22,8 @@
 /* Gaps between bodies are no wider than twice this where it is roundings that make them, pixels. */
 #define GAP 0.01
 enum { BLOCK = 512, RUN_MOST = 256 };
+/* Corners of the grid's entries are put together where it has no more of them for each segment. */
+enum { ENTRIES_A_SEGMENT = 48 };
 
 /* Spans of the segments of a block, which is what a thread takes at a time. */
 typedef struct span_block {
@@ -33,8 +35,9 @@ typedef struct span_block {
 typedef struct span_job {
     const stroke_view    *v;
     const window_segment *segments;
-    const uint32_t       *order; /* segments as they are looked at: those side by side ask for the same triangles */
-    size_t                count; /* of these */
+    const uint32_t       *order;   /* segments as they are looked at: those side by side ask for the same triangles */
+    size_t                count;   /* of these */
+    grid_corners          corners; /* where there are many segments */
     span_block           *blocks;
     uint32_t             *lengths; /* spans per segment */
     atomic_bool           failed;
@@ -67,7 +70,8 @@ typedef struct line_test {
 typedef struct worker {
     const stroke_view    *v;
     const window_segment *segment;
-    double                same; /* of the segment's piece, where these differ */
+    double                same;    /* of the segment's piece, where these differ */
+    const grid_corners   *corners; /* NULL: they do not lie together */
     line_test             line;
     bool                  wide;      /* the processor has wide registers */
     uint32_t              planes[2]; /* that the segment lies in, ascending; 0: not known */
@@ -233,11 +237,12 @@ typedef struct flat_triangle {
     double x[3], y[3], sides[3];
 } flat_triangle;
 
-static inline void put_corner(const worker *w, flat_triangle *out, int k, size_t corner)
+static inline void put_corner(const worker *w, flat_triangle *out, int k, uint32_t number, size_t corner)
 {
-    const grid_corners   *c = &w->v->grid.corners;
+    const grid_corners   *c = w->corners;
+    const window_point   *p = &w->v->points[w->v->triangles[number].v[k]];
     const window_segment *s = w->segment;
-    const double          x = (double)c->x[k][corner], y = (double)c->y[k][corner];
+    const double          x = c ? (double)c->x[k][corner] : p->x, y = c ? (double)c->y[k][corner] : p->y;
     out->x[k] = x;
     out->y[k] = y;
     out->sides[k] = ((double)s->b.x - s->a.x) * (y - s->a.y) - ((double)s->b.y - s->a.y) * (x - s->a.x);
@@ -331,9 +336,9 @@ static void compare(worker *w, uint32_t number, size_t corner)
     const window_triangle *t = &v->triangles[number];
     flat_triangle          flat;
     const double          *sides = flat.sides;
-    put_corner(w, &flat, 0, corner);
-    put_corner(w, &flat, 1, corner);
-    put_corner(w, &flat, 2, corner);
+    put_corner(w, &flat, 0, number, corner);
+    put_corner(w, &flat, 1, number, corner);
+    put_corner(w, &flat, 2, number, corner);
     unsigned low = (unsigned)(sides[0] < 0) | (unsigned)(sides[1] < 0) << 1 | (unsigned)(sides[2] < 0) << 2;
     if (low == 0 || low == 7) {
         if (!w->grazed && runs_along(w, &flat))
@@ -396,7 +401,7 @@ static inline __attribute__((always_inline)) size_t find_with(const worker *w, s
     for (size_t begin = 0; begin < count; begin += GRID_LANES) {
         int32_t meets[GRID_LANES];
         size_t  lanes = count - begin < GRID_LANES ? count - begin : GRID_LANES;
-        test_group(&w->v->grid.corners, corner + begin, &w->line, meets);
+        test_group(w->corners, corner + begin, &w->line, meets);
         for (size_t i = 0; i < lanes; i++) {
             out[found] = (uint16_t)(begin + i);
             found += (size_t)meets[i];
@@ -435,6 +440,21 @@ static bool is_wide(void)
 }
 #endif
 
+/* The same by boxes alone, where corners do not lie together. */
+static size_t find_boxes(const worker *w, const uint32_t *entries, size_t count, uint16_t *out)
+{
+    const window_box *boxes = w->v->boxes;
+    const line_test   t = w->line;
+    size_t            found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const window_box *box = &boxes[entries[i]];
+        out[found] = (uint16_t)i;
+        found += ((float)box->low_x <= t.high_x) & ((float)box->high_x >= t.low_x) & ((float)box->low_y <= t.high_y) &
+                 ((float)box->high_y >= t.low_y) & (box->near_z <= t.far_z);
+    }
+    return found;
+}
+
 /* Of entries those that the segment has not been compared with: whose triangle no other cell had. */
 static size_t find_new(worker *w, const uint32_t *entries, uint16_t *offsets, size_t count)
 {
@@ -453,8 +473,9 @@ static void visit_run(worker *w, const uint32_t *entries, size_t corner, size_t 
     uint16_t offsets[RUN_MOST];
     for (size_t begin = 0; begin < count; begin += RUN_MOST) {
         size_t length = count - begin < RUN_MOST ? count - begin : RUN_MOST;
-        size_t found = w->wide ? find_meeting_wide(w, corner + begin, length, offsets)
-                               : find_meeting(w, corner + begin, length, offsets);
+        size_t found = !w->corners ? find_boxes(w, entries + begin, length, offsets)
+                       : w->wide   ? find_meeting_wide(w, corner + begin, length, offsets)
+                                   : find_meeting(w, corner + begin, length, offsets);
         if (!alone)
             found = find_new(w, entries + begin, offsets, found);
         for (size_t i = 0; i < found; i++)
@@ -699,7 +720,10 @@ static void look_beside(worker *w, span_block *block, const window_segment *s, s
 static void find_blocks(size_t begin, size_t end, void *user)
 {
     span_job *job = user;
-    worker    w = {.v = job->v, .wide = is_wide(), .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
+    worker    w = {.v = job->v,
+                   .corners = job->corners.memory ? &job->corners : NULL,
+                   .wide = is_wide(),
+                   .stamps = mem_calloc(job->v->triangle_count + 1, sizeof *w.stamps)};
     w.failed = !w.stamps;
     for (size_t b = begin; b < end && !w.failed; b++) {
         span_block *block = &job->blocks[b];
@@ -792,7 +816,10 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
     span_job  job = {.v = v, .segments = segments, .order = order, .count = count};
     job.blocks = mem_calloc(block_count + 1, sizeof *job.blocks);
     job.lengths = mem_alloc((count + 1) * sizeof *job.lengths);
-    lmn_status status = job.blocks && job.lengths && order ? LMN_OK : error_memory(error);
+    const size_t entries = v->grid.entry_count + v->grid.sub_entry_count;
+    bool         good = job.blocks && job.lengths && order &&
+                (count * ENTRIES_A_SEGMENT < entries || grid_corners_make(&job.corners, v));
+    lmn_status status = good ? LMN_OK : error_memory(error);
     span_job   part = job;
     for (size_t b = 0; b < block_count && status == LMN_OK; b += portion) {
         if (progress && !progress((double)b / (double)block_count, "finding what is hidden", user)) {
@@ -816,6 +843,7 @@ lmn_status visibility_find(visibility *out, const stroke_view *v, const window_s
     mem_free(job.blocks);
     mem_free(job.lengths);
     mem_free(order);
+    grid_corners_release(&job.corners);
     if (status != LMN_OK)
         visibility_release(out);
     return status;
