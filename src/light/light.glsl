@@ -54,19 +54,25 @@ vec3 diffuse_light(surface_point p)
     return diffuse_light_of(p, unshadowed(p));
 }
 
-/* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. */
+/* Sum of half-Lambert terms, 0 … 1 for one white light: 0.5 at the terminator. A rim light is from behind and lights what it meets alone, by Lambert's law: half of that law would reach
+ * all that is seen. */
 float wrapped_light(surface_point p)
 {
     float sum = 0.0;
     float total = 0.0;
+    float rim = 0.0;
     float first = unshadowed(p);
     for (int i = 0; i < LIGHT_COUNT; i++) {
         float strength = dot(u_light_colour[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         float turned = dot(p.normal, towards_light(i, p.eye));
+        if (i == RIM_LIGHT) {
+            rim = strength * max(turned, 0.0);
+            continue;
+        }
         sum += strength * (0.5 * (turned > 0.0 && i == 0 ? turned * first : turned) + 0.5);
         total += strength;
     }
-    return total > 0.0 ? sum / total * sky_fraction(p) : 0.0;
+    return total > 0.0 ? min(sum / total + rim, 1.0) * sky_fraction(p) : 0.0;
 }
 
 /* Phong's highlight of the key light: reflected light direction against the viewer's. One light, because two highlights on one
