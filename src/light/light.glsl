@@ -22,7 +22,11 @@ float unshadowed(surface_point p)
 {
 #if defined(HAS_SOFT_SHADOW)
     arrived_light arrived = light_at(p);
-    return arrived.known ? arrived.light : lit_once(p.eye, p.normal);
+    float light = arrived.known ? arrived.light : lit_once(p.eye, p.normal), stray = strays(p.normal, p.face, towards_light(0, p.eye));
+    /* What was found for such a face is the shadow of its neighbours. */
+    if (stray > 0.0 && light < 1.0)
+        light = mix(light, max(light, lit_fraction(p.eye, p.normal, p.face, towards_light(0, p.eye))), stray);
+    return light;
 #elif defined(LIT_WITH_SHADOW)
     return lit_fraction(p.eye, p.normal, p.face, towards_light(0, p.eye));
 #else
