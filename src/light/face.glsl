@@ -13,12 +13,13 @@ vec4 to_neighbour(vec3 eye, vec3 normal, ivec2 pixel)
     return vec4(step_, dot(there.xyz, normal) > 0.8 ? abs(dot(normal, step_)) / max(length(step_), 1e-30) : 1.0);
 }
 
-/* From here to the next pixel of the surface along one axis: on the side where it runs on as its normal says; none where neither does. */
+/* From here to the next pixel of the surface along one axis: where both sides lie on one line, along it; else on the side where it runs on as its normal says, none where neither does. */
 vec3 along_surface(vec3 eye, vec3 normal, ivec2 pixel, ivec2 axis)
 {
     vec4 before = to_neighbour(eye, normal, pixel - axis), behind = to_neighbour(eye, normal, pixel + axis);
     vec4 nearest = before.w < behind.w ? vec4(-before.xyz, before.w) : behind;
-    return nearest.w < 0.4 ? nearest.xyz : vec3(0.0);
+    bool straight = max(before.w, behind.w) < 1.0 && length(before.xyz + behind.xyz) < 0.1 * length(nearest.xyz);
+    return nearest.w < 0.4 || straight ? nearest.xyz : vec3(0.0);
 }
 
 /* Of the flat surface that was drawn; the normal itself where what lies around is another one. */
