@@ -500,6 +500,7 @@ static bool put_all(joiner *j, uint8_t *used)
     joined      out;
     mem_free(j->rings);
     mem_free(j->first_marks);
+    j->first_marks = NULL;
     j->first_chain = (uint32_t)set->chain_count;
     j->rings = mem_calloc(set->stroke_count + 1, 1);
     bool good = open_joined(&out, set) && index_marks(j) && j->rings;

@@ -280,6 +280,51 @@ static void the_nearest_overlap_is_taken(void **state)
     }
 }
 
+/* The same in a set of its own, which joining takes apart. */
+static stroke_set own_set(void)
+{
+    stroke_set given = {.strokes = given_strokes, .points = given_points};
+    give(&given, 0, 50, 100, 50);
+    give(&given, 90, 51.5f, 200, 51.5f);
+    give(&given, 10, 90, 60, 90); /* has nothing to do with these */
+    for (size_t i = 0; i < given.stroke_count; i++)
+        given_strokes[i].chain_length = given_points[2 * i + 1].arc;
+    stroke_set out = given;
+    out.strokes = mem_copy(given_strokes, given.stroke_count * sizeof *given_strokes);
+    out.points = mem_copy(given_points, given.point_count * sizeof *given_points);
+    return out;
+}
+
+/* What was cut is one line then, and what lies elsewhere is as it was; without memory there is an error and no more. */
+static void what_is_cut_is_joined(void **state)
+{
+    struct stroke_view view = {.camera = {.orthographic = true, .height = 100, .width = 100}};
+    stroke_options     w = STROKE_OPTIONS_INIT;
+    lmn_error          error = {0};
+    lmn_status         status = LMN_MEMORY;
+    long               failures = 0;
+    (void)state;
+    for (long n = 1; status == LMN_MEMORY; n++) {
+        stroke_set set = own_set();
+        mem_fail_at(n);
+        status = strokes_join(&set, &view, &w, &error);
+        mem_fail_at(0);
+        failures += status == LMN_MEMORY;
+        if (status == LMN_OK) {
+            const stroke *s = set.strokes, *joined = s[0].count > 2 ? &s[0] : &s[1], *other = joined == s ? s + 1 : s;
+            assert_int_equal(set.stroke_count, 2);
+            assert_int_equal(joined->count, 3);
+            assert_float_equal(set.points[joined->first].x + set.points[joined->first + 2].x, 200, 1e-3);
+            assert_float_equal(set.points[joined->first + 1].x, 95, 1e-3);
+            assert_int_equal(other->chain, 2);
+            assert_int_equal(other->count, 2);
+        }
+        stroke_set_release(&set);
+    }
+    assert_int_equal(status, LMN_OK);
+    assert_true(failures > 12);
+}
+
 /* A short outline that runs along a longer one is a crumb; one that stands on it, or joins two, is not. */
 static void crumbs_of_outlines_go(void **state)
 {
@@ -314,6 +359,7 @@ int main(void)
                                        cmocka_unit_test(small_pieces_keep_their_outlines),
                                        cmocka_unit_test(overlaps_become_one_line),
                                        cmocka_unit_test(the_nearest_overlap_is_taken),
+                                       cmocka_unit_test(what_is_cut_is_joined),
                                        cmocka_unit_test(crumbs_of_outlines_go)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
