@@ -165,19 +165,19 @@ lmn_status vector_face_normal(const vector_job *j, const double at[3], double ou
 
 lmn_status vector_find_axes(vector_job *j, lmn_error *error)
 {
-    if (!j->wanted->centre_lines)
+    if (!j->wanted->centre_lines && !j->threaded)
         return LMN_OK;
-    lmn_status status = LMN_OK;
-    if (j->section.cut.cell_count) {
-        stroke_scene whole = {0};
+    stroke_scene whole = {0};
+    lmn_status   status = LMN_OK;
+    if (j->section.cut.cell_count)
         status = stroke_scene_create(&whole, &j->pose, j->stroked, j->plan.crease_angle, NULL, NULL, error);
-        if (status == LMN_OK)
-            status = draft_cylinders_find(&j->cylinders, &whole, error);
-        stroke_scene_release(&whole);
-    } else {
-        status = draft_cylinders_find(&j->cylinders, &j->strokes, error);
-    }
-    return status == LMN_OK ? draft_pitches_find(&j->pitches, &j->cylinders, error) : status;
+    const stroke_scene *uncut = j->section.cut.cell_count ? &whole : &j->strokes;
+    if (status == LMN_OK)
+        status = draft_cylinders_find(&j->cylinders, uncut, error);
+    if (status == LMN_OK && j->threaded)
+        status = vector_find_threads(j, uncut, error);
+    stroke_scene_release(&whole);
+    return status == LMN_OK && j->wanted->centre_lines ? draft_pitches_find(&j->pitches, &j->cylinders, error) : status;
 }
 
 enum { AROUND = 12, ALONG = 3, SAMPLES = AROUND * ALONG };
@@ -226,7 +226,7 @@ static bool is_shown(const draft_cylinder *c, const stroke_view *view, const cut
     return any;
 }
 
-static bool draws_hidden(const vector_job *j, uint32_t part)
+bool vector_draws_hidden(const vector_job *j, uint32_t part)
 {
     stroke_options options;
     stroke_style   style;
@@ -269,7 +269,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
                               uint32_t group, lmn_error *error)
 {
     size_t count = j->cylinders.count;
-    if (!count || !v->camera.orthographic)
+    if (!count || !v->camera.orthographic || !j->wanted->centre_lines)
         return LMN_OK;
     bool *shown = mem_calloc(count, sizeof *shown);
     if (!shown)
@@ -277,7 +277,7 @@ lmn_status vector_put_centres(vector_job *j, const vector_view *v, const stroke_
     for (size_t i = 0; i < count; i++) {
         const draft_cylinder *c = &j->cylinders.items[i];
         bool                  whole = j->spared && c->part > 0 && j->spared[c->part - 1];
-        shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && draws_hidden(j, c->part));
+        shown[i] = is_shown(c, view, whole ? NULL : cut, !j->cut_open && vector_draws_hidden(j, c->part));
     }
     draft_view d =
         vector_drafting_view(j, v, sheet_add_group(&j->out->page, (int32_t)group, "centre lines", "centre", 0));
