@@ -5,10 +5,11 @@
 #include "base/vector3.h"
 
 static const double pi = 3.14159265358979323846;
-static const double leaning = 1e-3; /* cosine */
-static const double least = 0.8;    /* mm: the circle of what is smaller is a dot, and its lines are one */
-static const double off = 2e-3;     /* of the crests' radius: so far in front of surfaces places are looked at */
-static const double crumb = 0.3;    /* mm: what is shorter is not told apart */
+static const double leaning = 1e-3;       /* cosine */
+static const double least = 0.8;          /* mm: the circle of what is smaller is a dot, and its lines are one */
+static const double off = 2e-3;           /* of the crests' radius: so far in front of surfaces places are looked at */
+static const double chamfer_least = 0.02; /* of the crests' radius */
+static const double crumb = 0.3;          /* mm: what is shorter is not told apart */
 enum { SAMPLES = 192 };
 
 /* A line of the symbol: places along it on the sheet, and in the world those that say whether it is seen. */
@@ -76,6 +77,17 @@ static void take_place(mark *m, size_t i, const draft_view *v, const draft_threa
     m->gone[i] = sight->away(sight->user, behind);
 }
 
+/* What the crests' radius is so far from the first end. */
+static double crest_at(const draft_thread *t, double along)
+{
+    double       length = vector3_distance(t->ends[0], t->ends[1]);
+    double       f = along < t->flat[0]   ? along / t->flat[0]
+                     : along > t->flat[1] ? (length - along) / (length - t->flat[1])
+                                          : 1;
+    const double tip = t->tip[along > t->flat[1]];
+    return tip + fmin(fmax(f, 0), 1) * (t->crest - tip);
+}
+
 static void put_sides(const draft_view *v, const draft_thread *t, const draft_sight *sight, uint64_t *count)
 {
     double eye[3], across[3];
@@ -83,30 +95,33 @@ static void put_sides(const draft_view *v, const draft_thread *t, const draft_si
     towards_eye(v, eye);
     vector3_cross(across, eye, t->axis);
     vector3_normalise(across);
-    double front = t->hollow ? 0 : sqrt(fmax(t->crest * t->crest - t->root * t->root, 0));
+    const double length = vector3_distance(t->ends[0], t->ends[1]);
     for (int side = -1; side <= 1; side += 2) {
         for (size_t i = 0; i < SAMPLES; i++) {
             double place[3];
             vector3_mix(place, t->ends[0], t->ends[1], (double)i / (SAMPLES - 1));
             vector3_add(place, place, side * t->root, across);
-            take_place(&m, i, v, t, sight, place, front);
+            double crest = crest_at(t, length * (double)i / (SAMPLES - 1));
+            take_place(&m, i, v, t, sight, place, t->hollow ? 0 : sqrt(fmax(crest * crest - t->root * t->root, 0)));
+            m.gone[i] = m.gone[i] || (t->hollow ? crest > t->root : crest < t->root);
         }
         put_mark(v, &m, sight, count);
     }
 }
 
-/* Where a thread ends on what is round, from edge to edge: the length that is useful. */
+/* Where a thread ends on what is round, from edge to edge, or its chamfer begins: the length that is useful. */
 static void put_limit(const draft_view *v, const draft_thread *t, int end, const draft_sight *sight, uint64_t *count)
 {
-    double       eye[3], across[3];
-    const double outer = fmax(t->crest, t->root);
+    double       eye[3], across[3], at[3];
+    const double outer = t->goes_on[end] ? fmax(t->crest, t->root) : t->crest;
     mark         m = {.width = v->wide, .straight = true};
     towards_eye(v, eye);
     vector3_cross(across, eye, t->axis);
     vector3_normalise(across);
     for (size_t i = 0; i < SAMPLES; i++) {
         double place[3], x = outer * (2.0 * (double)i / (SAMPLES - 1) - 1);
-        vector3_add(place, t->ends[end], x, across);
+        vector3_add(at, t->ends[0], t->flat[end], t->axis);
+        vector3_add(place, at, x, across);
         take_place(&m, i, v, t, sight, place, t->hollow ? 0 : sqrt(fmax(t->crest * t->crest - x * x, 0)));
     }
     put_mark(v, &m, sight, count);
@@ -140,7 +155,8 @@ void draft_thread_marks(const draft_view *v, const draft_thread *t, const draft_
     } else if (fabs(axis[2]) < leaning) {
         put_sides(v, t, sight, count);
         for (int end = 0; end < 2; end++)
-            if (t->goes_on[end])
+            if (t->goes_on[end] ||
+                fabs(t->flat[end] - (end ? vector3_distance(t->ends[0], t->ends[1]) : 0)) > chamfer_least * t->crest)
                 put_limit(v, t, end, sight, count);
     }
 }

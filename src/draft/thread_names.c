@@ -76,8 +76,11 @@ lmn_status draft_threads_named(draft_threads *out, const draft_cylinders *cylind
         draft_thread t = {.hollow = c->hollow, .crest = c->radius, .lead = pitch / mm, .part = c->part};
         t.root = (c->hollow ? diameter / 2 : diameter / 2 - root_of_shaft * pitch) / mm;
         vector3_copy(t.axis, c->axis);
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < 2; k++) {
             vector3_copy(t.ends[k], c->ends[k]);
+            t.tip[k] = t.crest;
+        }
+        t.flat[1] = vector3_distance(t.ends[0], t.ends[1]);
         if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))
             return error_memory(error);
         out->items[out->count++] = t;

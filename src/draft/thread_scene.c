@@ -9,9 +9,11 @@
 
 #include "base/memory.h"
 #include "base/vector3.h"
+#include "scene/mesh.h"
 
 static const double same_place = 1e-5;  /* of the crests' radius: corners of the mesh that were welded */
 static const double crest_near = 0.03;  /* of the depth: what is nearer to the crests' cylinder lies on it */
+static const double across_most = 0.9;  /* cosine: steeper faces are those that cut a thread off */
 static const double same_height = 1e-4; /* of the crests' radius: faces at the ends are not exactly across the axis */
 
 /* A corner of a thread, as seen from its axis; `out`: from the axis, of a bore towards it. */
@@ -107,6 +109,23 @@ static double hull_at(const hull *h, double along)
     return a->out + f * (b->out - a->out);
 }
 
+/* Where the hull is the crests' cylinder. */
+static void note_chamfers(draft_thread *t, const hull *h)
+{
+    const double depth = fabs(t->crest - t->root);
+    t->tip[0] = fabs(h->places[h->tops[0]].out);
+    t->tip[1] = fabs(h->places[h->tops[h->top_count - 1]].out);
+    bool any = false;
+    for (size_t i = 0; i < h->top_count; i++) {
+        const place *p = &h->places[h->tops[i]];
+        if (fabs(fabs(p->out) - t->crest) > crest_near * depth)
+            continue;
+        t->flat[0] = any ? t->flat[0] : p->along;
+        t->flat[1] = p->along;
+        any = true;
+    }
+}
+
 /* Is there a corner of the thread at a place? */
 static bool hull_has(const hull *h, const double p[3], double along, double near)
 {
@@ -152,6 +171,46 @@ static void drop_lines(primitive *p, const uint8_t *moved)
     p->line_count = kept;
 }
 
+static bool is_of_thread(const primitive *p, const draft_thread *t, const uint8_t *moved, size_t triangle)
+{
+    double corners[3][3], a[3], b[3], normal[3];
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = p->indices[3 * triangle + (size_t)k];
+        if (!moved[v])
+            return false;
+        vector3_set(corners[k], (double)p->positions[v].x, (double)p->positions[v].y, (double)p->positions[v].z);
+    }
+    vector3_add(a, corners[1], -1, corners[0]);
+    vector3_add(b, corners[2], -1, corners[0]);
+    vector3_cross(normal, a, b);
+    return !vector3_normalise(normal) || fabs(vector3_dot(normal, t->axis)) < across_most;
+}
+
+/* Edges between faces of the thread may be outlines and are nothing else. */
+static bool say_edges(primitive *p, const draft_thread *t, const uint8_t *moved)
+{
+    const size_t count = p->index_count;
+    uint32_t    *beside = mesh_adjacency(p);
+    uint8_t     *said = mem_alloc(count + 1);
+    if (beside && said) {
+        memset(said, SAID_NOTHING, count);
+        for (size_t i = 0; p->edges.values && i < count; i++)
+            said[i] = p->edges.values[i];
+        for (size_t i = 0; i < count; i++)
+            if (beside[i] != UINT32_MAX && is_of_thread(p, t, moved, i / 3) && is_of_thread(p, t, moved, beside[i] / 3))
+                said[i] = SAID_SILHOUETTE;
+    }
+    bool good = beside && said;
+    mem_free(beside);
+    if (good) {
+        mem_free(p->edges.values);
+        p->edges.values = said;
+    } else {
+        mem_free(said);
+    }
+    return good;
+}
+
 static bool smooth_primitive(primitive *p, const draft_thread *t, const hull *h)
 {
     uint8_t *moved = mem_calloc((size_t)p->vertex_count + 1, 1);
@@ -160,29 +219,30 @@ static bool smooth_primitive(primitive *p, const draft_thread *t, const hull *h)
         moved[i] = smooth_corner(&p->positions[i], t, h);
         any = any || moved[i];
     }
-    if (any) { /* what the file says of normals and edges is of the groove */
+    if (any) { /* normals of the file are those of the groove */
         p->normals = NULL;
-        p->edges.values = NULL;
         p->bounds = box3_empty();
         for (uint32_t i = 0; i < p->vertex_count; i++)
             p->bounds = box3_with_point(p->bounds, p->positions[i]);
         drop_lines(p, moved);
     }
+    bool good = moved && (!any || say_edges(p, t, moved));
     mem_free(moved);
-    return moved != NULL;
+    return good;
 }
 
-/* Arrays are those of the mesh that it was made of, but for positions and lines. */
+/* Arrays are those of the mesh that it was made of, but for positions, lines and what is said of edges. */
 static void release_made(mesh *made)
 {
     for (size_t i = 0; i < made->primitive_count && made->primitives; i++) {
         mem_free(made->primitives[i].positions);
         mem_free(made->primitives[i].lines);
+        mem_free(made->primitives[i].edges.values);
     }
     mem_free(made->primitives);
 }
 
-static bool make_mesh(mesh *made, const mesh *of, const edge_mesh *edges, const draft_threads *threads,
+static bool make_mesh(mesh *made, const mesh *of, const edge_mesh *edges, draft_threads *threads,
                       const uint32_t *region)
 {
     *made = *of;
@@ -195,11 +255,14 @@ static bool make_mesh(mesh *made, const mesh *of, const edge_mesh *edges, const 
         const primitive *from = &of->primitives[i];
         p->positions = mem_copy(from->positions, from->vertex_count * sizeof *p->positions);
         p->lines = from->line_count ? mem_copy(from->lines, 2 * (size_t)from->line_count * sizeof *p->lines) : NULL;
-        good = good && p->positions && (p->lines || !from->line_count);
+        p->edges.values = from->edges.values ? mem_copy(from->edges.values, from->index_count) : NULL;
+        good = good && p->positions && (p->lines || !from->line_count) && (p->edges.values || !from->edges.values);
     }
     for (size_t k = 0; k < threads->count && good; k++) {
         hull h;
         good = hull_make(&h, &threads->items[k], edges, region, (uint32_t)k + 1);
+        if (good && h.top_count)
+            note_chamfers(&threads->items[k], &h);
         for (size_t i = 0; i < made->primitive_count && good && h.top_count; i++)
             good = smooth_primitive(&made->primitives[i], &threads->items[k], &h);
         hull_release(&h);
@@ -332,6 +395,10 @@ lmn_status draft_threads_place(draft_threads *out, const draft_threads *of_parts
             t.crest *= grown;
             t.root *= grown;
             t.lead *= grown;
+            for (int n = 0; n < 2; n++) {
+                t.flat[n] *= grown;
+                t.tip[n] *= grown;
+            }
             if (!vector3_normalise(t.axis))
                 continue;
             if (!mem_grow((void **)&out->items, &out->capacity, out->count + 1, sizeof *out->items))

@@ -14,10 +14,13 @@
 #include "draft/cylinder_fit.h"
 #include "draft/faces.h"
 
-enum { UNKNOWNS = 6, JACOBI_ROUNDS = 24, FACES_LEAST = 24 };
+enum { UNKNOWNS = 6, JACOBI_ROUNDS = 24, FACES_LEAST = 24, FITS = 5 };
 static const double pi = 3.14159265358979323846;
-static const double off_most = 0.08;       /* radians, in the mean: what normals may lean out of the complex */
-static const double better_least = 2.5;    /* so many times nearer than any rotation around the axis */
+static const double off_most = 0.05;       /* radians, in the mean: what normals may lean out of the complex */
+static const double off_typical = 0.04;    /* faces that lean more count for less than half */
+static const double of_it_least = 0.2;     /* of weights: others are of something else, as of a face that cuts it off */
+static const double share_least = 0.6;     /* of the area is of it */
+static const double better_least = 1.5;    /* so many times nearer than any rotation around the axis */
 static const double turns_least = 1.4;     /* of a thread; less is a groove */
 static const double lead_most = 0.36;      /* tangent of 20°: steeper ones are worms, drills and gears */
 static const double root_least = 0.6;      /* of the outer radius: deeper ones are augers */
@@ -39,6 +42,7 @@ typedef struct finder {
     const edge_mesh *mesh;
     draft_faces      faces;
     uint32_t        *component; /* per face */
+    double          *weights;   /* per face: how sure it is of its stretch's motion */
     size_t          *starts;    /* per component: in `order` */
     uint32_t        *order;     /* faces by component */
     size_t           count;
@@ -72,9 +76,10 @@ static bool find_components(finder *f)
 {
     const uint32_t count = f->mesh->face_count;
     f->component = mem_alloc(((size_t)count + 1) * sizeof *f->component);
+    f->weights = mem_alloc(((size_t)count + 1) * sizeof *f->weights);
     f->order = mem_alloc(((size_t)count + 1) * sizeof *f->order);
     f->starts = mem_alloc(((size_t)count + 2) * sizeof *f->starts);
-    if (!f->component || !f->order || !f->starts)
+    if (!f->component || !f->order || !f->starts || !f->weights)
         return false;
     for (uint32_t i = 0; i < count; i++)
         f->component[i] = UINT32_MAX;
@@ -149,7 +154,7 @@ static bool fit_motion(const finder *f, size_t component, winding *w)
     double middle[3] = {0}, size = 0, area = 0, m[UNKNOWNS][UNKNOWNS] = {{0}}, axes[UNKNOWNS][UNKNOWNS];
     for (int round = 0; round < 3; round++)
         for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++) {
-            double        p[3], d[3], row[UNKNOWNS], own = measure_face(f, f->order[i], p);
+            double        p[3], d[3], row[UNKNOWNS], own = measure_face(f, f->order[i], p) * f->weights[f->order[i]];
             const double *n = f->faces.normals[f->order[i]];
             vector3_add(d, p, -1, middle);
             if (round == 0) {
@@ -197,10 +202,37 @@ static bool fit_motion(const finder *f, size_t component, winding *w)
     return vector3_normalise(w->axis);
 }
 
+/* By how much a face's normal leans out of a motion's complex, radians. */
+static double leaning_of(const winding *w, const double n[3], const double radius[3], double away)
+{
+    double way[3], speed = hypot(away, w->pitch);
+    vector3_cross(way, w->axis, radius);
+    return speed > 0 ? (away * vector3_dot(n, way) + w->pitch * vector3_dot(n, w->axis)) / speed : 1;
+}
+
+/* The motion of most of them, as others cut in: faces that lean count for less each time. */
+static bool settle_motion(finder *f, size_t component, winding *w)
+{
+    for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++)
+        f->weights[f->order[i]] = 1;
+    for (int round = 0; round < FITS; round++) {
+        if (!fit_motion(f, component, w))
+            return false;
+        for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++) {
+            double p[3], radius[3], along, away;
+            measure_face(f, f->order[i], p);
+            place_around(w, p, &along, radius, &away);
+            double off = leaning_of(w, f->faces.normals[f->order[i]], radius, away) / off_typical;
+            f->weights[f->order[i]] = 1 / (1 + off * off);
+        }
+    }
+    return true;
+}
+
 /* Is it a flank, as seen from its axis? */
 static bool measure_winding(const finder *f, winding *w)
 {
-    double leant = 0, turned = 0, outwards = 0, area = 0;
+    double leant = 0, turned = 0, outwards = 0, inwards = 0, area = 0, whole = 0;
     w->low = w->inner = INFINITY;
     w->high = -INFINITY;
     w->outer = 0;
@@ -208,15 +240,17 @@ static bool measure_winding(const finder *f, winding *w)
         uint32_t      face = f->order[i];
         double        p[3], radius[3], way[3], along, away, own = measure_face(f, face, p);
         const double *n = f->faces.normals[face];
+        whole += own;
+        if (f->weights[face] < of_it_least)
+            continue;
         place_around(w, p, &along, radius, &away);
         vector3_cross(way, w->axis, radius);
-        double around = vector3_dot(n, way), ahead = vector3_dot(n, w->axis), speed = hypot(away, w->pitch);
-        double off = speed > 0 ? (away * around + w->pitch * ahead) / speed : 0;
+        double around = vector3_dot(n, way), off = leaning_of(w, n, radius, away), out = vector3_dot(n, radius);
         leant += own * off * off;
         turned += own * around * around;
         area += own;
-        outwards += vector3_dot(n, radius) > -0.02 ? own : 0;
-        w->hollow = 2 * outwards < area;
+        outwards += out > -0.02 ? own : 0;
+        inwards += out < 0.02 ? own : 0;
         for (int k = 0; k < 3; k++) {
             corner_of(f, face, k, p);
             place_around(w, p, &along, radius, &away);
@@ -226,18 +260,14 @@ static bool measure_winding(const finder *f, winding *w)
             w->outer = fmax(w->outer, away);
         }
     }
+    if (!(area > share_least * whole))
+        return false;
     leant = sqrt(leant / area);
     turned = sqrt(turned / area);
-    double inwards = 0;
-    for (size_t i = f->starts[w->component]; i < f->starts[w->component + 1] && w->hollow; i++) {
-        double p[3], radius[3], along, away, own = measure_face(f, f->order[i], p);
-        place_around(w, p, &along, radius, &away);
-        inwards += vector3_dot(f->faces.normals[f->order[i]], radius) < 0.02 ? own : 0;
-    }
+    w->hollow = inwards > outwards;
     double lead = 2 * pi * fabs(w->pitch);
-    return leant < off_most && turned > better_least * leant &&
-           (w->hollow ? inwards : outwards) > outwards_least * area && lead > 0 &&
-           (w->high - w->low) > turns_least * lead && fabs(w->pitch) < lead_most * w->outer &&
+    return leant < off_most && turned > better_least * leant && fmax(inwards, outwards) > outwards_least * area &&
+           lead > 0 && (w->high - w->low) > turns_least * lead && fabs(w->pitch) < lead_most * w->outer &&
            w->inner > root_least * w->outer && w->outer - w->inner > depth_least * w->outer;
 }
 
@@ -245,7 +275,7 @@ static bool find_windings(finder *f)
 {
     for (size_t i = 0; i < f->count; i++) {
         winding w = {.area = 0};
-        if (f->starts[i + 1] - f->starts[i] < FACES_LEAST || !fit_motion(f, i, &w) || !measure_winding(f, &w))
+        if (f->starts[i + 1] - f->starts[i] < FACES_LEAST || !settle_motion(f, i, &w) || !measure_winding(f, &w))
             continue;
         if (!mem_grow((void **)&f->windings, &f->winding_capacity, f->winding_count + 1, sizeof *f->windings))
             return false;
@@ -274,12 +304,14 @@ static void refine_axis(const finder *f, winding *w)
     double(*points)[3] = mem_alloc(((size_t)count + 1) * sizeof *points);
     for (int round = 0; round < 2 && points; round++) {
         size_t       found = 0;
-        const double near = (round ? 0.02 : 0.1) * (w->outer - w->inner);
+        const double near = (round ? 0.02 : 0.1) * (w->outer - w->inner), lead = 2 * pi * fabs(w->pitch),
+                     within = w->high - w->low > 2.5 * lead ? lead : 0;
         for (uint32_t i = 0; i < count; i++) {
             vec3   v = f->mesh->positions[i];
             double p[3] = {(double)v.x, (double)v.y, (double)v.z}, radius[3], along, away;
             place_around(w, p, &along, radius, &away);
-            if (along > w->low && along < w->high && fabs(away - (w->hollow ? w->inner : w->outer)) < near)
+            if (along > w->low + within && along < w->high - within &&
+                fabs(away - (w->hollow ? w->inner : w->outer)) < near)
                 vector3_copy(points[found++], p);
         }
         cylinder_fit fit = {.radius = w->hollow ? w->inner : w->outer};
@@ -296,31 +328,32 @@ static void refine_axis(const finder *f, winding *w)
     mem_free(points);
 }
 
-static void reach_around(const finder *f, winding *w, size_t component, bool first)
+static void reach_around(const finder *f, winding *w, size_t component, const double within[2])
 {
     for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && f->weights[f->order[i]] >= of_it_least; k++) {
             double p[3], radius[3], along, away;
             corner_of(f, f->order[i], k, p);
             place_around(w, p, &along, radius, &away);
-            w->low = first && i == f->starts[component] && k == 0 ? along : fmin(w->low, along);
-            w->high = first && i == f->starts[component] && k == 0 ? along : fmax(w->high, along);
-            w->inner = first && i == f->starts[component] && k == 0 ? away : fmin(w->inner, away);
-            w->outer = first && i == f->starts[component] && k == 0 ? away : fmax(w->outer, away);
+            w->low = fmin(w->low, along);
+            w->high = fmax(w->high, along);
+            if ((along < within[0] || along > within[1]))
+                continue;
+            w->inner = fmin(w->inner, away);
+            w->outer = fmax(w->outer, away);
         }
 }
 
 /* Strips of crests and roots lie between the flanks: whatever lies within the thread as a whole is of it. */
-static bool lies_within(const finder *f, const winding *w, size_t component, double near)
+static bool lies_within(const finder *f, const winding *w, uint32_t face, double near)
 {
-    for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++)
-        for (int k = 0; k < 3; k++) {
-            double p[3], radius[3], along, away;
-            corner_of(f, f->order[i], k, p);
-            place_around(w, p, &along, radius, &away);
-            if (along < w->low - near || along > w->high + near || away < w->inner - near || away > w->outer + near)
-                return false;
-        }
+    for (int k = 0; k < 3; k++) {
+        double p[3], radius[3], along, away;
+        corner_of(f, face, k, p);
+        place_around(w, p, &along, radius, &away);
+        if (along < w->low - near || along > w->high + near || away < w->inner - near || away > w->outer + near)
+            return false;
+    }
     return true;
 }
 
@@ -354,24 +387,49 @@ static lmn_status put_thread(draft_threads *out, const finder *f, winding *w, ui
         return error_memory(error);
     const double   near = 1e-3 * w->outer;
     const uint32_t own = (uint32_t)out->count + 1;
-    for (size_t c = 0; c < f->count; c++) {
-        if (!lies_within(f, w, c, near))
-            continue;
-        for (size_t i = f->starts[c]; i < f->starts[c + 1]; i++)
-            for (int k = 0; k < 3; k++)
-                region[f->mesh->faces[f->order[i]][k]] = own;
-    }
+    for (uint32_t i = 0; i < f->mesh->face_count; i++)
+        for (int k = 0; k < 3 && lies_within(f, w, i, near); k++)
+            region[f->mesh->faces[i][k]] = own;
     draft_thread *t = &out->items[out->count++];
     *t = (draft_thread){.crest = w->hollow ? w->inner : w->outer,
                         .root = w->hollow ? w->outer : w->inner,
+                        .flat = {0, w->high - w->low},
                         .hollow = w->hollow,
                         .lead = 2 * pi * fabs(w->pitch)};
     vector3_copy(t->axis, w->axis);
     for (int k = 0; k < 2; k++) {
+        t->tip[k] = t->crest;
         vector3_add(t->ends[k], w->centre, k ? w->high : w->low, w->axis);
         t->goes_on[k] = goes_on_beyond(f, w, region, own, k);
     }
     return LMN_OK;
+}
+
+static void begin_reach(winding *w)
+{
+    w->low = w->inner = INFINITY;
+    w->high = -INFINITY;
+    w->outer = 0;
+}
+
+/* How far all that are one with a winding reach. What is crest and root is said where chamfers and ends do not reach,
+ * if the thread is long enough for that. */
+static void gather_reach(finder *f, winding *whole, size_t first)
+{
+    for (size_t k = first; k < f->winding_count; k++)
+        if (!f->windings[k].thread && (k == first || are_one(&f->windings[first], &f->windings[k])))
+            f->windings[k].thread = first + 1;
+    double lead = 2 * pi * fabs(whole->pitch), within[2] = {-INFINITY, INFINITY};
+    for (int round = 0; round < 2; round++) {
+        if (round && whole->high - whole->low > 2.5 * lead) {
+            within[0] = whole->low + lead;
+            within[1] = whole->high - lead;
+        }
+        begin_reach(whole);
+        for (size_t k = first; k < f->winding_count; k++)
+            if (f->windings[k].thread == first + 1)
+                reach_around(f, whole, f->windings[k].component, within);
+    }
 }
 
 static lmn_status take_threads(draft_threads *out, finder *f, uint32_t *region, lmn_error *error)
@@ -382,14 +440,7 @@ static lmn_status take_threads(draft_threads *out, finder *f, uint32_t *region, 
         if (f->windings[i].thread)
             continue;
         for (int round = 0; round < 2; round++) { /* with the axis that all have in common, once more */
-            bool first = true;
-            for (size_t k = i; k < f->winding_count; k++)
-                if (f->windings[k].thread == i + 1 ||
-                    (!round && !f->windings[k].thread && (k == i || are_one(&f->windings[i], &f->windings[k])))) {
-                    f->windings[k].thread = i + 1;
-                    reach_around(f, &whole, f->windings[k].component, first);
-                    first = false;
-                }
+            gather_reach(f, &whole, i);
             if (round == 0)
                 refine_axis(f, &whole);
         }
@@ -410,6 +461,7 @@ lmn_status draft_threads_find(draft_threads *out, uint32_t *region, const edge_m
         status = take_threads(out, &f, region, error);
     draft_faces_release(&f.faces);
     mem_free(f.component);
+    mem_free(f.weights);
     mem_free(f.starts);
     mem_free(f.order);
     mem_free(f.windings);

@@ -11,6 +11,8 @@ typedef struct draft_thread {
     double   axis[3];    /* unit */
     double   ends[2][3]; /* on the axis, ends[1] on the side of `axis` */
     double   crest, root;
+    double   flat[2];    /* between which its crests lie on their cylinder, from ends[0] on: else it is chamfered */
+    double   tip[2];     /* what the crests' radius is at the ends */
     bool     hollow;     /* of a bore: its crests lie inside its roots */
     bool     goes_on[2]; /* beyond that end there is more of a round surface, without a thread */
     double   lead;       /* along the axis for a turn; 0: not known */
