@@ -8,6 +8,7 @@ static const double pi = 3.14159265358979323846;
 static const double leaning = 1e-3;       /* cosine */
 static const double least = 0.8;          /* mm: the circle of what is smaller is a dot, and its lines are one */
 static const double off = 2e-3;           /* of the crests' radius: so far in front of surfaces places are looked at */
+static const double before_crests = 0.08; /* of the depth, besides: where corners are near the crests' cylinder */
 static const double chamfer_least = 0.02; /* of the crests' radius */
 static const double crumb = 0.3;          /* mm: what is shorter is not told apart */
 enum { SAMPLES = 192 };
@@ -68,7 +69,8 @@ static void take_place(mark *m, size_t i, const draft_view *v, const draft_threa
     double eye[3], behind[3];
     towards_eye(v, eye);
     draft_project(v, place, m->at[i]);
-    vector3_add(m->places[i], place, front + off * t->crest, eye);
+    vector3_add(m->places[i], place,
+                front > 0 ? front + before_crests * fabs(t->crest - t->root) + off * t->crest : off * t->crest, eye);
     m->gone[i] = false;
     if (!sight->away(sight->user, m->places[i]))
         return;

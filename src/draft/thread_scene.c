@@ -113,9 +113,7 @@ static double hull_at(const hull *h, double along)
 static void note_chamfers(draft_thread *t, const hull *h)
 {
     const double depth = fabs(t->crest - t->root);
-    t->tip[0] = fabs(h->places[h->tops[0]].out);
-    t->tip[1] = fabs(h->places[h->tops[h->top_count - 1]].out);
-    bool any = false;
+    bool         any = false;
     for (size_t i = 0; i < h->top_count; i++) {
         const place *p = &h->places[h->tops[i]];
         if (fabs(fabs(p->out) - t->crest) > crest_near * depth)
@@ -123,6 +121,13 @@ static void note_chamfers(draft_thread *t, const hull *h)
         t->flat[0] = any ? t->flat[0] : p->along;
         t->flat[1] = p->along;
         any = true;
+    }
+    /* Chamfers may go on beyond the roots. */
+    const double length = vector3_distance(t->ends[0], t->ends[1]);
+    for (int k = 0; k < 2; k++) {
+        const place *p = &h->places[h->tops[k ? h->top_count - 1 : 0]];
+        double       width = fabs(t->flat[k] - p->along), whole = fabs(t->flat[k] - (k ? length : 0));
+        t->tip[k] = width > h->step ? t->crest + (fabs(p->out) - t->crest) * whole / width : t->crest;
     }
 }
 

@@ -27,8 +27,11 @@ static const double root_least = 0.6;      /* of the outer radius: deeper ones a
 static const double depth_least = 0.004;   /* of the outer radius */
 static const double depth_most = 0.95;     /* of the lead */
 static const double outwards_least = 0.97; /* of the area looks to one side */
-static const double same_axis = 0.02;      /* radians; of the radius */
-static const double same_lead = 0.04;
+static const double round_least = 0.995;   /* cosine to the radius */
+static const double same_axis = 0.02;      /* radians */
+static const double same_centre =
+    0.1;                             /* of the radius: flanks that are nearly across the axis hardly say where it is */
+static const double same_lead = 0.1; /* facets of flanks that look up and down lean to either side */
 
 typedef struct winding {
     double axis[3], centre[3], pitch; /* along the axis for a radian */
@@ -229,6 +232,15 @@ static bool settle_motion(finder *f, size_t component, winding *w)
     return true;
 }
 
+/* What is round around the axis is carried into itself by any motion along it, and says nothing. */
+static bool tells_motion(const finder *f, const winding *w, uint32_t face)
+{
+    double p[3], radius[3], along, away;
+    measure_face(f, face, p);
+    place_around(w, p, &along, radius, &away);
+    return f->weights[face] >= of_it_least && fabs(vector3_dot(f->faces.normals[face], radius)) < round_least;
+}
+
 /* Is it a flank, as seen from its axis? */
 static bool measure_winding(const finder *f, winding *w)
 {
@@ -240,10 +252,10 @@ static bool measure_winding(const finder *f, winding *w)
         uint32_t      face = f->order[i];
         double        p[3], radius[3], way[3], along, away, own = measure_face(f, face, p);
         const double *n = f->faces.normals[face];
-        whole += own;
-        if (f->weights[face] < of_it_least)
-            continue;
         place_around(w, p, &along, radius, &away);
+        whole += fabs(vector3_dot(n, radius)) < round_least ? own : 0;
+        if (!tells_motion(f, w, face))
+            continue;
         vector3_cross(way, w->axis, radius);
         double around = vector3_dot(n, way), off = leaning_of(w, n, radius, away), out = vector3_dot(n, radius);
         leant += own * off * off;
@@ -293,7 +305,7 @@ static bool are_one(const winding *a, const winding *b)
     double way = vector3_dot(a->axis, b->axis) < 0 ? -1 : 1, low = along + (way > 0 ? b->low : -b->high),
            high = along + (way > 0 ? b->high : -b->low);
     return a->hollow == b->hollow && fabs(vector3_dot(a->axis, b->axis)) > cos(same_axis) &&
-           away < same_axis * a->outer && fabs(a->pitch - b->pitch) < same_lead * fabs(a->pitch) &&
+           away < same_centre * a->outer && fabs(a->pitch - b->pitch) < same_lead * fabs(a->pitch) &&
            fabs(a->outer - b->outer) < 0.2 * a->outer && low < a->high && high > a->low;
 }
 
@@ -331,7 +343,7 @@ static void refine_axis(const finder *f, winding *w)
 static void reach_around(const finder *f, winding *w, size_t component, const double within[2])
 {
     for (size_t i = f->starts[component]; i < f->starts[component + 1]; i++)
-        for (int k = 0; k < 3 && f->weights[f->order[i]] >= of_it_least; k++) {
+        for (int k = 0; k < 3 && tells_motion(f, w, f->order[i]); k++) {
             double p[3], radius[3], along, away;
             corner_of(f, f->order[i], k, p);
             place_around(w, p, &along, radius, &away);
