@@ -36,6 +36,7 @@ static const double same_lead = 0.1; /* facets of flanks that look up and down l
 typedef struct winding {
     double axis[3], centre[3], pitch; /* along the axis for a radian */
     double low, high, inner, outer;   /* along the axis from the centre; from it */
+    double least, most;               /* from the axis, where chamfers cut it, too */
     double area;
     bool   hollow;
     size_t component, thread; /* thread: 1 + the first winding of it; 0: of none yet */
@@ -349,6 +350,8 @@ static void reach_around(const finder *f, winding *w, size_t component, const do
             place_around(w, p, &along, radius, &away);
             w->low = fmin(w->low, along);
             w->high = fmax(w->high, along);
+            w->least = fmin(w->least, away);
+            w->most = fmax(w->most, away);
             if ((along < within[0] || along > within[1]))
                 continue;
             w->inner = fmin(w->inner, away);
@@ -363,7 +366,7 @@ static bool lies_within(const finder *f, const winding *w, uint32_t face, double
         double p[3], radius[3], along, away;
         corner_of(f, face, k, p);
         place_around(w, p, &along, radius, &away);
-        if (along < w->low - near || along > w->high + near || away < w->inner - near || away > w->outer + near)
+        if (along < w->low - near || along > w->high + near || away < w->least - near || away > w->most + near)
             return false;
     }
     return true;
@@ -419,9 +422,9 @@ static lmn_status put_thread(draft_threads *out, const finder *f, winding *w, ui
 
 static void begin_reach(winding *w)
 {
-    w->low = w->inner = INFINITY;
+    w->low = w->inner = w->least = INFINITY;
     w->high = -INFINITY;
-    w->outer = 0;
+    w->outer = w->most = 0;
 }
 
 /* How far all that are one with a winding reach. What is crest and root is said where chamfers and ends do not reach,
