@@ -115,6 +115,48 @@ void vector_hide_turns(stroke_scene *scene, const draft_extra *extra)
     }
 }
 
+/* Is a face seen exactly from the side? Then it is a matter of rounding whether it looks to the eye. */
+static bool is_edge_on(const edge_mesh *m, const mat4 *world, uint32_t face, const double eye[3])
+{
+    const vec3 n = m->normals[face];
+    double     out[3];
+    for (int row = 0; row < 3; row++)
+        out[row] = world->m[row] * (double)n.x + world->m[4 + row] * (double)n.y + world->m[8 + row] * (double)n.z;
+    return fabs(vector3_dot(out, eye)) < 1e-4 * vector3_length(out);
+}
+
+void vector_settle_rims(stroke_scene *scene, const draft_extra *extra)
+{
+    for (size_t i = 0; i < scene->item_count; i++) {
+        edge_mesh *m = &scene->meshes[scene->items[i].mesh];
+        for (uint32_t k = 0; k < m->edge_count && m->cap_count; k++) {
+            mesh_edge *e = &m->edges[k];
+            for (int side = 0; side < 2; side++) {
+                const uint32_t  wall = e->face[1 - side];
+                const edge_cap *cap = cap_of(m, e->face[side]);
+                if (!cap || cap_of(m, wall) || fabs(vector3_dot(cap->normal, extra->axes[2])) < 0.99)
+                    continue;
+                if (wall == EDGE_NO_FACE) { /* what is cut has more corners here, and a border of its own */
+                    e->flags = EDGE_QUIET;
+                    e->face[1 - side] = e->face[side];
+                    break;
+                }
+                if (!is_edge_on(m, &scene->items[i].world, wall, extra->axes[2]))
+                    continue;
+                if (side) { /* the face that passes it forwards stands first */
+                    const uint32_t first = e->vertex[0];
+                    e->vertex[0] = e->vertex[1];
+                    e->vertex[1] = first;
+                }
+                e->face[0] = e->face[side];
+                e->face[1] = EDGE_NO_FACE;
+                e->flags = EDGE_BORDER;
+                break;
+            }
+        }
+    }
+}
+
 static void nearest_face(const stroke_scene *scene, size_t item, const double at[3], double *least, double out[3])
 {
     const edge_mesh *m = &scene->meshes[scene->items[item].mesh];

@@ -604,6 +604,7 @@ static lmn_status draw_section(vector_job *j, const vector_view *v, lmn_error *e
             stroke_scene_create_cut(&scene, &j->pose, j->stroked, j->plan.crease_angle, 0, &cut, report_part, j, error);
     if (status == LMN_OK) {
         vector_hide_turns(&scene, v->extra);
+        vector_settle_rims(&scene, v->extra);
         j->shown = &scene;
         j->cut_open = v->extra;
         j->spared = own.spared;

@@ -66,6 +66,9 @@ void vector_cut_text(const vector_job *j, const draft_extra *extra, char *out, s
 lmn_status vector_section(section *out, const vector_job *j, const draft_extra *extra, lmn_error *error);
 /* Where a section turns there is no edge: lines of cut faces that are seen from the side are none. */
 void vector_hide_turns(stroke_scene *scene, const draft_extra *extra);
+/* Rims of cut faces are borders where what is cut is seen exactly from the side, all along: else they would be outlines
+ * and creases by turns, as rounding has it. */
+void vector_settle_rims(stroke_scene *scene, const draft_extra *extra);
 /* Where the face nearest to a position looks. Errors: LMN_USAGE (there are none), LMN_MEMORY. */
 lmn_status vector_face_normal(const vector_job *j, const double at[3], double out[3], lmn_error *error);
 /* Puts what the headers of the files say into a title block, where the caller says nothing. Errors: LMN_MEMORY. */
