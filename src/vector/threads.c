@@ -1,7 +1,10 @@
 /* Threads of a drawing: made smooth before anything else is done, and marked on each view. */
 #include "draft/thread_marks.h"
 
+#include <math.h>
+
 #include "base/memory.h"
+#include "base/vector3.h"
 #include "light/light.h"
 #include "vector/vector_job.h"
 
@@ -43,6 +46,26 @@ static bool is_away(const void *user, const double place[3])
     return s->cut && vector_is_cut_away(s->cut, place);
 }
 
+/* Is a shaft screwed into a bore's thread? It comes first, wherever both would be drawn (ISO 6410-1). */
+static bool is_filled(const vector_job *j, const draft_thread *bore)
+{
+    bool filled = false;
+    for (size_t i = 0; i < j->threads.count && bore->hollow; i++) {
+        const draft_thread *t = &j->threads.items[i];
+        double              to[3], way, radial[3];
+        if (t->hollow || fabs(vector3_dot(t->axis, bore->axis)) < 0.9999)
+            continue;
+        vector3_mix(to, bore->ends[0], bore->ends[1], 0.5);
+        vector3_add(to, to, -1, t->ends[0]);
+        way = vector3_dot(to, t->axis);
+        vector3_add(radial, to, -way, t->axis);
+        filled = filled ||
+                 (way > 0 && way < vector3_distance(t->ends[0], t->ends[1]) &&
+                  vector3_length(radial) < 0.05 * bore->root && t->crest > bore->crest && t->crest < 1.05 * bore->root);
+    }
+    return filled;
+}
+
 lmn_status vector_put_threads(vector_job *j, const vector_view *v, const stroke_view *view, const cut *cut,
                               uint32_t group, lmn_error *error)
 {
@@ -53,7 +76,8 @@ lmn_status vector_put_threads(vector_job *j, const vector_view *v, const stroke_
         const draft_thread *t = &j->threads.items[i];
         bool                whole = j->spared && t->part > 0 && j->spared[t->part - 1];
         view_sight          seen = {view, whole ? NULL : cut};
-        draft_sight         sight = {count_in_view, is_away, &seen, !j->cut_open && vector_draws_hidden(j, t->part)};
+        draft_sight         sight = {count_in_view, is_away, &seen,
+                                     !j->cut_open && vector_draws_hidden(j, t->part) && !is_filled(j, t)};
         draft_thread_marks(&d, t, &sight, &j->out->threads);
     }
     return j->out->page.failed ? error_memory(error) : LMN_OK;

@@ -513,6 +513,28 @@ static void names_tell_threads(void **state)
     }
 }
 
+/* Of a screw in its nut what is hidden is the screw's; in the section it hides the nut's thread. */
+static void screws_come_first(void **state)
+{
+    enum { MOST = 64 };
+    drawn_line l[MOST];
+    lmn_scene *scene = load_or_fail(LIMNER_SOURCE_DIR "/examples/screw.obj");
+    (void)state;
+    lmn_sheet *s = draw(scene, "front", NULL, "*");
+    size_t     count = lines_of(s, "view-front", "thread", l, MOST), dashed = 0;
+    for (size_t i = 0; i < count && i < MOST; i++) {
+        dashed += l[i].dashed;
+        assert_true(!l[i].dashed || fabs(fabs(l[i].x[0]) - (5 - 0.920145)) < 0.01);
+    }
+    assert_int_equal(dashed, 2);
+    lmn_sheet_destroy(&s);
+    s = draw(scene, "front", NULL, "Nut"); /* alone it has its own */
+    count = lines_of(s, "view-front", "thread", l, MOST);
+    assert_true(count >= 2 && l[0].dashed && fabs(fabs(l[0].x[0]) - 5) < 0.01);
+    lmn_sheet_destroy(&s);
+    lmn_scene_destroy(&scene);
+}
+
 static void selectors_are_checked(void **state)
 {
     lmn_scene     *scene = spring();
@@ -531,9 +553,10 @@ static void selectors_are_checked(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_are_found),      cmocka_unit_test(others_are_not),
-                                       cmocka_unit_test(shafts_have_the_symbol), cmocka_unit_test(chamfers_stay),
-                                       cmocka_unit_test(bores_have_the_symbol),  cmocka_unit_test(names_tell_threads),
-                                       cmocka_unit_test(selectors_are_checked)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_are_found),      cmocka_unit_test(others_are_not),
+        cmocka_unit_test(shafts_have_the_symbol), cmocka_unit_test(chamfers_stay),
+        cmocka_unit_test(bores_have_the_symbol),  cmocka_unit_test(names_tell_threads),
+        cmocka_unit_test(screws_come_first),      cmocka_unit_test(selectors_are_checked)};
     return cmocka_run_group_tests(tests, NULL, remove_temp_folder);
 }
