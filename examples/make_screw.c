@@ -26,7 +26,8 @@ typedef struct profile {
 } profile;
 
 typedef struct rim {
-    int vertices[AROUND];
+    int    vertices[AROUND];
+    double radii[AROUND];
 } rim;
 
 typedef struct model {
@@ -43,7 +44,8 @@ static int put_vertex(model *m, int i, double r, double z)
 
 static void put_face(model *m, int a, int b, int c, bool turned)
 {
-    fprintf(m->file, "f %d %d %d\n", a, turned ? c : b, turned ? b : c);
+    if (a != b && b != c && c != a)
+        fprintf(m->file, "f %d %d %d\n", a, turned ? c : b, turned ? b : c);
 }
 
 static double radius_at(const profile *p, double phase)
@@ -114,6 +116,7 @@ static void put_thread(model *m, const profile *p, bool hollow, rim *low, rim *h
         const int    *left = numbers[i], *right = numbers[i + 1];
         low->vertices[i] = left[0];
         high->vertices[i] = left[counts[i] - 1];
+        high->radii[i] = a[counts[i] - 1].radius;
         for (int j = 0, k = 0; j + 1 < counts[i] || k + 1 < counts[i + 1];)
             if (k + 1 == counts[i + 1] || (j + 1 < counts[i] && a[j + 1].phase <= b[k + 1].phase + 1e-9)) {
                 put_face(m, left[j], right[k], left[j + 1], hollow);
@@ -163,6 +166,8 @@ static void put_screw(model *m)
     fprintf(m->file, "o Screw\n");
     put_thread(m, &p, false, &low, &high);
     rims[0] = put_rim(m, radius, 0, thread_length);
+    for (int i = 0; i < AROUND; i++) /* where the crest runs out */
+        rims[0].vertices[i] = high.radii[i] == radius ? high.vertices[i] : rims[0].vertices[i];
     rims[1] = put_rim(m, radius, 0, shank_length);
     rims[2] = put_rim(m, 0, head_width, shank_length);
     rims[3] = put_rim(m, 0, head_width, shank_length + head_height);
